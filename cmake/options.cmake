@@ -1,0 +1,36 @@
+# Compiler settings that every target of the project shares.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+add_library(limber_options INTERFACE)
+target_compile_features(limber_options INTERFACE cxx_std_20)
+target_compile_options(limber_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+  -Woverloaded-virtual -Wnull-dereference -Werror)
+if(LIMBER_SANITIZE)
+  target_compile_options(limber_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined
+    -fno-omit-frame-pointer)
+  target_link_options(limber_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# limber_layer(NAME [EXCLUDE file...]): a static library of all sources in the
+# folder that calls it.
+function(limber_layer name)
+  cmake_parse_arguments(ARG "" "" "EXCLUDE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  foreach(file IN LISTS ARG_EXCLUDE)
+    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
+  add_library(limber_${name} STATIC ${sources})
+  add_library(limber::${name} ALIAS limber_${name})
+  target_include_directories(limber_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:include/limber>)
+  target_link_libraries(limber_${name} PRIVATE $<BUILD_INTERFACE:limber_options>)
+  target_compile_features(limber_${name} PUBLIC cxx_std_20)
+  set_target_properties(limber_${name} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+endfunction()

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limber {
+
+/// The known name nearest to `unknown` by edit distance, or an empty string
+/// if none is near enough to be a likely slip.
+[[nodiscard]] std::string nearest_name(std::string_view unknown,
+                                       const std::vector<std::string>& known);
+
+/// "unknown KIND 'NAME'" with a suggestion and the list of known names.
+[[nodiscard]] std::string describe_unknown(
+    std::string_view kind, std::string_view name,
+    const std::vector<std::string>& known);
+
+}  // namespace limber

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/rotation.hpp"
+
+#include <cmath>
+
+namespace limber {
+namespace {
+
+// Below this squared angle the series to the second term is exact in double.
+constexpr double kSmallAngleSquared = 1e-8;
+
+}  // namespace
+
+Matrix3 skew(const Vector3& a) {
+  Matrix3 m;
+  m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return m;
+}
+
+Quaternion exp_quaternion(const Vector3& theta) {
+  const double angle2 = theta.squaredNorm();
+  double half_sinc = 0.5;  // sin(angle / 2) / angle
+  double w = 1.0;
+  if (angle2 < kSmallAngleSquared) {
+    half_sinc = 0.5 - angle2 / 48.0;
+    w = 1.0 - angle2 / 8.0;
+  } else {
+    const double angle = std::sqrt(angle2);
+    half_sinc = std::sin(0.5 * angle) / angle;
+    w = std::cos(0.5 * angle);
+  }
+  const Vector3 v = half_sinc * theta;
+  return {w, v.x(), v.y(), v.z()};
+}
+
+Matrix3 exp_rotation(const Vector3& theta) {
+  return exp_quaternion(theta).toRotationMatrix();
+}
+
+Vector3 log_rotation(const Quaternion& rotation) {
+  // The half-angle form has no cancellation anywhere on (-pi, pi].
+  const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
+  const Vector3 v = sign * rotation.vec();
+  const double w = sign * rotation.w();
+  const double s = v.norm();
+  if (s < 1e-8) return (2.0 / w) * v;
+  return (2.0 * std::atan2(s, w) / s) * v;
+}
+
+Vector3 log_rotation(const Matrix3& rotation) {
+  return log_rotation(Quaternion(rotation).normalized());
+}
+
+Matrix3 left_jacobian(const Vector3& theta) {
+  const double angle2 = theta.squaredNorm();
+  double a = 0.5;        // (1 - cos) / angle^2
+  double b = 1.0 / 6.0;  // (angle - sin) / angle^3
+  if (angle2 < 1e-4) {
+    a = 0.5 - angle2 / 24.0 + angle2 * angle2 / 720.0;
+    b = 1.0 / 6.0 - angle2 / 120.0 + angle2 * angle2 / 5040.0;
+  } else {
+    const double angle = std::sqrt(angle2);
+    const double half = std::sin(0.5 * angle);
+    a = 2.0 * half * half / angle2;
+    b = (angle - std::sin(angle)) / (angle2 * angle);
+  }
+  const Matrix3 s = skew(theta);
+  return Matrix3::Identity() + a * s + b * s * s;
+}
+
+Matrix3 right_jacobian(const Vector3& theta) { return left_jacobian(-theta); }
+
+Matrix3 right_jacobian_inverse(const Vector3& theta) {
+  const double angle2 = theta.squaredNorm();
+  double c = 1.0 / 12.0;
+  if (angle2 < 1e-4) {
+    c = 1.0 / 12.0 + angle2 / 720.0 + angle2 * angle2 / 30240.0;
+  } else {
+    const double angle = std::sqrt(angle2);
+    c = 1.0 / angle2 -
+        std::cos(0.5 * angle) / (2.0 * angle * std::sin(0.5 * angle));
+  }
+  const Matrix3 s = skew(theta);
+  return Matrix3::Identity() + 0.5 * s + c * s * s;
+}
+
+}  // namespace limber

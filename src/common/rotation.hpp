@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/types.hpp"
+
+/// Rotations on the group SO(3). Angles in radians.
+///
+/// Source     Sola, Deray, Atchuthan, "A micro Lie theory for state
+///            estimation in robotics", 2018, eqs. 132-146.
+namespace limber {
+
+/// Cross-product matrix: skew(a) b = a x b.
+[[nodiscard]] Matrix3 skew(const Vector3& a);
+
+/// Unit quaternion of the rotation vector `theta` [rad].
+[[nodiscard]] Quaternion exp_quaternion(const Vector3& theta);
+
+/// Rotation matrix of the rotation vector `theta` [rad].
+[[nodiscard]] Matrix3 exp_rotation(const Vector3& theta);
+
+/// Rotation vector [rad], |theta| <= pi, of a rotation; accurate at 0 and pi.
+[[nodiscard]] Vector3 log_rotation(const Quaternion& rotation);
+[[nodiscard]] Vector3 log_rotation(const Matrix3& rotation);
+
+/// Left Jacobian J_l: the angular velocity (outer frame) of exp(theta(t)) is
+/// J_l(theta) thetadot.
+[[nodiscard]] Matrix3 left_jacobian(const Vector3& theta);
+
+/// Right Jacobian J_r(theta) = J_l(-theta): angular velocity in the inner
+/// (rotated) frame.
+[[nodiscard]] Matrix3 right_jacobian(const Vector3& theta);
+
+/// Inverse of the right Jacobian; |theta| < 2 pi.
+[[nodiscard]] Matrix3 right_jacobian_inverse(const Vector3& theta);
+
+}  // namespace limber

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/progress.hpp"
+#include "dynamics/energy.hpp"
+#include "dynamics/system_model.hpp"
+#include "dynamics/system_state.hpp"
+
+namespace limber::dynamics {
+
+enum class IntegratorKind { generalized_alpha, runge_kutta_4 };
+
+/// "generalized-alpha", "runge-kutta-4".
+[[nodiscard]] const std::vector<std::string>& integrator_names();
+/// @throws InputError naming the nearest integrator.
+[[nodiscard]] IntegratorKind parse_integrator(std::string_view name);
+
+struct SimulationSettings {
+  IntegratorKind integrator = IntegratorKind::generalized_alpha;
+  double end_time = 0.0;             ///< > start [s]
+  double step = 0.0;                 ///< longest step, > 0 [s]
+  std::vector<double> output_times;  ///< increasing, in [start, end] [s]
+  double rho_inf = 0.9;              ///< spectral radius at infinity [0,1]
+  double newton_tolerance = 1e-10;   ///< of a step's motion [-]
+  int newton_iterations = 20;        ///< at most, a step
+};
+
+struct SimulationStatistics {
+  long steps = 0;
+  long newton_iterations = 0;
+  long factorizations = 0;
+  double seconds = 0.0;  ///< wall time of the stepping [s]
+};
+
+/// Called at every output time with the state and the balance so far.
+using Observer = std::function<void(const SystemState&, const EnergyBalance&)>;
+
+/// Carries `state` to the end time. Steps land on output times and on every
+/// load discontinuity exactly. On NumericalError `state` holds the last good
+/// step, and everything up to there was observed.
+/// @throws InputError for settings outside their range; NumericalError naming
+/// the body and the time.
+SimulationStatistics simulate(const SystemModel& model, SystemState& state,
+                              const SimulationSettings& settings,
+                              const Observer& observer,
+                              const Progress& progress = {});
+
+}  // namespace limber::dynamics

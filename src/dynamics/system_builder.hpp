@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/pose.hpp"
+#include "dynamics/fidelity.hpp"
+#include "dynamics/system_model.hpp"
+#include "dynamics/time_function.hpp"
+#include "flexbody/reduced_body.hpp"
+#include "joints/coupler_law.hpp"
+
+namespace limber::dynamics {
+
+/// Mass of a rigid body about its centre of mass, body axes.
+struct RigidInertia {
+  double mass = 0.0;                  ///< > 0 [kg]
+  Matrix3 inertia = Matrix3::Zero();  ///< positive definite [kg m^2]
+};
+
+/// Damping of a flexible body's modes: ratio_k omega_k 2 plus Rayleigh
+/// alpha + beta omega_k^2.
+struct ModalDamping {
+  double rayleigh_mass = 0.0;       ///< alpha >= 0 [1/s]
+  double rayleigh_stiffness = 0.0;  ///< beta >= 0 [s]
+  std::vector<double> ratios;       ///< per mode [-]; one value: all modes
+};
+
+/// Frame in which a load's components are constant.
+enum class LoadFrame { body, world };
+
+/// Puts a system together; `build` checks it whole. Every method throws
+/// InputError for values outside their range and ContractError for foreign
+/// indices.
+class SystemBuilder {
+ public:
+  /// Body with frame B at its centre of mass.
+  BodyIndex add_rigid_body(const std::string& name,
+                           const RigidInertia& inertia);
+
+  /// Flexible body; at Fidelity::rigid only its mass properties are used.
+  BodyIndex add_flexible_body(const std::string& name,
+                              std::shared_ptr<const flexbody::ReducedBody> body,
+                              Fidelity fidelity, const ModalDamping& damping);
+
+  /// A frame fixed to a rigid body's material: pose X_BF.
+  AttachmentIndex attach_frame(const std::string& name, BodyIndex body,
+                               const Pose& X_BF);
+  /// A frame on a flexible body's interface; X_BF its undeformed pose.
+  AttachmentIndex attach_interface(const std::string& name, BodyIndex body,
+                                   const flexbody::InterfaceTable& interface,
+                                   const Pose& X_BF);
+  /// A frame fixed in the world.
+  AttachmentIndex attach_world(const std::string& name, const Pose& X_WF);
+
+  CouplerIndex add_coupler(const std::string& name,
+                           const joints::CouplerLaw& law,
+                           AttachmentIndex frame_F, AttachmentIndex frame_M);
+
+  /// Force and moment at an attachment, constant components in the body frame
+  /// B or the world frame, times `function`.
+  LoadIndex add_load(const std::string& name, AttachmentIndex where,
+                     const Vector3& force, const Vector3& moment,
+                     LoadFrame frame, const TimeFunction& function);
+
+  /// Uniform gravitational acceleration [m/s^2], world frame.
+  void set_gravity(const Vector3& gravity_W);
+
+  /// @throws InputError with every problem found.
+  [[nodiscard]] SystemModel build() const;
+
+ private:
+  SystemModel model_;
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/pose.hpp"
+#include "dynamics/fidelity.hpp"
+#include "dynamics/time_function.hpp"
+#include "flexbody/reduced_body.hpp"
+#include "joints/coupler_law.hpp"
+
+namespace limber::dynamics {
+
+using BodyIndex = int;
+using AttachmentIndex = int;
+using CouplerIndex = int;
+using LoadIndex = int;
+inline constexpr BodyIndex kWorld = -1;
+
+/// One body's constants, packed for the inner loops. m modes, 0 when rigid.
+struct BodyModel {
+  std::string name;
+  Fidelity fidelity = Fidelity::rigid;
+  bool clamped = false;          ///< B is fixed in the world
+  double mass = 0.0;             ///< [kg]
+  Matrix3 J0 = Matrix3::Zero();  ///< inertia, undeformed [kg m^2]
+  int modes = 0;
+  int offset = 0;   ///< first modal coordinate in the state
+  VectorX lambda;   ///< m [rad^2/s^2]
+  VectorX damping;  ///< m, diagonal of C [1/s]
+  /// Derivatives of the inertia, components (xx, yy, zz, xy, xz, yz):
+  /// J(eta) = J0 + J1 eta + eta' J2 eta / 2.
+  Matrix6X J1;   ///< 6 x m
+  MatrixX J2;    ///< 6m x m, row 6k + c
+  MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k
+  /// What was reduced; null for a rigid body. For probes and pictures.
+  std::shared_ptr<const flexbody::ReducedBody> reduced;
+};
+
+/// A frame that follows a body's interface (or the world).
+struct Attachment {
+  std::string name;
+  BodyIndex body = kWorld;
+  Vector3 p_BF = Vector3::Zero();  ///< undeformed origin [m]
+  Matrix3 R_BF = Matrix3::Identity();
+  Matrix3X Phi_B;  ///< 3 x m; zero columns if the body is rigid
+  Matrix3X Psi_B;  ///< 3 x m
+};
+
+struct Coupler {
+  std::string name;
+  joints::CouplerLaw law;
+  AttachmentIndex frame_F = 0;
+  AttachmentIndex frame_M = 0;
+};
+
+struct Load {
+  std::string name;
+  AttachmentIndex where = 0;
+  Vector3 force = Vector3::Zero();
+  Vector3 moment = Vector3::Zero();
+  bool in_world = false;
+  TimeFunction function;
+};
+
+/// Bodies, couplers and loads; immutable once built, shared by threads.
+struct SystemModel {
+  std::vector<BodyModel> bodies;
+  std::vector<Attachment> attachments;
+  std::vector<Coupler> couplers;
+  std::vector<Load> loads;
+  Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
+  int modal_count = 0;                  ///< modal coordinates of all bodies
+};
+
+}  // namespace limber::dynamics

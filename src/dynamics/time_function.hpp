@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <variant>
+#include <vector>
+
+namespace limber::dynamics {
+
+/// Factor c(t) [-] of a load. `from`, `until` [s]; zero outside them.
+struct Constant {
+  double from = 0.0;
+  double until = 1e300;
+};
+/// values[i] holds on [times[i], times[i+1]); zero before, last one held.
+struct StepSequence {
+  std::vector<double> times;
+  std::vector<double> values;
+};
+enum class PulseShape { rectangular, half_sine, triangular };
+struct Pulse {
+  PulseShape shape = PulseShape::rectangular;
+  double start = 0.0;
+  double duration = 0.0;  ///< > 0 [s]
+};
+/// sin(2 pi frequency (t - from) + phase), frequency [Hz], phase [rad].
+struct Sinusoid {
+  double frequency = 0.0;
+  double phase = 0.0;
+  double from = 0.0;
+  double until = 1e300;
+};
+/// Linear between points; zero outside them.
+struct Table {
+  std::vector<double> times;
+  std::vector<double> values;
+};
+
+using TimeFunction =
+    std::variant<Constant, StepSequence, Pulse, Sinusoid, Table>;
+
+/// Which side of a jump is meant when `t` is exactly on it.
+enum class Side { left, right };
+
+/// @throws InputError for non-increasing times, sizes that differ, a value
+/// that is not finite, a pulse of no duration.
+void check(const TimeFunction& function);
+
+[[nodiscard]] double evaluate(const TimeFunction& function, double t,
+                              Side side);
+
+/// Times at which the function or its slope jumps, increasing [s].
+[[nodiscard]] std::vector<double> break_times(const TimeFunction& function);
+
+}  // namespace limber::dynamics

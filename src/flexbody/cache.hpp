@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "flexbody/recipe.hpp"
+#include "flexbody/reduced_body.hpp"
+
+namespace limber::flexbody {
+
+/// Hash of everything that shapes the reduced body: the recipe's values, the
+/// mesh file's bytes, the format version. @throws InputError if the mesh file
+/// cannot be read.
+[[nodiscard]] std::string content_key(const Recipe& recipe);
+
+/// Where reduced bodies are kept when a user names no place:
+/// $LIMBER_CACHE, else $XDG_CACHE_HOME/limber, else $HOME/.cache/limber.
+[[nodiscard]] std::filesystem::path default_cache_folder();
+
+/// The body from `folder` if it is there and sound, else from `reduce`, then
+/// kept. A damaged entry is made anew; a folder that cannot be written only
+/// costs the speed-up.
+struct CachedBody {
+  ReducedBody body;
+  bool was_cached = false;
+};
+[[nodiscard]] CachedBody load_or_reduce(
+    const Recipe& recipe, const std::filesystem::path& folder,
+    const std::function<ReducedBody(const Recipe&)>& reduce);
+
+}  // namespace limber::flexbody

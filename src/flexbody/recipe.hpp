@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/types.hpp"
+
+/// What a user asks of one flexible body, before any mesh is read. Plain
+/// values: hashed to key the cache, so everything that shapes the result is
+/// here.
+namespace limber::flexbody {
+
+/// Isotropic linear elastic material.
+struct Material {
+  double youngs_modulus = 0.0;  ///< E > 0 [Pa]
+  double poisson_ratio = 0.0;   ///< -1 < nu < 0.5 [-]
+  double density = 0.0;         ///< rho > 0 [kg/m^3]
+};
+
+/// A material on one physical volume group; an empty group name means every
+/// element that no other region names.
+struct MaterialRegion {
+  std::string group;
+  Material material;
+};
+
+/// Where the mesh comes from.
+struct MeshSource {
+  std::filesystem::path file;  ///< .msh, .geo or .step/.stp
+  double size = 0.0;  ///< target element size in mesh units; 0: the file's own
+  int order = 0;      ///< 1 to 3 when meshing geometry; 0: the file's own, or 2
+  double unit = 1.0;  ///< metres per mesh unit [m]
+};
+
+/// Nodes of a named physical group.
+struct GroupNodes {
+  std::string group;
+};
+/// One node by its Gmsh tag.
+struct TaggedNode {
+  std::size_t tag = 0;
+};
+/// The node nearest to a point, mesh frame [m].
+struct NearestNode {
+  Vector3 point = Vector3::Zero();
+};
+/// Nodes on the body's surface inside an axis-aligned box, mesh frame [m],
+/// bounds included.
+struct BoxNodes {
+  Vector3 lower = Vector3::Zero();
+  Vector3 upper = Vector3::Zero();
+};
+using NodeSelection =
+    std::variant<GroupNodes, TaggedNode, NearestNode, BoxNodes>;
+
+/// How a selection's nodes share a load or make an average.
+enum class Weighting {
+  uniform,  ///< by the area (or volume) that each node stands for
+  equal,    ///< every node the same
+};
+
+/// A named set of weighted nodes whose mean motion couplers, loads and probes
+/// use. Names are unique within a body.
+struct InterfaceRequest {
+  std::string name;
+  NodeSelection nodes;
+  Weighting weighting = Weighting::uniform;
+  /// Whether its six (or three) static-deformation modes enter the basis.
+  bool static_modes = true;
+};
+
+/// A load on an interface whose static-deformation mode enters the basis.
+/// Only its direction matters.
+struct LoadPattern {
+  std::string interface;
+  Vector3 force = Vector3::Zero();   ///< mesh frame [N]
+  Vector3 moment = Vector3::Zero();  ///< mesh frame [N m]
+};
+
+struct BasisOptions {
+  int eigenmodes = 10;           ///< lowest elastic eigenmodes
+  bool interface_modes = true;   ///< static-deformation modes: interfaces
+  bool load_modes = true;        ///< static-deformation modes: loads
+  double drop_tolerance = 1e-8;  ///< relative M-norm below which a vector
+                                 ///< counts as dependent
+};
+
+/// Which nodal rows of the basis are kept.
+enum class KeptRows { all, boundary, interfaces };
+
+struct Recipe {
+  std::string name;
+  MeshSource mesh;
+  std::vector<MaterialRegion> materials;
+  std::vector<std::string>
+      clamped_groups;  ///< fixed to the world; may be empty
+  std::vector<InterfaceRequest> interfaces;
+  std::vector<LoadPattern> load_patterns;
+  BasisOptions basis;
+  KeptRows rows = KeptRows::boundary;
+};
+
+}  // namespace limber::flexbody

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "common/types.hpp"
+
+namespace limber::flexbody {
+
+/// Constants with which coupled dynamics never touches the mesh again.
+///
+/// Equation   S0_ab = x_a^T M_s x_b, S1_abk = x_a^T M_s phi_bk,
+///            S2_abkl = phi_ak^T M_s phi_bl, x from the centre of mass.
+/// Source     Shabana, Dynamics of Multibody Systems, ch. 5 (inertia shape
+///            integrals), here about the mean-axis frame.
+struct InertiaShapeIntegrals {
+  Matrix3 S0 = Matrix3::Zero();  ///< [kg m^2]
+  std::vector<Matrix3> S1;       ///< m entries [kg^1/2 m]
+  std::vector<Matrix3> S2;       ///< m*m entries, index k*m + l [-]
+};
+
+/// Nodal rows of the reduced basis that were kept.
+struct NodeRows {
+  std::vector<std::size_t> tags;  ///< Gmsh node tags
+  Matrix3X x_B;                   ///< 3 x n undeformed, from the c.m. [m]
+  MatrixX Phi_B;                  ///< 3n x m mode shapes [kg^-1/2]
+};
+
+/// A named node set with the weights of its mean motion.
+struct NodeGroup {
+  std::string name;
+  int dimension = 0;              ///< 0 point, 1 curve, 2 surface, 3 volume
+  std::vector<std::size_t> tags;  ///< Gmsh node tags
+  VectorX weights;  ///< sum to one; consistent with a uniform load
+};
+
+/// Mean motion of a weighted node set, in reduced form.
+///
+/// Equation   p = p_B + Phi_B eta; small rotation = Psi_B eta (least squares
+///            over the weighted nodes). Transposed, they take a force and a
+///            moment to the modes.
+struct InterfaceTable {
+  std::string name;
+  Vector3 p_B = Vector3::Zero();  ///< undeformed mean point, from the c.m. [m]
+  Matrix3X Phi_B;                 ///< 3 x m translation
+  Matrix3X Psi_B;                 ///< 3 x m rotation
+  int rotation_rank = 0;          ///< rotations the node set defines: 0, 2, 3
+  /// Rotation of the interface under a unit moment held inertia-relieved, and
+  /// translation under a unit force: the body's own flexibility there,
+  /// 6 x 6 (translation first), body frame [m/N, rad/(N m)].
+  Matrix6 flexibility = Matrix6::Zero();
+};
+
+/// A flexible body after reduction: all that dynamics and pictures need.
+///
+/// The body frame B sits at the centre of mass with the mesh frame's axes;
+/// it is the mean-axis (Tisserand) frame. Phi is M-orthonormal, K-diagonal and
+/// M-orthogonal to rigid motion. A body with clamped groups has no rigid
+/// motion: `clamped` is true and B does not move.
+struct ReducedBody {
+  std::string name;
+  bool clamped = false;
+  double mass = 0.0;                    ///< [kg]
+  Vector3 p_MoBcm_M = Vector3::Zero();  ///< c.m. in the mesh frame [m]
+  Vector3 size = Vector3::Zero();       ///< bounding box edges [m]
+  InertiaShapeIntegrals integrals;
+  VectorX lambda;  ///< m eigenvalues [rad^2/s^2]
+  NodeRows rows;
+  std::vector<NodeGroup> groups;
+  std::vector<InterfaceTable> interfaces;
+  std::vector<std::array<std::size_t, 3>> triangles;  ///< surface, as row
+                                                      ///< indices, outward
+  std::size_t mesh_nodes = 0;
+  std::size_t mesh_elements = 0;
+  std::size_t mesh_boundary_nodes = 0;
+  std::string content_key;  ///< hash of all that went in
+
+  [[nodiscard]] int mode_count() const {
+    return static_cast<int>(lambda.size());
+  }
+  /// Inertia about the centre of mass, tr(S0) I - S0 [kg m^2].
+  [[nodiscard]] Matrix3 inertia() const {
+    return integrals.S0.trace() * Matrix3::Identity() - integrals.S0;
+  }
+};
+
+/// Index of the interface called `name`. @throws InputError, naming the
+/// nearest known one.
+[[nodiscard]] std::size_t find_interface(const ReducedBody& body,
+                                         const std::string& name);
+
+/// Row index of the node tagged `tag`. @throws InputError if it was not kept
+/// or does not exist.
+[[nodiscard]] std::size_t find_row(const ReducedBody& body, std::size_t tag);
+
+/// Row index of the kept node nearest to `point_M` (mesh frame [m]).
+[[nodiscard]] std::size_t find_nearest_row(const ReducedBody& body,
+                                           const Vector3& point_M);
+
+}  // namespace limber::flexbody
