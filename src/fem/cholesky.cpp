@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fem/cholesky.hpp"
+
+#include <cholmod.h>
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "fem/cholmod_view.hpp"
+
+namespace limber::fem {
+
+std::vector<int> order_dofs(const SparseMatrix& M_s) {
+  CholmodCommon common;
+  const SparseMatrix lower = M_s.triangularView<Eigen::Lower>();
+  cholmod_sparse pattern = view_lower(lower);
+  std::vector<int> nodes(static_cast<std::size_t>(M_s.cols()));
+  if (!cholmod_metis(&pattern, nullptr, 0, 1, nodes.data(), common.get()))
+    cholmod_amd(&pattern, nullptr, 0, nodes.data(), common.get());
+  common.check("ordering");
+  std::vector<int> dofs;
+  dofs.reserve(3 * nodes.size());
+  for (const int node : nodes)
+    for (int c = 0; c < 3; ++c) dofs.push_back(3 * node + c);
+  return dofs;
+}
+
+struct SparseCholesky::Impl {
+  mutable CholmodCommon common;
+  cholmod_factor* factor = nullptr;
+  double flops = 0.0;
+
+  Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { cholmod_free_factor(&factor, common.get()); }
+};
+
+SparseCholesky::SparseCholesky(const SparseMatrix& lower,
+                               const std::vector<int>& order,
+                               const std::string& what)
+    : impl_(std::make_unique<Impl>()) {
+  cholmod_common* common = impl_->common.get();
+  common->supernodal = CHOLMOD_SUPERNODAL;
+  impl_->factor = analyze(lower, order, impl_->common);
+  impl_->flops = common->fl;
+  cholmod_sparse matrix = view_lower(lower);
+  cholmod_factorize(&matrix, impl_->factor, common);
+  impl_->common.check(what);
+  if (impl_->factor->minor < impl_->factor->n)
+    throw NumericalError(fmt::format(
+        "{} is not positive definite (pivot {} of {}). A material far stiffer "
+        "than its neighbour, or nearly flat elements, make it so.",
+        what, impl_->factor->minor, impl_->factor->n));
+}
+
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+MatrixX SparseCholesky::solve(const MatrixX& right_hand_side) const {
+  MatrixX copy = right_hand_side;
+  cholmod_dense b{};
+  b.nrow = static_cast<std::size_t>(copy.rows());
+  b.ncol = static_cast<std::size_t>(copy.cols());
+  b.nzmax = b.nrow * b.ncol;
+  b.d = b.nrow;
+  b.x = copy.data();
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* x =
+      cholmod_solve(CHOLMOD_A, impl_->factor, &b, impl_->common.get());
+  impl_->common.check("solution");
+  copy = Eigen::Map<const MatrixX>(static_cast<const double*>(x->x),
+                                   copy.rows(), copy.cols());
+  cholmod_free_dense(&x, impl_->common.get());
+  return copy;
+}
+
+double SparseCholesky::flops() const { return impl_->flops; }
+
+}  // namespace limber::fem

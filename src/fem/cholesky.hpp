@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/matrices.hpp"
+
+namespace limber::fem {
+
+/// Fill-reducing order of the degrees of freedom: nested dissection of the
+/// nodes (pattern of M_s), the three components of a node kept together.
+[[nodiscard]] std::vector<int> order_dofs(const SparseMatrix& M_s);
+
+/// L L^T of a sparse positive definite matrix (CHOLMOD, supernodal).
+class SparseCholesky {
+ public:
+  /// @param lower lower triangle
+  /// @param what names the matrix in errors
+  /// @throws NumericalError if the matrix is not positive definite or memory
+  /// runs out.
+  SparseCholesky(const SparseMatrix& lower, const std::vector<int>& order,
+                 const std::string& what);
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  [[nodiscard]] MatrixX solve(const MatrixX& right_hand_side) const;
+  [[nodiscard]] double flops() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace limber::fem

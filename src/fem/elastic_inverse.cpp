@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fem/elastic_inverse.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+#include "common/errors.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// All displacement fields quadratic in position: 18 columns. They hold the
+/// bending, torsion and stretching of a simple body.
+MatrixX quadratic_fields(const Matrix3X& x) {
+  const Vector3 center = x.rowwise().mean();
+  const double length =
+      (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  MatrixX fields = MatrixX::Zero(3 * x.cols(), 27);
+  for (Eigen::Index n = 0; n < x.cols(); ++n) {
+    const Vector3 d = (x.col(n) - center) / length;
+    const Eigen::Matrix<double, 9, 1> monomials{
+        d[0],        d[1],        d[2],        d[0] * d[0], d[1] * d[1],
+        d[2] * d[2], d[0] * d[1], d[1] * d[2], d[2] * d[0]};
+    for (int k = 0; k < 9; ++k)
+      for (int c = 0; c < 3; ++c) fields(3 * n + c, 3 * k + c) = monomials[k];
+  }
+  return fields;
+}
+
+/// Rayleigh-Ritz on the quadratic fields: an upper bound of the first elastic
+/// eigenvalue, of its order of magnitude in any units [rad^2/s^2].
+double estimate_first_eigenvalue(const StructuralMatrices& matrices,
+                                 const MatrixX& R, const MatrixX& MR,
+                                 const Matrix3X& x) {
+  MatrixX V = quadratic_fields(x);
+  V -= R * (MR.transpose() * V);
+  const MatrixX M = V.transpose() * multiply_mass(matrices.M_s, V);
+  const MatrixX K = V.transpose() * multiply_stiffness(matrices.K, V);
+  const Eigen::SelfAdjointEigenSolver<MatrixX> mass(M);
+  // Linear fields hold rotations, which the projection has taken out, so M
+  // is singular here: keep what is independent.
+  constexpr double kIndependent = 1e-6;
+  const double largest = mass.eigenvalues()[M.cols() - 1];
+  Eigen::Index dependent = 0;
+  while (mass.eigenvalues()[dependent] < kIndependent * largest) ++dependent;
+  const Eigen::Index kept = M.cols() - dependent;
+  const MatrixX T =
+      mass.eigenvectors().rightCols(kept) *
+      mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const MatrixX reduced = T.transpose() * K * T;
+  return Eigen::SelfAdjointEigenSolver<MatrixX>(reduced).eigenvalues()[0];
+}
+
+/// A small part of the first eigenvalue: refinement gains about two digits a
+/// step, and the rigid motions are amplified by no more than two.
+double choose_shift(const StructuralMatrices& matrices, const MatrixX& R,
+                    const MatrixX& MR, const Matrix3X& x) {
+  if (R.cols() == 0) return 0.0;
+  constexpr double kFraction = 0.01;
+  return -kFraction * estimate_first_eigenvalue(matrices, R, MR, x);
+}
+
+}  // namespace
+
+ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
+                               const MatrixX& R, const Matrix3X& x,
+                               const Progress& progress)
+    : matrices_(&matrices),
+      R_(R),
+      MR_(multiply_mass(matrices.M_s, R)),
+      shift_(choose_shift(matrices, R_, MR_, x)),
+      order_(order_dofs(matrices.M_s)),
+      factor_((report(progress, "factorising", 0.0),
+               SparseCholesky(shift_stiffness(matrices, shift_), order_,
+                              "stiffness matrix"))) {
+  report(progress, "factorising", 1.0);
+}
+
+MatrixX ElasticInverse::project_motion(const MatrixX& X) const {
+  return X - R_ * (MR_.transpose() * X);
+}
+
+MatrixX ElasticInverse::project_load(const MatrixX& F) const {
+  return F - MR_ * (R_.transpose() * F);
+}
+
+MatrixX ElasticInverse::solve_shifted(const MatrixX& F) const {
+  return project_motion(factor_.solve(project_load(F)));
+}
+
+MatrixX ElasticInverse::solve(const MatrixX& F) const {
+  constexpr int kMaxSteps = 60;
+  constexpr double kTolerance = 1e-13;  // correction, relative to the answer
+  constexpr double kStalled = 1e-9;     // roundoff allowed for a hard matrix
+  const MatrixX load = project_load(F);
+  MatrixX X = solve_shifted(load);
+  double previous = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const MatrixX correction =
+        solve_shifted(load - multiply_stiffness(matrices_->K, X));
+    X += correction;
+    const double change =
+        (correction.colwise().norm().array() /
+         X.colwise().norm().array().max(std::numeric_limits<double>::min()))
+            .maxCoeff();
+    if (change <= kTolerance) return X;
+    const bool has_stalled = change > 0.5 * previous;
+    if (has_stalled && change <= kStalled) return X;
+    previous = change;
+  }
+  throw NumericalError(fmt::format(
+      "static solution: after {} refinements the correction is {:.3g} of the "
+      "answer (tolerance {:.0g}). The stiffness matrix is too ill-conditioned: "
+      "look for nearly flat elements or extreme material contrast.",
+      kMaxSteps, previous, kStalled));
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/progress.hpp"
+#include "fem/cholesky.hpp"
+#include "fem/matrices.hpp"
+
+namespace limber::fem {
+
+/// The elastic inverse of a body's stiffness: of a clamped body K^-1, of a
+/// free one the inertia-relief inverse K^+, which answers a load F with the
+/// elastic part of the displacement under F - M q_F, q_F being the rigid
+/// acceleration that F causes, orthogonal to rigid motion in M.
+///
+/// Equation   P = I - R R^T M;  x <- x + P (K - s M)^-1 P^T (F - K x)
+/// Source     Refinement with a shifted factor, s < 0: the error shrinks by
+///            |s| / (lambda_1 + |s|) a step, so that the answer is exact to
+///            roundoff although K is singular, and the one factorisation
+///            also serves the eigenmodes.
+/// Limits     The six rigid motions must be the whole null space of K.
+class ElasticInverse {
+ public:
+  /// @param R 3N x 6 M-orthonormal rigid modes; 3N x 0 for a clamped body
+  /// @param x node positions [m]; used to estimate the first frequency, which
+  ///          sets the shift for any unit of length
+  ElasticInverse(const StructuralMatrices& matrices, const MatrixX& R,
+                 const Matrix3X& x, const Progress& progress = {});
+
+  /// P (K - s M)^-1 P^T F, for 3N x k loads. [m for N]
+  [[nodiscard]] MatrixX solve_shifted(const MatrixX& F) const;
+
+  /// K^+ F. @throws NumericalError if the refinement stalls.
+  [[nodiscard]] MatrixX solve(const MatrixX& F) const;
+
+  /// P X: without rigid motion.
+  [[nodiscard]] MatrixX project_motion(const MatrixX& X) const;
+  /// P^T F: without net force and moment.
+  [[nodiscard]] MatrixX project_load(const MatrixX& F) const;
+
+  [[nodiscard]] const StructuralMatrices& matrices() const {
+    return *matrices_;
+  }
+  [[nodiscard]] const std::vector<int>& dof_order() const { return order_; }
+  [[nodiscard]] double shift() const { return shift_; }  ///< s [rad^2/s^2]
+  [[nodiscard]] Eigen::Index rigid_count() const { return R_.cols(); }
+  [[nodiscard]] double factor_flops() const { return factor_.flops(); }
+
+ private:
+  const StructuralMatrices* matrices_;
+  MatrixX R_;
+  MatrixX MR_;
+  double shift_ = 0.0;
+  std::vector<int> order_;
+  SparseCholesky factor_;
+};
+
+}  // namespace limber::fem

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fem/matrices.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "common/errors.hpp"
+#include "fem/parallel.hpp"
+
+namespace limber::fem {
+
+MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X) {
+  LIMBER_EXPECT(X.rows() == 3 * M_s.cols());
+  MatrixX Y(X.rows(), X.cols());
+  // Column j of the symmetric M_s is its row j: each node gathers alone.
+  parallel_ranges(static_cast<std::size_t>(M_s.cols()),
+                  [&](std::size_t begin, std::size_t end) {
+                    MatrixX sum(3, X.cols());
+                    for (auto j = static_cast<Eigen::Index>(begin);
+                         j < static_cast<Eigen::Index>(end); ++j) {
+                      sum.setZero();
+                      for (SparseMatrix::InnerIterator it(M_s, j); it; ++it)
+                        sum += it.value() * X.middleRows<3>(3 * it.row());
+                      Y.middleRows<3>(3 * j) = sum;
+                    }
+                  });
+  return Y;
+}
+
+MatrixX multiply_stiffness(const SparseMatrix& K_lower, const MatrixX& X) {
+  LIMBER_EXPECT(X.rows() == K_lower.cols());
+  MatrixX Y(X.rows(), X.cols());
+  parallel_ranges(static_cast<std::size_t>(X.cols()), [&](std::size_t begin,
+                                                          std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin);
+    const auto count = static_cast<Eigen::Index>(end) - first;
+    Y.middleCols(first, count).noalias() =
+        K_lower.selfadjointView<Eigen::Lower>() * X.middleCols(first, count);
+  });
+  return Y;
+}
+
+SparseMatrix shift_stiffness(const StructuralMatrices& matrices, double shift) {
+  SparseMatrix shifted = matrices.K;
+  if (shift == 0.0) return shifted;
+  for (Eigen::Index j = 0; j < matrices.node_count(); ++j)
+    for (SparseMatrix::InnerIterator it(matrices.M_s, j); it; ++it)
+      if (it.row() >= j)
+        for (int c = 0; c < 3; ++c)
+          shifted.coeffRef(3 * it.row() + c, 3 * j + c) -= shift * it.value();
+  return shifted;
+}
+
+namespace {
+
+SparseMatrix restrict_matrix(const SparseMatrix& full,
+                             const std::vector<int>& kept) {
+  std::vector<int> place(static_cast<std::size_t>(full.rows()), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    place[static_cast<std::size_t>(kept[i])] = static_cast<int>(i);
+  const auto size = static_cast<Eigen::Index>(kept.size());
+  SparseMatrix part(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    part.startVec(j);
+    for (SparseMatrix::InnerIterator it(full,
+                                        kept[static_cast<std::size_t>(j)]);
+         it; ++it) {
+      const int row = place[static_cast<std::size_t>(it.row())];
+      if (row >= 0) part.insertBack(row, j) = it.value();
+    }
+  }
+  part.finalize();
+  return part;
+}
+
+}  // namespace
+
+StructuralMatrices restrict_to(const StructuralMatrices& matrices,
+                               const std::vector<int>& nodes) {
+  std::vector<int> dofs;
+  dofs.reserve(3 * nodes.size());
+  for (const int node : nodes)
+    for (int c = 0; c < 3; ++c) dofs.push_back(3 * node + c);
+  return {restrict_matrix(matrices.M_s, nodes),
+          restrict_matrix(matrices.K, dofs)};
+}
+
+MassProperties calc_mass_properties(const SparseMatrix& M_s,
+                                    const Matrix3X& x) {
+  const VectorX nodal = M_s * VectorX::Ones(M_s.cols());
+  MassProperties result;
+  result.mass = nodal.sum();
+  result.center = x * nodal / result.mass;
+  const Matrix3X offset = x.colwise() - result.center;
+  const Eigen::MatrixX3d weighted = M_s * offset.transpose();
+  result.S0 = offset * weighted;
+  result.S0 = 0.5 * (result.S0 + result.S0.transpose()).eval();
+  return result;
+}
+
+MatrixX make_rigid_modes(const SparseMatrix& M_s, const Matrix3X& x) {
+  const MassProperties body = calc_mass_properties(M_s, x);
+  const Matrix3 inertia = body.S0.trace() * Matrix3::Identity() - body.S0;
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
+  MatrixX R = MatrixX::Zero(3 * x.cols(), 6);
+  for (Eigen::Index n = 0; n < x.cols(); ++n) {
+    const Vector3 offset = x.col(n) - body.center;
+    for (int axis = 0; axis < 3; ++axis) {
+      R(3 * n + axis, axis) = 1.0 / std::sqrt(body.mass);
+      R.block<3, 1>(3 * n, 3 + axis) =
+          Vector3(principal.eigenvectors().col(axis)).cross(offset) /
+          std::sqrt(principal.eigenvalues()[axis]);
+    }
+  }
+  return R;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Sparse>
+#include <vector>
+
+#include "common/types.hpp"
+
+namespace limber::fem {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// A solid's matrices. Degree of freedom 3 n + c is component c of node n.
+struct StructuralMatrices {
+  SparseMatrix
+      M_s;         ///< N x N scalar mass, both triangles; M = M_s (x) I_3 [kg]
+  SparseMatrix K;  ///< 3N x 3N stiffness, lower triangle only [N/m]
+
+  [[nodiscard]] Eigen::Index node_count() const { return M_s.cols(); }
+  [[nodiscard]] Eigen::Index dof_count() const { return K.cols(); }
+};
+
+/// (M_s (x) I_3) X for 3N x k columns. Same result for any thread count.
+[[nodiscard]] MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X);
+
+/// K X, K given by its lower triangle.
+[[nodiscard]] MatrixX multiply_stiffness(const SparseMatrix& K_lower,
+                                         const MatrixX& X);
+
+/// K - shift (M_s (x) I_3), lower triangle; shift in [rad^2/s^2].
+[[nodiscard]] SparseMatrix shift_stiffness(const StructuralMatrices& matrices,
+                                           double shift);
+
+/// Matrices of the nodes listed (sorted), all others held fixed.
+[[nodiscard]] StructuralMatrices restrict_to(const StructuralMatrices& matrices,
+                                             const std::vector<int>& nodes);
+
+/// Mass, centre of mass and second moments of a nodal mass matrix.
+struct MassProperties {
+  double mass = 0.0;                 ///< [kg]
+  Vector3 center = Vector3::Zero();  ///< [m]
+  Matrix3 S0 = Matrix3::Zero();      ///< int x x^T dm about `center` [kg m^2]
+};
+[[nodiscard]] MassProperties calc_mass_properties(const SparseMatrix& M_s,
+                                                  const Matrix3X& x);
+
+/// Six rigid motions, M-orthonormal: translations along the axes, rotations
+/// about the principal axes of inertia through the centre of mass. 3N x 6.
+[[nodiscard]] MatrixX make_rigid_modes(const SparseMatrix& M_s,
+                                       const Matrix3X& x);
+
+}  // namespace limber::fem

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fem/mesh_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "common/errors.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// Sorted corner nodes of a face; -1 fills a triangle's fourth place.
+using FaceKey = std::array<int, 4>;
+
+struct KeyedFace {
+  FaceKey key;
+  BoundaryFace face;
+};
+
+template <typename Visit>
+void for_each_face(const Mesh& mesh, Visit visit) {
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    for (std::size_t e = 0; e < block.size(); ++e)
+      for (std::size_t f = 0; f < block.element->faces.size(); ++f)
+        visit(BoundaryFace{static_cast<int>(b), e, static_cast<int>(f)});
+  }
+}
+
+FaceKey key_of(const Mesh& mesh, const BoundaryFace& face) {
+  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(face.block)];
+  const auto f = static_cast<std::size_t>(face.face);
+  const int* nodes = block.element_nodes(face.element);
+  FaceKey key{-1, -1, -1, -1};
+  for (int i = 0; i < block.element->face_corners[f]; ++i)
+    key[static_cast<std::size_t>(i)] =
+        nodes[block.element->faces[f][static_cast<std::size_t>(i)]];
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// Disjoint sets with path halving.
+class Partition {
+ public:
+  explicit Partition(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t item) {
+    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+    return item;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Triples of corners of all faces, with the element: a quadrilateral gives
+/// all four of its triples, so that it also meets two triangles.
+std::vector<std::pair<std::array<int, 3>, std::size_t>> corner_triples(
+    const Mesh& mesh, const std::vector<std::size_t>& first) {
+  std::vector<std::pair<std::array<int, 3>, std::size_t>> triples;
+  for_each_face(mesh, [&](const BoundaryFace& face) {
+    const FaceKey key = key_of(mesh, face);
+    const std::size_t element =
+        first[static_cast<std::size_t>(face.block)] + face.element;
+    triples.push_back({{key[1], key[2], key[3]}, element});
+    if (key[0] < 0) return;
+    triples.push_back({{key[0], key[2], key[3]}, element});
+    triples.push_back({{key[0], key[1], key[3]}, element});
+    triples.push_back({{key[0], key[1], key[2]}, element});
+  });
+  std::sort(triples.begin(), triples.end());
+  return triples;
+}
+
+void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
+  const ReferenceElement& element = *block.element;
+  const Matrix3X x = element_positions(mesh, block, e);
+  const Vector3 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+  // Relative to a cube of the element's length; a usable sliver has 1e-4.
+  constexpr double kDegenerate = 1e-10;
+  const double least = kDegenerate * std::pow(extent.maxCoeff(), 3);
+  const Quadrature& rule =
+      is_parallel_sided(element, x) ? element.straight : element.curved;
+  for (const MatrixX& gradients : rule.gradients) {
+    const Matrix3 jacobian = x * gradients.transpose();
+    const double det = jacobian.determinant();
+    if (det > least) continue;
+    throw InputError(fmt::format(
+        "{}: element {} ({}) is {}: its Jacobian determinant is {:.6g} m^3. "
+        "Expected positive; mend the element's nodes or their order.",
+        mesh.source, block.tags[e], element.name,
+        det < -least ? "inverted" : "degenerate", det));
+  }
+}
+
+}  // namespace
+
+Matrix3X element_positions(const Mesh& mesh, const ElementBlock& block,
+                           std::size_t element) {
+  const int* nodes = block.element_nodes(element);
+  Matrix3X x(3, block.element->node_count);
+  for (int i = 0; i < block.element->node_count; ++i)
+    x.col(i) = mesh.x.col(nodes[i]);
+  return x;
+}
+
+bool is_parallel_sided(const ReferenceElement& element, const Matrix3X& x) {
+  constexpr double kStraight = 1e-9;  // of the element's length
+  const double length =
+      (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  return (x * element.affine_residual).cwiseAbs().maxCoeff() <=
+         kStraight * length;
+}
+
+void find_boundary(Mesh& mesh) {
+  std::vector<KeyedFace> faces;
+  for_each_face(mesh, [&](const BoundaryFace& face) {
+    faces.push_back({key_of(mesh, face), face});
+  });
+  std::stable_sort(
+      faces.begin(), faces.end(),
+      [](const KeyedFace& a, const KeyedFace& b) { return a.key < b.key; });
+  std::vector<bool> on_boundary(mesh.node_count(), false);
+  mesh.boundary_faces.clear();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const bool is_shared =
+        (i > 0 && faces[i - 1].key == faces[i].key) ||
+        (i + 1 < faces.size() && faces[i + 1].key == faces[i].key);
+    if (is_shared) continue;
+    mesh.boundary_faces.push_back(faces[i].face);
+    for (const int node : face_nodes(mesh, faces[i].face))
+      on_boundary[static_cast<std::size_t>(node)] = true;
+  }
+  mesh.boundary_nodes.clear();
+  for (std::size_t node = 0; node < on_boundary.size(); ++node)
+    if (on_boundary[node])
+      mesh.boundary_nodes.push_back(static_cast<int>(node));
+}
+
+void check_elements(const Mesh& mesh) {
+  for (const ElementBlock& block : mesh.blocks)
+    for (std::size_t e = 0; e < block.size(); ++e)
+      check_element(mesh, block, e);
+}
+
+void check_connected(const Mesh& mesh) {
+  std::vector<std::size_t> first;
+  std::size_t count = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    first.push_back(count);
+    count += block.size();
+  }
+  // Parts that meet in an edge or a node alone would swing there freely, so
+  // only a shared face connects.
+  Partition parts(count);
+  const auto triples = corner_triples(mesh, first);
+  for (std::size_t i = 1; i < triples.size(); ++i)
+    if (triples[i].first == triples[i - 1].first)
+      parts.join(triples[i].second, triples[i - 1].second);
+  std::map<std::size_t, std::size_t> sizes;
+  for (std::size_t e = 0; e < count; ++e) ++sizes[parts.root(e)];
+  if (sizes.size() <= 1) return;
+  std::size_t largest = 0;
+  for (const auto& [root, size] : sizes) largest = std::max(largest, size);
+  throw InputError(fmt::format(
+      "{}: the mesh is in {} parts that share no face (the largest has {} of "
+      "{} elements). Expected one connected body; merge the parts' common "
+      "faces or make each part a body of its own.",
+      mesh.source, sizes.size(), largest, count));
+}
+
+}  // namespace limber::fem

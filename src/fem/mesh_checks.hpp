@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fem/mesh.hpp"
+
+namespace limber::fem {
+
+/// Node positions of one element, 3 x nodes [m].
+[[nodiscard]] Matrix3X element_positions(const Mesh& mesh,
+                                         const ElementBlock& block,
+                                         std::size_t element);
+
+/// Whether the element is an affine image of its reference element, so that
+/// its Jacobian is constant.
+[[nodiscard]] bool is_parallel_sided(const ReferenceElement& element,
+                                     const Matrix3X& x);
+
+/// Fills boundary_faces and boundary_nodes: faces that one element alone has.
+void find_boundary(Mesh& mesh);
+
+/// @throws InputError for elements that are inverted or degenerate (tag and
+/// Jacobian), and for a mesh in several parts that share no face.
+void check_elements(const Mesh& mesh);
+void check_connected(const Mesh& mesh);
+
+}  // namespace limber::fem

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fem/mesh.hpp"
+
+namespace limber::fem {
+
+/// Nodes with the shares in which they carry a load or make an average.
+struct WeightedNodes {
+  std::vector<int> nodes;  ///< sorted node indices
+  VectorX weights;         ///< sum to one
+};
+
+/// Shares of a load spread evenly over a physical group: int N_n dA over a
+/// surface, likewise over a curve or volume; equal over points. On straight
+/// second-order triangles the corners' share is zero.
+[[nodiscard]] WeightedNodes weigh_group(const Mesh& mesh,
+                                        const PhysicalGroup& group);
+
+/// Every node the same share.
+[[nodiscard]] WeightedNodes weigh_equally(std::vector<int> nodes);
+
+/// Boundary nodes inside a box [m], bounds included, widened by roundoff.
+[[nodiscard]] std::vector<int> find_boundary_nodes_in_box(const Mesh& mesh,
+                                                          const Vector3& lower,
+                                                          const Vector3& upper);
+
+/// Shares of a load spread evenly over the boundary faces that lie wholly in
+/// `nodes`; equal shares if there is no such face.
+[[nodiscard]] WeightedNodes weigh_boundary(const Mesh& mesh,
+                                           const std::vector<int>& nodes);
+
+/// Node with this Gmsh tag. @throws InputError.
+[[nodiscard]] int find_tagged_node(const Mesh& mesh, std::size_t tag);
+
+/// Node nearest to a point [m].
+[[nodiscard]] int find_nearest_node(const Mesh& mesh, const Vector3& point);
+
+}  // namespace limber::fem

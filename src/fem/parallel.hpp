@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace limber::fem {
+
+/// Splits [0, count) into one contiguous range per thread and runs
+/// `work(begin, end)` on each. Work on one range must not depend on where the
+/// ranges are cut, so that results do not depend on the number of threads.
+/// The first exception of a thread is thrown again here.
+void parallel_ranges(
+    std::size_t count,
+    const std::function<void(std::size_t begin, std::size_t end)>& work);
+
+/// Number of threads used; 0 (the start value) means one per core.
+void set_thread_count(unsigned threads);
+[[nodiscard]] unsigned thread_count();
+
+}  // namespace limber::fem

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "common/types.hpp"
+
+namespace limber::flexbody {
+
+/// The mean motion of a weighted node set, as a linear map of its nodes'
+/// displacements.
+///
+/// Equation   p = sum w_i x_i, d_i = x_i - p;
+///            u = sum w_i u_i,  theta = A^+ sum w_i d_i x u_i,
+///            A = sum w_i (d_i.d_i I - d_i d_i^T)
+/// Source     weighted least squares of u + theta x d_i against u_i
+/// Limits     small rotation; on a line of nodes the rotation about it, and at
+///            a point every rotation, is undefined and taken as zero.
+class InterfaceMotion {
+ public:
+  /// @param nodes node indices; @param weights sum to one
+  /// @param x 3 x N node positions [m]; @param body_size largest edge of the
+  /// body [m], against which a set counts as a point
+  InterfaceMotion(std::vector<int> nodes, VectorX weights, const Matrix3X& x,
+                  double body_size);
+
+  [[nodiscard]] const Vector3& mean_point() const { return p_; }  ///< [m]
+  [[nodiscard]] int rotation_rank() const { return rank_; }       ///< 0, 2 or 3
+  /// Orthonormal axes about which rotation is defined, 3 x rank.
+  [[nodiscard]] const Matrix3X& rotation_axes() const { return axes_; }
+
+  /// Translation and rotation (6 x k) of nodal fields (3N x k).
+  [[nodiscard]] Matrix6X apply(const MatrixX& fields) const;
+
+  /// Nodal forces (3N x k) of forces and moments at the mean point (6 x k):
+  /// the transpose of `apply`, so that work balances.
+  [[nodiscard]] MatrixX spread(const Matrix6X& wrenches) const;
+
+ private:
+  std::vector<int> nodes_;
+  Matrix6X map_;  // 6 x 3 n
+  Eigen::Index dofs_ = 0;
+  Vector3 p_ = Vector3::Zero();
+  Matrix3X axes_;
+  int rank_ = 0;
+};
+
+}  // namespace limber::flexbody

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Sparse>
+
+#include "common/types.hpp"
+
+namespace limber::flexbody {
+
+/// A basis in its one form: M-orthonormal, K-diagonal, free of rigid motion.
+struct ReducedBasis {
+  VectorX lambda;  ///< ascending [rad^2/s^2]
+  MatrixX Phi;     ///< 3N x m [kg^-1/2]
+};
+
+/// M-orthonormal columns that span what `vectors` span beyond the rigid modes
+/// `R` (3N x 6 or 3N x 0, M-orthonormal). A vector whose remainder has less
+/// than `drop_tolerance` of its M-norm is dropped.
+/// @throws NumericalError for a vector that is not finite.
+[[nodiscard]] MatrixX orthonormalise(const MatrixX& vectors,
+                                     const Eigen::SparseMatrix<double>& M_s,
+                                     const MatrixX& R, double drop_tolerance);
+
+/// Any vectors into the one form.
+///
+/// Equation   Phi^T M Phi = I, Phi^T K Phi = diag(lambda), R^T M Phi = 0
+/// Source     design.md, section 1
+/// @param M_s N x N nodal mass, both triangles; @param K_lower lower triangle
+[[nodiscard]] ReducedBasis make_reduced_basis(
+    const MatrixX& vectors, const Eigen::SparseMatrix<double>& M_s,
+    const Eigen::SparseMatrix<double>& K_lower, const MatrixX& R,
+    double drop_tolerance);
+
+}  // namespace limber::flexbody
