@@ -8,7 +8,7 @@ add_library(limber_options INTERFACE)
 target_compile_features(limber_options INTERFACE cxx_std_20)
 target_compile_options(limber_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
-  -Woverloaded-virtual -Wnull-dereference -Werror)
+  -Woverloaded-virtual -Werror)
 if(LIMBER_SANITIZE)
   target_compile_options(limber_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=undefined

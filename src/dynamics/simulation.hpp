@@ -26,7 +26,7 @@ struct SimulationSettings {
   double step = 0.0;                 ///< longest step, > 0 [s]
   std::vector<double> output_times;  ///< increasing, in [start, end] [s]
   double rho_inf = 0.9;              ///< spectral radius at infinity [0,1]
-  double newton_tolerance = 1e-10;   ///< of a step's motion [-]
+  double newton_tolerance = 1e-12;   ///< of a step's motion [-]
   int newton_iterations = 20;        ///< at most, a step
 };
 

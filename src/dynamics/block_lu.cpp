@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/block_lu.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using Graph = std::vector<std::set<int>>;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Removes the vertex of least degree, joins its neighbours, and so on.
+// @returns for each pivot in order its row and its neighbours when removed.
+std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph) {
+  std::set<std::pair<std::size_t, int>> by_degree;
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    by_degree.emplace(graph[i].size(), static_cast<int>(i));
+  }
+  std::vector<std::pair<int, std::vector<int>>> order;
+  while (!by_degree.empty()) {
+    const int row = by_degree.begin()->second;
+    by_degree.erase(by_degree.begin());
+    const std::vector<int> neighbours(graph[index(row)].begin(),
+                                      graph[index(row)].end());
+    for (const int i : neighbours) {
+      std::set<int>& links = graph[index(i)];
+      by_degree.erase({links.size(), i});
+      links.erase(row);
+      links.insert(neighbours.begin(), neighbours.end());
+      links.erase(i);
+      by_degree.emplace(links.size(), i);
+    }
+    order.emplace_back(row, neighbours);
+  }
+  return order;
+}
+
+}  // namespace
+
+BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
+    : index_(index(size)) {
+  Graph graph(index(size));
+  for (const auto& [i, j] : edges) {
+    LIMBER_EXPECT(i >= 0 && j >= 0 && i < size && j < size && i != j);
+    graph[index(i)].insert(j);
+    graph[index(j)].insert(i);
+  }
+  for (int i = 0; i < size; ++i) find_or_add(i, i);
+  for (auto& [row, neighbours] : eliminate(graph)) {
+    Pivot pivot{.row = row,
+                .rows = neighbours,
+                .lower = {},
+                .upper = {},
+                .updates = {}};
+    for (const int i : neighbours) {
+      pivot.lower.push_back(find_or_add(i, row));
+      pivot.upper.push_back(find_or_add(row, i));
+    }
+    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+      for (std::size_t j = 0; j < neighbours.size(); ++j) {
+        pivot.updates.push_back({pivot.lower[i], pivot.upper[j],
+                                 find_or_add(neighbours[i], neighbours[j])});
+      }
+    }
+    pivots_.push_back(std::move(pivot));
+  }
+  inverses_.resize(index(size));
+}
+
+int BlockLu::find_or_add(int row, int column) {
+  auto& entries = index_[index(row)];
+  for (const auto& [c, block] : entries) {
+    if (c == column) return block;
+  }
+  const int block = static_cast<int>(blocks_.size());
+  entries.emplace_back(column, block);
+  blocks_.emplace_back(Matrix6::Zero());
+  return block;
+}
+
+void BlockLu::set_zero() {
+  for (Matrix6& block : blocks_) block.setZero();
+}
+
+Matrix6& BlockLu::block(int row, int column) {
+  for (const auto& [c, block] : index_[index(row)]) {
+    if (c == column) return blocks_[index(block)];
+  }
+  throw ContractError("BlockLu: no such block in the pattern");
+}
+
+void BlockLu::scale_row(int row, const Matrix6& factor) {
+  for (const auto& [column, block] : index_[index(row)]) {
+    const Matrix6 product = factor * blocks_[index(block)];
+    blocks_[index(block)] = product;
+  }
+}
+
+bool BlockLu::factor() {
+  for (const Pivot& pivot : pivots_) {
+    const std::size_t row = index(pivot.row);
+    // A row's diagonal block is the first that was added to it.
+    Matrix6& diagonal = blocks_[index(index_[row].front().second)];
+    inverses_[row] = diagonal.inverse();
+    if (!inverses_[row].allFinite()) return false;
+    for (const int lower : pivot.lower) {
+      const Matrix6 product = blocks_[index(lower)] * inverses_[row];
+      blocks_[index(lower)] = product;
+    }
+    for (const Update& u : pivot.updates) {
+      blocks_[index(u.target)].noalias() -=
+          blocks_[index(u.lower)] * blocks_[index(u.upper)];
+    }
+  }
+  return true;
+}
+
+void BlockLu::solve(std::vector<Vector6>& x) const {
+  for (const Pivot& pivot : pivots_) {
+    for (std::size_t i = 0; i < pivot.rows.size(); ++i) {
+      x[index(pivot.rows[i])].noalias() -=
+          blocks_[index(pivot.lower[i])] * x[index(pivot.row)];
+    }
+  }
+  for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend(); ++pivot) {
+    Vector6 sum = x[index(pivot->row)];
+    for (std::size_t i = 0; i < pivot->rows.size(); ++i) {
+      sum.noalias() -=
+          blocks_[index(pivot->upper[i])] * x[index(pivot->rows[i])];
+    }
+    x[index(pivot->row)].noalias() = inverses_[index(pivot->row)] * sum;
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/body_model.hpp"
+
+#include "common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+Vector6 pack_symmetric(const Matrix3& m) {
+  Vector6 c;
+  c << m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2);
+  return c;
+}
+
+// tr(A) I - A of the symmetric part of S, twice: the inertia that a first
+// variation of the second moment makes.
+Matrix3 inertia_of(const Matrix3& S) {
+  const Matrix3 symmetric = S + S.transpose();
+  return symmetric.trace() * Matrix3::Identity() - symmetric;
+}
+
+}  // namespace
+
+void pack_inertia(const flexbody::ReducedBody& reduced, BodyModel& body) {
+  const flexbody::InertiaShapeIntegrals& s = reduced.integrals;
+  const int m = reduced.mode_count();
+  LIMBER_EXPECT(static_cast<int>(s.S1.size()) == m);
+  LIMBER_EXPECT(static_cast<int>(s.S2.size()) == m * m);
+
+  body.J1.resize(6, m);
+  body.J2.resize(6 * m, m);
+  body.beta.resize(3 * m, m);
+  for (int k = 0; k < m; ++k) {
+    body.J1.col(k) = pack_symmetric(inertia_of(s.S1[static_cast<size_t>(k)]));
+    for (int l = 0; l < m; ++l) {
+      const Matrix3& S2 = s.S2[static_cast<size_t>(k * m + l)];
+      body.J2.block<6, 1>(6 * k, l) = pack_symmetric(inertia_of(S2));
+      // (phi_k x phi_l)_c = eps_cab S2_ab.
+      body.beta.block<3, 1>(3 * l, k) = Vector3(
+          S2(1, 2) - S2(2, 1), S2(2, 0) - S2(0, 2), S2(0, 1) - S2(1, 0));
+    }
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/system_model.hpp"
+
+namespace limber::dynamics {
+
+/// Packs the inertia shape integrals of `reduced` as BodyModel keeps them:
+/// J(eta) = tr(S) I - S with S = S0 + S1 eta + (S1 eta)' + S2 eta eta, and
+/// beta_kl = int phi_k x phi_l dm.
+/// Source     design of the floating frame in docs/theory/equations.md.
+void pack_inertia(const flexbody::ReducedBody& reduced, BodyModel& body);
+
+/// Symmetric matrix of the components (xx, yy, zz, xy, xz, yz).
+[[nodiscard]] inline Matrix3 unpack_symmetric(const Vector6& c) {
+  Matrix3 m;
+  m << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
+  return m;
+}
+
+/// Components of the quadratic form: w' A w / 2 = half_square(w) . pack(A).
+[[nodiscard]] inline Vector6 half_square(const Vector3& w) {
+  Vector6 q;
+  q << 0.5 * w[0] * w[0], 0.5 * w[1] * w[1], 0.5 * w[2] * w[2], w[0] * w[1],
+      w[0] * w[2], w[1] * w[2];
+  return q;
+}
+
+}  // namespace limber::dynamics

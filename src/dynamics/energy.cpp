@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/energy.hpp"
+
+#include "dynamics/equations.hpp"
+
+namespace limber::dynamics {
+
+EnergyBalance calc_energy(const SystemModel& model, const SystemState& state) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  EnergyBalance balance;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const BodyState& rigid = state.bodies[b];
+    const BodyTerms& t = terms.bodies[b];
+    const auto eta = state.eta.segment(body.offset, body.modes);
+    const auto etadot = state.etadot.segment(body.offset, body.modes);
+
+    balance.elastic += 0.5 * (body.lambda.array() * eta.array().square()).sum();
+    balance.kinetic_modal += 0.5 * etadot.squaredNorm();
+    if (body.clamped) continue;
+    const Vector3 h = t.H * etadot;
+    const Vector3 spin_B = t.J * rigid.w_WB_B + h;
+    balance.kinetic_modal += rigid.w_WB_B.dot(h);
+    balance.kinetic_rigid += 0.5 * body.mass * rigid.v_WB_W.squaredNorm() +
+                             0.5 * rigid.w_WB_B.dot(t.J * rigid.w_WB_B);
+    const Vector3 momentum = body.mass * rigid.v_WB_W;
+    balance.linear_momentum += momentum;
+    balance.angular_momentum += rigid.p_WB.cross(momentum) + t.R_WB * spin_B;
+  }
+  for (const CouplerTerms& coupler : terms.couplers) {
+    balance.coupler += coupler.response.energy;
+  }
+  return balance;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/equations.hpp"
+
+#include "dynamics/body_model.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using ConstModes = Eigen::Map<const VectorX>;
+
+ConstModes modes_of(const BodyModel& body, const VectorX& all) {
+  return {all.data() + body.offset, body.modes};
+}
+
+// Elastic and damping forces, which every flexible level has.
+void set_oscillator_bias(const BodyModel& body, const SystemState& state,
+                         BodyTerms& terms) {
+  terms.bias_e.array() =
+      body.lambda.array() * modes_of(body, state.eta).array() +
+      body.damping.array() * modes_of(body, state.etadot).array();
+}
+
+// Level one-way: centrifugal force of the undeformed body. (Its Euler force
+// vanishes: int phi x x dm = 0 in the mean-axis frame.)
+void add_centrifugal_bias(const BodyModel& body, const Vector3& w,
+                          BodyTerms& terms) {
+  terms.bias_e.noalias() -= body.J1.transpose() * half_square(w);
+}
+
+// Level coupled: all terms. One product with J2 and two with beta, O(m^2).
+void set_coupled_terms(const BodyModel& body, const SystemState& state,
+                       const Vector3& w, BodyTerms& terms) {
+  const int m = body.modes;
+  const ConstModes eta = modes_of(body, state.eta);
+  const ConstModes etadot = modes_of(body, state.etadot);
+  terms.scratch_J2.noalias() = body.J2 * eta;
+  terms.scratch_b1.noalias() = body.beta * eta;
+  terms.scratch_b2.noalias() = body.beta * etadot;
+
+  const Vector6 w_squared = half_square(w);
+  Vector6 J = Vector6::Zero();
+  Vector6 Jdot = Vector6::Zero();
+  Vector3 h = Vector3::Zero();  // H etadot
+  for (int k = 0; k < m; ++k) {
+    const Vector6 curvature = terms.scratch_J2.segment<6>(6 * k);
+    const Vector6 dJ = body.J1.col(k) + curvature;
+    J += (body.J1.col(k) + 0.5 * curvature) * eta[k];
+    Jdot += dJ * etadot[k];
+    const Vector3 H = terms.scratch_b1.segment<3>(3 * k);
+    terms.H.col(k) = H;
+    h += H * etadot[k];
+    terms.bias_e[k] +=
+        2.0 * w.dot(terms.scratch_b2.segment<3>(3 * k)) - w_squared.dot(dJ);
+  }
+  terms.J = body.J0 + unpack_symmetric(J);
+  terms.bias_r = unpack_symmetric(Jdot) * w + w.cross(terms.J * w + h);
+}
+
+void apply_wrench(const BodyModel& body, const Attachment& attachment,
+                  const AttachmentMotion& motion, const Vector3& arm_B,
+                  const Vector3& force_W, const Vector3& moment_W,
+                  BodyTerms& terms) {
+  const Vector3 force_B = motion.R_WB.transpose() * force_W;
+  const Vector3 moment_B = motion.R_WB.transpose() * moment_W;
+  terms.force_W += force_W;
+  terms.moment_B += arm_B.cross(force_B) + moment_B;
+  if (body.modes == 0) return;
+  const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
+  for (int k = 0; k < body.modes; ++k) {
+    terms.modal_force[k] += attachment.Phi_B.col(k).dot(force_B) +
+                            attachment.Psi_B.col(k).dot(twist_B);
+  }
+}
+
+void apply_coupler(const SystemModel& model, const Coupler& coupler,
+                   SystemTerms& terms, CouplerTerms& out) {
+  const auto iF = static_cast<std::size_t>(coupler.frame_F);
+  const auto iM = static_cast<std::size_t>(coupler.frame_M);
+  const AttachmentMotion& F = terms.attachments[iF];
+  const AttachmentMotion& M = terms.attachments[iM];
+
+  joints::RelativeMotion& relative = out.motion;
+  const Vector3 w_F = F.R_WF.transpose() * F.w_WF_W;
+  relative.R_FM = F.R_WF.transpose() * M.R_WF;
+  relative.p_FM_F = F.R_WF.transpose() * (M.p_WF - F.p_WF);
+  relative.v_FM_F =
+      F.R_WF.transpose() * (M.v_WF_W - F.v_WF_W) - w_F.cross(relative.p_FM_F);
+  relative.w_FM_F = F.R_WF.transpose() * M.w_WF_W - w_F;
+  out.response = joints::evaluate(coupler.law, relative);
+  terms.dissipated_power += out.response.dissipation;
+
+  const Vector3 force_F = out.response.wrench.head<3>();
+  const Vector3 force = F.R_WF * force_F;
+  const Vector3 moment = F.R_WF * out.response.wrench.tail<3>();
+  // The reaction acts on F along the same line: shifted from Mo to Fo.
+  const Vector3 shift = F.R_WF * relative.p_FM_F.cross(force_F);
+  const auto apply = [&](std::size_t i, const AttachmentMotion& motion,
+                         const Vector3& f, const Vector3& t) {
+    const Attachment& a = model.attachments[i];
+    if (a.body == kWorld) return;
+    const auto b = static_cast<std::size_t>(a.body);
+    apply_wrench(model.bodies[b], a, motion, motion.arm_B, f, t,
+                 terms.bodies[b]);
+  };
+  apply(iM, M, force, moment);
+  apply(iF, F, -force, -moment - shift);
+}
+
+void apply_load(const SystemModel& model, const SystemState& state,
+                const Load& load, Side side, SystemTerms& terms) {
+  const double factor = evaluate(load.function, state.t, side);
+  if (factor == 0.0) return;
+  const auto i = static_cast<std::size_t>(load.where);
+  const Attachment& attachment = model.attachments[i];
+  if (attachment.body == kWorld) return;
+  const auto b = static_cast<std::size_t>(attachment.body);
+  const BodyModel& body = model.bodies[b];
+  const AttachmentMotion& motion = terms.attachments[i];
+
+  Vector3 force = factor * load.force;
+  Vector3 moment = factor * load.moment;
+  if (!load.in_world) {
+    force = motion.R_WB * force;
+    moment = motion.R_WB * moment;
+  }
+  // Levels without feedback take the undeformed lever arm, and then the power
+  // is what that arm's point sees.
+  const bool deformed = body.fidelity == Fidelity::coupled;
+  const Vector3 arm = deformed ? motion.arm_B : attachment.p_BF;
+  apply_wrench(body, attachment, motion, arm, force, moment, terms.bodies[b]);
+
+  const Vector3 slip =
+      deformed ? Vector3::Zero()
+               : Vector3(state.bodies[b].w_WB_B.cross(arm - motion.arm_B));
+  terms.load_power +=
+      force.dot(motion.v_WF_W + motion.R_WB * slip) + moment.dot(motion.w_WF_W);
+}
+
+void reset_forces(const SystemModel& model, const SystemState& state,
+                  SystemTerms& terms) {
+  terms.load_power = 0.0;
+  terms.dissipated_power = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    BodyTerms& t = terms.bodies[b];
+    t.force_W.setZero();
+    if (!body.clamped) {
+      t.force_W = body.mass * model.gravity_W;
+      terms.load_power += t.force_W.dot(state.bodies[b].v_WB_W);
+    }
+    t.moment_B.setZero();
+    t.modal_force.setZero();
+    if (body.modes > 0) {
+      const ConstModes etadot = modes_of(body, state.etadot);
+      terms.dissipated_power +=
+          (body.damping.array() * etadot.array().square()).sum();
+    }
+  }
+}
+
+}  // namespace
+
+SystemTerms make_terms(const SystemModel& model) {
+  SystemTerms terms;
+  for (const BodyModel& body : model.bodies) {
+    const int m = body.modes;
+    const bool coupled = body.fidelity == Fidelity::coupled;
+    BodyTerms t;
+    t.R_WB.setIdentity();
+    t.J = body.J0;
+    t.H = Matrix3X::Zero(3, m);
+    t.bias_r.setZero();
+    t.bias_e = VectorX::Zero(m);
+    t.force_W.setZero();
+    t.moment_B.setZero();
+    t.modal_force = VectorX::Zero(m);
+    t.scratch_J2 = VectorX::Zero(coupled ? 6 * m : 0);
+    t.scratch_b1 = VectorX::Zero(coupled ? 3 * m : 0);
+    t.scratch_b2 = VectorX::Zero(coupled ? 3 * m : 0);
+    terms.bodies.push_back(std::move(t));
+  }
+  terms.attachments.resize(model.attachments.size());
+  terms.couplers.resize(model.couplers.size());
+  return terms;
+}
+
+Accelerations make_accelerations(const SystemModel& model) {
+  const std::size_t n = model.bodies.size();
+  return {std::vector<Vector3>(n, Vector3::Zero()),
+          std::vector<Vector3>(n, Vector3::Zero()),
+          VectorX::Zero(model.modal_count)};
+}
+
+void calc_inertia_terms(const SystemModel& model, const SystemState& state,
+                        SystemTerms& terms) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Vector3& w = state.bodies[b].w_WB_B;
+    BodyTerms& t = terms.bodies[b];
+    t.R_WB = state.bodies[b].quat_WB.toRotationMatrix();
+    if (body.modes > 0) set_oscillator_bias(body, state, t);
+    if (body.modes > 0 && !body.clamped && body.fidelity == Fidelity::coupled) {
+      set_coupled_terms(body, state, w, t);
+      continue;
+    }
+    t.bias_r = w.cross(body.J0 * w);
+    if (body.fidelity == Fidelity::one_way && !body.clamped) {
+      add_centrifugal_bias(body, w, t);
+    }
+  }
+}
+
+void calc_forces(const SystemModel& model, const SystemState& state, Side side,
+                 SystemTerms& terms) {
+  reset_forces(model, state, terms);
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    const Attachment& a = model.attachments[i];
+    const Matrix3& R_WB =
+        terms.bodies[a.body == kWorld ? 0 : static_cast<std::size_t>(a.body)]
+            .R_WB;
+    calc_attachment_motion(model, a, state, R_WB, terms.attachments[i]);
+  }
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    apply_coupler(model, model.couplers[c], terms, terms.couplers[c]);
+  }
+  for (const Load& load : model.loads) {
+    apply_load(model, state, load, side, terms);
+  }
+}
+
+void calc_terms(const SystemModel& model, const SystemState& state, Side side,
+                SystemTerms& terms) {
+  calc_inertia_terms(model, state, terms);
+  calc_forces(model, state, side, terms);
+}
+
+void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
+                         Accelerations& accelerations) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const BodyTerms& t = terms.bodies[b];
+    auto etaddot = accelerations.etaddot.segment(body.offset, body.modes);
+    etaddot = t.modal_force - t.bias_e;
+    Vector3& dw = accelerations.dw_WB_B[b];
+    if (body.clamped) {
+      accelerations.a_WB_W[b].setZero();
+      dw.setZero();
+      continue;
+    }
+    accelerations.a_WB_W[b] = t.force_W / body.mass;
+    Matrix3 schur = t.J;
+    Vector3 right = t.moment_B - t.bias_r;
+    for (int k = 0; k < body.modes; ++k) {
+      const Vector3 H = t.H.col(k);
+      schur -= H * H.transpose();
+      right -= H * etaddot[k];
+    }
+    dw = schur.inverse() * right;
+    for (int k = 0; k < body.modes; ++k) etaddot[k] -= t.H.col(k).dot(dw);
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/workspace.hpp"
+
+/// The equations of motion of docs/theory/equations.md, at each fidelity.
+namespace limber::dynamics {
+
+/// Fills R_WB, J, H and the bias terms of every body.
+void calc_inertia_terms(const SystemModel& model, const SystemState& state,
+                        SystemTerms& terms);
+
+/// Fills forces of couplers, loads and gravity, and their powers; needs
+/// R_WB from calc_inertia_terms. `side` says which limit a load that jumps at
+/// state.t has.
+void calc_forces(const SystemModel& model, const SystemState& state, Side side,
+                 SystemTerms& terms);
+
+/// Both of the above.
+void calc_terms(const SystemModel& model, const SystemState& state, Side side,
+                SystemTerms& terms);
+
+/// Solves each body's 6 + m equations for its accelerations.
+void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
+                         Accelerations& accelerations);
+
+}  // namespace limber::dynamics

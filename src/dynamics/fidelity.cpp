@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/fidelity.hpp"
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "common/names.hpp"
+
+namespace limber::dynamics {
+
+const std::vector<std::string>& fidelity_names() {
+  static const std::vector<std::string> names = {"rigid", "uncoupled",
+                                                 "one-way", "coupled"};
+  return names;
+}
+
+std::string_view to_string(Fidelity fidelity) {
+  return fidelity_names()[static_cast<std::size_t>(fidelity)];
+}
+
+Fidelity parse_fidelity(std::string_view name) {
+  const auto& names = fidelity_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw InputError(describe_unknown("fidelity", name, names));
+  }
+  return static_cast<Fidelity>(found - names.begin());
+}
+
+}  // namespace limber::dynamics

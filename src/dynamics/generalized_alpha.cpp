@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/generalized_alpha.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// Factors of an earlier step are kept while they contract at least this fast;
+// a step for which they do not is followed by steps with factors of their own,
+// more of them each time that keeping them fails again.
+constexpr double kGoodContraction = 1e-3;
+constexpr int kFewestFreshSteps = 8;
+constexpr int kMostFreshSteps = 512;
+// Factor anew within a step when it is slower than this.
+constexpr double kPoorContraction = 0.3;
+// Round-off of a position, relative to its distance from the world origin.
+constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
+
+double radius_of_gyration_squared(const BodyModel& body) {
+  return 0.5 * body.J0.trace() / body.mass;
+}
+
+}  // namespace
+
+GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
+                                   const Settings& settings)
+    : model_(model),
+      settings_(settings),
+      am_((2.0 * settings.rho_inf - 1.0) / (settings.rho_inf + 1.0)),
+      af_(settings.rho_inf / (settings.rho_inf + 1.0)),
+      gamma_(0.5 + af_ - am_),
+      beta_(0.25 * (0.5 + gamma_) * (0.5 + gamma_)),
+      matrix_(model),
+      next_(make_state(model)),
+      terms_(make_terms(model)),
+      residual_(VectorX::Zero(NewtonMatrix::size(model))),
+      x_(VectorX::Zero(NewtonMatrix::size(model))) {
+  next_fresh_steps_ = kFewestFreshSteps;
+  const std::size_t n = model.bodies.size();
+  const Rates zero{std::vector<Vector3>(n, Vector3::Zero()),
+                   std::vector<Vector3>(n, Vector3::Zero()),
+                   VectorX::Zero(model.modal_count)};
+  a_ = a_next_ = vdot_ = vdot_next_ = inc_ = zero;
+}
+
+void GeneralizedAlpha::set_coefficients(double h) {
+  coefficients_.acceleration = (1.0 - am_) / ((1.0 - af_) * beta_ * h * h);
+  coefficients_.velocity = gamma_ / (beta_ * h);
+}
+
+// r = M vdot + bias - forces, translation in world axes; clamped rows zero.
+void GeneralizedAlpha::calc_residual() {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const BodyTerms& t = terms_.bodies[b];
+    double* r =
+        residual_.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    Eigen::Map<Vector3> translation(r);
+    Eigen::Map<Vector3> rotation(r + 3);
+    translation.setZero();
+    rotation.setZero();
+    const Vector3& dw = vdot_next_.rotation[b];
+    if (!body.clamped) {
+      translation = body.mass * vdot_next_.translation[b] - t.force_W;
+      rotation = t.J * dw + t.bias_r - t.moment_B;
+    }
+    const double* etaddot = vdot_next_.modes.data() + body.offset;
+    for (int k = 0; k < body.modes; ++k) {
+      rotation += t.H.col(k) * etaddot[k];
+      r[6 + k] =
+          etaddot[k] + t.H.col(k).dot(dw) + t.bias_e[k] - t.modal_force[k];
+    }
+    if (body.clamped) rotation.setZero();
+  }
+}
+
+void GeneralizedAlpha::refactor() {
+  matrix_.factor(model_, next_, terms_, inc_.rotation, coefficients_);
+}
+
+// Accelerations that the residual calls for: M^-1 of it for motion that the
+// step resolves, the quasi-static share for what is too stiff.
+void GeneralizedAlpha::add_quasi_static_accelerations() {
+  for (Vector3& rotation : inc_.rotation) rotation.setZero();
+  refactor();
+  factored_step_ = 0.0;
+  matrix_.solve(model_, residual_, x_);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    const double c = coefficients_.acceleration;
+    const Vector3 translation = c * Eigen::Map<const Vector3>(x);
+    const Vector3 rotation = c * Eigen::Map<const Vector3>(x + 3);
+    const auto modes = c * Eigen::Map<const VectorX>(x + 6, body.modes);
+    a_.translation[b] += translation;
+    vdot_.translation[b] += translation;
+    a_.rotation[b] += rotation;
+    vdot_.rotation[b] += rotation;
+    a_.modes.segment(body.offset, body.modes) += modes;
+    vdot_.modes.segment(body.offset, body.modes) += modes;
+  }
+}
+
+void GeneralizedAlpha::start(const SystemState& state, double h) {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    a_.translation[b].setZero();
+    a_.rotation[b].setZero();
+  }
+  a_.modes.setZero();
+  vdot_ = vdot_next_ = a_;
+  next_ = state;
+  set_coefficients(h);
+  calc_terms(model_, next_, Side::right, terms_);
+  calc_residual();
+  add_quasi_static_accelerations();
+  power_load_ = terms_.load_power;
+  power_loss_ = terms_.dissipated_power;
+}
+
+void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
+  next_ = state;
+  set_coefficients(h);
+  vdot_next_ = vdot_;
+  calc_terms(model_, next_, Side::left, terms_);
+  calc_residual();
+  const VectorX before = residual_;
+  calc_forces(model_, next_, Side::right, terms_);
+  calc_residual();
+  residual_ -= before;
+  add_quasi_static_accelerations();
+  power_load_ = terms_.load_power;
+  power_loss_ = terms_.dissipated_power;
+}
+
+// The step's end that a_next_ implies.
+void GeneralizedAlpha::advance(const SystemState& from, double h) {
+  const double inc_n = h * h * (0.5 - beta_);
+  const double inc_next = h * h * beta_;
+  const double v_n = h * (1.0 - gamma_);
+  const double v_next = h * gamma_;
+  const double d_next = (1.0 - am_) / (1.0 - af_);
+  const double d_n = am_ / (1.0 - af_);
+  const double d_old = af_ / (1.0 - af_);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyState& old = from.bodies[b];
+    BodyState& body = next_.bodies[b];
+    inc_.translation[b] = h * old.v_WB_W + inc_n * a_.translation[b] +
+                          inc_next * a_next_.translation[b];
+    inc_.rotation[b] = h * old.w_WB_B + inc_n * a_.rotation[b] +
+                       inc_next * a_next_.rotation[b];
+    body.p_WB = old.p_WB + inc_.translation[b];
+    body.quat_WB = old.quat_WB * exp_quaternion(inc_.rotation[b]);
+    body.quat_WB.normalize();
+    body.v_WB_W =
+        old.v_WB_W + v_n * a_.translation[b] + v_next * a_next_.translation[b];
+    body.w_WB_B =
+        old.w_WB_B + v_n * a_.rotation[b] + v_next * a_next_.rotation[b];
+    vdot_next_.translation[b] = d_next * a_next_.translation[b] +
+                                d_n * a_.translation[b] -
+                                d_old * vdot_.translation[b];
+    vdot_next_.rotation[b] = d_next * a_next_.rotation[b] +
+                             d_n * a_.rotation[b] - d_old * vdot_.rotation[b];
+  }
+  inc_.modes = h * from.etadot + inc_n * a_.modes + inc_next * a_next_.modes;
+  next_.eta = from.eta + inc_.modes;
+  next_.etadot = from.etadot + v_n * a_.modes + v_next * a_next_.modes;
+  vdot_next_.modes =
+      d_next * a_next_.modes + d_n * a_.modes - d_old * vdot_.modes;
+  next_.t = from.t + h;
+}
+
+void GeneralizedAlpha::apply_increments(double h) {
+  const double share = 1.0 / (beta_ * h * h);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    if (body.modes > 0) {
+      a_next_.modes.segment(body.offset, body.modes) +=
+          share * x_.segment(6 * static_cast<Eigen::Index>(b) + body.offset + 6,
+                             body.modes);
+    }
+    if (body.clamped) continue;
+    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    a_next_.translation[b] += share * Eigen::Map<const Vector3>(x);
+    a_next_.rotation[b] += share * (right_jacobian_inverse(inc_.rotation[b]) *
+                                    Eigen::Map<const Vector3>(x + 3));
+  }
+}
+
+// Length [m] of the increments, mass-weighted within a body; largest body.
+GeneralizedAlpha::Size GeneralizedAlpha::measure_increments() const {
+  Size largest;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    const double squared =
+        Eigen::Map<const Vector3>(x).squaredNorm() +
+        radius_of_gyration_squared(body) *
+            Eigen::Map<const Vector3>(x + 3).squaredNorm() +
+        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass;
+    if (!(squared <= largest.value)) {
+      largest = {squared, b};
+      if (!std::isfinite(squared)) break;
+    }
+  }
+  largest.value = std::sqrt(largest.value);
+  return largest;
+}
+
+// The step's motion on the same scale [m].
+double GeneralizedAlpha::measure_motion() const {
+  double largest = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const double squared =
+        inc_.translation[b].squaredNorm() +
+        radius_of_gyration_squared(body) * inc_.rotation[b].squaredNorm() +
+        inc_.modes.segment(body.offset, body.modes).squaredNorm() / body.mass;
+    largest = std::max(largest, squared);
+  }
+  return std::sqrt(largest);
+}
+
+// Below this [m] corrections are made of round-off alone.
+double GeneralizedAlpha::measure_roundoff() const {
+  double reach = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    reach = std::max(reach, next_.bodies[b].p_WB.squaredNorm() +
+                                radius_of_gyration_squared(model_.bodies[b]));
+  }
+  return kRoundoff * std::sqrt(reach);
+}
+
+void GeneralizedAlpha::fail(double t, std::size_t body, const char* what,
+                            double size) const {
+  throw NumericalError(fmt::format(
+      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, "
+      "tolerance {:.3g} of the step's motion); a smaller step or "
+      "more damping may help",
+      model_.bodies[body].name, t, what, size, settings_.tolerance));
+}
+
+void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
+  if (!kept) {
+    fresh_steps_ = std::max(0, fresh_steps_ - 1);
+  } else if (slowest > kGoodContraction) {
+    fresh_steps_ = next_fresh_steps_;
+    next_fresh_steps_ = std::min(2 * next_fresh_steps_, kMostFreshSteps);
+  } else {
+    next_fresh_steps_ = kFewestFreshSteps;
+  }
+}
+
+StepResult GeneralizedAlpha::step(SystemState& state, double h) {
+  set_coefficients(h);
+  const double next_t = state.t + h;
+  // Predict unchanged accelerations.
+  const double p_v = 1.0 / (1.0 - am_);
+  const double p_a = am_ / (1.0 - am_);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    a_next_.translation[b] =
+        p_v * vdot_.translation[b] - p_a * a_.translation[b];
+    a_next_.rotation[b] = p_v * vdot_.rotation[b] - p_a * a_.rotation[b];
+  }
+  a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
+
+  StepResult result;
+  advance(state, h);
+  double last = 0.0;
+  double slowest = 0.0;  // contraction with the factors held
+  const double roundoff = measure_roundoff();
+  const bool keeps = fresh_steps_ == 0 && factored_step_ > 0.0 &&
+                     std::abs(h - factored_step_) <= 1e-9 * h;
+  bool needs_factors = !keeps;
+  while (true) {
+    calc_terms(model_, next_, Side::left, terms_);
+    calc_residual();
+    if (needs_factors) {
+      refactor();
+      ++result.factorizations;
+      factored_step_ = h;
+      needs_factors = false;
+    }
+    matrix_.solve(model_, residual_, x_);
+    const Size correction = measure_increments();
+    ++result.iterations;
+    if (!std::isfinite(correction.value)) {
+      factored_step_ = 0.0;
+      fail(next_t, correction.body, "its motion is no longer finite",
+           correction.value);
+    }
+    apply_increments(h);
+    advance(state, h);
+    const double limit = settings_.tolerance * measure_motion();
+    const double contraction =
+        result.iterations > 1 ? correction.value / last : 1.0;
+    last = correction.value;
+    // What is left after this correction, if the contraction goes on.
+    const double left =
+        contraction < 0.5 ? correction.value * contraction / (1.0 - contraction)
+                          : correction.value;
+    if (result.iterations > 1 && correction.value > roundoff) {
+      slowest = std::max(slowest, contraction);
+    }
+    if (left <= limit || correction.value <= roundoff) break;
+    if (result.iterations >= settings_.max_iterations) {
+      factored_step_ = 0.0;
+      fail(next_t, correction.body, "Newton's method did not converge",
+           correction.value);
+    }
+    needs_factors = result.iterations > 1 && contraction > kPoorContraction;
+  }
+  plan_factors(keeps, slowest);
+  result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
+  result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power);
+  power_load_ = terms_.load_power;
+  power_loss_ = terms_.dissipated_power;
+  std::swap(a_, a_next_);
+  std::swap(vdot_, vdot_next_);
+  std::swap(state, next_);
+  return result;
+}
+
+}  // namespace limber::dynamics

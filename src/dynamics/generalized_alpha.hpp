@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "dynamics/equations.hpp"
+#include "dynamics/newton_matrix.hpp"
+#include "dynamics/step_result.hpp"
+
+namespace limber::dynamics {
+
+/// Lie-group generalized-alpha with Newton's method.
+///
+/// Equation   inc = h v_n + h^2 ((1/2 - beta) a_n + beta a_n+1),
+///            q_n+1 = q_n o exp(inc),
+///            v_n+1 = v_n + h ((1 - gamma) a_n + gamma a_n+1),
+///            (1 - am) a_n+1 + am a_n = (1 - af) vdot_n+1 + af vdot_n,
+///            with the equations of motion met by q, v, vdot at n+1;
+///            am = (2 rho - 1) / (rho + 1), af = rho / (rho + 1),
+///            gamma = 1/2 + af - am, beta = (1/2 + gamma)^2 / 4.
+/// Source     Bruls and Cardona, "On the use of Lie group time integrators in
+///            multibody dynamics", J. Comput. Nonlinear Dyn. 5, 2010, eqs.
+///            17-22; parameters of Chung and Hulbert, J. Appl. Mech. 60, 1993.
+class GeneralizedAlpha {
+ public:
+  struct Settings {
+    double rho_inf = 0.9;      ///< in [0, 1]
+    double tolerance = 1e-12;  ///< of a step's motion [-]
+    int max_iterations = 20;
+  };
+
+  GeneralizedAlpha(const SystemModel& model, const Settings& settings);
+
+  /// Finds accelerations to start with from `state`, for steps of about `h`.
+  /// Motion that is too stiff for `h` takes its quasi-static share.
+  void start(const SystemState& state, double h);
+
+  /// Accounts for loads that jump at state.t (after a step that ended there).
+  void cross_jump(const SystemState& state, double h);
+
+  /// Advances `state` by h. @throws NumericalError naming the body, the time
+  /// and the residual; `state` is then unchanged.
+  StepResult step(SystemState& state, double h);
+
+ private:
+  struct Rates {  // a value for each velocity component
+    std::vector<Vector3> translation;
+    std::vector<Vector3> rotation;
+    VectorX modes;
+  };
+  void set_coefficients(double h);
+  void advance(const SystemState& from, double h);
+  void calc_residual();
+  void apply_increments(double h);
+  void add_quasi_static_accelerations();
+  struct Size {
+    double value = 0.0;
+    std::size_t body = 0;
+  };
+  [[nodiscard]] Size measure_increments() const;
+  [[nodiscard]] double measure_motion() const;
+  [[nodiscard]] double measure_roundoff() const;
+  void refactor();
+  // Decides from a step's slowest contraction whether the next keep factors.
+  void plan_factors(bool kept, double slowest);
+  [[noreturn]] void fail(double t, std::size_t body, const char* what,
+                         double size) const;
+
+  const SystemModel& model_;
+  Settings settings_;
+  double am_, af_, gamma_, beta_;
+  NewtonMatrix matrix_;
+  NewtonMatrix::Coefficients coefficients_;
+  double factored_step_ = 0.0;  // h of the factors held, 0: none
+  int fresh_steps_ = 0;         // how many more steps factor anew
+  int next_fresh_steps_ = 0;    // after keeping factors fails again
+  double power_load_ = 0.0;     // at the last state, for the audit
+  double power_loss_ = 0.0;
+
+  SystemState next_;
+  SystemTerms terms_;
+  Rates a_;  // the algorithm's accelerations at n
+  Rates a_next_;
+  Rates vdot_;  // accelerations at n
+  Rates vdot_next_;
+  Rates inc_;  // motion over the step
+  VectorX residual_;
+  VectorX x_;
+};
+
+}  // namespace limber::dynamics

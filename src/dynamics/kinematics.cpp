@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/kinematics.hpp"
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+void rest_in_world(const Attachment& attachment, AttachmentMotion& motion) {
+  motion.R_WB.setIdentity();
+  motion.R_WF = attachment.R_BF;
+  motion.arm_B = attachment.p_BF;
+  motion.J_psi.setIdentity();
+  motion.p_WF = attachment.p_BF;
+  motion.v_WF_W.setZero();
+  motion.w_WF_W.setZero();
+}
+
+}  // namespace
+
+void calc_attachment_motion(const SystemModel& model,
+                            const Attachment& attachment,
+                            const SystemState& state, const Matrix3& R_WB,
+                            AttachmentMotion& motion) {
+  if (attachment.body == kWorld) return rest_in_world(attachment, motion);
+  const auto b = static_cast<std::size_t>(attachment.body);
+  const BodyModel& body = model.bodies[b];
+  const BodyState& rigid = state.bodies[b];
+
+  motion.R_WB = R_WB;
+  motion.arm_B = attachment.p_BF;
+  Vector3 w_B = rigid.w_WB_B;
+  Vector3 udot_B = Vector3::Zero();
+  if (body.modes > 0) {
+    const double* eta = state.eta.data() + body.offset;
+    const double* etadot = state.etadot.data() + body.offset;
+    motion.arm_B += combine(attachment.Phi_B, eta);
+    udot_B = combine(attachment.Phi_B, etadot);
+    const Vector3 psi = combine(attachment.Psi_B, eta);
+    motion.J_psi = left_jacobian(psi);
+    w_B += motion.J_psi * combine(attachment.Psi_B, etadot);
+    motion.R_WF = R_WB * (exp_rotation(psi) * attachment.R_BF);
+  } else {
+    motion.J_psi.setIdentity();
+    motion.R_WF = R_WB * attachment.R_BF;
+  }
+  motion.p_WF = rigid.p_WB + R_WB * motion.arm_B;
+  motion.v_WF_W =
+      rigid.v_WB_W + R_WB * (rigid.w_WB_B.cross(motion.arm_B) + udot_B);
+  motion.w_WF_W = R_WB * w_B;
+}
+
+SystemState make_state(const SystemModel& model) {
+  SystemState state;
+  state.bodies.resize(model.bodies.size());
+  state.eta = VectorX::Zero(model.modal_count);
+  state.etadot = VectorX::Zero(model.modal_count);
+  return state;
+}
+
+FrameMotion find_frame_motion(const SystemModel& model,
+                              const SystemState& state,
+                              AttachmentIndex attachment) {
+  LIMBER_EXPECT(attachment >= 0 &&
+                attachment < static_cast<int>(model.attachments.size()));
+  const Attachment& a = model.attachments[static_cast<std::size_t>(attachment)];
+  Matrix3 R_WB = Matrix3::Identity();
+  if (a.body != kWorld) {
+    R_WB = state.bodies[static_cast<std::size_t>(a.body)]
+               .quat_WB.toRotationMatrix();
+  }
+  AttachmentMotion motion;
+  calc_attachment_motion(model, a, state, R_WB, motion);
+  return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
+}
+
+}  // namespace limber::dynamics

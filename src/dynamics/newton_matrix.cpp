@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/newton_matrix.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Eigen::Index first_row(const BodyModel& body, int b) {
+  return 6 * b + body.offset;
+}
+
+}  // namespace
+
+NewtonMatrix::NewtonMatrix(const SystemModel& model)
+    : bodies_(model.bodies.size()),
+      ends_of_body_(model.bodies.size()),
+      scaled_stiffness_(model.couplers.size()),
+      scale_(model.couplers.size()),
+      wrenches_(model.couplers.size()) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const int m = model.bodies[b].modes;
+    bodies_[b].coupling = Matrix3X::Zero(3, m);
+    bodies_[b].back_coupling = Matrix3X::Zero(3, m);
+    bodies_[b].inverse_modes = VectorX::Zero(m);
+  }
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    for (const bool is_M : {false, true}) {
+      const Coupler& coupler = model.couplers[c];
+      const int attachment = is_M ? coupler.frame_M : coupler.frame_F;
+      const int b = model.attachments[index(attachment)].body;
+      if (b == kWorld) continue;
+      const int n = 6 + model.bodies[index(b)].modes;
+      ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
+      ends_.push_back({static_cast<int>(c), attachment, b, is_M,
+                       Matrix6X::Zero(6, n), Matrix6X::Zero(6, n)});
+    }
+  }
+  std::vector<std::pair<int, int>> edges;
+  for (const auto& ends : ends_of_body_) {
+    for (const int i : ends) {
+      for (const int j : ends) {
+        const int ci = ends_[index(i)].coupler;
+        const int cj = ends_[index(j)].coupler;
+        if (ci < cj) edges.emplace_back(ci, cj);
+      }
+    }
+  }
+  lu_ = BlockLu(static_cast<int>(model.couplers.size()), edges);
+}
+
+void NewtonMatrix::factor_body(const BodyModel& body, const BodyTerms& terms,
+                               const Vector3& w,
+                               const Vector3& rotation_increment,
+                               const Coefficients& c,
+                               BodyFactor& factor) const {
+  factor.inverse_modes.array() =
+      (c.acceleration + c.velocity * body.damping.array() + body.lambda.array())
+          .inverse();
+  if (body.clamped) return;  // its rigid blocks stay zero
+  factor.inverse_mass = 1.0 / (c.acceleration * body.mass);
+  // Rotation increments are of R exp(inc): inc changes by T times them.
+  const Matrix3 T = right_jacobian_inverse(rotation_increment);
+  const Matrix3 gyroscopic = skew(w) * terms.J - skew(terms.J * w);
+  Matrix3 schur = (c.acceleration * terms.J + c.velocity * gyroscopic) * T;
+  for (int k = 0; k < body.modes; ++k) {
+    const Vector3 column = c.acceleration * terms.H.col(k);
+    const Vector3 row = T.transpose() * column;
+    factor.coupling.col(k) = column;
+    factor.back_coupling.col(k) = row;
+    schur -= factor.inverse_modes[k] * column * row.transpose();
+  }
+  factor.inverse_rotation = schur.inverse();
+  if (!factor.inverse_rotation.allFinite()) {
+    throw NumericalError(
+        fmt::format("body '{}': its inertia has become singular", body.name));
+  }
+}
+
+void NewtonMatrix::solve_body(const BodyModel& body, const BodyFactor& factor,
+                              double* x) const {
+  Eigen::Map<Vector3> translation(x);
+  Eigen::Map<Vector3> rotation(x + 3);
+  double* modes = x + 6;
+  translation *= factor.inverse_mass;
+  Vector3 right = rotation;
+  for (int k = 0; k < body.modes; ++k) {
+    modes[k] *= factor.inverse_modes[k];
+    right -= factor.coupling.col(k) * modes[k];
+  }
+  rotation = factor.inverse_rotation * right;
+  const Vector3 turned = rotation;
+  for (int k = 0; k < body.modes; ++k) {
+    modes[k] -=
+        factor.inverse_modes[k] * factor.back_coupling.col(k).dot(turned);
+  }
+}
+
+void NewtonMatrix::factor_end(const SystemModel& model,
+                              const SystemTerms& terms, End& end) const {
+  const Attachment& attachment = model.attachments[index(end.attachment)];
+  const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
+  const BodyModel& body = model.bodies[index(end.body)];
+  const Coupler& coupler = model.couplers[index(end.coupler)];
+  const Matrix3& R_WF = terms.attachments[index(coupler.frame_F)].R_WF;
+  const Matrix3 R_FB = R_WF.transpose() * motion.R_WB;
+  const Matrix3 R_FB_twist = R_FB * motion.J_psi;
+
+  // Motion of this end's frame, in F: translation over rotation.
+  end.G.leftCols<3>().topRows<3>() = R_WF.transpose();
+  end.G.leftCols<3>().bottomRows<3>().setZero();
+  end.G.middleCols<3>(3).topRows<3>() = -R_FB * skew(motion.arm_B);
+  end.G.middleCols<3>(3).bottomRows<3>() = R_FB;
+  for (int k = 0; k < body.modes; ++k) {
+    end.G.col(6 + k).head<3>() = R_FB * attachment.Phi_B.col(k);
+    end.G.col(6 + k).tail<3>() = R_FB_twist * attachment.Psi_B.col(k);
+  }
+  if (!end.is_M) {
+    // p_FM seen from a frame that moves itself: minus its motion, plus
+    // p x rotation.
+    const Vector3& p = terms.couplers[index(end.coupler)].motion.p_FM_F;
+    for (Eigen::Index k = 0; k < end.G.cols(); ++k) {
+      const Vector3 turn = end.G.col(k).tail<3>();
+      end.G.col(k).head<3>() = p.cross(turn) - end.G.col(k).head<3>();
+      end.G.col(k).tail<3>() = -turn;
+    }
+  }
+  // Columns of D^-1 G', a row of G at a time, through D's arrow shape.
+  const BodyFactor& f = bodies_[index(end.body)];
+  end.Zt.leftCols<3>() = f.inverse_mass * end.G.leftCols<3>();
+  Eigen::Matrix<double, 6, 3> right = end.G.middleCols<3>(3);
+  for (int k = 0; k < body.modes; ++k) {
+    end.Zt.col(6 + k) = f.inverse_modes[k] * end.G.col(6 + k);
+    right.noalias() -= end.Zt.col(6 + k) * f.coupling.col(k).transpose();
+  }
+  const Eigen::Matrix<double, 6, 3> turned =
+      right * f.inverse_rotation.transpose();
+  end.Zt.middleCols<3>(3) = turned;
+  for (int k = 0; k < body.modes; ++k) {
+    end.Zt.col(6 + k) -= f.inverse_modes[k] * (turned * f.back_coupling.col(k));
+  }
+}
+
+void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
+                            const Coefficients& c) {
+  lu_.set_zero();
+  for (const auto& ends : ends_of_body_) {
+    for (const int i : ends) {
+      for (const int j : ends) {
+        const End& row = ends_[index(i)];
+        const End& column = ends_[index(j)];
+        Matrix6& block = lu_.block(row.coupler, column.coupler);
+        for (Eigen::Index k = 0; k < row.G.cols(); ++k) {
+          block.noalias() += row.G.col(k) * column.Zt.col(k).transpose();
+        }
+      }
+    }
+  }
+  // Rows become I + K A, each scaled to the size of its own diagonal entry.
+  std::vector<Vector6>& scale = scale_;
+  for (std::size_t i = 0; i < model.couplers.size(); ++i) {
+    const joints::CouplerResponse& r = terms.couplers[i].response;
+    const Matrix6 K = r.stiffness + c.velocity * r.damping;
+    const Matrix6& A = lu_.block(static_cast<int>(i), static_cast<int>(i));
+    scale[i] = (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
+                   .cwiseInverse();
+    scaled_stiffness_[i] = scale[i].asDiagonal() * K;
+  }
+  for (int i = 0; i < static_cast<int>(model.couplers.size()); ++i) {
+    lu_.scale_row(i, scaled_stiffness_[index(i)]);
+    lu_.block(i, i).diagonal() += scale[index(i)];
+  }
+}
+
+void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
+                          const SystemTerms& terms,
+                          const std::vector<Vector3>& rotation_increments,
+                          const Coefficients& coefficients) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    factor_body(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
+                rotation_increments[b], coefficients, bodies_[b]);
+  }
+  for (End& end : ends_) factor_end(model, terms, end);
+  assemble(model, terms, coefficients);
+  if (!lu_.factor()) {
+    throw NumericalError(
+        "the couplers' flexibility matrix is singular or not finite");
+  }
+}
+
+void NewtonMatrix::solve(const SystemModel& model, const VectorX& residual,
+                         VectorX& increments) {
+  increments = residual;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    solve_body(body, bodies_[b],
+               increments.data() + first_row(body, static_cast<int>(b)));
+  }
+  for (Vector6& w : wrenches_) w.setZero();
+  for (const End& end : ends_) {
+    const double* x =
+        increments.data() + first_row(model.bodies[index(end.body)], end.body);
+    Vector6& w = wrenches_[index(end.coupler)];
+    for (Eigen::Index k = 0; k < end.G.cols(); ++k) w += end.G.col(k) * x[k];
+  }
+  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
+    const Vector6 right = scaled_stiffness_[i] * wrenches_[i];
+    wrenches_[i] = right;
+  }
+  lu_.solve(wrenches_);
+  increments = -increments;
+  for (const End& end : ends_) {
+    double* x =
+        increments.data() + first_row(model.bodies[index(end.body)], end.body);
+    const Vector6& w = wrenches_[index(end.coupler)];
+    for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {
+      x[k] += end.Zt.col(k).dot(w);
+    }
+  }
+}
+
+}  // namespace limber::dynamics

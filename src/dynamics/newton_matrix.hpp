@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "dynamics/block_lu.hpp"
+#include "dynamics/workspace.hpp"
+
+namespace limber::dynamics {
+
+/// Factors of the Newton matrix of one implicit step.
+///
+/// Equation   D_b x_b - sum_c G_cb' dw_c = -r_b          (each body b)
+///            dw_c = -K_c sum_b G_cb x_b                 (each coupler c)
+///            D_b: inertia, damping and elasticity of one body; its modal
+///            block is diagonal, so D_b^-1 costs O(m). G_cb: the coupler's
+///            relative motion per body increment. K_c: its stiffness plus
+///            damping. Eliminating x_b leaves six unknowns a coupler,
+///            (I + K G D^-1 G') dw = K G D^-1 r, with the coupler graph's
+///            pattern. As K grows this tends to the constrained system, so
+///            no stiffness is too stiff.
+/// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
+/// Limits     leaves out geometric stiffness of couplers and velocity
+///            derivatives of the modal inertial forces: they cost iterations,
+///            never accuracy.
+///
+/// Increments x_b: translation in world axes [m] (so that old factors, too,
+/// pass equal and opposite forces on), rotation in body axes [rad], modal
+/// coordinates; body b starts at 6 b + body.offset.
+class NewtonMatrix {
+ public:
+  NewtonMatrix() = default;
+  explicit NewtonMatrix(const SystemModel& model);
+
+  /// Derivatives of a step's end: acceleration [1/s^2] and velocity [1/s] per
+  /// increment.
+  struct Coefficients {
+    double acceleration = 0.0;
+    double velocity = 0.0;
+  };
+
+  /// Factors at the evaluated `terms`; `rotation_increments` are the step's,
+  /// one a body [rad]. @throws NumericalError naming the coupler or body.
+  void factor(const SystemModel& model, const SystemState& state,
+              const SystemTerms& terms,
+              const std::vector<Vector3>& rotation_increments,
+              const Coefficients& coefficients);
+
+  /// Increments for a residual: solves with -r. Sizes 6 bodies + modes.
+  void solve(const SystemModel& model, const VectorX& residual,
+             VectorX& increments);
+
+  [[nodiscard]] static Eigen::Index size(const SystemModel& model) {
+    return 6 * static_cast<Eigen::Index>(model.bodies.size()) +
+           model.modal_count;
+  }
+
+ private:
+  struct BodyFactor {
+    double inverse_mass = 0.0;  // of D's translation block, 0 if clamped
+    Matrix3 inverse_rotation = Matrix3::Zero();  // of the Schur complement
+    Matrix3X coupling;                           // D_re = acceleration * H
+    Matrix3X back_coupling;                      // (D_er)' = T' H acceleration
+    VectorX inverse_modes;                       // of D's diagonal modal block
+  };
+  // One end of a coupler on a body that moves.
+  struct End {
+    int coupler = 0;
+    int attachment = 0;
+    int body = 0;
+    bool is_M = false;
+    Matrix6X G;   // 6 x (6 + m)
+    Matrix6X Zt;  // (D^-1 G')'
+  };
+
+  void factor_body(const BodyModel& body, const BodyTerms& terms,
+                   const Vector3& w, const Vector3& rotation_increment,
+                   const Coefficients& c, BodyFactor& factor) const;
+  void factor_end(const SystemModel& model, const SystemTerms& terms,
+                  End& end) const;
+  // x := D^-1 x for one body's 6 + m rows.
+  void solve_body(const BodyModel& body, const BodyFactor& factor,
+                  double* x) const;
+  void assemble(const SystemModel& model, const SystemTerms& terms,
+                const Coefficients& c);
+
+  std::vector<BodyFactor> bodies_;
+  std::vector<End> ends_;
+  std::vector<std::vector<int>> ends_of_body_;
+  std::vector<Matrix6> scaled_stiffness_;  // diag(s) K per coupler
+  std::vector<Vector6> scale_;
+  std::vector<Vector6> wrenches_;
+  BlockLu lu_;
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/runge_kutta.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+
+RungeKutta4::RungeKutta4(const SystemModel& model)
+    : model_(model),
+      terms_(make_terms(model)),
+      accelerations_(make_accelerations(model)),
+      theta_(model.bodies.size(), Vector3::Zero()),
+      stage_(make_state(model)) {
+  const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
+  const VectorX modes = VectorX::Zero(model.modal_count);
+  slopes_.fill({zero, zero, zero, zero, modes, modes});
+}
+
+void RungeKutta4::calc_slope(const SystemState& at,
+                             const std::vector<Vector3>& theta, Side side,
+                             Slope& slope) {
+  calc_terms(model_, at, side, terms_);
+  solve_accelerations(model_, terms_, accelerations_);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    slope.pdot[b] = at.bodies[b].v_WB_W;
+    slope.thetadot[b] = right_jacobian_inverse(theta[b]) * at.bodies[b].w_WB_B;
+    slope.vdot[b] = accelerations_.a_WB_W[b];
+    slope.wdot[b] = accelerations_.dw_WB_B[b];
+  }
+  slope.etadot = at.etadot;
+  slope.etaddot = accelerations_.etaddot;
+}
+
+void RungeKutta4::displace(const SystemState& from, const Slope& slope,
+                           double h) {
+  stage_.t = from.t + h;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyState& old = from.bodies[b];
+    BodyState& body = stage_.bodies[b];
+    theta_[b] = h * slope.thetadot[b];
+    body.p_WB = old.p_WB + h * slope.pdot[b];
+    body.quat_WB = old.quat_WB * exp_quaternion(theta_[b]);
+    body.v_WB_W = old.v_WB_W + h * slope.vdot[b];
+    body.w_WB_B = old.w_WB_B + h * slope.wdot[b];
+  }
+  stage_.eta = from.eta + h * slope.etadot;
+  stage_.etadot = from.etadot + h * slope.etaddot;
+}
+
+StepResult RungeKutta4::step(SystemState& state, double h) {
+  for (Vector3& theta : theta_) theta.setZero();
+  calc_slope(state, theta_, Side::right, slopes_[0]);
+  StepResult result;
+  double work = terms_.load_power;
+  double loss = terms_.dissipated_power;
+  const std::array<double, 3> shares = {0.5, 0.5, 1.0};
+  for (std::size_t s = 0; s < 3; ++s) {
+    displace(state, slopes_[s], shares[s] * h);
+    const bool at_end = s == 2;
+    calc_slope(stage_, theta_, at_end ? Side::left : Side::right,
+               slopes_[s + 1]);
+    work += (at_end ? 1.0 : 2.0) * terms_.load_power;
+    loss += (at_end ? 1.0 : 2.0) * terms_.dissipated_power;
+  }
+  // The weighted mean of the slopes, gathered in the first.
+  auto& k = slopes_;
+  const auto mean = [&](auto member) {
+    auto& sum = k[0].*member;
+    for (std::size_t b = 0; b < sum.size(); ++b) {
+      sum[b] = (sum[b] + 2.0 * (k[1].*member)[b] + 2.0 * (k[2].*member)[b] +
+                (k[3].*member)[b]) /
+               6.0;
+    }
+  };
+  mean(&Slope::pdot);
+  mean(&Slope::thetadot);
+  mean(&Slope::vdot);
+  mean(&Slope::wdot);
+  k[0].etadot += 2.0 * k[1].etadot + 2.0 * k[2].etadot + k[3].etadot;
+  k[0].etadot /= 6.0;
+  k[0].etaddot += 2.0 * k[1].etaddot + 2.0 * k[2].etaddot + k[3].etaddot;
+  k[0].etaddot /= 6.0;
+  displace(state, k[0], h);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    BodyState& body = stage_.bodies[b];
+    body.quat_WB.normalize();
+    const BodyModel& m = model_.bodies[b];
+    const double size = body.p_WB.squaredNorm() + body.w_WB_B.squaredNorm() +
+                        stage_.eta.segment(m.offset, m.modes).squaredNorm();
+    if (!std::isfinite(size)) {
+      throw NumericalError(fmt::format(
+          "body '{}' at t = {:.9g} s: its motion is no longer finite; the "
+          "explicit step {:.3g} s is too long for its stiffest mode or "
+          "coupler",
+          m.name, stage_.t, h));
+    }
+  }
+  std::swap(state, stage_);
+  result.load_work = h * work / 6.0;
+  result.dissipated = h * loss / 6.0;
+  return result;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dynamics/equations.hpp"
+#include "dynamics/step_result.hpp"
+
+namespace limber::dynamics {
+
+/// Explicit fourth-order Runge-Kutta on the group (Munthe-Kaas): the classic
+/// tableau in the rotation vector of each step.
+///
+/// Source     Munthe-Kaas, "Runge-Kutta methods on Lie groups", BIT 38, 1998.
+/// Limits     stable only for h below about 2.8 / the highest frequency.
+class RungeKutta4 {
+ public:
+  explicit RungeKutta4(const SystemModel& model);
+
+  /// Advances `state` by h.
+  /// @throws NumericalError if the motion is no longer finite.
+  StepResult step(SystemState& state, double h);
+
+ private:
+  struct Slope {
+    std::vector<Vector3> pdot, thetadot, vdot, wdot;
+    VectorX etadot, etaddot;
+  };
+  void calc_slope(const SystemState& at, const std::vector<Vector3>& theta,
+                  Side side, Slope& slope);
+  void displace(const SystemState& from, const Slope& slope, double h);
+
+  const SystemModel& model_;
+  SystemTerms terms_;
+  Accelerations accelerations_;
+  std::array<Slope, 4> slopes_;
+  std::vector<Vector3> theta_;  // rotation since the step's start
+  SystemState stage_;
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/system_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "dynamics/body_model.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+void check_inertia(const std::string& name, double mass,
+                   const Matrix3& inertia) {
+  if (!(mass > 0.0) || !std::isfinite(mass)) {
+    throw InputError(fmt::format(
+        "body '{}': mass is {:g} kg; a body that moves needs mass > 0", name,
+        mass));
+  }
+  const Vector3 principal =
+      Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  if (!inertia.allFinite() || !(principal.minCoeff() > 0.0)) {
+    throw InputError(fmt::format(
+        "body '{}': its inertia has the principal moments ({:g}, {:g}, {:g}) "
+        "kg m^2; expected all > 0",
+        name, principal[0], principal[1], principal[2]));
+  }
+}
+
+VectorX modal_damping(const std::string& name, const ModalDamping& damping,
+                      const VectorX& lambda) {
+  const auto& ratios = damping.ratios;
+  const auto modes = static_cast<std::size_t>(lambda.size());
+  if (ratios.size() > 1 && ratios.size() != modes) {
+    throw InputError(fmt::format(
+        "body '{}': {} damping ratios for {} modes; give one for all or one "
+        "a mode",
+        name, ratios.size(), modes));
+  }
+  VectorX c(lambda.size());
+  for (std::size_t k = 0; k < modes; ++k) {
+    const double ratio =
+        ratios.empty() ? 0.0 : ratios[ratios.size() == 1 ? 0 : k];
+    const auto i = static_cast<Eigen::Index>(k);
+    c[i] = 2.0 * ratio * std::sqrt(lambda[i]) + damping.rayleigh_mass +
+           damping.rayleigh_stiffness * lambda[i];
+  }
+  if (c.size() > 0 && !(c.minCoeff() >= 0.0)) {
+    throw InputError(fmt::format(
+        "body '{}': its damping is negative; it would feed energy in", name));
+  }
+  return c;
+}
+
+}  // namespace
+
+BodyIndex SystemBuilder::add_rigid_body(const std::string& name,
+                                        const RigidInertia& inertia) {
+  check_inertia(name, inertia.mass, inertia.inertia);
+  BodyModel body;
+  body.name = name;
+  body.mass = inertia.mass;
+  body.J0 = inertia.inertia;
+  body.offset = model_.modal_count;
+  model_.bodies.push_back(std::move(body));
+  return static_cast<BodyIndex>(model_.bodies.size()) - 1;
+}
+
+BodyIndex SystemBuilder::add_flexible_body(
+    const std::string& name,
+    std::shared_ptr<const flexbody::ReducedBody> reduced, Fidelity fidelity,
+    const ModalDamping& damping) {
+  LIMBER_EXPECT(reduced != nullptr);
+  check_inertia(name, reduced->mass, reduced->inertia());
+  BodyModel body;
+  body.name = name;
+  body.fidelity = fidelity;
+  body.clamped = reduced->clamped;
+  body.mass = reduced->mass;
+  body.J0 = reduced->inertia();
+  body.offset = model_.modal_count;
+  if (fidelity != Fidelity::rigid) {
+    body.modes = reduced->mode_count();
+    body.lambda = reduced->lambda;
+    body.damping = modal_damping(name, damping, reduced->lambda);
+    pack_inertia(*reduced, body);
+  }
+  body.reduced = std::move(reduced);
+  model_.modal_count += body.modes;
+  model_.bodies.push_back(std::move(body));
+  return static_cast<BodyIndex>(model_.bodies.size()) - 1;
+}
+
+AttachmentIndex SystemBuilder::attach_frame(const std::string& name,
+                                            BodyIndex body, const Pose& X_BF) {
+  LIMBER_EXPECT(body >= 0 && body < static_cast<int>(model_.bodies.size()));
+  const int modes = model_.bodies[static_cast<std::size_t>(body)].modes;
+  model_.attachments.push_back({.name = name,
+                                .body = body,
+                                .p_BF = X_BF.p,
+                                .R_BF = X_BF.R,
+                                .Phi_B = Matrix3X::Zero(3, modes),
+                                .Psi_B = Matrix3X::Zero(3, modes)});
+  return static_cast<AttachmentIndex>(model_.attachments.size()) - 1;
+}
+
+AttachmentIndex SystemBuilder::attach_interface(
+    const std::string& name, BodyIndex body,
+    const flexbody::InterfaceTable& interface, const Pose& X_BF) {
+  const AttachmentIndex index = attach_frame(name, body, X_BF);
+  Attachment& attachment = model_.attachments.back();
+  if (attachment.Phi_B.cols() == 0) return index;  // a rigid body
+  LIMBER_EXPECT(interface.Phi_B.cols() == attachment.Phi_B.cols());
+  LIMBER_EXPECT(interface.Psi_B.cols() == attachment.Psi_B.cols());
+  // The frame's origin may sit off the mean point: it follows the rotation.
+  const Vector3 arm = X_BF.p - interface.p_B;
+  attachment.Psi_B = interface.Psi_B;
+  attachment.Phi_B = interface.Phi_B;
+  for (Eigen::Index k = 0; k < attachment.Phi_B.cols(); ++k) {
+    attachment.Phi_B.col(k) += Vector3(interface.Psi_B.col(k)).cross(arm);
+  }
+  return index;
+}
+
+AttachmentIndex SystemBuilder::attach_world(const std::string& name,
+                                            const Pose& X_WF) {
+  model_.attachments.push_back({.name = name,
+                                .body = kWorld,
+                                .p_BF = X_WF.p,
+                                .R_BF = X_WF.R,
+                                .Phi_B = Matrix3X::Zero(3, 0),
+                                .Psi_B = Matrix3X::Zero(3, 0)});
+  return static_cast<AttachmentIndex>(model_.attachments.size()) - 1;
+}
+
+CouplerIndex SystemBuilder::add_coupler(const std::string& name,
+                                        const joints::CouplerLaw& law,
+                                        AttachmentIndex frame_F,
+                                        AttachmentIndex frame_M) {
+  const auto count = static_cast<int>(model_.attachments.size());
+  LIMBER_EXPECT(frame_F >= 0 && frame_F < count);
+  LIMBER_EXPECT(frame_M >= 0 && frame_M < count);
+  const auto body_of = [&](AttachmentIndex i) {
+    return model_.attachments[static_cast<std::size_t>(i)].body;
+  };
+  if (body_of(frame_F) == body_of(frame_M)) {
+    throw InputError(fmt::format(
+        "coupler '{}': both of its ends are on the same body", name));
+  }
+  model_.couplers.push_back({name, law, frame_F, frame_M});
+  return static_cast<CouplerIndex>(model_.couplers.size()) - 1;
+}
+
+LoadIndex SystemBuilder::add_load(const std::string& name,
+                                  AttachmentIndex where, const Vector3& force,
+                                  const Vector3& moment, LoadFrame frame,
+                                  const TimeFunction& function) {
+  LIMBER_EXPECT(where >= 0 &&
+                where < static_cast<int>(model_.attachments.size()));
+  if (!force.allFinite() || !moment.allFinite()) {
+    throw InputError(fmt::format("load '{}': not finite", name));
+  }
+  check(function);
+  model_.loads.push_back(
+      {name, where, force, moment, frame == LoadFrame::world, function});
+  return static_cast<LoadIndex>(model_.loads.size()) - 1;
+}
+
+void SystemBuilder::set_gravity(const Vector3& gravity_W) {
+  if (!gravity_W.allFinite()) throw InputError("gravity is not finite");
+  model_.gravity_W = gravity_W;
+}
+
+SystemModel SystemBuilder::build() const {
+  if (model_.bodies.empty()) {
+    throw InputError("the system has no body that can move");
+  }
+  return model_;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "dynamics/kinematics.hpp"
+#include "dynamics/system_model.hpp"
+#include "joints/motion.hpp"
+
+namespace limber::dynamics {
+
+/// One body's part of the equations of motion at a state.
+///
+/// Equation   mass v'                = f_W
+///            J w' + H eta''         = t_B - bias_r
+///            H' w' + eta''          = q - bias_e
+struct BodyTerms {
+  Matrix3 R_WB;
+  Matrix3 J;            ///< inertia at the level's fidelity [kg m^2]
+  Matrix3X H;           ///< 3 x m, sum_k eta_k beta_kl
+  Vector3 bias_r;       ///< Jdot w + w x (J w + H etadot) [N m]
+  VectorX bias_e;       ///< inertial, damping and elastic terms
+  Vector3 force_W;      ///< resultant of loads and couplers [N]
+  Vector3 moment_B;     ///< about Bo [N m]
+  VectorX modal_force;  ///< m
+  VectorX scratch_J2;   ///< 6m: J2 eta
+  VectorX scratch_b1;   ///< 3m: beta eta
+  VectorX scratch_b2;   ///< 3m: beta etadot
+};
+
+/// One coupler at a state.
+struct CouplerTerms {
+  joints::RelativeMotion motion;
+  joints::CouplerResponse response;
+};
+
+/// Everything that is computed at one state. Sized once, by make_terms;
+/// refilled without allocation.
+struct SystemTerms {
+  std::vector<BodyTerms> bodies;              ///< by calc_inertia_terms
+  std::vector<AttachmentMotion> attachments;  ///< by calc_forces
+  std::vector<CouplerTerms> couplers;         ///< by calc_forces
+  double load_power = 0.0;        ///< of loads and gravity [W], calc_forces
+  double dissipated_power = 0.0;  ///< couplers and modes [W], calc_forces
+};
+
+/// Accelerations of all bodies.
+struct Accelerations {
+  std::vector<Vector3> a_WB_W;   ///< [m/s^2]
+  std::vector<Vector3> dw_WB_B;  ///< [rad/s^2]
+  VectorX etaddot;
+};
+
+[[nodiscard]] SystemTerms make_terms(const SystemModel& model);
+[[nodiscard]] Accelerations make_accelerations(const SystemModel& model);
+
+}  // namespace limber::dynamics
