@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/body_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <functional>
+
+#include "common/errors.hpp"
+#include "common/hdf5_file.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+const char* const kFormat = "limber reduced body";
+
+std::vector<std::int64_t> to_integers(const std::vector<std::size_t>& v) {
+  return {v.begin(), v.end()};
+}
+
+std::vector<std::size_t> to_sizes(const std::vector<std::int64_t>& v) {
+  return {v.begin(), v.end()};
+}
+
+MatrixX stack(const std::vector<Matrix3>& matrices) {
+  MatrixX rows(static_cast<Eigen::Index>(matrices.size()), 9);
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = matrices[i].reshaped();
+  }
+  return rows;
+}
+
+std::vector<Matrix3> unstack(const MatrixX& rows) {
+  std::vector<Matrix3> matrices(static_cast<std::size_t>(rows.rows()));
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    matrices[i].reshaped() = rows.row(static_cast<Eigen::Index>(i));
+  }
+  return matrices;
+}
+
+void write_rows(Hdf5File& out, const ReducedBody& body) {
+  out.write("rows/tags", to_integers(body.rows.tags), "1", "Gmsh node tags");
+  out.write("rows/x_B", body.rows.x_B, "m",
+            "undeformed positions from the centre of mass, 3 x n");
+  out.write("rows/Phi_B", body.rows.Phi_B, "kg^-1/2", "mode shapes, 3n x m");
+  std::vector<std::int64_t> corners;
+  for (const auto& t : body.triangles) {
+    for (const std::size_t i : t) {
+      corners.push_back(static_cast<std::int64_t>(i));
+    }
+  }
+  out.write("rows/triangles", corners, "1",
+            "surface triangles as row indices, three each, outward");
+}
+
+void write_groups(Hdf5File& out, const ReducedBody& body) {
+  for (std::size_t i = 0; i < body.groups.size(); ++i) {
+    const NodeGroup& group = body.groups[i];
+    const std::string at = fmt::format("groups/{:04}/", i);
+    out.write(at + "name", group.name, "physical group");
+    out.write(at + "dimension", std::vector<std::int64_t>{group.dimension}, "1",
+              "0 point, 1 curve, 2 surface, 3 volume");
+    out.write(at + "tags", to_integers(group.tags), "1", "Gmsh node tags");
+    out.write(at + "weights", MatrixX(group.weights), "1",
+              "share of a uniform load, sum 1");
+  }
+}
+
+void write_interfaces(Hdf5File& out, const ReducedBody& body) {
+  for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
+    const InterfaceTable& table = body.interfaces[i];
+    const std::string at = fmt::format("interfaces/{:04}/", i);
+    out.write(at + "name", table.name, "interface");
+    out.write(at + "p_B", MatrixX(table.p_B), "m", "undeformed mean point");
+    out.write(at + "Phi_B", MatrixX(table.Phi_B), "kg^-1/2",
+              "translation per modal coordinate, 3 x m");
+    out.write(at + "Psi_B", MatrixX(table.Psi_B), "rad kg^-1/2 m^-1",
+              "rotation per modal coordinate, 3 x m");
+    out.write(at + "rotation_rank",
+              std::vector<std::int64_t>{table.rotation_rank}, "1",
+              "rotations that the node set defines");
+    out.write(at + "flexibility", MatrixX(table.flexibility), "m/N, rad/(N m)",
+              "inertia-relieved flexibility, 6 x 6");
+  }
+}
+
+void write_content(Hdf5File& out, const ReducedBody& body) {
+  out.write("format", kFormat, "what this file is");
+  out.write("version", std::vector<std::int64_t>{kBodyFileVersion}, "1",
+            "layout of this file");
+  out.write("name", body.name, "body");
+  out.write("content_key", body.content_key, "hash of all that went in");
+  out.write("clamped", std::vector<std::int64_t>{body.clamped ? 1 : 0}, "1",
+            "1 if B is fixed in the world");
+  out.write("mass", MatrixX::Constant(1, 1, body.mass), "kg", "mass");
+  out.write("p_MoBcm_M", MatrixX(body.p_MoBcm_M), "m",
+            "centre of mass in the mesh frame");
+  out.write("size", MatrixX(body.size), "m", "edges of the bounding box");
+  out.write("mesh_counts",
+            to_integers({body.mesh_nodes, body.mesh_elements,
+                         body.mesh_boundary_nodes}),
+            "1", "nodes, elements, boundary nodes of the mesh");
+  out.write("integrals/S0", MatrixX(body.integrals.S0), "kg m^2",
+            "int x x' dm");
+  out.write("integrals/S1", stack(body.integrals.S1), "kg^1/2 m",
+            "int x phi_k' dm, column-major 3 x 3 a row");
+  out.write("integrals/S2", stack(body.integrals.S2), "1",
+            "int phi_k phi_l' dm, row k m + l, column-major 3 x 3 a row");
+  out.write("lambda", MatrixX(body.lambda), "rad^2/s^2", "eigenvalues");
+  write_rows(out, body);
+  write_groups(out, body);
+  write_interfaces(out, body);
+}
+
+// Reads with sizes and finiteness checked; every doubt is an InputError.
+class Reader {
+ public:
+  Reader(const Hdf5File& in, const std::filesystem::path& file)
+      : in_(in), file_(file) {}
+
+  [[nodiscard]] MatrixX matrix(const std::string& name, Eigen::Index rows,
+                               Eigen::Index columns) const {
+    MatrixX m = in_.read_matrix(name);
+    if (m.rows() != rows || m.cols() != columns) {
+      fail(fmt::format("'{}' is {} x {}; expected {} x {}", name, m.rows(),
+                       m.cols(), rows, columns));
+    }
+    if (!m.allFinite()) fail(fmt::format("'{}' is not finite", name));
+    return m;
+  }
+  [[nodiscard]] std::int64_t integer(const std::string& name) const {
+    const auto values = in_.read_integers(name);
+    if (values.size() != 1) fail(fmt::format("'{}' is not one number", name));
+    return values[0];
+  }
+  // Integers that are not negative, `count` of them (any number if negative).
+  [[nodiscard]] std::vector<std::size_t> sizes(const std::string& name,
+                                               std::int64_t count) const {
+    const auto values = in_.read_integers(name);
+    for (const std::int64_t v : values) {
+      if (v < 0) fail(fmt::format("'{}' holds {}", name, v));
+    }
+    if (count >= 0 && static_cast<std::int64_t>(values.size()) != count) {
+      fail(fmt::format("'{}' has {} entries; expected {}", name, values.size(),
+                       count));
+    }
+    return to_sizes(values);
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(
+        fmt::format("'{}': {}; the reduced body is damaged, make it anew",
+                    file_.string(), what));
+  }
+  [[nodiscard]] const Hdf5File& in() const { return in_; }
+
+ private:
+  const Hdf5File& in_;
+  const std::filesystem::path& file_;
+};
+
+void read_rows(const Reader& reader, ReducedBody& body) {
+  const Eigen::Index m = body.lambda.size();
+  body.rows.tags = reader.sizes("rows/tags", -1);
+  const auto n = static_cast<Eigen::Index>(body.rows.tags.size());
+  body.rows.x_B = reader.matrix("rows/x_B", 3, n);
+  body.rows.Phi_B = reader.matrix("rows/Phi_B", 3 * n, m);
+  const auto corners = reader.sizes("rows/triangles", -1);
+  if (corners.size() % 3 != 0) reader.fail("'rows/triangles' is cut short");
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    body.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    for (const std::size_t c : body.triangles.back()) {
+      if (c >= body.rows.tags.size()) {
+        reader.fail("'rows/triangles' names a row that does not exist");
+      }
+    }
+  }
+}
+
+void read_groups(const Reader& reader, ReducedBody& body) {
+  for (const std::string& entry : reader.in().list("groups")) {
+    const std::string at = "groups/" + entry + "/";
+    NodeGroup group;
+    group.name = reader.in().read_text(at + "name");
+    group.dimension = static_cast<int>(reader.integer(at + "dimension"));
+    group.tags = reader.sizes(at + "tags", -1);
+    group.weights = reader.matrix(
+        at + "weights", static_cast<Eigen::Index>(group.tags.size()), 1);
+    body.groups.push_back(std::move(group));
+  }
+}
+
+void read_interfaces(const Reader& reader, ReducedBody& body) {
+  const Eigen::Index m = body.lambda.size();
+  for (const std::string& entry : reader.in().list("interfaces")) {
+    const std::string at = "interfaces/" + entry + "/";
+    InterfaceTable table;
+    table.name = reader.in().read_text(at + "name");
+    table.p_B = reader.matrix(at + "p_B", 3, 1);
+    table.Phi_B = reader.matrix(at + "Phi_B", 3, m);
+    table.Psi_B = reader.matrix(at + "Psi_B", 3, m);
+    table.rotation_rank =
+        static_cast<int>(reader.integer(at + "rotation_rank"));
+    table.flexibility = reader.matrix(at + "flexibility", 6, 6);
+    body.interfaces.push_back(std::move(table));
+  }
+}
+
+void check_format(const Reader& reader) {
+  if (!reader.in().has("format") ||
+      reader.in().read_text("format") != kFormat) {
+    reader.fail("it is not a reduced body of Limber's");
+  }
+  const std::int64_t version = reader.integer("version");
+  if (version != kBodyFileVersion) {
+    reader.fail(fmt::format("its layout is version {}; this program reads {}",
+                            version, kBodyFileVersion));
+  }
+}
+
+}  // namespace
+
+void write_body(const ReducedBody& body, const std::filesystem::path& file) {
+  // Whole or not at all: write beside it, then rename.
+  std::filesystem::path part = file;
+  part += fmt::format(".part{}", getpid());
+  try {
+    Hdf5File out = Hdf5File::create(part);
+    write_content(out, body);
+    out.close();
+    std::filesystem::rename(part, file);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw InputError(fmt::format("the reduced body '{}' cannot be written: {}",
+                                 file.string(), error.what()));
+  }
+}
+
+ReducedBody read_body(const std::filesystem::path& file) {
+  const Hdf5File in = Hdf5File::open(file);
+  const Reader reader(in, file);
+  check_format(reader);
+  ReducedBody body;
+  body.name = in.read_text("name");
+  body.content_key = in.read_text("content_key");
+  body.clamped = reader.integer("clamped") != 0;
+  body.mass = reader.matrix("mass", 1, 1)(0, 0);
+  body.p_MoBcm_M = reader.matrix("p_MoBcm_M", 3, 1);
+  body.size = reader.matrix("size", 3, 1);
+  const auto counts = reader.sizes("mesh_counts", 3);
+  body.mesh_nodes = counts[0];
+  body.mesh_elements = counts[1];
+  body.mesh_boundary_nodes = counts[2];
+
+  const MatrixX lambda = in.read_matrix("lambda");
+  const Eigen::Index m = lambda.rows();
+  body.lambda = reader.matrix("lambda", m, 1);
+  body.integrals.S0 = reader.matrix("integrals/S0", 3, 3);
+  body.integrals.S1 = unstack(reader.matrix("integrals/S1", m, 9));
+  body.integrals.S2 = unstack(reader.matrix("integrals/S2", m * m, 9));
+  read_rows(reader, body);
+  read_groups(reader, body);
+  read_interfaces(reader, body);
+  return body;
+}
+
+}  // namespace limber::flexbody

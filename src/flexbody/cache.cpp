@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/cache.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <type_traits>
+
+#include "common/errors.hpp"
+#include "flexbody/body_file.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+// Raise when the reduction itself changes: it makes old entries unknown.
+constexpr int kReductionVersion = 1;
+
+// Feeds values to the hash so that no two different recipes look alike: every
+// text and list is preceded by its length.
+class Digest {
+ public:
+  Digest() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
+  Digest(const Digest&) = delete;
+  Digest& operator=(const Digest&) = delete;
+  ~Digest() { XXH3_freeState(state_); }
+
+  template <typename T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void add(const T& value) {
+    XXH3_128bits_update(state_, &value, sizeof(value));
+  }
+  void add(const std::string& text) {
+    add(text.size());
+    XXH3_128bits_update(state_, text.data(), text.size());
+  }
+  void add(const Vector3& v) {
+    for (const double x : v) add(x);
+  }
+  [[nodiscard]] std::string text() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_);
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  }
+
+ private:
+  XXH3_state_t* state_;
+};
+
+std::string read_bytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw InputError(fmt::format(
+        "mesh file '{}' cannot be read; does it exist?", file.string()));
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Files that a .geo script pulls in, by its Include and Merge lines.
+void add_included_files(const std::filesystem::path& file,
+                        const std::string& script, Digest& digest) {
+  for (const char* keyword : {"Include", "Merge"}) {
+    for (std::size_t at = script.find(keyword); at != std::string::npos;
+         at = script.find(keyword, at + 1)) {
+      const std::size_t open = script.find('"', at);
+      const std::size_t close = script.find('"', open + 1);
+      if (close == std::string::npos) break;
+      const std::filesystem::path other =
+          file.parent_path() / script.substr(open + 1, close - open - 1);
+      if (std::filesystem::is_regular_file(other)) {
+        digest.add(read_bytes(other));
+      }
+    }
+  }
+}
+
+void add_mesh(const MeshSource& mesh, Digest& digest) {
+  const std::string bytes = read_bytes(mesh.file);
+  digest.add(mesh.file.extension().string());
+  digest.add(bytes);
+  if (mesh.file.extension() == ".geo") {
+    add_included_files(mesh.file, bytes, digest);
+  }
+  digest.add(mesh.size);
+  digest.add(mesh.order);
+  digest.add(mesh.unit);
+}
+
+void add_selection(const NodeSelection& nodes, Digest& digest) {
+  digest.add(nodes.index());
+  if (const auto* group = std::get_if<GroupNodes>(&nodes)) {
+    digest.add(group->group);
+  } else if (const auto* node = std::get_if<TaggedNode>(&nodes)) {
+    digest.add(node->tag);
+  } else if (const auto* nearest = std::get_if<NearestNode>(&nodes)) {
+    digest.add(nearest->point);
+  } else if (const auto* box = std::get_if<BoxNodes>(&nodes)) {
+    digest.add(box->lower);
+    digest.add(box->upper);
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+}
+
+}  // namespace
+
+std::string content_key(const Recipe& recipe) {
+  Digest digest;
+  digest.add(kBodyFileVersion);
+  digest.add(kReductionVersion);
+  add_mesh(recipe.mesh, digest);
+  digest.add(recipe.materials.size());
+  for (const MaterialRegion& region : recipe.materials) {
+    digest.add(region.group);
+    digest.add(region.material.youngs_modulus);
+    digest.add(region.material.poisson_ratio);
+    digest.add(region.material.density);
+  }
+  digest.add(recipe.clamped_groups.size());
+  for (const std::string& group : recipe.clamped_groups) digest.add(group);
+  digest.add(recipe.interfaces.size());
+  for (const InterfaceRequest& request : recipe.interfaces) {
+    digest.add(request.name);
+    add_selection(request.nodes, digest);
+    digest.add(request.weighting);
+    digest.add(request.static_modes);
+  }
+  digest.add(recipe.load_patterns.size());
+  for (const LoadPattern& pattern : recipe.load_patterns) {
+    digest.add(pattern.interface);
+    digest.add(pattern.force);
+    digest.add(pattern.moment);
+  }
+  digest.add(recipe.basis.eigenmodes);
+  digest.add(recipe.basis.interface_modes);
+  digest.add(recipe.basis.load_modes);
+  digest.add(recipe.basis.drop_tolerance);
+  digest.add(recipe.rows);
+  return digest.text();
+}
+
+std::filesystem::path default_cache_folder() {
+  if (const char* own = std::getenv("LIMBER_CACHE")) return own;
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME")) {
+    return std::filesystem::path(xdg) / "limber";
+  }
+  if (const char* home = std::getenv("HOME")) {
+    return std::filesystem::path(home) / ".cache" / "limber";
+  }
+  return std::filesystem::temp_directory_path() / "limber-cache";
+}
+
+CachedBody load_or_reduce(
+    const Recipe& recipe, const std::filesystem::path& folder,
+    const std::function<ReducedBody(const Recipe&)>& reduce) {
+  const std::string key = content_key(recipe);
+  const std::filesystem::path file = folder / (key + ".h5");
+  if (std::filesystem::exists(file)) {
+    try {
+      ReducedBody body = read_body(file);
+      // Two links of one shape share an entry; the name is the asker's.
+      body.name = recipe.name;
+      return {std::move(body), true};
+    } catch (const InputError&) {
+      // A damaged entry is made anew below.
+    }
+  }
+  CachedBody made{reduce(recipe), false};
+  made.body.content_key = key;
+  make_folder(folder);
+  try {
+    write_body(made.body, file);
+  } catch (const InputError&) {
+    // Not kept: the next run only takes longer.
+  }
+  return made;
+}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dynamics/system_model.hpp"
+#include "dynamics/system_state.hpp"
+#include "results/history.hpp"
+
+/// Pictures for people who would rather look than read. Drawn as PNG by
+/// gnuplot; without it the data are all there, and the answer says what to
+/// install. Each function returns an empty string, or why there is no picture.
+namespace limber::results {
+
+/// One named line in time.
+struct Series {
+  std::string name;
+  std::vector<double> times;  ///< [s]
+  std::vector<double> values;
+};
+
+/// One panel: lines that share an axis.
+struct Panel {
+  std::string label;  ///< of the vertical axis, with its unit
+  std::vector<Series> series;
+};
+
+/// Panels one above the other with a common time axis.
+[[nodiscard]] std::string draw_overlay(const std::filesystem::path& file,
+                                       const std::string& title,
+                                       const std::vector<Panel>& panels);
+
+/// Energies over time: what each part holds, work and dissipation.
+[[nodiscard]] std::string draw_energy(const std::filesystem::path& file,
+                                      const std::string& title,
+                                      const History& history);
+
+/// The surfaces of all flexible bodies (and the frames of rigid ones) at the
+/// given states, deformation drawn `exaggeration` times.
+[[nodiscard]] std::string draw_scene(
+    const std::filesystem::path& file, const std::string& title,
+    const dynamics::SystemModel& model,
+    const std::vector<dynamics::SystemState>& states, double exaggeration);
+
+}  // namespace limber::results

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "results/history.hpp"
+
+namespace limber::results {
+
+/// Writes "time [s],NAME [UNIT],..." and a line an output time, 17 digits.
+/// @throws InputError if the place cannot be written.
+void write_probes_csv(const std::filesystem::path& file,
+                      const History& history);
+
+}  // namespace limber::results

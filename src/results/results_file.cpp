@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/results_file.hpp"
+
+#include <functional>
+
+#include "common/hdf5_file.hpp"
+
+namespace limber::results {
+namespace {
+
+using dynamics::EnergyBalance;
+using dynamics::SystemState;
+
+Eigen::Index count(const History& history) {
+  return static_cast<Eigen::Index>(history.times.size());
+}
+
+void write_probes(Hdf5File& out, const History& history) {
+  for (std::size_t c = 0; c < history.columns.size(); ++c) {
+    MatrixX values(count(history), 1);
+    for (std::size_t i = 0; i < history.times.size(); ++i) {
+      values(static_cast<Eigen::Index>(i), 0) = history.probe_rows[i][c];
+    }
+    out.write("probes/" + history.columns[c].name, values,
+              history.columns[c].unit, "probe at each output time");
+  }
+}
+
+void write_body_states(Hdf5File& out, const dynamics::BodyModel& body,
+                       std::size_t b, const History& history) {
+  MatrixX position(count(history), 3);
+  MatrixX rotation(count(history), 4);
+  MatrixX velocity(count(history), 3);
+  MatrixX spin(count(history), 3);
+  MatrixX eta(count(history), body.modes);
+  MatrixX etadot(count(history), body.modes);
+  for (Eigen::Index i = 0; i < count(history); ++i) {
+    const SystemState& state = history.states[static_cast<std::size_t>(i)];
+    const dynamics::BodyState& rigid = state.bodies[b];
+    position.row(i) = rigid.p_WB;
+    rotation.row(i) << rigid.quat_WB.w(), rigid.quat_WB.x(), rigid.quat_WB.y(),
+        rigid.quat_WB.z();
+    velocity.row(i) = rigid.v_WB_W;
+    spin.row(i) = rigid.w_WB_B;
+    eta.row(i) = state.eta.segment(body.offset, body.modes);
+    etadot.row(i) = state.etadot.segment(body.offset, body.modes);
+  }
+  const std::string at = "bodies/" + body.name + "/";
+  out.write(at + "fidelity", std::string(to_string(body.fidelity)),
+            "level of the body");
+  out.write(at + "p_WB", position, "m", "centre of mass, world frame");
+  out.write(at + "quat_WB", rotation, "1", "body to world, w x y z");
+  out.write(at + "v_WB_W", velocity, "m/s", "velocity, world frame");
+  out.write(at + "w_WB_B", spin, "rad/s", "angular velocity, body frame");
+  out.write(at + "eta", eta, "kg^1/2 m", "modal coordinates");
+  out.write(at + "etadot", etadot, "kg^1/2 m/s", "modal velocities");
+}
+
+void write_energies(Hdf5File& out, const History& history) {
+  const auto write = [&](const char* name, const char* meaning, auto field) {
+    MatrixX values(count(history), 1);
+    for (Eigen::Index i = 0; i < count(history); ++i) {
+      values(i, 0) = history.energies[static_cast<std::size_t>(i)].*field;
+    }
+    out.write(std::string("energy/") + name, values, "J", meaning);
+  };
+  write("kinetic_rigid", "m v^2/2 + w' J w/2", &EnergyBalance::kinetic_rigid);
+  write("kinetic_modal", "w' H etadot + etadot^2/2",
+        &EnergyBalance::kinetic_modal);
+  write("elastic", "eta' diag(lambda) eta/2", &EnergyBalance::elastic);
+  write("coupler", "stored in couplers", &EnergyBalance::coupler);
+  write("dissipated", "since the start", &EnergyBalance::dissipated);
+  write("work", "of loads and gravity since the start", &EnergyBalance::work);
+
+  MatrixX linear(count(history), 3);
+  MatrixX angular(count(history), 3);
+  for (Eigen::Index i = 0; i < count(history); ++i) {
+    const EnergyBalance& e = history.energies[static_cast<std::size_t>(i)];
+    linear.row(i) = e.linear_momentum;
+    angular.row(i) = e.angular_momentum;
+  }
+  out.write("momentum/linear", linear, "kg m/s", "world frame");
+  out.write("momentum/angular", angular, "kg m^2/s", "about the world origin");
+}
+
+}  // namespace
+
+void write_results(const std::filesystem::path& file,
+                   const dynamics::SystemModel& model, const History& history) {
+  Hdf5File out = Hdf5File::create(file);
+  out.write("format", "limber results", "what this file is");
+  out.write("version", std::vector<std::int64_t>{kResultsFileVersion}, "1",
+            "layout of this file");
+  MatrixX times(count(history), 1);
+  for (Eigen::Index i = 0; i < count(history); ++i) {
+    times(i, 0) = history.times[static_cast<std::size_t>(i)];
+  }
+  out.write("time", times, "s", "output times");
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    write_body_states(out, model.bodies[b], b, history);
+  }
+  write_probes(out, history);
+  write_energies(out, history);
+  out.close();
+}
+
+}  // namespace limber::results

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/xdmf.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <fstream>
+
+#include "common/errors.hpp"
+#include "common/hdf5_file.hpp"
+
+namespace limber::results {
+namespace {
+
+using dynamics::BodyModel;
+using dynamics::SystemModel;
+using dynamics::SystemState;
+
+// All surfaces as one mesh: bodies' rows one after the other.
+struct Surface {
+  std::vector<std::size_t> bodies;  // indices of those with a mesh
+  std::vector<double> corners;      // three a triangle
+  std::size_t nodes = 0;
+};
+
+Surface gather_surface(const SystemModel& model) {
+  Surface surface;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto& reduced = model.bodies[b].reduced;
+    if (!reduced || reduced->triangles.empty()) continue;
+    surface.bodies.push_back(b);
+    for (const auto& triangle : reduced->triangles) {
+      for (const std::size_t corner : triangle) {
+        surface.corners.push_back(static_cast<double>(surface.nodes + corner));
+      }
+    }
+    surface.nodes += reduced->rows.tags.size();
+  }
+  return surface;
+}
+
+struct Fields {
+  std::vector<double> points;       // 3 a node [m]
+  std::vector<double> deformation;  // 1 a node [m]
+};
+
+Fields move_surface(const SystemModel& model, const Surface& surface,
+                    const SystemState& state) {
+  Fields fields;
+  for (const std::size_t b : surface.bodies) {
+    const BodyModel& body = model.bodies[b];
+    const auto& rows = body.reduced->rows;
+    const auto n = static_cast<Eigen::Index>(rows.tags.size());
+    VectorX u = VectorX::Zero(3 * n);
+    if (body.modes > 0) {
+      u = rows.Phi_B * state.eta.segment(body.offset, body.modes);
+    }
+    const Matrix3 R = state.bodies[b].quat_WB.toRotationMatrix();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Vector3 p =
+          state.bodies[b].p_WB + R * (rows.x_B.col(i) + u.segment<3>(3 * i));
+      fields.points.insert(fields.points.end(), p.begin(), p.end());
+      fields.deformation.push_back(u.segment<3>(3 * i).norm());
+    }
+  }
+  return fields;
+}
+
+void write_item(std::ostream& out, const std::string& shape,
+                const std::string& place) {
+  fmt::print(out,
+             "<DataItem Dimensions=\"{}\" NumberType=\"Float\" "
+             "Precision=\"8\" Format=\"HDF\">{}</DataItem>\n",
+             shape, place);
+}
+
+}  // namespace
+
+void write_xdmf(const std::filesystem::path& file, const SystemModel& model,
+                const History& history) {
+  const Surface surface = gather_surface(model);
+  if (surface.bodies.empty()) {
+    throw InputError(fmt::format(
+        "'{}': no body of this system has a mesh to show", file.string()));
+  }
+  std::filesystem::path data = file;
+  data.replace_extension(".h5");
+  Hdf5File heavy = Hdf5File::create(data);
+  const std::size_t triangles = surface.corners.size() / 3;
+  heavy.write_array("triangles", surface.corners, {triangles, 3}, "1",
+                    "node indices");
+
+  std::ofstream out(file);
+  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
+         "<Grid Name=\"bodies\" GridType=\"Collection\" "
+         "CollectionType=\"Temporal\">\n";
+  const std::string name = data.filename().string();
+  for (std::size_t i = 0; i < history.times.size(); ++i) {
+    const Fields fields = move_surface(model, surface, history.states[i]);
+    const std::string at = fmt::format("steps/{:06}/", i);
+    heavy.write_array(at + "points", fields.points, {surface.nodes, 3}, "m",
+                      "positions, world frame");
+    heavy.write_array(at + "deformation", fields.deformation, {surface.nodes},
+                      "m", "|Phi eta|");
+    fmt::print(out,
+               "<Grid Name=\"bodies\" GridType=\"Uniform\">"
+               "<Time Value=\"{:.17g}\"/>\n<Topology "
+               "TopologyType=\"Triangle\" NumberOfElements=\"{}\">\n",
+               history.times[i], triangles);
+    write_item(out, fmt::format("{} 3", triangles), name + ":/triangles");
+    out << "</Topology><Geometry GeometryType=\"XYZ\">\n";
+    write_item(out, fmt::format("{} 3", surface.nodes),
+               fmt::format("{}:/{}points", name, at));
+    out << "</Geometry><Attribute Name=\"deformation\" "
+           "AttributeType=\"Scalar\" Center=\"Node\">\n";
+    write_item(out, fmt::format("{}", surface.nodes),
+               fmt::format("{}:/{}deformation", name, at));
+    out << "</Attribute></Grid>\n";
+  }
+  out << "</Grid></Domain></Xdmf>\n";
+  heavy.close();
+  out.flush();
+  if (!out) {
+    throw InputError(fmt::format("'{}' cannot be written", file.string()));
+  }
+}
+
+}  // namespace limber::results

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "dynamics/system_model.hpp"
+#include "results/history.hpp"
+
+namespace limber::results {
+
+/// Writes a time series of the flexible bodies' moving surfaces for ParaView:
+/// `file` (XDMF) and its data beside it (the same name with .h5). The point
+/// field "deformation" is |Phi eta| [m]. Bodies without a mesh are left out.
+/// @throws InputError if the place cannot be written or no body has a mesh.
+void write_xdmf(const std::filesystem::path& file,
+                const dynamics::SystemModel& model, const History& history);
+
+}  // namespace limber::results
