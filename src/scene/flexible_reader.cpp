@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/flexible_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/names.hpp"
+
+namespace limber::scene {
+namespace {
+
+using flexbody::InterfaceRequest;
+
+const std::map<std::string, double> kUnits = {
+    {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"in", 0.0254}, {"ft", 0.3048}};
+
+void read_unit(XmlElement& element, double& unit) {
+  const std::optional<std::string> name = element.text("unit");
+  if (!name) return;
+  const auto found = kUnits.find(*name);
+  if (found != kUnits.end()) {
+    unit = found->second;
+    return;
+  }
+  unit = element.number("unit", kPositive).value_or(1.0);
+}
+
+void read_mesh(XmlElement& element, const std::filesystem::path& folder,
+               flexbody::MeshSource& mesh) {
+  mesh.file = (folder / element.required_text("file")).lexically_normal();
+  mesh.size = element.number("size", kNonNegative).value_or(0.0);
+  mesh.order = element.integer("order", 1, 3).value_or(0);
+  read_unit(element, mesh.unit);
+}
+
+flexbody::MaterialRegion read_material(XmlElement& element) {
+  flexbody::MaterialRegion region;
+  region.group = element.text("group").value_or("");
+  region.material.youngs_modulus =
+      element.required_number("youngs_modulus", kPositive);
+  region.material.poisson_ratio =
+      element.required_number("poisson_ratio", {-1.0, 0.5, true, true});
+  region.material.density = element.required_number("density", kPositive);
+  return region;
+}
+
+dynamics::ModalDamping read_damping(XmlElement& element) {
+  dynamics::ModalDamping damping;
+  damping.rayleigh_mass =
+      element.number("rayleigh_mass", kNonNegative).value_or(0.0);
+  damping.rayleigh_stiffness =
+      element.number("rayleigh_stiffness", kNonNegative).value_or(0.0);
+  const std::optional<double> ratio = element.number("ratio", kNonNegative);
+  const auto ratios = element.numbers("ratios", kNonNegative);
+  if (ratio && ratios) element.fail("has both 'ratio' and 'ratios'; keep one");
+  if (ratio) damping.ratios = {*ratio};
+  if (ratios) damping.ratios = *ratios;
+  return damping;
+}
+
+flexbody::KeptRows read_rows(XmlElement& element) {
+  const std::map<std::string, flexbody::KeptRows> kinds = {
+      {"all", flexbody::KeptRows::all},
+      {"boundary", flexbody::KeptRows::boundary},
+      {"interfaces", flexbody::KeptRows::interfaces}};
+  const std::string name = element.text("rows").value_or("boundary");
+  const auto found = kinds.find(name);
+  if (found != kinds.end()) return found->second;
+  element.fail(
+      describe_unknown("rows", name, {"all", "boundary", "interfaces"}));
+  return flexbody::KeptRows::boundary;
+}
+
+void read_basis(XmlElement& element, FlexibleLink& link) {
+  link.basis.eigenmodes = element.integer("eigenmodes", 0, 100000).value_or(10);
+  link.basis.interface_modes =
+      element.boolean("interface_modes").value_or(true);
+  link.basis.load_modes = element.boolean("load_modes").value_or(true);
+  link.rows = read_rows(element);
+}
+
+flexbody::NodeSelection read_selection(XmlElement& element) {
+  const std::optional<std::string> group = element.text("group");
+  const std::optional<int> node = element.integer("node", 1, 2000000000);
+  const std::optional<Vector3> nearest = element.vector("nearest");
+  const std::optional<Vector3> lower = element.vector("box_lower");
+  const std::optional<Vector3> upper = element.vector("box_upper");
+  const int ways = int(group.has_value()) + int(node.has_value()) +
+                   int(nearest.has_value()) + int(lower && upper);
+  if (ways != 1 || lower.has_value() != upper.has_value()) {
+    element.fail(
+        "needs exactly one of 'group', 'node', 'nearest', or 'box_lower' with "
+        "'box_upper'");
+  }
+  if (group) return flexbody::GroupNodes{*group};
+  if (node) return flexbody::TaggedNode{static_cast<std::size_t>(*node)};
+  if (nearest) return flexbody::NearestNode{*nearest};
+  return flexbody::BoxNodes{lower.value_or(Vector3::Zero()),
+                            upper.value_or(Vector3::Zero())};
+}
+
+InterfaceRequest read_interface(XmlElement& element) {
+  InterfaceRequest request;
+  request.name = element.required_text("name");
+  request.nodes = read_selection(element);
+  const std::string weighting = element.text("weighting").value_or("uniform");
+  if (weighting == "equal") {
+    request.weighting = flexbody::Weighting::equal;
+  } else if (weighting != "uniform") {
+    element.fail(
+        describe_unknown("weighting", weighting, {"uniform", "equal"}));
+  }
+  request.static_modes = element.boolean("static_modes").value_or(true);
+  return request;
+}
+
+void add_interface(XmlElement& element, FlexibleLink& link) {
+  const InterfaceRequest request = read_interface(element);
+  const bool twice = std::any_of(link.interfaces.begin(), link.interfaces.end(),
+                                 [&](const InterfaceRequest& other) {
+                                   return other.name == request.name;
+                                 });
+  if (twice) element.fail(fmt::format("'{}' is given twice", request.name));
+  link.interfaces.push_back(request);
+}
+
+void check_whole(const XmlElement& element, const FlexibleLink& link) {
+  const bool meshed = !link.mesh.file.empty();
+  if (meshed == !link.reduced_file.empty()) {
+    element.fail(
+        "needs exactly one of <mesh file=.../> and <reduced file=.../>");
+  }
+  if (meshed && link.materials.empty()) {
+    element.fail(
+        "needs a <material youngs_modulus=... poisson_ratio=... "
+        "density=.../> for its mesh");
+  }
+}
+
+ConnectorEnd read_end(XmlElement& element, const std::string& side) {
+  ConnectorEnd end;
+  const std::string text = element.required_text(side);
+  const std::size_t slash = text.find('/');
+  end.link = text.substr(0, slash);
+  if (slash != std::string::npos) end.interface = text.substr(slash + 1);
+  end.point = element.vector(side + "_xyz").value_or(Vector3::Zero());
+  return end;
+}
+
+Connector read_ends(XmlElement& element) {
+  Connector connector;
+  connector.name = element.required_text("name");
+  connector.from = read_end(element, "from");
+  connector.to = read_end(element, "to");
+  return connector;
+}
+
+/// One number for all three directions, or three.
+Vector3 read_triple(XmlElement& element, const std::string& name) {
+  const auto values = element.numbers(name, kNonNegative);
+  if (!values) return Vector3::Zero();
+  if (values->size() == 1) return Vector3::Constant(values->front());
+  return element.vector(name, kNonNegative).value_or(Vector3::Zero());
+}
+
+}  // namespace
+
+FlexibleLink read_flexible(XmlElement& element,
+                           const std::filesystem::path& folder) {
+  FlexibleLink link;
+  const std::map<std::string, XmlElement::Reader> readers = {
+      {"mesh", [&](XmlElement& e) { read_mesh(e, folder, link.mesh); }},
+      {"reduced",
+       [&](XmlElement& e) {
+         link.reduced_file =
+             (folder / e.required_text("file")).lexically_normal();
+       }},
+      {"origin", [&](XmlElement& e) { link.X_LM = e.pose(); }},
+      {"material",
+       [&](XmlElement& e) { link.materials.push_back(read_material(e)); }},
+      {"damping", [&](XmlElement& e) { link.damping = read_damping(e); }},
+      {"basis", [&](XmlElement& e) { read_basis(e, link); }},
+      {"clamp",
+       [&](XmlElement& e) {
+         link.clamped_groups.push_back(e.required_text("group"));
+       }},
+      {"interface", [&](XmlElement& e) { add_interface(e, link); }},
+      {"attach", [&](XmlElement& e) {
+         link.interface_of_joint[e.required_text("joint")] =
+             e.required_text("interface");
+       }}};
+  element.read_children(readers);
+  check_whole(element, link);
+  return link;
+}
+
+CouplerOptions read_coupler(XmlElement& element) {
+  CouplerOptions options;
+  options.translational_stiffness =
+      element.number("translational_stiffness", kPositive);
+  options.rotational_stiffness =
+      element.number("rotational_stiffness", kPositive);
+  options.translational_damping =
+      element.number("translational_damping", kNonNegative);
+  options.rotational_damping =
+      element.number("rotational_damping", kNonNegative);
+  options.free_damping = element.number("free_damping", kNonNegative);
+  return options;
+}
+
+Connector read_spring(XmlElement& element) {
+  Connector connector = read_ends(element);
+  SpringOptions spring;
+  spring.stiffness = element.required_number("stiffness", kNonNegative);
+  spring.damping = element.number("damping", kNonNegative).value_or(0.0);
+  spring.free_length = element.number("free_length", kNonNegative);
+  connector.law = spring;
+  return connector;
+}
+
+Connector read_bushing(XmlElement& element) {
+  Connector connector = read_ends(element);
+  BushingOptions bushing;
+  bushing.translational_stiffness =
+      read_triple(element, "translational_stiffness");
+  bushing.rotational_stiffness = read_triple(element, "rotational_stiffness");
+  bushing.translational_damping = read_triple(element, "translational_damping");
+  bushing.rotational_damping = read_triple(element, "rotational_damping");
+  connector.law = bushing;
+  return connector;
+}
+
+}  // namespace limber::scene

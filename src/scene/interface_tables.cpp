@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/interface_tables.hpp"
+
+#include <optional>
+
+#include "scene/recipes.hpp"
+
+namespace limber::scene {
+namespace {
+
+flexbody::InterfaceTable row_table(const flexbody::ReducedBody& body,
+                                   std::size_t row) {
+  const auto i = static_cast<Eigen::Index>(row);
+  flexbody::InterfaceTable table;
+  table.p_B = body.rows.x_B.col(i);
+  table.Phi_B = body.rows.Phi_B.middleRows(3 * i, 3);
+  table.Psi_B = Matrix3X::Zero(3, body.mode_count());
+  return table;
+}
+
+std::optional<std::size_t> find_node(const flexbody::ReducedBody& body,
+                                     const Place& place) {
+  if (!place.nodes) return std::nullopt;
+  if (const auto* node = std::get_if<flexbody::TaggedNode>(&*place.nodes)) {
+    return flexbody::find_row(body, node->tag);
+  }
+  if (const auto* near = std::get_if<flexbody::NearestNode>(&*place.nodes)) {
+    return flexbody::find_nearest_row(body, near->point);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const flexbody::InterfaceTable& get_table(const flexbody::ReducedBody& body,
+                                          const std::string& interface) {
+  return body.interfaces[flexbody::find_interface(body, interface)];
+}
+
+flexbody::InterfaceTable find_table(const flexbody::ReducedBody& body,
+                                    const Place& place) {
+  const std::string name = find_place_interface(place);
+  for (const flexbody::InterfaceTable& table : body.interfaces) {
+    if (table.name == name) return table;
+  }
+  const std::optional<std::size_t> row = find_node(body, place);
+  return row ? row_table(body, *row) : get_table(body, name);
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/errors.hpp"
+
+namespace limber::scene {
+
+/// Gathers what is wrong with one file, so that all of it is told at once.
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  /// A problem at `line` (0: no line in particular).
+  void add(int line, const std::string& text) {
+    const std::string place = line > 0 ? ":" + std::to_string(line) : "";
+    texts_.push_back(file_ + place + ": " + text);
+  }
+  void add(const InputError& error, int line) {
+    for (const std::string& text : error.problems()) add(line, text);
+  }
+  [[nodiscard]] bool empty() const { return texts_.empty(); }
+  /// @throws InputError if there was any problem.
+  void raise() const {
+    if (!texts_.empty()) throw InputError(texts_);
+  }
+
+ private:
+  std::string file_;
+  std::vector<std::string> texts_;
+};
+
+}  // namespace limber::scene

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/recipes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limber::scene {
+namespace {
+
+using flexbody::InterfaceRequest;
+using flexbody::LoadPattern;
+using flexbody::Recipe;
+
+std::string to_text(const Vector3& v) {
+  return fmt::format("{:g},{:g},{:g}", v.x(), v.y(), v.z());
+}
+
+std::string describe(const flexbody::NodeSelection& nodes) {
+  if (const auto* group = std::get_if<flexbody::GroupNodes>(&nodes)) {
+    return "group:" + group->group;
+  }
+  if (const auto* node = std::get_if<flexbody::TaggedNode>(&nodes)) {
+    return fmt::format("node:{}", node->tag);
+  }
+  if (const auto* point = std::get_if<flexbody::NearestNode>(&nodes)) {
+    return "nearest:" + to_text(point->point);
+  }
+  const auto& box = std::get<flexbody::BoxNodes>(nodes);
+  return "box:" + to_text(box.lower) + ":" + to_text(box.upper);
+}
+
+const InterfaceRequest* find_request(const Recipe& recipe,
+                                     const std::string& name) {
+  for (const InterfaceRequest& request : recipe.interfaces) {
+    if (request.name == name) return &request;
+  }
+  return nullptr;
+}
+
+/// The interface called `name`; a group of that name unless it exists.
+void require_interface(Recipe& recipe, const std::string& name) {
+  if (find_request(recipe, name) != nullptr) return;
+  InterfaceRequest request;
+  request.name = name;
+  request.nodes = flexbody::GroupNodes{name};
+  recipe.interfaces.push_back(request);
+}
+
+void require_place(Recipe& recipe, const Place& place) {
+  const std::string name = find_place_interface(place);
+  if (name.empty() || find_request(recipe, name) != nullptr) return;
+  if (!place.nodes) {
+    require_interface(recipe, name);
+    return;
+  }
+  recipe.interfaces.push_back({name, *place.nodes, place.weighting, false});
+}
+
+bool is_single_node(const Place& place) {
+  return place.nodes &&
+         (std::holds_alternative<flexbody::TaggedNode>(*place.nodes) ||
+          std::holds_alternative<flexbody::NearestNode>(*place.nodes));
+}
+
+void add_pattern(Recipe& recipe, const std::string& interface,
+                 const Vector3& force, const Vector3& moment) {
+  if (force.isZero() && moment.isZero()) return;
+  recipe.load_patterns.push_back({interface, force, moment});
+}
+
+/// A body-frame load is one pattern. One fixed in the world turns through all
+/// directions of the body, so it takes a pattern an axis.
+void add_patterns(Recipe& recipe, const FlexibleLink& link,
+                  const LoadSpec& load) {
+  const std::string name = find_place_interface(load.where);
+  const InterfaceRequest* request = find_request(recipe, name);
+  if (request != nullptr && request->static_modes &&
+      link.basis.interface_modes) {
+    return;
+  }
+  const Matrix3 R_ML = link.X_LM.R.transpose();
+  if (load.frame == dynamics::LoadFrame::body) {
+    add_pattern(recipe, name, R_ML * load.force, R_ML * load.moment);
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 unit = Vector3::Unit(axis);
+    const Vector3 none = Vector3::Zero();
+    if (!load.force.isZero()) add_pattern(recipe, name, unit, none);
+    if (!load.moment.isZero()) add_pattern(recipe, name, none, unit);
+  }
+}
+
+void add_connections(Recipe& recipe, const Robot& robot, int index) {
+  const Link& link = robot.links[static_cast<std::size_t>(index)];
+  for (const Joint& joint : robot.joints) {
+    if (joint.parent != index && joint.child != index) continue;
+    if (joint.kind == joints::JointKind::floating) continue;
+    if (joint.child == index && !link.flexible->clamped_groups.empty()) {
+      continue;
+    }
+    require_interface(recipe, find_joint_interface(*link.flexible, joint.name));
+  }
+  for (const Connector& connector : robot.connectors) {
+    for (const ConnectorEnd* end : {&connector.from, &connector.to}) {
+      if (end->link == link.name && !end->interface.empty()) {
+        require_interface(recipe, end->interface);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string find_joint_interface(const FlexibleLink& link,
+                                 const std::string& joint) {
+  const auto found = link.interface_of_joint.find(joint);
+  return found == link.interface_of_joint.end() ? joint : found->second;
+}
+
+std::string find_place_interface(const Place& place) {
+  if (!place.interface.empty()) return place.interface;
+  if (!place.nodes) return "";
+  const bool equal = place.weighting == flexbody::Weighting::equal;
+  return describe(*place.nodes) + (equal ? ":equal" : "");
+}
+
+Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
+  const Link& link = robot.links[static_cast<std::size_t>(index)];
+  LIMBER_EXPECT(link.flexible.has_value());
+  const FlexibleLink& flexible = *link.flexible;
+  Recipe recipe;
+  recipe.name = flexible.mesh.file.stem().string();
+  recipe.mesh = flexible.mesh;
+  recipe.materials = flexible.materials;
+  recipe.clamped_groups = flexible.clamped_groups;
+  recipe.interfaces = flexible.interfaces;
+  recipe.basis = flexible.basis;
+  recipe.rows = flexible.rows;
+  add_connections(recipe, robot, index);
+  for (const LoadSpec& load : scenario.loads) {
+    if (load.where.link != link.name) continue;
+    require_place(recipe, load.where);
+    add_patterns(recipe, flexible, load);
+  }
+  for (const ProbeSpec& probe : scenario.probes) {
+    if (probe.where.link != link.name || is_single_node(probe.where)) continue;
+    require_place(recipe, probe.where);
+  }
+  return recipe;
+}
+
+}  // namespace limber::scene

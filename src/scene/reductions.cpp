@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/reductions.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "flexbody/body_file.hpp"
+#include "flexbody/cache.hpp"
+#include "scene/problems.hpp"
+#include "scene/recipes.hpp"
+
+namespace limber::scene {
+namespace {
+
+class Reduction {
+ public:
+  Reduction(const Scene& scene, const Reducer& reducer,
+            const std::filesystem::path& cache)
+      : scene_(scene), reducer_(reducer), cache_(cache) {}
+
+  Reductions run() {
+    for (std::size_t i = 0; i < scene_.robot.links.size(); ++i) {
+      result_.of_link.push_back(find(static_cast<int>(i)));
+    }
+    return result_;
+  }
+
+ private:
+  ReducedPointer find(int index) {
+    const Link& link = scene_.robot.links[static_cast<std::size_t>(index)];
+    if (!link.flexible) return nullptr;
+    try {
+      if (!link.flexible->reduced_file.empty()) {
+        return std::make_shared<const flexbody::ReducedBody>(
+            flexbody::read_body(link.flexible->reduced_file));
+      }
+      return reduce(make_recipe(scene_.robot, index, scene_.scenario));
+    } catch (const InputError& error) {
+      std::vector<std::string> texts;
+      for (const std::string& text : error.problems()) {
+        texts.push_back(fmt::format(
+            "{}: link '{}': {}", scene_.robot.file.string(), link.name, text));
+      }
+      throw InputError(texts);
+    }
+  }
+
+  ReducedPointer reduce(const flexbody::Recipe& recipe) {
+    const std::string key = flexbody::content_key(recipe);
+    ReducedPointer& known = known_[key];
+    if (known) return known;
+    flexbody::CachedBody found =
+        flexbody::load_or_reduce(recipe, cache_, reducer_);
+    (found.was_cached ? result_.cached : result_.reduced) += 1;
+    known =
+        std::make_shared<const flexbody::ReducedBody>(std::move(found.body));
+    return known;
+  }
+
+  const Scene& scene_;
+  const Reducer& reducer_;
+  const std::filesystem::path& cache_;
+  std::map<std::string, ReducedPointer> known_;
+  Reductions result_;
+};
+
+}  // namespace
+
+Reductions find_reductions(const Scene& scene, const Reducer& reducer,
+                           const std::filesystem::path& cache) {
+  return Reduction(scene, reducer, cache).run();
+}
+
+}  // namespace limber::scene

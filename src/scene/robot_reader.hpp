@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "scene/robot.hpp"
+
+namespace limber::scene {
+
+/// Reads a URDF file and its <flexible>, <coupler>, <spring> and <bushing>
+/// extensions.
+/// @throws InputError with every problem of the file, each with its line.
+[[nodiscard]] Robot read_robot(const std::filesystem::path& file);
+
+}  // namespace limber::scene

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/types.hpp"
+#include "dynamics/fidelity.hpp"
+#include "dynamics/simulation.hpp"
+#include "dynamics/system_builder.hpp"
+#include "dynamics/time_function.hpp"
+#include "flexbody/recipe.hpp"
+
+/// What a scenario file asks for. Plain values; docs/formats/scenario.md is
+/// the manual page.
+namespace limber::scene {
+
+/// A place on a link. A flexible link takes an interface or a node selection
+/// (mesh frame); a rigid link takes a point in its own frame.
+struct Place {
+  std::string link;
+  std::string interface;                         ///< name, or empty
+  std::optional<flexbody::NodeSelection> nodes;  ///< of a flexible link
+  std::optional<Vector3> point;                  ///< of a rigid link [m]
+  flexbody::Weighting weighting = flexbody::Weighting::uniform;
+};
+
+struct LoadSpec {
+  std::string name;
+  Place where;
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Vector3 moment = Vector3::Zero();  ///< [N m]
+  dynamics::LoadFrame frame = dynamics::LoadFrame::body;
+  dynamics::TimeFunction time;
+};
+
+enum class Quantity {
+  displacement,      ///< from the initial position, world axes [m]
+  position,          ///< world [m]
+  velocity,          ///< world [m/s]
+  rotation,          ///< rotation vector from the start, world axes [rad]
+  angular_velocity,  ///< world axes [rad/s]
+  deformation,       ///< elastic part, axes of the link [m]
+};
+
+struct ProbeSpec {
+  std::string name;
+  Place where;
+  Quantity quantity = Quantity::displacement;
+};
+
+/// Coordinates of one joint: 1 (revolute, continuous, prismatic), 3 (planar:
+/// x, y, angle) or 6 (floating: x, y, z, roll, pitch, yaw).
+struct JointStart {
+  std::vector<double> position;  ///< [m, rad]; empty: zero
+  std::vector<double> velocity;  ///< [m/s, rad/s]; empty: zero
+};
+
+/// Motion of the root link at the start, world axes.
+struct BaseStart {
+  Vector3 position = Vector3::Zero();          ///< [m]
+  Vector3 orientation_rpy = Vector3::Zero();   ///< [rad]
+  Vector3 velocity = Vector3::Zero();          ///< of its origin [m/s]
+  Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
+};
+
+struct OutputSpec {
+  std::filesystem::path folder;  ///< empty: out/<scenario name>
+  bool xdmf = false;
+  bool pictures = true;
+};
+
+struct Scenario {
+  std::string name;  ///< the file's stem
+  std::filesystem::path file;
+  std::filesystem::path robot;
+  dynamics::SimulationSettings settings;
+  dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
+  std::map<std::string, dynamics::Fidelity> fidelity_of_link;
+  std::vector<LoadSpec> loads;
+  Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
+  std::map<std::string, JointStart> joints;
+  BaseStart base;
+  std::vector<ProbeSpec> probes;
+  OutputSpec output;
+};
+
+}  // namespace limber::scene

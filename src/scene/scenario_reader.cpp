@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scenario_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "scene/time_function_reader.hpp"
+#include "scene/toml_table.hpp"
+
+namespace limber::scene {
+namespace {
+
+/// Most output times that a scenario may ask for: they stay in memory.
+constexpr double kMostOutputs = 1e7;
+
+std::vector<double> even_times(double end, double interval) {
+  std::vector<double> times;
+  // A last interval shorter than a millionth of the others is round-off.
+  const auto count = static_cast<long>(std::floor(end / interval + 1e-6));
+  for (long i = 0; i <= count; ++i) {
+    times.push_back(std::min(static_cast<double>(i) * interval, end));
+  }
+  if (end - times.back() > 1e-6 * interval) times.push_back(end);
+  times.back() = end;
+  return times;
+}
+
+std::vector<double> read_output_times(TomlTable& table, double end,
+                                      double step) {
+  const auto times = table.numbers("output_times", {0.0, end, false, false});
+  const auto interval = table.number("output_interval", kPositive);
+  if (times && interval) {
+    table.fail("has both 'output_times' and 'output_interval'; keep one");
+  }
+  if (!times) {
+    const double every = interval.value_or(step);
+    if (end / every > kMostOutputs) {
+      table.fail(
+          fmt::format("asks for {:.3g} output times, more than {:g}; "
+                      "use a longer output_interval",
+                      end / every, kMostOutputs));
+      return {0.0, end};
+    }
+    return even_times(end, every);
+  }
+  for (std::size_t i = 1; i < times->size(); ++i) {
+    if ((*times)[i] <= (*times)[i - 1]) {
+      table.fail("output_times", "must increase");
+      break;
+    }
+  }
+  if (times->empty()) table.fail("output_times", "is empty");
+  return *times;
+}
+
+dynamics::IntegratorKind read_integrator(TomlTable& table) {
+  const auto name = table.text("integrator");
+  if (!name) return dynamics::IntegratorKind::generalized_alpha;
+  try {
+    return dynamics::parse_integrator(*name);
+  } catch (const InputError& error) {
+    table.fail("integrator", error.problems().front());
+  }
+  return dynamics::IntegratorKind::generalized_alpha;
+}
+
+dynamics::SimulationSettings read_time(TomlTable& table) {
+  dynamics::SimulationSettings settings;
+  settings.end_time = table.required_number("duration", kPositive);
+  settings.step = table.required_number("step", kPositive);
+  settings.integrator = read_integrator(table);
+  settings.rho_inf = table.number("rho_inf", {0.0, 1.0, false, false})
+                         .value_or(settings.rho_inf);
+  settings.newton_tolerance =
+      table.number("newton_tolerance", {0.0, 1.0, true, true})
+          .value_or(settings.newton_tolerance);
+  settings.newton_iterations = table.integer("newton_iterations", 1, 10000)
+                                   .value_or(settings.newton_iterations);
+  settings.output_times =
+      read_output_times(table, settings.end_time, settings.step);
+  return settings;
+}
+
+dynamics::Fidelity read_level(TomlTable& table, const std::string& key,
+                              dynamics::Fidelity otherwise) {
+  const auto name = table.text(key);
+  if (!name) return otherwise;
+  try {
+    return dynamics::parse_fidelity(*name);
+  } catch (const InputError& error) {
+    table.fail(key, error.problems().front());
+  }
+  return otherwise;
+}
+
+void read_fidelity(TomlTable& table, Scenario& scenario) {
+  scenario.fidelity = read_level(table, "default", scenario.fidelity);
+  const toml::table* links = table.table("links");
+  if (links == nullptr) return;
+  TomlTable levels(*links, "fidelity.links", table.problems());
+  for (const auto& [key, node] : *links) {
+    const std::string link(key.str());
+    scenario.fidelity_of_link[link] =
+        read_level(levels, link, scenario.fidelity);
+  }
+}
+
+std::optional<flexbody::NodeSelection> read_box(TomlTable& table) {
+  const toml::table* box = table.table("box");
+  if (box == nullptr) return std::nullopt;
+  TomlTable corners(*box, "box", table.problems());
+  const auto lower = corners.vector("lower");
+  const auto upper = corners.vector("upper");
+  corners.finish();
+  if (!lower || !upper) {
+    table.fail("box", "needs 'lower' and 'upper', three numbers each");
+    return std::nullopt;
+  }
+  return flexbody::BoxNodes{*lower, *upper};
+}
+
+/// The one of group, node, nearest, box that is there; counts in `ways`.
+std::optional<flexbody::NodeSelection> read_nodes(TomlTable& table, int& ways) {
+  std::optional<flexbody::NodeSelection> nodes;
+  for (const char* key : {"group", "node", "nearest", "box"}) {
+    ways += table.has(key) ? 1 : 0;
+  }
+  if (const auto group = table.text("group")) {
+    nodes = flexbody::GroupNodes{*group};
+  }
+  if (const auto tag = table.integer("node", 1, 2000000000)) {
+    nodes = flexbody::TaggedNode{static_cast<std::size_t>(*tag)};
+  }
+  if (const auto point = table.vector("nearest")) {
+    nodes = flexbody::NearestNode{*point};
+  }
+  if (const auto box = read_box(table)) nodes = box;
+  return nodes;
+}
+
+Place read_place(TomlTable& table) {
+  Place place;
+  int ways = 0;
+  place.link = table.required_text("link");
+  place.nodes = read_nodes(table, ways);
+  if (const auto interface = table.text("interface")) {
+    place.interface = *interface;
+    ++ways;
+  }
+  place.point = table.vector("point");
+  ways += table.has("point") ? 1 : 0;
+  if (ways > 1) {
+    table.fail(
+        "has more than one of 'interface', 'group', 'node', 'nearest', "
+        "'box', 'point'; keep one");
+  }
+  place.weighting = read_choice<flexbody::Weighting>(
+      table, "distribution",
+      {{"uniform", flexbody::Weighting::uniform},
+       {"equal", flexbody::Weighting::equal}},
+      flexbody::Weighting::uniform);
+  return place;
+}
+
+LoadSpec read_load(TomlTable& table) {
+  LoadSpec load;
+  load.name = table.required_text("name");
+  load.where = read_place(table);
+  load.force = table.vector("force").value_or(Vector3::Zero());
+  load.moment = table.vector("moment").value_or(Vector3::Zero());
+  if (!table.has("force") && !table.has("moment")) {
+    table.fail("needs 'force' or 'moment'");
+  }
+  load.frame =
+      read_choice<dynamics::LoadFrame>(table, "frame",
+                                       {{"body", dynamics::LoadFrame::body},
+                                        {"world", dynamics::LoadFrame::world}},
+                                       dynamics::LoadFrame::body);
+  if (const toml::table* time = table.table("time")) {
+    TomlTable function(*time, "load '" + load.name + "' time",
+                       table.problems());
+    load.time = read_time_function(function);
+  }
+  return load;
+}
+
+ProbeSpec read_probe(TomlTable& table) {
+  ProbeSpec probe;
+  probe.name = table.required_text("name");
+  probe.where = read_place(table);
+  probe.quantity =
+      read_choice<Quantity>(table, "quantity",
+                            {{"displacement", Quantity::displacement},
+                             {"position", Quantity::position},
+                             {"velocity", Quantity::velocity},
+                             {"rotation", Quantity::rotation},
+                             {"angular_velocity", Quantity::angular_velocity},
+                             {"deformation", Quantity::deformation}},
+                            Quantity::displacement);
+  return probe;
+}
+
+BaseStart read_base(TomlTable& table) {
+  BaseStart base;
+  base.position = table.vector("position").value_or(Vector3::Zero());
+  base.orientation_rpy =
+      table.vector("orientation_rpy").value_or(Vector3::Zero());
+  base.velocity = table.vector("velocity").value_or(Vector3::Zero());
+  base.angular_velocity =
+      table.vector("angular_velocity").value_or(Vector3::Zero());
+  return base;
+}
+
+void read_initial(TomlTable& table, Scenario& scenario) {
+  if (const toml::table* base = table.table("base")) {
+    TomlTable values(*base, "initial.base", table.problems());
+    scenario.base = read_base(values);
+    values.finish();
+  }
+  const toml::table* joints = table.table("joints");
+  if (joints == nullptr) return;
+  TomlTable by_name(*joints, "initial.joints", table.problems());
+  for (const auto& [key, node] : *joints) {
+    const std::string name(key.str());
+    const toml::table* joint = by_name.table(name);
+    if (joint == nullptr) continue;
+    TomlTable values(*joint, "initial.joints." + name, table.problems());
+    scenario.joints[name] = {values.number_or_numbers("position"),
+                             values.number_or_numbers("velocity")};
+    values.finish();
+  }
+}
+
+OutputSpec read_output(TomlTable& table) {
+  OutputSpec output;
+  output.folder = table.text("folder").value_or("");
+  output.xdmf = table.boolean("xdmf").value_or(false);
+  output.pictures = table.boolean("pictures").value_or(true);
+  return output;
+}
+
+/// Reads one sub-table if it is there, and checks its keys.
+template <typename Read>
+void read_section(TomlTable& root, const std::string& name, Read read) {
+  const toml::table* table = root.table(name);
+  if (table == nullptr) return;
+  TomlTable section(*table, name, root.problems());
+  read(section);
+  section.finish();
+}
+
+/// Reads every [[name]] table; names of items are unique.
+template <typename Item, typename Read>
+std::vector<Item> read_items(TomlTable& root, const std::string& name,
+                             Read read) {
+  std::vector<Item> items;
+  std::set<std::string> names;
+  for (const toml::table* table : root.tables(name)) {
+    TomlTable element(*table, fmt::format("{} {}", name, items.size() + 1),
+                      root.problems());
+    items.push_back(read(element));
+    element.finish();
+    if (!names.insert(items.back().name).second) {
+      element.fail(fmt::format("'{}' is given twice", items.back().name));
+    }
+  }
+  return items;
+}
+
+void read_root(TomlTable& root, Scenario& scenario) {
+  scenario.robot = (scenario.file.parent_path() / root.required_text("robot"))
+                       .lexically_normal();
+  if (!root.has("time")) root.fail("needs [time] with 'duration' and 'step'");
+  read_section(root, "time",
+               [&](TomlTable& t) { scenario.settings = read_time(t); });
+  read_section(root, "fidelity",
+               [&](TomlTable& t) { read_fidelity(t, scenario); });
+  read_section(root, "gravity", [&](TomlTable& t) {
+    scenario.gravity = t.vector("acceleration").value_or(Vector3::Zero());
+    if (!t.has("acceleration")) t.fail("needs 'acceleration'");
+  });
+  read_section(root, "initial",
+               [&](TomlTable& t) { read_initial(t, scenario); });
+  read_section(root, "output",
+               [&](TomlTable& t) { scenario.output = read_output(t); });
+  scenario.loads = read_items<LoadSpec>(root, "load", read_load);
+  scenario.probes = read_items<ProbeSpec>(root, "probe", read_probe);
+  root.finish();
+}
+
+toml::table parse_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    throw InputError(
+        fmt::format("{}: cannot read this scenario file", file.string()));
+  }
+  try {
+    return toml::parse(text.str());
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: not valid TOML: {}", file.string(),
+                                 error.source().begin.line,
+                                 error.description()));
+  }
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::filesystem::path& file) {
+  const toml::table table = parse_file(file);
+  Problems problems(file.string());
+  Scenario scenario;
+  scenario.file = file;
+  scenario.name = file.stem().string();
+  TomlTable root(table, "", problems);
+  read_root(root, scenario);
+  problems.raise();
+  return scenario;
+}
+
+}  // namespace limber::scene

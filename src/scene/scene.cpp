@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene.hpp"
+
+#include <chrono>
+
+#include "scene/assembly.hpp"
+#include "scene/link_motion.hpp"
+#include "scene/reductions.hpp"
+#include "scene/robot_reader.hpp"
+#include "scene/scenario_reader.hpp"
+#include "scene/scene_checks.hpp"
+
+namespace limber::scene {
+
+Scene load_scene(const std::filesystem::path& file,
+                 const Overrides& overrides) {
+  Scene scene;
+  scene.scenario = read_scenario(file);
+  scene.robot = read_robot(scene.scenario.robot);
+  check_scenario(scene.scenario, scene.robot);
+  if (overrides.fidelity) {
+    scene.scenario.fidelity = *overrides.fidelity;
+    scene.scenario.fidelity_of_link.clear();
+  }
+  return scene;
+}
+
+BuiltScene build_system(const Scene& scene, const Reducer& reducer,
+                        const std::filesystem::path& cache) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const std::vector<LinkMotion> motions =
+      find_link_motions(scene.robot, scene.scenario);
+  const Reductions reductions = find_reductions(scene, reducer, cache);
+  const BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
+  Assembly assembly(scene, plans, motions);
+  assembly.add_bodies();
+  assembly.add_joints();
+  assembly.add_connectors();
+  assembly.add_loads();
+  BuiltScene built;
+  built.model = assembly.build();
+  built.initial = assembly.make_initial_state(built.model);
+  built.probes = assembly.make_probes();
+  for (Probe& probe : built.probes) {
+    set_start(probe, built.model, built.initial);
+  }
+  built.settings = scene.scenario.settings;
+  built.warnings = scene.robot.warnings;
+  built.warnings.insert(built.warnings.end(), assembly.warnings().begin(),
+                        assembly.warnings().end());
+  built.bodies_reduced = reductions.reduced;
+  built.bodies_cached = reductions.cached;
+  built.seconds_offline =
+      std::chrono::duration<double>(Clock::now() - start).count();
+  return built;
+}
+
+}  // namespace limber::scene

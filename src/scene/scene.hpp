@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation.hpp"
+#include "dynamics/system_model.hpp"
+#include "dynamics/system_state.hpp"
+#include "flexbody/recipe.hpp"
+#include "flexbody/reduced_body.hpp"
+#include "scene/probe.hpp"
+#include "scene/robot.hpp"
+#include "scene/scenario.hpp"
+
+namespace limber::scene {
+
+/// A scenario and the robot that it names.
+struct Scene {
+  Scenario scenario;
+  Robot robot;
+};
+
+/// What the command line puts in place of the file's word.
+struct Overrides {
+  std::optional<dynamics::Fidelity> fidelity;  ///< for every flexible link
+};
+
+/// Reads the scenario and its robot, and checks one against the other.
+/// @throws InputError with every problem found.
+[[nodiscard]] Scene load_scene(const std::filesystem::path& file,
+                               const Overrides& overrides = {});
+
+/// Makes a reduced body; usually flexbody::reduce.
+using Reducer = std::function<flexbody::ReducedBody(const flexbody::Recipe&)>;
+
+/// A scene, ready to be simulated.
+struct BuiltScene {
+  dynamics::SystemModel model;
+  dynamics::SystemState initial;
+  dynamics::SimulationSettings settings;
+  std::vector<Probe> probes;
+  std::vector<std::string> warnings;
+  int bodies_reduced = 0;        ///< reductions done now
+  int bodies_cached = 0;         ///< reductions taken from the cache
+  double seconds_offline = 0.0;  ///< wall time of all of it [s]
+};
+
+/// Reduces the flexible links (equal ones once, known ones from `cache`), puts
+/// the system together and finds its initial state: every body undeformed,
+/// every coupler at rest, velocities that agree with the joints' rates.
+/// @throws InputError naming the link, joint, load or probe.
+[[nodiscard]] BuiltScene build_system(const Scene& scene,
+                                      const Reducer& reducer,
+                                      const std::filesystem::path& cache);
+
+}  // namespace limber::scene

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "common/names.hpp"
+#include "scene/problems.hpp"
+
+namespace limber::scene {
+namespace {
+
+class Checker {
+ public:
+  Checker(const Scenario& scenario, const Robot& robot)
+      : scenario_(scenario), robot_(robot), problems_(scenario.file.string()) {
+    for (const Link& link : robot.links) {
+      names_.push_back(link.name);
+      if (link.flexible) flexible_.push_back(link.name);
+    }
+  }
+
+  void run() {
+    for (const auto& [link, level] : scenario_.fidelity_of_link) {
+      check_level(link);
+    }
+    for (const LoadSpec& load : scenario_.loads) {
+      check_place("load '" + load.name + "'", load.where);
+    }
+    for (const ProbeSpec& probe : scenario_.probes) check_probe(probe);
+    problems_.raise();
+  }
+
+ private:
+  const Link* find(const std::string& name) const {
+    for (const Link& link : robot_.links) {
+      if (link.name == name) return &link;
+    }
+    return nullptr;
+  }
+
+  void check_level(const std::string& name) {
+    const Link* link = find(name);
+    if (link != nullptr && link->flexible) return;
+    problems_.add(0, "[fidelity.links] " +
+                         describe_unknown("flexible link", name, flexible_));
+  }
+
+  void check_place(const std::string& who, const Place& place) {
+    const Link* link = find(place.link);
+    if (link == nullptr) {
+      problems_.add(0,
+                    who + ": " + describe_unknown("link", place.link, names_));
+      return;
+    }
+    if (link->flexible) {
+      check_flexible_place(who, place);
+      return;
+    }
+    if (place.nodes || !place.interface.empty()) {
+      problems_.add(0, fmt::format("{}: link '{}' is rigid and has no nodes; "
+                                   "give 'point' (its frame, m) or nothing",
+                                   who, place.link));
+    }
+  }
+
+  void check_flexible_place(const std::string& who, const Place& place) {
+    if (!place.point && (place.nodes || !place.interface.empty())) return;
+    problems_.add(0, fmt::format("{}: link '{}' is flexible; say where by "
+                                 "'interface', 'group', 'node', 'nearest' or "
+                                 "'box'",
+                                 who, place.link));
+  }
+
+  void check_probe(const ProbeSpec& probe) {
+    const std::string who = "probe '" + probe.name + "'";
+    check_place(who, probe.where);
+    const Link* link = find(probe.where.link);
+    if (link == nullptr) return;
+    if (!link->flexible && probe.quantity == Quantity::deformation) {
+      problems_.add(
+          0, who + ": link '" + link->name + "' is rigid; it does not deform");
+    }
+    const bool turns = probe.quantity == Quantity::rotation ||
+                       probe.quantity == Quantity::angular_velocity;
+    const auto& nodes = probe.where.nodes;
+    if (turns && nodes &&
+        (std::holds_alternative<flexbody::TaggedNode>(*nodes) ||
+         std::holds_alternative<flexbody::NearestNode>(*nodes))) {
+      problems_.add(0, who +
+                           ": one node of a solid has no rotation; use "
+                           "'interface', 'group' or 'box'");
+    }
+  }
+
+  const Scenario& scenario_;
+  const Robot& robot_;
+  Problems problems_;
+  std::vector<std::string> names_;
+  std::vector<std::string> flexible_;
+};
+
+}  // namespace
+
+void check_scenario(const Scenario& scenario, const Robot& robot) {
+  Checker(scenario, robot).run();
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/names.hpp"
+#include "common/types.hpp"
+#include "scene/problems.hpp"
+#include "scene/range.hpp"
+
+namespace limber::scene {
+
+/// One TOML table whose every key must be known. Wrong types, values outside
+/// their range and unknown keys go to `problems`; reading carries on.
+class TomlTable {
+ public:
+  /// @param path how to name the table in errors, e.g. "time" or "load[2]".
+  TomlTable(const toml::table& table, std::string path, Problems& problems)
+      : table_(table), path_(std::move(path)), problems_(problems) {}
+
+  void fail(const std::string& text) const;
+  void fail(const std::string& key, const std::string& text) const;
+  [[nodiscard]] Problems& problems() const { return problems_; }
+  [[nodiscard]] int line() const;
+  [[nodiscard]] bool has(const std::string& key) const;
+
+  /// Readers of one key; each makes the key known.
+  [[nodiscard]] std::optional<std::string> text(const std::string& key);
+  [[nodiscard]] std::string required_text(const std::string& key);
+  [[nodiscard]] std::optional<double> number(const std::string& key,
+                                             const Range& range = {});
+  [[nodiscard]] double required_number(const std::string& key,
+                                       const Range& range = {});
+  [[nodiscard]] std::optional<int> integer(const std::string& key, int lower,
+                                           int upper);
+  [[nodiscard]] std::optional<bool> boolean(const std::string& key);
+  [[nodiscard]] std::optional<std::vector<double>> numbers(
+      const std::string& key, const Range& range = {});
+  /// A number or an array of numbers.
+  [[nodiscard]] std::vector<double> number_or_numbers(const std::string& key);
+  [[nodiscard]] std::optional<Vector3> vector(const std::string& key);
+  [[nodiscard]] const toml::table* table(const std::string& key);
+  [[nodiscard]] std::vector<const toml::table*> tables(const std::string& key);
+
+  /// After everything was read: unknown keys are problems.
+  void finish() const;
+
+ private:
+  const toml::node* find(const std::string& key);
+  std::optional<double> number_of(const std::string& key,
+                                  const toml::node& node, const Range& range);
+  void fail_type(const std::string& key, const toml::node& node,
+                 const std::string& expected) const;
+
+  const toml::table& table_;
+  std::string path_;
+  Problems& problems_;
+  std::set<std::string> known_;
+};
+
+/// A keyed choice: text -> value, unknown names are problems.
+template <typename Value>
+Value read_choice(TomlTable& table, const std::string& key,
+                  const std::vector<std::pair<std::string, Value>>& choices,
+                  const Value& otherwise) {
+  const std::optional<std::string> name = table.text(key);
+  if (!name) return otherwise;
+  std::vector<std::string> known;
+  for (const auto& [text, value] : choices) {
+    if (text == *name) return value;
+    known.push_back(text);
+  }
+  table.fail(key, describe_unknown(key, *name, known));
+  return otherwise;
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/urdf_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/names.hpp"
+
+namespace limber::scene {
+namespace {
+
+const std::vector<std::string> kJointTypes = {
+    "fixed", "revolute", "continuous", "prismatic", "planar", "floating"};
+
+std::string attribute(const TiXmlElement* element, const char* name) {
+  if (element == nullptr) return "";
+  const char* value = element->Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+/// Links and joints by name, gathered while the file is checked.
+class TreeCheck {
+ public:
+  explicit TreeCheck(Problems& problems) : problems_(problems) {}
+
+  void run(const TiXmlElement& robot) {
+    add_links(robot);
+    for (const TiXmlElement* joint = robot.FirstChildElement("joint");
+         joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+      add_joint(*joint);
+    }
+    if (!problems_.empty()) return;
+    check_roots(robot);
+  }
+
+ private:
+  void add_links(const TiXmlElement& robot) {
+    for (const TiXmlElement* link = robot.FirstChildElement("link");
+         link != nullptr; link = link->NextSiblingElement("link")) {
+      const std::string name = attribute(link, "name");
+      if (name.empty()) {
+        problems_.add(link->Row(), "<link> needs a 'name'");
+      } else if (!line_of_link_.emplace(name, link->Row()).second) {
+        problems_.add(link->Row(),
+                      fmt::format("link '{}' is given twice", name));
+      }
+      names_.push_back(name);
+    }
+    if (names_.empty()) problems_.add(robot.Row(), "the robot has no <link>");
+  }
+
+  void add_joint(const TiXmlElement& joint) {
+    const std::string name = attribute(&joint, "name");
+    if (name.empty()) problems_.add(joint.Row(), "<joint> needs a 'name'");
+    if (!line_of_joint_.emplace(name, joint.Row()).second) {
+      problems_.add(joint.Row(),
+                    fmt::format("joint '{}' is given twice", name));
+    }
+    check_parts(joint, name);
+    const std::string parent = end_of(joint, name, "parent");
+    const std::string child = end_of(joint, name, "child");
+    if (parent.empty() || child.empty()) return;
+    add_edge(joint, name, parent, child);
+  }
+
+  void check_parts(const TiXmlElement& joint, const std::string& name) {
+    const std::string type = attribute(&joint, "type");
+    bool known = false;
+    for (const std::string& t : kJointTypes) known = known || t == type;
+    if (!known) {
+      problems_.add(joint.Row(),
+                    fmt::format("joint '{}': {}", name,
+                                describe_unknown("type", type, kJointTypes)));
+    }
+    if (joint.FirstChildElement("mimic") != nullptr) {
+      problems_.add(joint.Row(),
+                    fmt::format("joint '{}': <mimic> is not modelled; remove "
+                                "it or join the links by a <bushing>",
+                                name));
+    }
+    const std::string friction =
+        attribute(joint.FirstChildElement("dynamics"), "friction");
+    if (!friction.empty() && std::strtod(friction.c_str(), nullptr) != 0.0) {
+      problems_.add(joint.Row(),
+                    fmt::format("joint '{}': dry friction ({} N or N m) is not "
+                                "modelled; use 'damping' or remove it",
+                                name, friction));
+    }
+  }
+
+  /// Name of the link at one end, or nothing if there is a problem with it.
+  std::string end_of(const TiXmlElement& joint, const std::string& name,
+                     const char* tag) {
+    const std::string link = attribute(joint.FirstChildElement(tag), "link");
+    if (line_of_link_.count(link) != 0) return link;
+    problems_.add(joint.Row(),
+                  fmt::format("joint '{}', <{}>: {}", name, tag,
+                              describe_unknown("link", link, names_)));
+    return "";
+  }
+
+  void add_edge(const TiXmlElement& joint, const std::string& name,
+                const std::string& parent, const std::string& child) {
+    for (std::string at = parent; !at.empty(); at = parent_of(at)) {
+      if (at != child) continue;
+      problems_.add(
+          joint.Row(),
+          fmt::format("joint '{}' closes a loop (link '{}' is its own "
+                      "ancestor); URDF describes trees: join the ends of the "
+                      "loop by a <bushing> instead",
+                      name, child));
+      return;
+    }
+    const auto [known, fresh] = parent_.emplace(child, parent);
+    if (fresh) return;
+    problems_.add(
+        joint.Row(),
+        fmt::format("joint '{}': link '{}' has two parents ('{}' and '{}'), a "
+                    "loop that URDF cannot have; join the second by a "
+                    "<bushing> instead",
+                    name, child, known->second, parent));
+  }
+
+  std::string parent_of(const std::string& link) const {
+    const auto found = parent_.find(link);
+    return found == parent_.end() ? "" : found->second;
+  }
+
+  void check_roots(const TiXmlElement& robot) {
+    std::vector<std::string> roots;
+    for (const std::string& name : names_) {
+      if (parent_.count(name) == 0) roots.push_back(name);
+    }
+    if (roots.size() == 1) return;
+    problems_.add(robot.Row(),
+                  fmt::format("links '{}' and '{}' have no parent; a robot has "
+                              "one root: connect them by a joint (type "
+                              "floating if nothing holds them)",
+                              roots[0], roots[1]));
+  }
+
+  Problems& problems_;
+  std::vector<std::string> names_;
+  std::map<std::string, int> line_of_link_;
+  std::map<std::string, int> line_of_joint_;
+  std::map<std::string, std::string> parent_;
+};
+
+}  // namespace
+
+void check_urdf_tree(const TiXmlElement& robot, Problems& problems) {
+  TreeCheck(problems).run(robot);
+}
+
+}  // namespace limber::scene

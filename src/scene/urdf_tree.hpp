@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <tinyxml.h>
+
+#include "scene/problems.hpp"
+
+namespace limber::scene {
+
+/// Checks what urdfdom only logs or tells without a place: names that are
+/// missing or given twice, joints whose links do not exist, a link with two
+/// parents, loops, more than one root, joints of an unknown type or with
+/// parts that Limber does not model.
+void check_urdf_tree(const TiXmlElement& robot, Problems& problems);
+
+}  // namespace limber::scene

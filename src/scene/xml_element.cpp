@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/xml_element.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "common/names.hpp"
+
+namespace limber::scene {
+namespace {
+
+std::optional<double> parse_number(const std::string& text) {
+  double value = 0.0;
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (first != last && *first == '+') ++first;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc{} || end != last || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+}  // namespace
+
+void XmlElement::fail(const std::string& text) const {
+  problems_.add(line(), fmt::format("<{}> {}", tag(), text));
+}
+
+std::optional<std::string> XmlElement::text(const std::string& name) {
+  known_.insert(name);
+  const std::string* value = element_.Attribute(name);
+  if (value == nullptr) return std::nullopt;
+  return *value;
+}
+
+std::string XmlElement::required_text(const std::string& name) {
+  const std::optional<std::string> value = text(name);
+  if (!value || value->empty()) fail(fmt::format("needs '{}'", name));
+  return value.value_or("");
+}
+
+std::optional<std::vector<double>> XmlElement::numbers(const std::string& name,
+                                                       const Range& range) {
+  const std::optional<std::string> value = text(name);
+  if (!value) return std::nullopt;
+  std::vector<double> result;
+  std::istringstream words(*value);
+  for (std::string word; words >> word;) {
+    const std::optional<double> number = parse_number(word);
+    if (!number || !range.contains(*number)) {
+      fail(fmt::format("{}=\"{}\": expected {}", name, *value, range.text()));
+      return std::nullopt;
+    }
+    result.push_back(*number);
+  }
+  return result;
+}
+
+std::optional<double> XmlElement::number(const std::string& name,
+                                         const Range& range) {
+  const std::optional<std::vector<double>> values = numbers(name, range);
+  if (!values) return std::nullopt;
+  if (values->size() != 1) {
+    fail(fmt::format("{}: expected one number, got {}", name, values->size()));
+    return std::nullopt;
+  }
+  return values->front();
+}
+
+double XmlElement::required_number(const std::string& name,
+                                   const Range& range) {
+  if (element_.Attribute(name) == nullptr)
+    fail(fmt::format("needs '{}'", name));
+  return number(name, range).value_or(1.0);
+}
+
+std::optional<int> XmlElement::integer(const std::string& name, int lower,
+                                       int upper) {
+  const Range range{double(lower), double(upper), false, false};
+  const std::optional<double> value = number(name, range);
+  if (!value) return std::nullopt;
+  if (*value != std::floor(*value)) {
+    fail(fmt::format("{}={}: expected a whole number", name, *value));
+    return std::nullopt;
+  }
+  return static_cast<int>(*value);
+}
+
+std::optional<bool> XmlElement::boolean(const std::string& name) {
+  const std::optional<std::string> value = text(name);
+  if (!value) return std::nullopt;
+  if (*value == "true" || *value == "1") return true;
+  if (*value == "false" || *value == "0") return false;
+  fail(fmt::format("{}=\"{}\": expected true or false", name, *value));
+  return std::nullopt;
+}
+
+std::optional<Vector3> XmlElement::vector(const std::string& name,
+                                          const Range& range) {
+  const std::optional<std::vector<double>> values = numbers(name, range);
+  if (!values) return std::nullopt;
+  if (values->size() != 3) {
+    fail(fmt::format("{}: expected three numbers, got {}", name,
+                     values->size()));
+    return std::nullopt;
+  }
+  return Vector3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+Pose XmlElement::pose() {
+  Pose pose;
+  pose.p = vector("xyz").value_or(Vector3::Zero());
+  pose.R = rotation_rpy(vector("rpy").value_or(Vector3::Zero()));
+  return pose;
+}
+
+void XmlElement::finish_attributes() const {
+  const std::vector<std::string> known(known_.begin(), known_.end());
+  for (const TiXmlAttribute* a = element_.FirstAttribute(); a != nullptr;
+       a = a->Next()) {
+    if (known_.count(a->Name()) == 0) {
+      fail(describe_unknown("attribute", a->Name(), known));
+    }
+  }
+}
+
+void XmlElement::read_children(
+    const std::map<std::string, Reader>& readers) const {
+  std::vector<std::string> known;
+  for (const auto& [name, reader] : readers) known.push_back(name);
+  for (const TiXmlElement* child = element_.FirstChildElement();
+       child != nullptr; child = child->NextSiblingElement()) {
+    XmlElement element(*child, problems_);
+    const auto found = readers.find(child->ValueStr());
+    if (found == readers.end()) {
+      problems_.add(
+          child->Row(),
+          fmt::format("in <{}>: {}", tag(),
+                      describe_unknown("element", child->ValueStr(), known)));
+      continue;
+    }
+    found->second(element);
+    element.finish_attributes();
+  }
+}
+
+Matrix3 rotation_rpy(const Vector3& rpy) {
+  return (Eigen::AngleAxisd(rpy.z(), Vector3::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), Vector3::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), Vector3::UnitX()))
+      .toRotationMatrix();
+}
+
+}  // namespace limber::scene

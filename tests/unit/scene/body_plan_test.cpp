@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/body_plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include "unit/scene/temporary_file.hpp"
+
+namespace limber::scene {
+namespace {
+
+constexpr double kRoundOff = 1e-13;
+
+Joint make_joint(int parent, int child, joints::JointKind kind) {
+  Joint joint;
+  joint.name = "j" + std::to_string(child);
+  joint.kind = kind;
+  joint.parent = parent;
+  joint.child = child;
+  joint.X_PJ.p = Vector3::UnitX();
+  return joint;
+}
+
+Link make_link(const std::string& name, double mass) {
+  Link link;
+  link.name = name;
+  if (mass > 0.0) {
+    link.inertia = LinkInertia{mass, Vector3::Zero(), Matrix3::Identity()};
+  }
+  return link;
+}
+
+TEST(BodyPlan, MergesFixedRigidLinksByTheParallelAxisTheorem) {
+  Robot robot;
+  robot.links = {make_link("a", 1), make_link("mount", 0), make_link("b", 3)};
+  robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
+                  make_joint(1, 2, joints::JointKind::fixed)};
+  const BodyPlans plans = plan_bodies(robot, {nullptr, nullptr, nullptr});
+  ASSERT_EQ(plans.bodies.size(), 1U);
+  EXPECT_EQ(plans.bodies[0].mass, 4.0);
+  // Two masses 2 m apart: mu d^2 = (3/4) 4 about the axes across.
+  const Matrix3 expected = Vector3(2.0, 5.0, 5.0).asDiagonal();
+  EXPECT_LT((plans.bodies[0].inertia - expected).norm(), kRoundOff);
+  EXPECT_LT((plans.X_BL[0].p - Vector3(-1.5, 0, 0)).norm(), kRoundOff);
+  EXPECT_TRUE(plans.coupled_joints.empty());
+}
+
+TEST(BodyPlan, TakesTheLinkCalledWorldAsTheWorld) {
+  Robot robot;
+  robot.links = {make_link("world", 0), make_link("a", 0), make_link("b", 2)};
+  robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
+                  make_joint(1, 2, joints::JointKind::revolute)};
+  const BodyPlans plans = plan_bodies(robot, {nullptr, nullptr, nullptr});
+  ASSERT_EQ(plans.bodies.size(), 2U);
+  EXPECT_TRUE(plans.bodies[0].is_world);
+  EXPECT_EQ(plans.body_of_link[1], 0);
+  EXPECT_EQ(plans.coupled_joints, std::vector<int>{1});
+}
+
+TEST(BodyPlan, RefusesAMovingBodyWithoutMass) {
+  Robot robot;
+  robot.links = {make_link("a", 1), make_link("b", 0)};
+  robot.joints = {make_joint(0, 1, joints::JointKind::revolute)};
+  const std::string text = test::input_error([&] {
+    (void)plan_bodies(robot, {nullptr, nullptr});
+  });
+  EXPECT_THAT(text, testing::HasSubstr("link 'b' moves but has no mass"));
+}
+
+}  // namespace
+}  // namespace limber::scene

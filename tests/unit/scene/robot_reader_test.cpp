@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/robot_reader.hpp"
+
+#include <gmock/gmock.h>
+
+#include "unit/scene/temporary_file.hpp"
+
+namespace limber::scene {
+namespace {
+
+using test::input_error;
+using test::TemporaryFile;
+using testing::HasSubstr;
+
+Robot read(const std::string& body) {
+  const TemporaryFile file("robot.urdf",
+                           "<robot name='r'>\n" + body + "\n</robot>");
+  return read_robot(file.path());
+}
+
+std::string error_of(const std::string& body) {
+  return input_error([&] { (void)read(body); });
+}
+
+std::string joint(const std::string& name, const std::string& parent,
+                  const std::string& child,
+                  const std::string& type = "revolute",
+                  const std::string& more = "") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" +
+         parent + "'/><child link='" + child +
+         "'/><axis xyz='0 0 2'/><limit lower='-1' upper='1' effort='1' "
+         "velocity='1'/>" +
+         more + "</joint>\n";
+}
+
+std::string links(const std::string& names) {
+  std::string text;
+  for (const char c : names) text += std::string("<link name='") + c + "'/>\n";
+  return text;
+}
+
+const char* const kMesh =
+    "<mesh file='m.msh' unit='mm'/><material youngs_modulus='1e9' "
+    "poisson_ratio='0.3' density='1000'/>";
+
+TEST(RobotReader, OrdersLinksParentsFirstAndNormalisesAxes) {
+  const Robot robot = read(links("cab") + joint("j", "a", "b") +
+                           joint("k", "b", "c", "prismatic"));
+  ASSERT_EQ(robot.links.size(), 3U);
+  EXPECT_EQ(robot.links[0].name, "a");
+  ASSERT_EQ(robot.joints.size(), 2U);
+  EXPECT_EQ(robot.joints[1].child, 2);
+  EXPECT_EQ(robot.joints[0].axis_J, Vector3::UnitZ());
+  EXPECT_EQ(robot.joints[1].kind, joints::JointKind::prismatic);
+  EXPECT_EQ(robot.warnings.size(), 2U);  // the two limits
+}
+
+TEST(RobotReader, TurnsInertiaIntoLinkAxes) {
+  const Robot robot = read(
+      "<link name='a'><inertial><origin xyz='1 2 3' rpy='0 0 "
+      "1.5707963267948966'/><mass value='2'/><inertia ixx='1' iyy='2' izz='3' "
+      "ixy='0' ixz='0' iyz='0'/></inertial></link>");
+  const Matrix3 expected = Vector3(2, 1, 3).asDiagonal();
+  EXPECT_TRUE(robot.links[0].inertia->inertia.isApprox(expected, 1e-12));
+  EXPECT_EQ(robot.links[0].inertia->p_LBcm, Vector3(1, 2, 3));
+}
+
+TEST(RobotReader, ReadsTheExtension) {
+  const Robot robot = read(
+      links("ab") + joint("j", "a", "b") + "<flexible link='b'>" + kMesh +
+      "<origin xyz='0 0 1'/><damping ratio='0.02'/>"
+      "<basis eigenmodes='4' interface_modes='false' rows='all'/>"
+      "<interface name='i' box_lower='0 0 0' box_upper='1 1 1' "
+      "weighting='equal'/><attach joint='j' interface='i'/></flexible>"
+      "<coupler joint='j' rotational_stiffness='5'/>"
+      "<spring name='s' from='b/i' to='world' to_xyz='0 0 9' stiffness='3'/>");
+  const FlexibleLink& link = *robot.links[1].flexible;
+  EXPECT_EQ(link.mesh.unit, 1e-3);
+  EXPECT_EQ(link.mesh.file.filename(), "m.msh");
+  EXPECT_EQ(link.X_LM.p, Vector3::UnitZ());
+  EXPECT_EQ(link.basis.eigenmodes, 4);
+  EXPECT_FALSE(link.basis.interface_modes);
+  EXPECT_EQ(link.rows, flexbody::KeptRows::all);
+  EXPECT_EQ(link.interfaces.at(0).weighting, flexbody::Weighting::equal);
+  EXPECT_EQ(link.interface_of_joint.at("j"), "i");
+  EXPECT_EQ(robot.joints[0].coupler.rotational_stiffness, 5.0);
+  EXPECT_EQ(robot.connectors.at(0).from.interface, "i");
+  EXPECT_EQ(robot.connectors.at(0).to.point, Vector3(0, 0, 9));
+}
+
+TEST(RobotReader, NamesTheNearestKnownWord) {
+  EXPECT_THAT(error_of(links("a") + "<flexible link='a'>" + kMesh +
+                       "<dampin ratio='1'/></flexible>"),
+              HasSubstr("did you mean 'damping'"));
+  EXPECT_THAT(error_of(links("a") + "<flexible link='a'>" + kMesh +
+                       "<damping ratoi='1'/></flexible>"),
+              HasSubstr("did you mean 'ratio'"));
+}
+
+TEST(RobotReader, RefusesValuesOutsideTheirRange) {
+  const std::string text = error_of(
+      links("a") +
+      "<flexible link='a'><mesh file='m.msh' order='7'/><material "
+      "youngs_modulus='1' poisson_ratio='0.5' density='-1'/></flexible>");
+  EXPECT_THAT(text, HasSubstr("order"));
+  EXPECT_THAT(text, HasSubstr("poisson_ratio"));
+  EXPECT_THAT(text, HasSubstr("density"));
+}
+
+TEST(RobotReader, RefusesWhatIsNoTree) {
+  EXPECT_THAT(error_of(links("ab") + joint("j", "a", "x")),
+              HasSubstr("unknown link 'x'"));
+  EXPECT_THAT(error_of(links("abc") + joint("j", "a", "b") +
+                       joint("k", "c", "b") + joint("l", "a", "c")),
+              HasSubstr("two parents"));
+  EXPECT_THAT(
+      error_of(links("ab") + joint("j", "a", "b") + joint("k", "b", "a")),
+      HasSubstr("loop"));
+  EXPECT_THAT(error_of(links("ab")), HasSubstr("have no parent"));
+}
+
+TEST(RobotReader, RefusesWhatIsNotModelled) {
+  EXPECT_THAT(error_of(links("ab") + joint("j", "a", "b", "revolute",
+                                           "<dynamics friction='1'/>")),
+              HasSubstr("friction"));
+  EXPECT_THAT(error_of(links("ab") + joint("j", "a", "b", "screw")),
+              HasSubstr("unknown type 'screw'"));
+}
+
+TEST(RobotReader, NamesTheLineOfBrokenXml) {
+  EXPECT_THAT(error_of("<link name='a'"), HasSubstr("robot.urdf:"));
+  EXPECT_THAT(input_error([] { (void)read_robot("/no/such.urdf"); }),
+              HasSubstr("/no/such.urdf"));
+}
+
+TEST(RobotReader, ReadsTheShippedModels) {
+  const std::string folder = std::string(LIMBER_SOURCE_DIR) + "/models/";
+  const Robot arm = read_robot(folder + "capture_arm.urdf");
+  EXPECT_EQ(arm.links.size(), 13U);
+  EXPECT_EQ(arm.connectors.size(), 6U);
+  EXPECT_TRUE(arm.warnings.empty());
+  EXPECT_TRUE(read_robot(folder + "beam.urdf").links[0].flexible);
+}
+
+}  // namespace
+}  // namespace limber::scene
