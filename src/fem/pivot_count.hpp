@@ -7,11 +7,13 @@
 
 namespace limber::fem {
 
-/// How many eigenvalues of a symmetric matrix are negative, by Sylvester's
-/// law from the pivots of L D L^T.
+/// How many eigenvalues of a symmetric matrix are negative.
+///
+/// Source     Sylvester's law of inertia: as many as L D L^T has negative
+///            pivots, exact whatever the order of elimination.
 struct PivotCount {
   int negative = 0;
-  /// Whether no pivot was so small that its sign is roundoff.
+  /// Whether the factor did not grow, so that the signs are not roundoff.
   bool is_reliable = false;
 };
 
