@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace limber::app {
+
+/// What the chosen subcommand does once the command line is read.
+using Action = std::function<void()>;
+
+/// Each adds its subcommand to `app`; choosing it sets `action`.
+void add_run(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
+void add_modes(CLI::App& app, Action& action);
+void add_info(CLI::App& app, Action& action);
+void add_reduce(CLI::App& app, Action& action);
+
+}  // namespace limber::app

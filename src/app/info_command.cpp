@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/describe.hpp"
+#include "common/errors.hpp"
+
+namespace limber::app {
+namespace {
+
+struct Options {
+  std::string file;
+  double unit = 1.0;
+  bool json = false;
+};
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+Json describe(const Options& options) {
+  if (!std::filesystem::exists(options.file)) {
+    throw InputError(fmt::format("{}: no such file", options.file));
+  }
+  const std::string extension = extension_of(options.file);
+  if (extension == ".toml") return describe_scenario(options.file);
+  if (extension == ".urdf" || extension == ".xml") {
+    return describe_robot(options.file);
+  }
+  if (extension == ".h5" || extension == ".hdf5") {
+    return describe_hdf5(options.file);
+  }
+  if (extension == ".msh" || extension == ".geo" || extension == ".step" ||
+      extension == ".stp") {
+    return describe_mesh(options.file, options.unit);
+  }
+  throw InputError(fmt::format(
+      "{}: info knows .toml, .urdf, .h5, .msh, .geo, .step and .stp files",
+      options.file));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("info",
+                         "Tell what is in a mesh, reduced body, scenario, "
+                         "robot or results file");
+  command->add_option("file", options->file, "File")->required();
+  command->add_option("--unit", options->unit, "Metres per mesh unit");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->callback([&action, options] {
+    action = [options] {
+      const Json json = describe(*options);
+      fmt::print("{}\n", options->json ? json.text() : json.outline());
+    };
+  });
+}
+
+}  // namespace limber::app

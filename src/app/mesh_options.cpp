@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/mesh_options.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace limber::app {
+namespace {
+
+void check(const MeshOptions& options) {
+  std::vector<std::string> problems;
+  const auto require = [&](bool fine, const std::string& text) {
+    if (!fine) problems.push_back(text);
+  };
+  const flexbody::Material& m = options.material;
+  require(
+      m.youngs_modulus > 0.0,
+      fmt::format("--youngs-modulus is {} Pa; expected > 0", m.youngs_modulus));
+  require(m.poisson_ratio > -1.0 && m.poisson_ratio < 0.5,
+          fmt::format("--poisson-ratio is {}; expected in (-1, 0.5): at 0.5 "
+                      "the material is incompressible and its stiffness has "
+                      "no bound",
+                      m.poisson_ratio));
+  require(m.density > 0.0,
+          fmt::format("--density is {} kg/m^3; expected > 0", m.density));
+  require(options.size >= 0.0,
+          fmt::format("--size is {}; expected >= 0", options.size));
+  require(options.unit > 0.0,
+          fmt::format("--unit is {} m; expected > 0", options.unit));
+  require(options.order >= 0 && options.order <= 3,
+          fmt::format("--order is {}; expected 1, 2 or 3", options.order));
+  if (!problems.empty()) throw InputError(problems);
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshOptions& options) {
+  command
+      .add_option("mesh", options.file, "Mesh (.msh) or geometry (.geo, .step)")
+      ->required();
+  command
+      .add_option("--youngs-modulus", options.material.youngs_modulus, "E [Pa]")
+      ->required();
+  command
+      .add_option("--poisson-ratio", options.material.poisson_ratio, "nu [-]")
+      ->required();
+  command.add_option("--density", options.material.density, "rho [kg/m^3]")
+      ->required();
+  command.add_option("--size", options.size,
+                     "Element size when meshing geometry [mesh units]");
+  command.add_option("--order", options.order,
+                     "Element order when meshing geometry: 1, 2 or 3");
+  command.add_option("--unit", options.unit,
+                     "Metres per mesh unit, e.g. 0.001 for millimetres");
+}
+
+flexbody::Recipe make_recipe(const MeshOptions& options) {
+  check(options);
+  flexbody::Recipe recipe;
+  recipe.mesh.file = options.file;
+  recipe.mesh.size = options.size;
+  recipe.mesh.order = options.order;
+  recipe.mesh.unit = options.unit;
+  recipe.name = recipe.mesh.file.stem().string();
+  recipe.materials = {{"", options.material}};
+  return recipe;
+}
+
+}  // namespace limber::app

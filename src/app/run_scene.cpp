@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/run_scene.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "app/reducer.hpp"
+#include "app/terminal.hpp"
+#include "common/errors.hpp"
+#include "flexbody/cache.hpp"
+
+namespace limber::app {
+namespace {
+
+void observe(Run& run, const dynamics::SystemState& state,
+             const dynamics::EnergyBalance& energy) {
+  results::History& history = run.history;
+  history.times.push_back(state.t);
+  history.probe_rows.push_back(
+      scene::evaluate_all(run.built.probes, run.built.model, state));
+  history.states.push_back(state);
+  history.energies.push_back(energy);
+}
+
+void add_columns(Run& run) {
+  for (const scene::Probe& probe : run.built.probes) {
+    for (const auto& column : scene::column_names(probe)) {
+      run.history.columns.push_back({column.name, column.unit});
+    }
+  }
+}
+
+Json summarize_energy(const results::History& history) {
+  Json json = Json::object();
+  if (history.energies.empty()) return json;
+  const dynamics::EnergyBalance& first = history.energies.front();
+  const dynamics::EnergyBalance& last = history.energies.back();
+  json.add("initial", first.total());
+  json.add("final", last.total());
+  json.add("dissipated", last.dissipated);
+  json.add("work", last.work);
+  json.add("drift", (last.total() + last.dissipated - last.work) -
+                        (first.total() + first.dissipated - first.work));
+  return json;
+}
+
+double find_peak(const results::History& history, std::size_t column) {
+  double peak = 0.0;
+  for (const std::vector<double>& row : history.probe_rows) {
+    if (std::abs(row[column]) > std::abs(peak)) peak = row[column];
+  }
+  return peak;
+}
+
+Json summarize_probes(const results::History& history) {
+  Json json = Json::object();
+  if (history.probe_rows.empty()) return json;
+  for (std::size_t i = 0; i < history.columns.size(); ++i) {
+    Json probe = Json::object();
+    probe.add("final", history.probe_rows.back()[i]);
+    probe.add("peak", find_peak(history, i));
+    probe.add("unit", history.columns[i].unit);
+    json.add(history.columns[i].name, probe);
+  }
+  return json;
+}
+
+int count_modes(const Run& run) { return run.built.model.modal_count; }
+
+}  // namespace
+
+Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
+  const Progress progress = make_progress_bar();
+  Run run;
+  run.scene = scene;
+  run.built = scene::build_system(
+      scene, make_reducer(progress),
+      cache.empty() ? flexbody::default_cache_folder() : cache);
+  clear_progress_bar();
+  print_warnings(run.built.warnings);
+  add_columns(run);
+  dynamics::SystemState state = run.built.initial;
+  const auto observer = [&](const dynamics::SystemState& now,
+                            const dynamics::EnergyBalance& energy) {
+    observe(run, now, energy);
+  };
+  try {
+    run.statistics = dynamics::simulate(run.built.model, state,
+                                        run.built.settings, observer, progress);
+  } catch (const NumericalError&) {
+    run.failure = std::current_exception();
+  }
+  clear_progress_bar();
+  return run;
+}
+
+void check_output_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::filesystem::path probe =
+      folder / fmt::format(".limber-{}", getpid());
+  const bool written = !error && std::ofstream(probe).put('x').flush().good();
+  std::filesystem::remove(probe, error);
+  if (written) return;
+  throw InputError(fmt::format(
+      "results folder '{}' cannot be written; choose another with --out",
+      folder.string()));
+}
+
+Json summarize(const Run& run) {
+  Json json = Json::object();
+  json.add("scenario", run.scene.scenario.file.string());
+  json.add("completed", run.failure == nullptr);
+  json.add("bodies", run.built.model.bodies.size());
+  json.add("modes", count_modes(run));
+  json.add("couplers", run.built.model.couplers.size());
+  json.add("steps", run.statistics.steps);
+  json.add("newton_iterations", run.statistics.newton_iterations);
+  json.add("seconds_offline", run.built.seconds_offline);
+  json.add("seconds_online", run.statistics.seconds);
+  json.add("bodies_reduced", run.built.bodies_reduced);
+  json.add("bodies_cached", run.built.bodies_cached);
+  json.add("energy", summarize_energy(run.history));
+  json.add("probes", summarize_probes(run.history));
+  json.add("warnings", run.built.warnings);
+  return json;
+}
+
+}  // namespace limber::app

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <exception>
+#include <filesystem>
+
+#include "app/json.hpp"
+#include "dynamics/simulation.hpp"
+#include "results/history.hpp"
+#include "scene/scene.hpp"
+
+namespace limber::app {
+
+/// What one run of a scene gives.
+struct Run {
+  scene::Scene scene;
+  scene::BuiltScene built;
+  results::History history;
+  dynamics::SimulationStatistics statistics;
+  std::exception_ptr failure;  ///< the NumericalError that ended it early
+};
+
+/// Builds and simulates a scene. On NumericalError the run holds what was
+/// computed until then, and `failure`.
+[[nodiscard]] Run run_scene(const scene::Scene& scene,
+                            const std::filesystem::path& cache);
+
+/// Makes `folder` and checks that it can be written, before a long run.
+/// @throws InputError if not.
+void check_output_folder(const std::filesystem::path& folder);
+
+/// The run in figures: steps, times, energy, probes (name -> final, peak).
+[[nodiscard]] Json summarize(const Run& run);
+
+/// Writes results.h5, probes.csv, summary.json and what the scenario asks for.
+void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf);
+
+}  // namespace limber::app

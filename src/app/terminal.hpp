@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/progress.hpp"
+
+namespace limber::app {
+
+/// A bar with the time left on standard error; silent if that is no terminal.
+[[nodiscard]] Progress make_progress_bar();
+
+/// Removes the bar, so that other lines can follow.
+void clear_progress_bar();
+
+/// "limber: warning: ..." lines on standard error.
+void print_warnings(const std::vector<std::string>& warnings);
+
+}  // namespace limber::app

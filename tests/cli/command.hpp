@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace limber::test {
+
+struct CommandResult {
+  int status = -1;     ///< exit status
+  std::string out;     ///< standard output
+  std::string errors;  ///< standard error
+};
+
+/// A folder of its own for one test, removed at the end; commands run in it.
+class Workspace {
+ public:
+  Workspace();
+  ~Workspace();
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  void write(const std::string& name, const std::string& text) const;
+  /// Runs `limber ARGUMENTS`, the words quoted for a shell.
+  [[nodiscard]] CommandResult limber(const std::string& arguments) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+[[nodiscard]] std::string read_text(const std::filesystem::path& file);
+
+/// Whether `text` is one JSON object and white space, nothing else.
+[[nodiscard]] bool is_one_json_object(const std::string& text);
+
+}  // namespace limber::test
