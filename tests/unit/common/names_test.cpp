@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/names.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace limber {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::vector<std::string> kKnown = {"duration", "step", "fidelity"};
+
+TEST(Names, NearestCorrectsASlip) {
+  EXPECT_EQ(nearest_name("duraton", kKnown), "duration");
+  EXPECT_EQ(nearest_name("stpe", kKnown), "step");
+  EXPECT_EQ(nearest_name("fidelitty", kKnown), "fidelity");
+}
+
+TEST(Names, NearestOfAKnownNameIsItself) {
+  for (const std::string& name : kKnown) {
+    EXPECT_EQ(nearest_name(name, kKnown), name);
+  }
+}
+
+TEST(Names, NothingIsNearAFarName) {
+  EXPECT_EQ(nearest_name("completely_else", kKnown), "");
+  EXPECT_EQ(nearest_name("anything", {}), "");
+}
+
+TEST(Names, FirstOfEquallyNearNamesWins) {
+  EXPECT_EQ(nearest_name("aa", {"ab", "ac"}), "ab");
+}
+
+TEST(Names, DescriptionSuggestsAndLists) {
+  const std::string text = describe_unknown("key", "duraton", kKnown);
+  EXPECT_THAT(text, HasSubstr("unknown key 'duraton'"));
+  EXPECT_THAT(text, HasSubstr("did you mean 'duration'?"));
+  EXPECT_THAT(text, HasSubstr("known: duration, step, fidelity"));
+}
+
+TEST(Names, DescriptionDoesNotGuessWildly) {
+  EXPECT_THAT(describe_unknown("key", "zzzzzzzz", kKnown),
+              Not(HasSubstr("did you mean")));
+  EXPECT_THAT(describe_unknown("group", "tip", {}), HasSubstr("known: none"));
+}
+
+}  // namespace
+}  // namespace limber
