@@ -131,8 +131,7 @@ std::vector<Interface> find_interfaces(const fem::Mesh& mesh,
 
 /// Forces and moments that the interface can carry: 3 + rotation rank.
 Matrix6X unit_wrenches(const InterfaceMotion& motion) {
-  Matrix6X wrenches = Matrix6X::Zero(6, 3 + motion.rotation_rank());
-  wrenches.topLeftCorner<3, 3>().setIdentity();
+  Matrix6X wrenches = Matrix6X::Identity(6, 3 + motion.rotation_rank());
   wrenches.bottomRightCorner(3, motion.rotation_rank()) =
       motion.rotation_axes();
   return wrenches;
@@ -195,9 +194,9 @@ StaticModes find_static_modes(const fem::Mesh& mesh, const Recipe& recipe,
   StaticModes modes;
   modes.vectors.resize(3 * mesh.x.cols(), 0);
   const auto append = [&](const MatrixX& answers) {
-    const Eigen::Index before = modes.vectors.cols();
-    modes.vectors.conservativeResize(Eigen::NoChange, before + answers.cols());
-    modes.vectors.rightCols(answers.cols()) = answers;
+    MatrixX joined(answers.rows(), modes.vectors.cols() + answers.cols());
+    joined << modes.vectors, answers;
+    modes.vectors = std::move(joined);
   };
   for (const Interface& interface : interfaces) {
     const Matrix6X wrenches = unit_wrenches(interface.motion);
