@@ -141,7 +141,7 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
 }
 
 // The step's end that a_next_ implies.
-void GeneralizedAlpha::advance(const SystemState& from, double h) {
+void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   const double inc_n = h * h * (0.5 - beta_);
   const double inc_next = h * h * beta_;
   const double v_n = h * (1.0 - gamma_);
@@ -174,7 +174,7 @@ void GeneralizedAlpha::advance(const SystemState& from, double h) {
   next_.etadot = from.etadot + v_n * a_.modes + v_next * a_next_.modes;
   vdot_next_.modes =
       d_next * a_next_.modes + d_n * a_.modes - d_old * vdot_.modes;
-  next_.t = from.t + h;
+  next_.t = end;
 }
 
 void GeneralizedAlpha::apply_increments(double h) {
@@ -258,9 +258,8 @@ void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
   }
 }
 
-StepResult GeneralizedAlpha::step(SystemState& state, double h) {
+StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   set_coefficients(h);
-  const double next_t = state.t + h;
   // Predict unchanged accelerations.
   const double p_v = 1.0 / (1.0 - am_);
   const double p_a = am_ / (1.0 - am_);
@@ -272,7 +271,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h) {
   a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
 
   StepResult result;
-  advance(state, h);
+  advance(state, h, end);
   double last = 0.0;
   double slowest = 0.0;  // contraction with the factors held
   const double roundoff = measure_roundoff();
@@ -293,11 +292,11 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h) {
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
       factored_step_ = 0.0;
-      fail(next_t, correction.body, "its motion is no longer finite",
+      fail(end, correction.body, "its motion is no longer finite",
            correction.value);
     }
     apply_increments(h);
-    advance(state, h);
+    advance(state, h, end);
     const double limit = settings_.tolerance * measure_motion();
     const double contraction =
         result.iterations > 1 ? correction.value / last : 1.0;
@@ -312,7 +311,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h) {
     if (left <= limit || correction.value <= roundoff) break;
     if (result.iterations >= settings_.max_iterations) {
       factored_step_ = 0.0;
-      fail(next_t, correction.body, "Newton's method did not converge",
+      fail(end, correction.body, "Newton's method did not converge",
            correction.value);
     }
     needs_factors = result.iterations > 1 && contraction > kPoorContraction;

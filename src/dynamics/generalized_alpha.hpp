@@ -38,9 +38,10 @@ class GeneralizedAlpha {
   /// Accounts for loads that jump at state.t (after a step that ended there).
   void cross_jump(const SystemState& state, double h);
 
-  /// Advances `state` by h. @throws NumericalError naming the body, the time
-  /// and the residual; `state` is then unchanged.
-  StepResult step(SystemState& state, double h);
+  /// Advances `state` by h, to the time `end` (given, so that no round-off of
+  /// a sum puts a step's end beyond a load's edge). @throws NumericalError
+  /// naming the body, the time and the residual; `state` is then unchanged.
+  StepResult step(SystemState& state, double h, double end);
 
  private:
   struct Rates {  // a value for each velocity component
@@ -49,7 +50,7 @@ class GeneralizedAlpha {
     VectorX modes;
   };
   void set_coefficients(double h);
-  void advance(const SystemState& from, double h);
+  void advance(const SystemState& from, double h, double end);
   void calc_residual();
   void apply_increments(double h);
   void add_quasi_static_accelerations();

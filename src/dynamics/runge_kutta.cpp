@@ -35,8 +35,8 @@ void RungeKutta4::calc_slope(const SystemState& at,
 }
 
 void RungeKutta4::displace(const SystemState& from, const Slope& slope,
-                           double h) {
-  stage_.t = from.t + h;
+                           double h, double t) {
+  stage_.t = t;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyState& old = from.bodies[b];
     BodyState& body = stage_.bodies[b];
@@ -50,7 +50,7 @@ void RungeKutta4::displace(const SystemState& from, const Slope& slope,
   stage_.etadot = from.etadot + h * slope.etaddot;
 }
 
-StepResult RungeKutta4::step(SystemState& state, double h) {
+StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   for (Vector3& theta : theta_) theta.setZero();
   calc_slope(state, theta_, Side::right, slopes_[0]);
   StepResult result;
@@ -58,8 +58,9 @@ StepResult RungeKutta4::step(SystemState& state, double h) {
   double loss = terms_.dissipated_power;
   const std::array<double, 3> shares = {0.5, 0.5, 1.0};
   for (std::size_t s = 0; s < 3; ++s) {
-    displace(state, slopes_[s], shares[s] * h);
     const bool at_end = s == 2;
+    displace(state, slopes_[s], shares[s] * h,
+             at_end ? end : state.t + shares[s] * h);
     calc_slope(stage_, theta_, at_end ? Side::left : Side::right,
                slopes_[s + 1]);
     work += (at_end ? 1.0 : 2.0) * terms_.load_power;
@@ -83,7 +84,7 @@ StepResult RungeKutta4::step(SystemState& state, double h) {
   k[0].etadot /= 6.0;
   k[0].etaddot += 2.0 * k[1].etaddot + 2.0 * k[2].etaddot + k[3].etaddot;
   k[0].etaddot /= 6.0;
-  displace(state, k[0], h);
+  displace(state, k[0], h, end);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     BodyState& body = stage_.bodies[b];
     body.quat_WB.normalize();

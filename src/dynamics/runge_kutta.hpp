@@ -18,9 +18,10 @@ class RungeKutta4 {
  public:
   explicit RungeKutta4(const SystemModel& model);
 
-  /// Advances `state` by h.
+  /// Advances `state` by h, to the time `end` (given, so that no round-off of
+  /// a sum puts a step's end beyond a load's edge).
   /// @throws NumericalError if the motion is no longer finite.
-  StepResult step(SystemState& state, double h);
+  StepResult step(SystemState& state, double h, double end);
 
  private:
   struct Slope {
@@ -29,7 +30,8 @@ class RungeKutta4 {
   };
   void calc_slope(const SystemState& at, const std::vector<Vector3>& theta,
                   Side side, Slope& slope);
-  void displace(const SystemState& from, const Slope& slope, double h);
+  void displace(const SystemState& from, const Slope& slope, double h,
+                double t);
 
   const SystemModel& model_;
   SystemTerms terms_;

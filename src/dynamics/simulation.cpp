@@ -91,8 +91,8 @@ class Stepper {
       alpha->cross_jump(state, h);
     }
   }
-  StepResult step(SystemState& state, double h) {
-    return std::visit([&](auto& s) { return s.step(state, h); }, scheme_);
+  StepResult step(SystemState& state, double h, double end) {
+    return std::visit([&](auto& s) { return s.step(state, h, end); }, scheme_);
   }
 
  private:
@@ -164,9 +164,10 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
     if (at_jump) stepper.cross_jump(state, h);
     started = true;
     for (long i = 1; i <= count; ++i) {
-      const StepResult result = stepper.step(state, h);
       // Times come from the landmark, not from a sum of steps.
-      state.t = i == count ? mark.time : origin + static_cast<double>(i) * h;
+      const double end =
+          i == count ? mark.time : origin + static_cast<double>(i) * h;
+      const StepResult result = stepper.step(state, h, end);
       ++statistics.steps;
       statistics.newton_iterations += result.iterations;
       statistics.factorizations += result.factorizations;

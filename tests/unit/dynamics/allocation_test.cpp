@@ -64,13 +64,13 @@ TEST(Allocation, AStepOfGeneralizedAlphaMakesNone) {
   const SystemModel model = loaded_chain(state);
   GeneralizedAlpha scheme(model, {});
   scheme.start(state, 1e-3);
-  scheme.step(state, 1e-3);
+  scheme.step(state, 1e-3, state.t + 1e-3);
   const long before = allocations;
   int factorizations = 0;
   for (int i = 0; i < 100; ++i) {
-    factorizations += scheme.step(state, 1e-3).factorizations;
+    factorizations += scheme.step(state, 1e-3, state.t + 1e-3).factorizations;
   }
-  scheme.step(state, 0.5e-3);
+  scheme.step(state, 0.5e-3, state.t + 0.5e-3);
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(factorizations, 0);
 }
@@ -79,9 +79,9 @@ TEST(Allocation, AStepOfRungeKuttaMakesNone) {
   SystemState state;
   const SystemModel model = loaded_chain(state);
   RungeKutta4 scheme(model);
-  scheme.step(state, 1e-6);
+  scheme.step(state, 1e-6, state.t + 1e-6);
   const long before = allocations;
-  for (int i = 0; i < 100; ++i) scheme.step(state, 1e-6);
+  for (int i = 0; i < 100; ++i) scheme.step(state, 1e-6, state.t + 1e-6);
   EXPECT_EQ(allocations - before, 0);
 }
 
