@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "results/gnuplot.hpp"
+
+namespace limber::results {
+namespace {
+
+// Colours that stay apart for every kind of sight (Okabe and Ito, 2008).
+constexpr std::array<const char*, 7> kColours = {
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7",
+    "#E69F00", "#56B4E9", "#000000"};
+constexpr int kWidth = 1200;
+constexpr int kPanelHeight = 300;
+constexpr int kHeaderHeight = 110;
+// More points than this cannot be told apart on the canvas.
+constexpr std::size_t kMostPoints = 4000;
+
+std::string style(std::size_t i) {
+  return fmt::format("lc rgb '{}' dt {} lw {}", kColours[i % kColours.size()],
+                     i % 5 + 1, i == 0 ? 2.2 : 1.8);
+}
+
+void add_data(GnuplotScript& script, const std::string& block,
+              const Series& series) {
+  script.add(fmt::format("${} << EOD", block));
+  const std::size_t n = std::min(series.times.size(), series.values.size());
+  const std::size_t stride = std::max<std::size_t>(1, n / kMostPoints);
+  for (std::size_t i = 0; i < n; i += stride) {
+    script.add(fmt::format("{:.9g} {:.9g}", series.times[i], series.values[i]));
+  }
+  script.add("EOD");
+}
+
+double largest(const Panel& panel) {
+  double value = 0.0;
+  for (const Series& series : panel.series) {
+    for (const double v : series.values) value = std::max(value, std::abs(v));
+  }
+  return value;
+}
+
+// A panel whose values are round-off beside the others' (or all zero) shows a
+// flat line, not noise blown up to fill it.
+void set_range(GnuplotScript& script, const Panel& panel, double reference) {
+  const double own = largest(panel);
+  if (own > 1e-9 * reference && own > 0.0) {
+    script.add("set yrange [*:*]");
+    script.add("set offsets 0, 0, graph 0.08, graph 0.08");
+    return;
+  }
+  const double half = reference > 0.0 ? 1e-6 * reference : 1.0;
+  script.add("unset offsets");
+  script.add(fmt::format("set yrange [{:g}:{:g}]", -half, half));
+}
+
+void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
+               double reference, bool is_last) {
+  set_range(script, panel, reference);
+  script.add("set ylabel " + quote(panel.label) + " offset 1,0");
+  script.add(is_last ? "set xlabel 'time [s]'" : "unset xlabel");
+  script.add(is_last ? "set format x '%g'" : "set format x ''");
+  if (p == 0) {
+    script.add("set key outside top center horizontal samplen 3");
+  } else {
+    script.add("unset key");
+  }
+  std::string plot = "plot ";
+  for (std::size_t s = 0; s < panel.series.size(); ++s) {
+    plot += fmt::format("{}$d{}_{} using 1:2 with lines {} title {}",
+                        s == 0 ? "" : ", ", p, s, style(s),
+                        quote(panel.series[s].name));
+  }
+  script.add(plot);
+}
+
+}  // namespace
+
+std::string draw_overlay(const std::filesystem::path& file,
+                         const std::string& title,
+                         const std::vector<Panel>& panels) {
+  const int count = static_cast<int>(panels.size());
+  GnuplotScript script(file, kWidth, kHeaderHeight + kPanelHeight * count);
+  double reference = 0.0;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    reference = std::max(reference, largest(panels[p]));
+    for (std::size_t s = 0; s < panels[p].series.size(); ++s) {
+      add_data(script, fmt::format("d{}_{}", p, s), panels[p].series[s]);
+    }
+  }
+  const double top = 1.0 - 80.0 / (kHeaderHeight + kPanelHeight * count);
+  script.add(fmt::format(
+      "set multiplot layout {},1 title {} font 'sans,18' margins "
+      "0.11,0.97,{:.4f},{:.4f} spacing 0,{:.4f}",
+      count, quote(title), 70.0 / (kHeaderHeight + kPanelHeight * count), top,
+      24.0 / (kHeaderHeight + kPanelHeight * count)));
+  script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
+  script.add("set border lc rgb '#555555' lw 0.7");
+  script.add("set ytics nomirror; set xtics nomirror");
+  script.add("set format y '%.3g'");
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    add_panel(script, p, panels[p], reference, p + 1 == panels.size());
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+std::string draw_energy(const std::filesystem::path& file,
+                        const std::string& title, const History& history) {
+  const auto series = [&](const char* name, auto value) {
+    Series s{name, history.times, {}};
+    for (const dynamics::EnergyBalance& e : history.energies) {
+      s.values.push_back(value(e));
+    }
+    return s;
+  };
+  using Balance = dynamics::EnergyBalance;
+  const Panel stored{
+      "stored [J]",
+      {series("total", [](const Balance& e) { return e.total(); }),
+       series("kinetic, rigid",
+              [](const Balance& e) { return e.kinetic_rigid; }),
+       series("kinetic, modal",
+              [](const Balance& e) { return e.kinetic_modal; }),
+       series("elastic", [](const Balance& e) { return e.elastic; }),
+       series("couplers", [](const Balance& e) { return e.coupler; })}};
+  const Panel audit{
+      "since the start [J]",
+      {series("change of total",
+              [&](const Balance& e) {
+                return e.total() - history.energies.front().total();
+              }),
+       series("work of loads", [](const Balance& e) { return e.work; }),
+       series("dissipated", [](const Balance& e) { return e.dissipated; })}};
+  // The panels have different lines, so each is a picture with its own key.
+  GnuplotScript script(file, kWidth, 900);
+  const std::array<const Panel*, 2> panels = {&stored, &audit};
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    for (std::size_t s = 0; s < panels[p]->series.size(); ++s) {
+      add_data(script, fmt::format("d{}_{}", p, s), panels[p]->series[s]);
+    }
+  }
+  script.add("set multiplot layout 2,1 title " + quote(title + ": energy") +
+             " font 'sans,18'");
+  script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
+  script.add("set border lc rgb '#555555' lw 0.7");
+  script.add("set format y '%.3g'; set lmargin 12; set rmargin 3");
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    script.add("set key outside top center horizontal samplen 3");
+    script.add("set ylabel " + quote(panels[p]->label));
+    script.add("set xlabel 'time [s]'");
+    std::string plot = "plot ";
+    for (std::size_t s = 0; s < panels[p]->series.size(); ++s) {
+      plot += fmt::format("{}$d{}_{} using 1:2 with lines {} title {}",
+                          s == 0 ? "" : ", ", p, s, style(s),
+                          quote(panels[p]->series[s].name));
+    }
+    script.add(plot);
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+}  // namespace limber::results

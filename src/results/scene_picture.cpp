@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "results/gnuplot.hpp"
+#include "results/pictures.hpp"
+
+namespace limber::results {
+namespace {
+
+using dynamics::BodyModel;
+using dynamics::SystemModel;
+using dynamics::SystemState;
+
+// More triangles than this take gnuplot longer than a look is worth.
+constexpr std::size_t kMostTriangles = 12000;
+constexpr std::array<const char*, 4> kColours = {"#9a9a9a", "#0072B2",
+                                                 "#D55E00", "#009E73"};
+
+struct Bounds {
+  Vector3 lower = Vector3::Constant(1e300);
+  Vector3 upper = Vector3::Constant(-1e300);
+  void include(const Vector3& p) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+};
+
+// Positions of a body's kept rows in the world, 3 x n.
+Matrix3X place_rows(const BodyModel& body, const dynamics::BodyState& rigid,
+                    const VectorX& eta, double exaggeration) {
+  const auto& rows = body.reduced->rows;
+  Matrix3X points = rows.x_B;
+  if (body.modes > 0) {
+    const VectorX u =
+        exaggeration * (rows.Phi_B * eta.segment(body.offset, body.modes));
+    points += u.reshaped(3, points.cols());
+  }
+  points = rigid.quat_WB.toRotationMatrix() * points;
+  points.colwise() += rigid.p_WB;
+  return points;
+}
+
+std::size_t count_triangles(const SystemModel& model) {
+  std::size_t count = 0;
+  for (const BodyModel& body : model.bodies) {
+    if (body.reduced) count += body.reduced->triangles.size();
+  }
+  return count;
+}
+
+// One polygon block for all surfaces at one state.
+void add_surfaces(GnuplotScript& script, const std::string& block,
+                  const SystemModel& model, const SystemState& state,
+                  double exaggeration, std::size_t stride, Bounds& bounds) {
+  script.add(fmt::format("${} << EOD", block));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    if (!body.reduced) continue;
+    const Matrix3X points =
+        place_rows(body, state.bodies[b], state.eta, exaggeration);
+    const auto& triangles = body.reduced->triangles;
+    for (std::size_t t = 0; t < triangles.size(); t += stride) {
+      for (const std::size_t corner : triangles[t]) {
+        const Vector3 p = points.col(static_cast<Eigen::Index>(corner));
+        bounds.include(p);
+        script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
+      }
+      script.add("");
+    }
+  }
+  script.add("EOD");
+}
+
+// Rigid bodies have no shape: a mark at the centre of mass, lines to what
+// their couplers hold.
+void add_rigid_bodies(GnuplotScript& script, const std::string& block,
+                      const SystemModel& model, const SystemState& state,
+                      Bounds& bounds) {
+  const auto line = [&](const Vector3& p) {
+    bounds.include(p);
+    script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
+  };
+  script.add(fmt::format("${}_marks << EOD", block));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].reduced) line(state.bodies[b].p_WB);
+  }
+  script.add("EOD");
+  script.add(fmt::format("${}_lines << EOD", block));
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    const int b = model.attachments[i].body;
+    if (b == dynamics::kWorld ||
+        model.bodies[static_cast<std::size_t>(b)].reduced) {
+      continue;
+    }
+    line(state.bodies[static_cast<std::size_t>(b)].p_WB);
+    line(dynamics::find_frame_motion(model, state, static_cast<int>(i)).X_WF.p);
+    script.add("");
+    script.add("");
+  }
+  script.add("EOD");
+}
+
+void set_view(GnuplotScript& script, const Bounds& bounds) {
+  const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
+  const double half =
+      std::max(0.55 * (bounds.upper - bounds.lower).maxCoeff(), 1e-6);
+  const char axes[] = "xyz";
+  for (int a = 0; a < 3; ++a) {
+    script.add(fmt::format("set {}range [{:g}:{:g}]", axes[a], center[a] - half,
+                           center[a] + half));
+    script.add(fmt::format("set {}label '{} [m]'", axes[a], axes[a]));
+  }
+  script.add("set view equal xyz");
+  script.add("set view 68, 35, 1.25");
+  script.add("set xyplane at " + fmt::format("{:g}", center[2] - half));
+  script.add("set border 4095 lc rgb '#cccccc' lw 0.6");
+  script.add("set ticslevel 0");
+  script.add("set xtics autofreq offset 0,-0.3; set ytics offset 0,-0.3");
+  script.add("set key at screen 0.97,0.93 right");
+}
+
+}  // namespace
+
+std::string draw_scene(const std::filesystem::path& file,
+                       const std::string& title, const SystemModel& model,
+                       const std::vector<SystemState>& states,
+                       double exaggeration) {
+  if (states.empty()) return "no picture: there is no state to draw";
+  GnuplotScript script(file, 1200, 1000);
+  const std::size_t total = count_triangles(model) * states.size();
+  const std::size_t stride =
+      std::max<std::size_t>(1, (total + kMostTriangles - 1) / kMostTriangles);
+  Bounds bounds;
+  std::string plot;
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const std::string block = fmt::format("s{}", s);
+    const char* colour = kColours[s % kColours.size()];
+    const std::string name = quote(fmt::format("t = {:g} s", states[s].t));
+    const char* separator = s == 0 ? "splot " : ", ";
+    if (total > 0) {
+      add_surfaces(script, block, model, states[s], exaggeration, stride,
+                   bounds);
+      plot += fmt::format(
+          "{}${} with polygons fc rgb '{}' fs transparent solid {} border lc "
+          "rgb '{}' lw 0.2 notitle",
+          separator, block, colour, s == 0 ? 0.25 : 0.6, colour);
+      separator = ", ";
+    }
+    add_rigid_bodies(script, block, model, states[s], bounds);
+    plot += fmt::format(
+        "{}${}_lines with lines lc rgb '{}' lw 2.5 notitle, ${}_marks with "
+        "points pt 7 ps 1.6 lc rgb '{}' notitle, NaN with lines lw 6 lc rgb "
+        "'{}' title {}",
+        separator, block, colour, block, colour, colour, name);
+  }
+  std::string heading = title;
+  if (exaggeration != 1.0) {
+    heading += fmt::format(" (deformation x {:g})", exaggeration);
+  }
+  script.add("set title " + quote(heading) + " font 'sans,18'");
+  set_view(script, bounds);
+  script.add(plot);
+  return script.run();
+}
+
+}  // namespace limber::results
