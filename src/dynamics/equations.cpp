@@ -73,7 +73,7 @@ void apply_wrench(const BodyModel& body, const Attachment& attachment,
 }
 
 void apply_coupler(const SystemModel& model, const Coupler& coupler,
-                   SystemTerms& terms, CouplerTerms& out) {
+                   WrenchSource source, SystemTerms& terms, CouplerTerms& out) {
   const auto iF = static_cast<std::size_t>(coupler.frame_F);
   const auto iM = static_cast<std::size_t>(coupler.frame_M);
   const AttachmentMotion& F = terms.attachments[iF];
@@ -89,9 +89,11 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
   out.response = joints::evaluate(coupler.law, relative);
   terms.dissipated_power += out.response.dissipation;
 
-  const Vector3 force_F = out.response.wrench.head<3>();
+  if (source == WrenchSource::law) out.applied = out.response.wrench;
+
+  const Vector3 force_F = out.applied.head<3>();
   const Vector3 force = F.R_WF * force_F;
-  const Vector3 moment = F.R_WF * out.response.wrench.tail<3>();
+  const Vector3 moment = F.R_WF * out.applied.tail<3>();
   // The reaction acts on F along the same line: shifted from Mo to Fo.
   const Vector3 shift = F.R_WF * relative.p_FM_F.cross(force_F);
   const auto apply = [&](std::size_t i, const AttachmentMotion& motion,
@@ -211,7 +213,7 @@ void calc_inertia_terms(const SystemModel& model, const SystemState& state,
 }
 
 void calc_forces(const SystemModel& model, const SystemState& state, Side side,
-                 SystemTerms& terms) {
+                 SystemTerms& terms, WrenchSource source) {
   reset_forces(model, state, terms);
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
     const Attachment& a = model.attachments[i];
@@ -221,7 +223,7 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
     calc_attachment_motion(model, a, state, R_WB, terms.attachments[i]);
   }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    apply_coupler(model, model.couplers[c], terms, terms.couplers[c]);
+    apply_coupler(model, model.couplers[c], source, terms, terms.couplers[c]);
   }
   for (const Load& load : model.loads) {
     apply_load(model, state, load, side, terms);
@@ -229,9 +231,9 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
 }
 
 void calc_terms(const SystemModel& model, const SystemState& state, Side side,
-                SystemTerms& terms) {
+                SystemTerms& terms, WrenchSource source) {
   calc_inertia_terms(model, state, terms);
-  calc_forces(model, state, side, terms);
+  calc_forces(model, state, side, terms, source);
 }
 
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,

@@ -12,13 +12,14 @@ void calc_inertia_terms(const SystemModel& model, const SystemState& state,
 
 /// Fills forces of couplers, loads and gravity, and their powers; needs
 /// R_WB from calc_inertia_terms. `side` says which limit a load that jumps at
-/// state.t has.
+/// state.t has. With WrenchSource::iterate, couplers exert the `applied` wrench
+/// that is there; their laws are evaluated all the same.
 void calc_forces(const SystemModel& model, const SystemState& state, Side side,
-                 SystemTerms& terms);
+                 SystemTerms& terms, WrenchSource source = WrenchSource::law);
 
 /// Both of the above.
 void calc_terms(const SystemModel& model, const SystemState& state, Side side,
-                SystemTerms& terms);
+                SystemTerms& terms, WrenchSource source = WrenchSource::law);
 
 /// Solves each body's 6 + m equations for its accelerations.
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,

@@ -92,7 +92,7 @@ void GeneralizedAlpha::add_quasi_static_accelerations() {
   for (Vector3& rotation : inc_.rotation) rotation.setZero();
   refactor();
   factored_step_ = 0.0;
-  matrix_.solve(model_, residual_, x_);
+  matrix_.solve(model_, terms_, residual_, x_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
@@ -178,6 +178,9 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
 }
 
 void GeneralizedAlpha::apply_increments(double h) {
+  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
+    terms_.couplers[c].applied += matrix_.wrench_increments()[c];
+  }
   const double share = 1.0 / (beta_ * h * h);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
@@ -279,7 +282,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
                      std::abs(h - factored_step_) <= 1e-9 * h;
   bool needs_factors = !keeps;
   while (true) {
-    calc_terms(model_, next_, Side::left, terms_);
+    calc_terms(model_, next_, Side::left, terms_, WrenchSource::iterate);
     calc_residual();
     if (needs_factors) {
       refactor();
@@ -287,7 +290,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
       factored_step_ = h;
       needs_factors = false;
     }
-    matrix_.solve(model_, residual_, x_);
+    matrix_.solve(model_, terms_, residual_, x_);
     const Size correction = measure_increments();
     ++result.iterations;
     if (!std::isfinite(correction.value)) {

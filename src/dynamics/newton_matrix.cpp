@@ -193,8 +193,8 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
   }
 }
 
-void NewtonMatrix::solve(const SystemModel& model, const VectorX& residual,
-                         VectorX& increments) {
+void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
+                         const VectorX& residual, VectorX& increments) {
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -209,7 +209,10 @@ void NewtonMatrix::solve(const SystemModel& model, const VectorX& residual,
     for (Eigen::Index k = 0; k < end.G.cols(); ++k) w += end.G.col(k) * x[k];
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    const Vector6 right = scaled_stiffness_[i] * wrenches_[i];
+    const CouplerTerms& coupler = terms.couplers[i];
+    const Vector6 right =
+        scaled_stiffness_[i] * wrenches_[i] +
+        scale_[i].cwiseProduct(coupler.response.wrench - coupler.applied);
     wrenches_[i] = right;
   }
   lu_.solve(wrenches_);

@@ -11,14 +11,16 @@ namespace limber::dynamics {
 /// Factors of the Newton matrix of one implicit step.
 ///
 /// Equation   D_b x_b - sum_c G_cb' dw_c = -r_b          (each body b)
-///            dw_c = -K_c sum_b G_cb x_b                 (each coupler c)
+///            dw_c = s_c - K_c sum_b G_cb x_b            (each coupler c)
 ///            D_b: inertia, damping and elasticity of one body; its modal
 ///            block is diagonal, so D_b^-1 costs O(m). G_cb: the coupler's
 ///            relative motion per body increment. K_c: its stiffness plus
-///            damping. Eliminating x_b leaves six unknowns a coupler,
-///            (I + K G D^-1 G') dw = K G D^-1 r, with the coupler graph's
-///            pattern. As K grows this tends to the constrained system, so
-///            no stiffness is too stiff.
+///            damping. s_c: the law's wrench less the iterate that acts.
+///            Eliminating x_b leaves six unknowns a coupler,
+///            (I + K G D^-1 G') dw = s + K G D^-1 r, with the coupler graph's
+///            pattern. As K grows this tends to the constrained system with
+///            its multipliers, so no stiffness is too stiff: the huge wrench
+///            of a law at a configuration that has not converged never acts.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
 /// Limits     leaves out geometric stiffness of couplers and velocity
 ///            derivatives of the modal inertial forces: they cost iterations,
@@ -46,9 +48,15 @@ class NewtonMatrix {
               const std::vector<Vector3>& rotation_increments,
               const Coefficients& coefficients);
 
-  /// Increments for a residual: solves with -r. Sizes 6 bodies + modes.
-  void solve(const SystemModel& model, const VectorX& residual,
-             VectorX& increments);
+  /// Increments for a residual: solves with -r (sizes 6 bodies + modes) and
+  /// the couplers' s. The wrench increments are then in wrench_increments().
+  void solve(const SystemModel& model, const SystemTerms& terms,
+             const VectorX& residual, VectorX& increments);
+
+  /// Of the last solve, one a coupler [N, N m].
+  [[nodiscard]] const std::vector<Vector6>& wrench_increments() const {
+    return wrenches_;
+  }
 
   [[nodiscard]] static Eigen::Index size(const SystemModel& model) {
     return 6 * static_cast<Eigen::Index>(model.bodies.size()) +

@@ -32,7 +32,13 @@ struct BodyTerms {
 struct CouplerTerms {
   joints::RelativeMotion motion;
   joints::CouplerResponse response;
+  /// The wrench that acts, like response.wrench: the law's own, or Newton's
+  /// iterate of it.
+  Vector6 applied = Vector6::Zero();
 };
+
+/// Which wrench couplers exert on their bodies.
+enum class WrenchSource { law, iterate };
 
 /// Everything that is computed at one state. Sized once, by make_terms;
 /// refilled without allocation.

@@ -24,7 +24,7 @@ constexpr std::size_t kMostPoints = 4000;
 
 std::string style(std::size_t i) {
   return fmt::format("lc rgb '{}' dt {} lw {}", kColours[i % kColours.size()],
-                     i % 5 + 1, i == 0 ? 2.2 : 1.8);
+                     i < 2 ? 1 : i % 5 + 1, i == 0 ? 2.2 : 1.8);
 }
 
 void add_data(GnuplotScript& script, const std::string& block,
@@ -61,13 +61,14 @@ void set_range(GnuplotScript& script, const Panel& panel, double reference) {
 }
 
 void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
-               double reference, bool is_last) {
+               double reference, const std::string& key_height, bool is_last) {
   set_range(script, panel, reference);
   script.add("set ylabel " + quote(panel.label) + " offset 1,0");
   script.add(is_last ? "set xlabel 'time [s]'" : "unset xlabel");
   script.add(is_last ? "set format x '%g'" : "set format x ''");
   if (p == 0) {
-    script.add("set key outside top center horizontal samplen 3");
+    script.add("set key at screen 0.97, screen " + key_height +
+               " right horizontal samplen 3");
   } else {
     script.add("unset key");
   }
@@ -94,18 +95,20 @@ std::string draw_overlay(const std::filesystem::path& file,
       add_data(script, fmt::format("d{}_{}", p, s), panels[p].series[s]);
     }
   }
-  const double top = 1.0 - 80.0 / (kHeaderHeight + kPanelHeight * count);
-  script.add(fmt::format(
-      "set multiplot layout {},1 title {} font 'sans,18' margins "
-      "0.11,0.97,{:.4f},{:.4f} spacing 0,{:.4f}",
-      count, quote(title), 70.0 / (kHeaderHeight + kPanelHeight * count), top,
-      24.0 / (kHeaderHeight + kPanelHeight * count)));
+  const double height = kHeaderHeight + kPanelHeight * count;
+  const std::string key_height = fmt::format("{:.4f}", 1.0 - 58.0 / height);
+  const double top = 1.0 - 80.0 / height;
+  script.add(
+      fmt::format("set multiplot layout {},1 title {} font 'sans,18' margins "
+                  "0.11,0.97,{:.4f},{:.4f} spacing 0,{:.4f}",
+                  count, quote(title), 70.0 / height, top, 24.0 / height));
   script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
   script.add("set border lc rgb '#555555' lw 0.7");
   script.add("set ytics nomirror; set xtics nomirror");
   script.add("set format y '%.3g'");
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    add_panel(script, p, panels[p], reference, p + 1 == panels.size());
+    add_panel(script, p, panels[p], reference, key_height,
+              p + 1 == panels.size());
   }
   script.add("unset multiplot");
   return script.run();

@@ -16,7 +16,7 @@ using dynamics::SystemModel;
 using dynamics::SystemState;
 
 // More triangles than this take gnuplot longer than a look is worth.
-constexpr std::size_t kMostTriangles = 12000;
+constexpr std::size_t kMostTriangles = 250000;
 constexpr std::array<const char*, 4> kColours = {"#9a9a9a", "#0072B2",
                                                  "#D55E00", "#009E73"};
 
@@ -114,12 +114,14 @@ void set_view(GnuplotScript& script, const Bounds& bounds) {
                            center[a] + half));
     script.add(fmt::format("set {}label '{} [m]'", axes[a], axes[a]));
   }
+  script.add("set pm3d border lc rgb '#404040' lw 0.05");
+  script.add("set pm3d depthorder");
   script.add("set view equal xyz");
   script.add("set view 68, 35, 1.25");
   script.add("set xyplane at " + fmt::format("{:g}", center[2] - half));
   script.add("set border 4095 lc rgb '#cccccc' lw 0.6");
   script.add("set ticslevel 0");
-  script.add("set xtics autofreq offset 0,-0.3; set ytics offset 0,-0.3");
+  script.add("set tics textcolor rgb '#333333'");
   script.add("set key at screen 0.97,0.93 right");
 }
 
@@ -145,9 +147,8 @@ std::string draw_scene(const std::filesystem::path& file,
       add_surfaces(script, block, model, states[s], exaggeration, stride,
                    bounds);
       plot += fmt::format(
-          "{}${} with polygons fc rgb '{}' fs transparent solid {} border lc "
-          "rgb '{}' lw 0.2 notitle",
-          separator, block, colour, s == 0 ? 0.25 : 0.6, colour);
+          "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle",
+          separator, block, s == 0 ? 0.25 : 0.8, colour);
       separator = ", ";
     }
     add_rigid_bodies(script, block, model, states[s], bounds);
