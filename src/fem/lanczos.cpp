@@ -12,7 +12,9 @@ constexpr Eigen::Index kBlock = 8;
 
 BlockLanczos::BlockLanczos(const ElasticInverse& inverse)
     : inverse_(inverse),
-      limit_(inverse.matrices().dof_count() - inverse.rigid_count()) {
+      limit_(inverse.matrices().dof_count() - inverse.rigid_count()),
+      Q_(inverse.matrices().dof_count(), 0),
+      MQ_(Q_) {
   restart_direction();
 }
 
