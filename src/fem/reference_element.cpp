@@ -90,7 +90,28 @@ void tabulate_basis(const ReferenceElement& element,
         element.node_count));
 }
 
-Quadrature make_quadrature(const ReferenceElement& element, int degree) {
+/// Length, area or volume of the reference element.
+double reference_measure(const ReferenceElement& element, Family family) {
+  switch (family) {
+    case Family::tetrahedron:
+      return 1.0 / 6.0;
+    case Family::hexahedron:
+      return 8.0;
+    case Family::prism:
+      return 1.0;
+    case Family::pyramid:
+      return 4.0 / 3.0;
+    case Family::other:
+      break;
+  }
+  if (element.dimension == 1) return 2.0;
+  return element.corner_count == 3 ? 0.5 : 4.0;
+}
+
+/// Gmsh's rule. Its weights are scaled to the reference measure: for pyramids
+/// Gmsh 4.8 has 4/3 of it, and some of its tables are rounded to 11 digits.
+Quadrature make_quadrature(const ReferenceElement& element, Family family,
+                           int degree) {
   std::vector<double> uvw;
   std::vector<double> weights;
   gmsh::model::mesh::getIntegrationPoints(
@@ -98,6 +119,7 @@ Quadrature make_quadrature(const ReferenceElement& element, int degree) {
   Quadrature table;
   table.weights = Eigen::Map<const VectorX>(
       weights.data(), static_cast<Eigen::Index>(weights.size()));
+  table.weights *= reference_measure(element, family) / table.weights.sum();
   tabulate_basis(element, uvw, table);
   return table;
 }
@@ -194,9 +216,9 @@ ReferenceElement make_reference_element(int gmsh_type) {
   if (element.dimension == 0) return element;
   const Family family = family_of(element);
   const Degrees degrees = degrees_of(element, family);
-  element.straight = make_quadrature(element, degrees.mass);
-  element.curved = make_quadrature(element, degrees.curved);
-  element.stiffness = make_quadrature(element, degrees.stiffness);
+  element.straight = make_quadrature(element, family, degrees.mass);
+  element.curved = make_quadrature(element, family, degrees.curved);
+  element.stiffness = make_quadrature(element, family, degrees.stiffness);
   element.affine_residual = affine_residual(element);
   for (const std::vector<int>& corners : corner_faces(family)) {
     element.faces.push_back(nodes_on_face(element, corners));
