@@ -78,6 +78,27 @@ ElasticMaterial find_material(
   return {};
 }
 
+/// A nameless material needs a region that no other one names.
+void check_rest(const Mesh& mesh,
+                const std::vector<MaterialAssignment>& assignments,
+                Problems& problems) {
+  const auto is_nameless = [](const auto& a) { return a.group.empty(); };
+  const auto is_named = [&](const std::vector<std::string>& names) {
+    return std::any_of(names.begin(), names.end(), [&](const auto& name) {
+      return std::any_of(assignments.begin(), assignments.end(),
+                         [&](const auto& a) { return a.group == name; });
+    });
+  };
+  if (std::any_of(assignments.begin(), assignments.end(), is_nameless) &&
+      std::all_of(mesh.volume_groups.begin(), mesh.volume_groups.end(),
+                  is_named))
+    problems.push_back(
+        fmt::format("{}: a material without a group is left over: every volume "
+                    "has one by its group. Expected no more materials than "
+                    "volumes.",
+                    mesh.source));
+}
+
 }  // namespace
 
 std::vector<ElasticMaterial> assign_materials(
@@ -91,6 +112,7 @@ std::vector<ElasticMaterial> assign_materials(
   if (problems.empty())
     for (const auto& names : mesh.volume_groups)
       materials.push_back(find_material(mesh, names, assignments, problems));
+  if (problems.empty()) check_rest(mesh, assignments, problems);
   if (!problems.empty()) throw InputError(problems);
   return materials;
 }

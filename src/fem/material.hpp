@@ -24,7 +24,8 @@ struct MaterialAssignment {
 
 /// The material of each region (index into Mesh::volume_groups).
 /// @throws InputError, all problems at once, for values out of range, an
-/// unknown group, a region named twice or not at all.
+/// unknown group, a region named twice or not at all, a nameless material
+/// with no region left.
 [[nodiscard]] std::vector<ElasticMaterial> assign_materials(
     const Mesh& mesh, const std::vector<MaterialAssignment>& assignments);
 

@@ -99,6 +99,28 @@ void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
   }
 }
 
+/// Nodes on top of an earlier one: two meshes laid side by side, not joined.
+std::size_t count_coincident_nodes(const Mesh& mesh) {
+  std::map<std::array<double, 3>, int> places;
+  for (Eigen::Index n = 0; n < mesh.x.cols(); ++n)
+    ++places[{mesh.x(0, n), mesh.x(1, n), mesh.x(2, n)}];
+  return mesh.node_count() - places.size();
+}
+
+/// @param first, last of the faces that have one key
+void check_shared_face(const Mesh& mesh, const KeyedFace* first,
+                       const KeyedFace* last) {
+  if (last - first <= 2) return;
+  const auto tag = [&](const KeyedFace& keyed) {
+    return mesh.blocks[static_cast<std::size_t>(keyed.face.block)]
+        .tags[keyed.face.element];
+  };
+  throw InputError(fmt::format(
+      "{}: {} elements share one face (elements {}, {}, {} ...), so some lie "
+      "in one another. Expected two at most; remove the doubled elements.",
+      mesh.source, last - first, tag(first[0]), tag(first[1]), tag(first[2])));
+}
+
 }  // namespace
 
 Matrix3X element_positions(const Mesh& mesh, const ElementBlock& block,
@@ -128,15 +150,23 @@ void find_boundary(Mesh& mesh) {
       [](const KeyedFace& a, const KeyedFace& b) { return a.key < b.key; });
   std::vector<bool> on_boundary(mesh.node_count(), false);
   mesh.boundary_faces.clear();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const bool is_shared =
-        (i > 0 && faces[i - 1].key == faces[i].key) ||
-        (i + 1 < faces.size() && faces[i + 1].key == faces[i].key);
-    if (is_shared) continue;
-    mesh.boundary_faces.push_back(faces[i].face);
-    for (const int node : face_nodes(mesh, faces[i].face))
-      on_boundary[static_cast<std::size_t>(node)] = true;
+  const KeyedFace* const end = faces.data() + faces.size();
+  for (const KeyedFace* first = faces.data(); first != end;) {
+    const KeyedFace* last = std::find_if(
+        first, end, [&](const KeyedFace& f) { return f.key != first->key; });
+    check_shared_face(mesh, first, last);
+    if (last - first == 1) {
+      mesh.boundary_faces.push_back(first->face);
+      for (const int node : face_nodes(mesh, first->face))
+        on_boundary[static_cast<std::size_t>(node)] = true;
+    }
+    first = last;
   }
+  if (mesh.boundary_faces.empty())
+    throw InputError(fmt::format(
+        "{}: no face lies on a surface, so every element is there twice. "
+        "Remove the doubled elements.",
+        mesh.source));
   mesh.boundary_nodes.clear();
   for (std::size_t node = 0; node < on_boundary.size(); ++node)
     if (on_boundary[node])
@@ -168,11 +198,14 @@ void check_connected(const Mesh& mesh) {
   if (sizes.size() <= 1) return;
   std::size_t largest = 0;
   for (const auto& [root, size] : sizes) largest = std::max(largest, size);
+  const std::size_t doubled = count_coincident_nodes(mesh);
   throw InputError(fmt::format(
       "{}: the mesh is in {} parts that share no face (the largest has {} of "
-      "{} elements). Expected one connected body; merge the parts' common "
+      "{} elements; {}). Expected one connected body; merge the parts' common "
       "faces or make each part a body of its own.",
-      mesh.source, sizes.size(), largest, count));
+      mesh.source, sizes.size(), largest, count,
+      doubled == 0 ? std::string("no two nodes coincide")
+                   : fmt::format("{} nodes lie on others", doubled)));
 }
 
 }  // namespace limber::fem

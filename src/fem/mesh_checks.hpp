@@ -16,6 +16,7 @@ namespace limber::fem {
                                      const Matrix3X& x);
 
 /// Fills boundary_faces and boundary_nodes: faces that one element alone has.
+/// @throws InputError if more than two elements share a face.
 void find_boundary(Mesh& mesh);
 
 /// @throws InputError for elements that are inverted or degenerate (tag and

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "fem/gmsh_session.hpp"
@@ -28,27 +30,37 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
+void check_readable(const std::filesystem::path& file) {
+  if (std::ifstream(file) && !std::filesystem::is_directory(file)) return;
+  throw InputError(
+      fmt::format("{}: cannot be read. Expected a .msh, .geo or .step file.",
+                  file.string()));
+}
+
 void check_request(const std::filesystem::path& file,
                    const MeshOptions& options, bool is_geometry) {
   const std::string name = file.string();
-  if (!std::ifstream(file) || std::filesystem::is_directory(file))
-    throw InputError(fmt::format(
-        "{}: cannot be read. Expected a .msh, .geo or .step file.", name));
-  if (!(options.unit > 0.0))
-    throw InputError(
+  std::vector<std::string> problems;
+  if (!(options.unit > 0.0) || !std::isfinite(options.unit))
+    problems.push_back(
         fmt::format("{}: length unit {} m; expected a positive number.", name,
                     options.unit));
-  if (!(options.size >= 0.0))
-    throw InputError(fmt::format("{}: mesh size {}; expected 0 or more.", name,
-                                 options.size));
+  if (!(options.size >= 0.0) || !std::isfinite(options.size))
+    problems.push_back(fmt::format(
+        "{}: mesh size {}; expected a positive number, or 0 for the file's "
+        "own.",
+        name, options.size));
   if (options.order < 0 || options.order > 3)
-    throw InputError(fmt::format("{}: element order {}; expected 1, 2 or 3.",
-                                 name, options.order));
+    problems.push_back(
+        fmt::format("{}: element order {}; expected 1, 2 or 3, or 0 for the "
+                    "file's own.",
+                    name, options.order));
   if (!is_geometry && (options.size > 0.0 || options.order > 0))
-    throw InputError(fmt::format(
+    problems.push_back(fmt::format(
         "{}: a mesh size or order was given, but the file is a finished mesh. "
         "Leave them out, or give its geometry (.geo, .step).",
         name));
+  if (!problems.empty()) throw InputError(problems);
 }
 
 bool is_geometry_file(const std::filesystem::path& file) {
@@ -101,15 +113,26 @@ void mesh_geometry(const MeshOptions& options) {
 /// Makes element types once and shares them.
 class ElementTypes {
  public:
+  explicit ElementTypes(std::string source) : source_(std::move(source)) {}
+
+  /// @throws InputError naming the file, for a type that is not supported.
   std::shared_ptr<const ReferenceElement> get(int gmsh_type) {
     auto& entry = types_[gmsh_type];
-    if (!entry)
-      entry = std::make_shared<const ReferenceElement>(
-          make_reference_element(gmsh_type));
+    if (!entry) entry = make(gmsh_type);
     return entry;
   }
 
  private:
+  std::shared_ptr<const ReferenceElement> make(int gmsh_type) const {
+    try {
+      return std::make_shared<const ReferenceElement>(
+          make_reference_element(gmsh_type));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", source_, error.what()));
+    }
+  }
+
+  std::string source_;
   std::map<int, std::shared_ptr<const ReferenceElement>> types_;
 };
 
@@ -274,7 +297,7 @@ Mesh take_mesh(const std::filesystem::path& file, const MeshOptions& options,
   const std::map<int, RawBlock> solids =
       read_solids(file, groups, is_geometry, mesh);
   const NodeIndex index(solids);
-  ElementTypes types;
+  ElementTypes types(mesh.source);
   for (const auto& [type, block] : solids)
     mesh.blocks.push_back(make_block(block, index, types));
   for (const RawGroup& raw : groups) {
@@ -289,6 +312,7 @@ Mesh take_mesh(const std::filesystem::path& file, const MeshOptions& options,
 
 Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {
   const bool is_geometry = is_geometry_file(file);
+  check_readable(file);
   check_request(file, options, is_geometry);
   Mesh mesh;
   {

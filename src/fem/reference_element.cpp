@@ -15,24 +15,20 @@ namespace {
 
 enum class Family { other, tetrahedron, hexahedron, prism, pyramid };
 
+/// @throws InputError for what is not tested here.
 Family family_of(const ReferenceElement& element) {
   if (element.dimension != 3) return Family::other;
-  switch (element.corner_count) {
-    case 4:
-      return Family::tetrahedron;
-    case 5:
-      return Family::pyramid;
-    case 6:
-      return Family::prism;
-    case 8:
-      return Family::hexahedron;
-    default:
-      throw InputError(
-          fmt::format("element type '{}' is not supported; "
-                      "expected tetrahedra, hexahedra, prisms "
-                      "or pyramids of order 1 to 3",
-                      element.name));
+  constexpr int kMaxOrder = 3;
+  if (element.order <= kMaxOrder) {
+    if (element.corner_count == 4) return Family::tetrahedron;
+    if (element.corner_count == 5) return Family::pyramid;
+    if (element.corner_count == 6) return Family::prism;
+    if (element.corner_count == 8) return Family::hexahedron;
   }
+  throw InputError(
+      fmt::format("element type '{}' is not supported; expected tetrahedra, "
+                  "hexahedra, prisms or pyramids of order 1 to {}",
+                  element.name, kMaxOrder));
 }
 
 /// Corner cycles, counter-clockwise seen from outside (Gmsh's corner order,

@@ -41,6 +41,7 @@ struct ReferenceElement {
 };
 
 /// Tabulates the type. Needs a live GmshSession.
+/// @throws InputError for a solid type that is not supported.
 [[nodiscard]] ReferenceElement make_reference_element(int gmsh_type);
 
 }  // namespace limber::fem
