@@ -95,22 +95,35 @@ Eigen::Index widest_gap(const VectorX& theta, Eigen::Index count,
   return best;
 }
 
+/// Bound on what roundoff of K moves an eigenvalue by, growth aside: eps
+/// times the largest k_ii / m_ii (the scale of the highest eigenvalue).
+double eigenvalue_roundoff(const StructuralMatrices& matrices) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < matrices.dof_count(); ++i)
+    largest = std::max(
+        largest, matrices.K.coeff(i, i) / matrices.M_s.coeff(i / 3, i / 3));
+  return std::numeric_limits<double>::epsilon() * largest;
+}
+
 /// How many eigenvalues lie below the cut and were not found; the count is
-/// exact, by the signs of the pivots.
+/// exact, by the signs of the pivots, if their roundoff cannot carry an
+/// eigenvalue across the cut.
 int count_missing(const ElasticInverse& inverse, const VectorX& theta,
                   Eigen::Index below) {
+  constexpr double kSafety = 100.0;
   const double s = inverse.shift();
-  for (const double mix : {0.5, 0.4, 0.6, 0.3}) {
-    const double lower = s + 1.0 / theta[below - 1];
-    const double upper = s + 1.0 / theta[below];
-    const double cut = lower + mix * (upper - lower);
+  const double lower = s + 1.0 / theta[below - 1];
+  const double gap = s + 1.0 / theta[below] - lower;
+  const double roundoff = kSafety * eigenvalue_roundoff(inverse.matrices());
+  for (const double mix : {0.5, 0.4, 0.6, 0.3, 0.7, 0.45, 0.55, 0.35}) {
     const PivotCount count = count_negative_pivots(
-        shift_stiffness(inverse.matrices(), cut), inverse.dof_order());
-    if (count.is_reliable)
+        shift_stiffness(inverse.matrices(), lower + mix * gap),
+        inverse.dof_order());
+    if (count.growth * roundoff < std::min(mix, 1.0 - mix) * gap)
       return count.negative - static_cast<int>(below + inverse.rigid_count());
   }
   throw NumericalError(
-      "eigenmodes: the pivots that count them are too small to trust at four "
+      "eigenmodes: the pivots that count them are too small to trust at eight "
       "shifts; ask for one mode more or fewer.");
 }
 
@@ -149,10 +162,11 @@ Eigenmodes find_eigenmodes(const ElasticInverse& inverse, int count,
         "and so only {} elastic modes. Ask for fewer or refine the mesh.",
         count, dofs, elastic));
   if (count == 0) return {VectorX(0), MatrixX(dofs, 0)};
-  constexpr Eigen::Index kDenseDofs = 600;
-  Eigenmodes modes = dofs <= kDenseDofs || 3 * count > elastic
-                         ? solve_dense(inverse, count)
-                         : solve_lanczos(inverse, count, progress);
+  // Dense costs dofs^3, Lanczos about dofs count^2.
+  const bool is_dense = dofs <= 600 || (dofs <= 2000 && 10 * count > elastic) ||
+                        3 * count > elastic;
+  Eigenmodes modes = is_dense ? solve_dense(inverse, count)
+                              : solve_lanczos(inverse, count, progress);
   check_residuals(inverse, modes);
   return modes;
 }

@@ -106,14 +106,9 @@ class SignedFactorisation {
   }
 
   [[nodiscard]] PivotCount count() const {
-    // Growth of L D L^T over A is what roundoff is multiplied by; without
-    // indefinite pivots it is at most one.
-    constexpr double kGrowth = 1e4;
-    PivotCount result;
-    result.negative = static_cast<int>(std::count_if(
-        pivots_.begin(), pivots_.end(), [](double d) { return d < 0.0; }));
-    result.is_reliable = std::isfinite(growth_) && growth_ < kGrowth;
-    return result;
+    return {static_cast<int>(std::count_if(pivots_.begin(), pivots_.end(),
+                                           [](double d) { return d < 0.0; })),
+            growth_};
   }
 
  private:

@@ -13,8 +13,10 @@ namespace limber::fem {
 ///            pivots, exact whatever the order of elimination.
 struct PivotCount {
   int negative = 0;
-  /// Whether the factor did not grow, so that the signs are not roundoff.
-  bool is_reliable = false;
+  /// Largest L_ij^2 |d_j| / |a_ii|: by how much elimination multiplies the
+  /// roundoff of A. At most 1 for a definite matrix; infinite or NaN if a
+  /// pivot vanished.
+  double growth = 0.0;
 };
 
 /// @param lower lower triangle
