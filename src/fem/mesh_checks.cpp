@@ -43,6 +43,18 @@ FaceKey key_of(const Mesh& mesh, const BoundaryFace& face) {
   return key;
 }
 
+/// All faces of all elements; those that elements share stand together.
+std::vector<KeyedFace> sorted_faces(const Mesh& mesh) {
+  std::vector<KeyedFace> faces;
+  for_each_face(mesh, [&](const BoundaryFace& face) {
+    faces.push_back({key_of(mesh, face), face});
+  });
+  std::stable_sort(
+      faces.begin(), faces.end(),
+      [](const KeyedFace& a, const KeyedFace& b) { return a.key < b.key; });
+  return faces;
+}
+
 /// Disjoint sets with path halving.
 class Partition {
  public:
@@ -59,23 +71,34 @@ class Partition {
   std::vector<std::size_t> parent_;
 };
 
-/// Triples of corners of all faces, with the element: a quadrilateral gives
-/// all four of its triples, so that it also meets two triangles.
-std::vector<std::pair<std::array<int, 3>, std::size_t>> corner_triples(
-    const Mesh& mesh, const std::vector<std::size_t>& first) {
-  std::vector<std::pair<std::array<int, 3>, std::size_t>> triples;
-  for_each_face(mesh, [&](const BoundaryFace& face) {
+/// Three corners of a face, and the face.
+struct KeyedTriple {
+  std::array<int, 3> key;
+  BoundaryFace face;
+};
+
+/// All triples of corners that the boundary faces have: one of a triangle,
+/// four of a quadrilateral.
+std::vector<KeyedTriple> boundary_triples(const Mesh& mesh) {
+  std::vector<KeyedTriple> triples;
+  for (const BoundaryFace& face : mesh.boundary_faces) {
     const FaceKey key = key_of(mesh, face);
-    const std::size_t element =
-        first[static_cast<std::size_t>(face.block)] + face.element;
-    triples.push_back({{key[1], key[2], key[3]}, element});
-    if (key[0] < 0) return;
-    triples.push_back({{key[0], key[2], key[3]}, element});
-    triples.push_back({{key[0], key[1], key[3]}, element});
-    triples.push_back({{key[0], key[1], key[2]}, element});
-  });
-  std::sort(triples.begin(), triples.end());
+    triples.push_back({{key[1], key[2], key[3]}, face});
+    if (key[0] < 0) continue;
+    triples.push_back({{key[0], key[2], key[3]}, face});
+    triples.push_back({{key[0], key[1], key[3]}, face});
+    triples.push_back({{key[0], key[1], key[2]}, face});
+  }
+  std::stable_sort(
+      triples.begin(), triples.end(),
+      [](const KeyedTriple& a, const KeyedTriple& b) { return a.key < b.key; });
   return triples;
+}
+
+std::string describe_element(const Mesh& mesh, const BoundaryFace& face) {
+  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(face.block)];
+  return fmt::format("element {} ({})", block.tags[face.element],
+                     block.element->name);
 }
 
 void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
@@ -141,13 +164,7 @@ bool is_parallel_sided(const ReferenceElement& element, const Matrix3X& x) {
 }
 
 void find_boundary(Mesh& mesh) {
-  std::vector<KeyedFace> faces;
-  for_each_face(mesh, [&](const BoundaryFace& face) {
-    faces.push_back({key_of(mesh, face), face});
-  });
-  std::stable_sort(
-      faces.begin(), faces.end(),
-      [](const KeyedFace& a, const KeyedFace& b) { return a.key < b.key; });
+  const std::vector<KeyedFace> faces = sorted_faces(mesh);
   std::vector<bool> on_boundary(mesh.node_count(), false);
   mesh.boundary_faces.clear();
   const KeyedFace* const end = faces.data() + faces.size();
@@ -173,6 +190,18 @@ void find_boundary(Mesh& mesh) {
       mesh.boundary_nodes.push_back(static_cast<int>(node));
 }
 
+void check_faces(const Mesh& mesh) {
+  const std::vector<KeyedTriple> triples = boundary_triples(mesh);
+  for (std::size_t i = 1; i < triples.size(); ++i)
+    if (triples[i].key == triples[i - 1].key)
+      throw InputError(fmt::format(
+          "{}: {} and {} have three corners of a face in common, but their "
+          "faces do not match, so that they would part there. Expected faces "
+          "shared whole; put pyramids between quadrilaterals and triangles.",
+          mesh.source, describe_element(mesh, triples[i - 1].face),
+          describe_element(mesh, triples[i].face)));
+}
+
 void check_elements(const Mesh& mesh) {
   for (const ElementBlock& block : mesh.blocks)
     for (std::size_t e = 0; e < block.size(); ++e)
@@ -189,10 +218,14 @@ void check_connected(const Mesh& mesh) {
   // Parts that meet in an edge or a node alone would swing there freely, so
   // only a shared face connects.
   Partition parts(count);
-  const auto triples = corner_triples(mesh, first);
-  for (std::size_t i = 1; i < triples.size(); ++i)
-    if (triples[i].first == triples[i - 1].first)
-      parts.join(triples[i].second, triples[i - 1].second);
+  const auto element = [&](const KeyedFace& keyed) {
+    return first[static_cast<std::size_t>(keyed.face.block)] +
+           keyed.face.element;
+  };
+  const std::vector<KeyedFace> faces = sorted_faces(mesh);
+  for (std::size_t i = 1; i < faces.size(); ++i)
+    if (faces[i].key == faces[i - 1].key)
+      parts.join(element(faces[i]), element(faces[i - 1]));
   std::map<std::size_t, std::size_t> sizes;
   for (std::size_t e = 0; e < count; ++e) ++sizes[parts.root(e)];
   if (sizes.size() <= 1) return;

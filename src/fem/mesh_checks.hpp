@@ -20,8 +20,10 @@ namespace limber::fem {
 void find_boundary(Mesh& mesh);
 
 /// @throws InputError for elements that are inverted or degenerate (tag and
-/// Jacobian), and for a mesh in several parts that share no face.
+/// Jacobian), for boundary faces that share three corners but not all, and
+/// for a mesh in several parts that share no face.
 void check_elements(const Mesh& mesh);
+void check_faces(const Mesh& mesh);
 void check_connected(const Mesh& mesh);
 
 }  // namespace limber::fem

@@ -327,6 +327,7 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {
   }
   check_elements(mesh);
   find_boundary(mesh);
+  check_faces(mesh);
   check_connected(mesh);
   return mesh;
 }

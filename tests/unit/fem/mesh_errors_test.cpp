@@ -201,6 +201,24 @@ TEST(MeshErrors, HangingNodes) {
   EXPECT_THAT(reading_error(text), HasSubstr("2 parts that share no face"));
 }
 
+/// A quadrilateral against two triangles: along the triangles' common edge
+/// the elements part. A pyramid has to stand between.
+TEST(MeshErrors, FacesThatDoNotMatch) {
+  MshText text;
+  for (const double z : {0.0, 1.0})
+    for (const auto& [x, y] :
+         std::vector<std::pair<int, int>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      text.add_node({static_cast<double>(x), static_cast<double>(y), z});
+  text.add_node({0.5, 0.5, 2.0});
+  text.add_element(MshText::kHexahedron, {1, 2, 3, 4, 5, 6, 7, 8});
+  text.add_element(MshText::kTetrahedron, {5, 6, 7, 9});
+  text.add_element(MshText::kTetrahedron, {5, 7, 8, 9});
+  EXPECT_THAT(
+      reading_error(text),
+      AllOf(HasSubstr("element 1 (Hexahedron 8)"), HasSubstr("(Tetrahedron 4)"),
+            HasSubstr("do not match"), HasSubstr("pyramids")));
+}
+
 TEST(MeshErrors, ElementThereTwice) {
   MshText once = unit_tetrahedron();
   once.add_node({1, 1, 1});

@@ -78,7 +78,7 @@ std::filesystem::path convert(const std::filesystem::path& source,
   if (types.empty()) gmsh::model::mesh::generate(3);
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete",
                           form.serendipity ? 1 : 0);
-  gmsh::model::mesh::setOrder(form.order);
+  if (form.order > 0) gmsh::model::mesh::setOrder(form.order);
   gmsh::option::setNumber("Mesh.MshFileVersion", form.version);
   gmsh::option::setNumber("Mesh.Binary", form.binary ? 1 : 0);
   gmsh::write(file.string());
@@ -148,16 +148,16 @@ void add_pyramid(MshText& text, const Section& base, int apex) {
 std::string mixed_msh(double skew) {
   MshText text;
   text.name_group(3, 1, "body");
-  // Flat, because prisms meet it with two triangles; the next is warped.
-  const std::array<double, 4> tilted{skew, -skew, 0.0, 2 * skew};
   const std::array<double, 4> warped{-skew, skew, -2 * skew, 2 * skew};
+  const std::array<double, 4> otherwise{skew, -2 * skew, -skew, skew};
   const Section s0 = add_section(text, 0);
-  const Section s1 = add_section(text, 1, tilted);
-  const Section s2 = add_section(text, 2, warped);
+  const Section s1 = add_section(text, 1, warped);
+  const Section s2 = add_section(text, 2, otherwise);
   const Section s3 = add_section(text, 3);
   const int apex = text.add_node(place(2.4, 0.55, 0.4));
-  text.add_element(MshText::kPrism, {s0[0], s0[1], s0[2], s1[0], s1[1], s1[2]});
-  text.add_element(MshText::kPrism, {s0[0], s0[2], s0[3], s1[0], s1[2], s1[3]});
+  // Prisms along y, so that a quadrilateral side meets the hexahedron.
+  text.add_element(MshText::kPrism, {s0[0], s0[3], s1[0], s0[1], s0[2], s1[1]});
+  text.add_element(MshText::kPrism, {s1[3], s1[0], s0[3], s1[2], s1[1], s0[2]});
   text.add_element(MshText::kHexahedron,
                    {s1[0], s1[1], s1[2], s1[3], s2[0], s2[1], s2[2], s2[3]});
   const std::vector<Section> sides = cell_sides(s2, s3);

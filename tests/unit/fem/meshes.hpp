@@ -54,7 +54,7 @@ class MshText {
 struct MshForm {
   double version = 4.1;
   bool binary = false;
-  int order = 1;
+  int order = 0;             ///< 0: as it is
   bool serendipity = false;  ///< second order without face and inner nodes
 };
 
@@ -70,7 +70,7 @@ enum class BoxKind { tetrahedra, hexahedra, prisms };
 
 /// Box of all four shapes: two prisms, a hexahedron, two pyramids and eight
 /// tetrahedra around one apex. With `skew` the faces between them are
-/// tilted and warped, but the box stays.
+/// warped, but the box stays.
 [[nodiscard]] std::string mixed_msh(double skew);
 /// Box of six pyramids around one apex.
 [[nodiscard]] std::string pyramids_msh();
