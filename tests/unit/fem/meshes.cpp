@@ -102,7 +102,7 @@ std::string box_geo(BoxKind kind) {
   if (is_structured) text += "Transfinite Surface {1};\n";
   if (kind == BoxKind::hexahedra) text += "Recombine Surface {1};\n";
   text +=
-      fmt::format("out[] = Extrude {{0, 0, {}}} {{ Surface{{1}}; Layers{{2}};",
+      fmt::format("out[] = Extrude {{0, 0, {}}} {{ Surface{{1}}; Layers{{3}};",
                   kBoxSize[2]);
   text += is_layered ? " Recombine; };\n" : " };\n";
   text +=
