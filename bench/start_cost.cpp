@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <benchmark/benchmark.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "flexbody/reduce.hpp"
+#include "scene/scene.hpp"
+
+/// What stands between the command and the first time step: everything read,
+/// every reduced body made or found in the cache.
+namespace limber {
+namespace {
+
+scene::BuiltScene build(const std::filesystem::path& cache) {
+  return scene::build_system(
+      scene::load_scene(std::string(LIMBER_SOURCE_DIR) +
+                        "/examples/struck_finger.toml"),
+      [](const flexbody::Recipe& recipe) { return flexbody::reduce(recipe); },
+      cache);
+}
+
+std::filesystem::path make_cache() {
+  return std::filesystem::temp_directory_path() /
+         ("limber-bench-" + std::to_string(getpid()));
+}
+
+void first_start(benchmark::State& state) {
+  for (auto _ : state) {
+    const auto cache = make_cache();
+    std::filesystem::remove_all(cache);
+    benchmark::DoNotOptimize(build(cache).bodies_reduced);
+  }
+  std::filesystem::remove_all(make_cache());
+}
+
+void second_start(benchmark::State& state) {
+  const auto cache = make_cache();
+  build(cache);
+  for (auto _ : state) {
+    const scene::BuiltScene built = build(cache);
+    if (built.bodies_reduced != 0) state.SkipWithError("the cache was missed");
+  }
+  std::filesystem::remove_all(cache);
+}
+
+BENCHMARK(first_start)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(second_start)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace limber
