@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fem/eigenmodes.hpp"
 
+#include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <limits>
+#include <random>
 
 #include "common/errors.hpp"
-#include "fem/lanczos.hpp"
-#include "fem/pivot_count.hpp"
 
 namespace limber::fem {
 namespace {
@@ -63,90 +63,127 @@ void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
   }
 }
 
-/// Extends until the first `wanted` pairs are converged.
-void converge(BlockLanczos& lanczos, Eigen::Index wanted,
-              const Progress& progress) {
-  // The error of an eigenvalue is this squared, of a vector this itself.
-  constexpr double kTolerance = 1e-10;
-  for (;;) {
-    const bool may_extend = lanczos.extend();
-    Eigen::Index converged = 0;
-    const Eigen::Index known = std::min(wanted, lanczos.size());
-    while (converged < known && lanczos.residuals()[converged] < kTolerance)
-      ++converged;
+/// (K - s M)^-1 among motions that are M-orthogonal to the known modes, as
+/// Spectra wants it.
+class ShiftedInverse {
+ public:
+  using Scalar = double;
+
+  ShiftedInverse(const ElasticInverse& inverse, const MatrixX& known,
+                 std::function<void(int)> count_call)
+      : inverse_(inverse),
+        known_(known),
+        M_known_(multiply_mass(inverse.matrices().M_s, known)),
+        count_call_(std::move(count_call)) {}
+
+  [[nodiscard]] Eigen::Index rows() const { return known_.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return known_.rows(); }
+  void set_shift(double) const {}  // the factor's own
+
+  void perform_op(const double* in, double* out) const {
+    count_call_(++calls_);
+    const MatrixX load = Eigen::Map<const VectorX>(in, rows());
+    Eigen::Map<VectorX>(out, rows()) =
+        scale_ * deflate(inverse_.solve_shifted(load));
+  }
+
+  /// Scales the operator to the order of 1 on `x`: Spectra's tolerance has an
+  /// absolute part, and eigenvalues depend on the unit of length.
+  void scale_by(const MatrixX& x) {
+    const MatrixX M_x = multiply_mass(inverse_.matrices().M_s, x);
+    const MatrixX y = deflate(inverse_.solve_shifted(M_x));
+    scale_ = x.col(0).dot(M_x.col(0)) / y.col(0).dot(M_x.col(0));
+  }
+
+  [[nodiscard]] VectorX deflate(const MatrixX& x) const {
+    return x - known_ * (M_known_.transpose() * x);
+  }
+
+ private:
+  const ElasticInverse& inverse_;
+  const MatrixX& known_;
+  MatrixX M_known_;
+  std::function<void(int)> count_call_;
+  double scale_ = 1.0;
+  mutable int calls_ = 0;
+};
+
+/// The inner product of M, as Spectra wants it.
+class MassProduct {
+ public:
+  using Scalar = double;
+
+  explicit MassProduct(const StructuralMatrices& matrices)
+      : matrices_(matrices) {}
+  [[nodiscard]] Eigen::Index rows() const { return matrices_.dof_count(); }
+  [[nodiscard]] Eigen::Index cols() const { return matrices_.dof_count(); }
+  void perform_op(const double* in, double* out) const {
+    const MatrixX x = Eigen::Map<const VectorX>(in, rows());
+    Eigen::Map<VectorX>(out, rows()) = multiply_mass(matrices_.M_s, x);
+  }
+
+ private:
+  const StructuralMatrices& matrices_;
+};
+
+VectorX random_motion(const ShiftedInverse& op, const ElasticInverse& inverse) {
+  std::mt19937_64 random{1};
+  std::normal_distribution<double> normal;
+  MatrixX x(op.rows(), 1);
+  for (double& value : x.reshaped()) value = normal(random);
+  return op.deflate(inverse.project_motion(x));
+}
+
+/// The `count` lowest modes that are M-orthogonal to the known ones.
+MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
+               Eigen::Index count, const Progress& progress) {
+  constexpr double kTolerance = 1e-11;
+  constexpr Eigen::Index kRestarts = 1000;
+  const Eigen::Index room =
+      inverse.matrices().dof_count() - inverse.rigid_count() - known.cols();
+  const Eigen::Index width = std::min(2 * count + 20, room);
+  ShiftedInverse op(inverse, known, [&](int calls) {
+    // About two solves a column of the width, in our experience.
     report(progress, "finding eigenmodes",
-           static_cast<double>(converged) / static_cast<double>(wanted));
-    if (converged >= wanted || !may_extend) return;
-  }
+           std::min(0.99, 0.5 * calls / static_cast<double>(width)));
+  });
+  MassProduct mass(inverse.matrices());
+  Spectra::SymGEigsShiftSolver<ShiftedInverse, MassProduct,
+                               Spectra::GEigsMode::ShiftInvert>
+      solver(op, mass, count, width, inverse.shift());
+  const VectorX start = random_motion(op, inverse);
+  op.scale_by(start);
+  solver.init(start.data());
+  const Eigen::Index converged =
+      solver.compute(Spectra::SortRule::LargestMagn, kRestarts, kTolerance,
+                     Spectra::SortRule::SmallestAlge);
+  if (converged < count)
+    throw NumericalError(
+        fmt::format("eigenmodes: {} of {} converged in {} restarts; ask for "
+                    "fewer, or look for nearly flat elements.",
+                    converged, count, kRestarts));
+  return solver.eigenvectors();
 }
 
-/// The widest gap in theta at or after the `count`-th value.
-Eigen::Index widest_gap(const VectorX& theta, Eigen::Index count,
-                        Eigen::Index converged) {
-  Eigen::Index best = count;
-  double widest = 0.0;
-  for (Eigen::Index i = count; i < converged; ++i) {
-    const double gap = theta[i - 1] / theta[i];
-    if (gap > widest) {
-      widest = gap;
-      best = i;
-    }
-  }
-  return best;
-}
-
-/// Bound on what roundoff of K moves an eigenvalue by, growth aside: eps
-/// times the largest k_ii / m_ii (the scale of the highest eigenvalue).
-double eigenvalue_roundoff(const StructuralMatrices& matrices) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < matrices.dof_count(); ++i)
-    largest = std::max(
-        largest, matrices.K.coeff(i, i) / matrices.M_s.coeff(i / 3, i / 3));
-  return std::numeric_limits<double>::epsilon() * largest;
-}
-
-/// How many eigenvalues lie below the cut and were not found; the count is
-/// exact, by the signs of the pivots, if their roundoff cannot carry an
-/// eigenvalue across the cut.
-int count_missing(const ElasticInverse& inverse, const VectorX& theta,
-                  Eigen::Index below) {
-  constexpr double kSafety = 100.0;
-  const double s = inverse.shift();
-  const double lower = s + 1.0 / theta[below - 1];
-  const double gap = s + 1.0 / theta[below] - lower;
-  const double roundoff = kSafety * eigenvalue_roundoff(inverse.matrices());
-  for (const double mix : {0.5, 0.4, 0.6, 0.3, 0.7, 0.45, 0.55, 0.35}) {
-    const PivotCount count = count_negative_pivots(
-        shift_stiffness(inverse.matrices(), lower + mix * gap),
-        inverse.dof_order());
-    if (count.growth * roundoff < std::min(mix, 1.0 - mix) * gap)
-      return count.negative - static_cast<int>(below + inverse.rigid_count());
-  }
-  throw NumericalError(
-      "eigenmodes: the pivots that count them are too small to trust at eight "
-      "shifts; ask for one mode more or fewer.");
-}
-
+/// One Krylov space meets repeated eigenvalues by roundoff alone. So what is
+/// found is taken out and the rest is searched, until nothing in it lies
+/// below the last mode asked for.
 Eigenmodes solve_lanczos(const ElasticInverse& inverse, Eigen::Index count,
                          const Progress& progress) {
-  constexpr Eigen::Index kGuard = 4;  // further pairs, to cut in a gap
-  constexpr int kMaxTries = 4;
-  BlockLanczos lanczos(inverse);
-  for (int attempt = 0; attempt < kMaxTries; ++attempt) {
-    converge(lanczos, count + kGuard, progress);
-    const Eigen::Index below =
-        widest_gap(lanczos.theta(), count, count + kGuard);
-    report(progress, "counting eigenmodes", 0.0);
-    if (count_missing(inverse, lanczos.theta(), below) == 0) {
-      Eigenmodes modes = polish(inverse, lanczos.vectors(below));
-      return {modes.lambda.head(count), modes.Phi.leftCols(count)};
-    }
-    lanczos.restart_direction();
+  const Eigen::Index dofs = inverse.matrices().dof_count();
+  Eigenmodes found =
+      polish(inverse, search(inverse, MatrixX(dofs, 0), count, progress));
+  for (Eigen::Index more = 1;; more *= 2) {
+    const Eigen::Index left = dofs - inverse.rigid_count() - found.Phi.cols();
+    more = std::min(more, left - 1);
+    const MatrixX rest = search(inverse, found.Phi, more, progress);
+    const double lowest = polish(inverse, rest).lambda[0];
+    if (lowest >= found.lambda[count - 1]) break;
+    MatrixX both(dofs, found.Phi.cols() + more);
+    both << found.Phi, rest;
+    found = polish(inverse, both);
   }
-  throw NumericalError(fmt::format(
-      "eigenmodes: the count of pivots shows that some of the lowest {} are "
-      "missing after {} tries",
-      count, kMaxTries));
+  return {found.lambda.head(count), found.Phi.leftCols(count)};
 }
 
 }  // namespace

@@ -14,13 +14,13 @@ struct Eigenmodes {
 /// The `count` lowest elastic eigenmodes.
 ///
 /// Equation   K phi = lambda M phi
-/// Source     Block Lanczos on (K - s M)^-1 M with full reorthogonalisation
-///            (Grimes, Lewis, Simon, SIAM J. Matrix Anal. 15, 1994): a block
-///            finds repeated eigenvalues that single vectors meet by roundoff
-///            alone. No mode is missed: the negative pivots of K - t M, t
-///            above the last mode, are counted (Sylvester) where affordable.
+/// Source     Implicitly restarted Lanczos on (K - s M)^-1 M (Ericsson and
+///            Ruhe, Math. Comp. 35, 1980), by Spectra, repeated in the
+///            complement of what was found until that holds no lower mode:
+///            so that repeated eigenvalues come with all their modes.
 /// @throws InputError if there are fewer elastic modes than `count`;
-/// NumericalError if a residual misses its tolerance or a mode stays missing.
+/// NumericalError if a residual misses its tolerance or a mode does not
+/// converge.
 [[nodiscard]] Eigenmodes find_eigenmodes(const ElasticInverse& inverse,
                                          int count,
                                          const Progress& progress = {});

@@ -6,13 +6,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "common/errors.hpp"
 #include "fem/assembly.hpp"
 #include "fem/parallel.hpp"
-#include "fem/pivot_count.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -110,25 +108,6 @@ TEST_P(FreeAndClamped, EigenmodesAreOrthonormalAndFreeOfRigidMotion) {
       modes.Phi.transpose() * multiply_stiffness(body_.matrices.K, modes.Phi);
   const MatrixX expected = modes.lambda.asDiagonal();
   EXPECT_LT((K - expected).cwiseAbs().maxCoeff() / modes.lambda[23], 1e-12);
-}
-
-TEST_P(FreeAndClamped, PivotCountIsTheNumberOfEigenvaluesBelow) {
-  const Body body(write_box(BoxKind::prisms, 1), GetParam());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> dense(
-      full_stiffness(body.matrices.K), full_mass(body.matrices.M_s),
-      Eigen::EigenvaluesOnly);
-  const VectorX& lambda = dense.eigenvalues();
-  const std::vector<int> order = order_dofs(body.matrices.M_s);
-  const Eigen::Index rigid = body.R.cols();
-  for (const Eigen::Index below :
-       {rigid, rigid + 1, rigid + 7, rigid + 50, lambda.size() - 1}) {
-    const double cut =
-        0.5 * ((below > rigid ? lambda[below - 1] : 0.0) + lambda[below]);
-    const PivotCount count =
-        count_negative_pivots(shift_stiffness(body.matrices, cut), order);
-    EXPECT_EQ(count.negative, below);
-    EXPECT_TRUE(std::isfinite(count.growth));
-  }
 }
 
 TEST_P(FreeAndClamped, ElasticInverseAnswersLoadsToRoundoff) {
