@@ -69,8 +69,8 @@ void compare(const Options& options) {
   write_comparison(comparison, folder);
   if (options.json) {
     Json json = to_json(comparison);
-    json.add("folder", folder.string());
-    fmt::print("{}\n", json.text());
+    json["folder"] = folder.string();
+    fmt::print("{}\n", to_text(json));
   } else {
     fmt::print("{}results in {}\n", to_text(comparison), folder.string());
   }

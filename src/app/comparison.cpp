@@ -34,24 +34,20 @@ Json to_json(const Comparison& comparison) {
     Json probes = Json::object();
     for (std::size_t c = 0; c < reference.columns.size(); ++c) {
       const Difference d = find_difference(run.history, reference, c);
-      probes.add(reference.columns[c].name,
-                 Json::object()
-                     .add("rms", d.rms)
-                     .add("max", d.max)
-                     .add("unit", reference.columns[c].unit));
+      probes[reference.columns[c].name] = Json{
+          {"rms", d.rms}, {"max", d.max}, {"unit", reference.columns[c].unit}};
     }
-    levels.push(Json::object()
-                    .add("fidelity", comparison.levels[i])
-                    .add("steps", run.statistics.steps)
-                    .add("newton_iterations", run.statistics.newton_iterations)
-                    .add("seconds_offline", run.built.seconds_offline)
-                    .add("seconds_online", run.statistics.seconds)
-                    .add("difference", probes));
+    levels.push_back(
+        Json{{"fidelity", comparison.levels[i]},
+             {"steps", run.statistics.steps},
+             {"newton_iterations", run.statistics.newton_iterations},
+             {"seconds_offline", run.built.seconds_offline},
+             {"seconds_online", run.statistics.seconds},
+             {"difference", probes}});
   }
-  return Json::object()
-      .add("scenario", comparison.runs.back().scene.scenario.file.string())
-      .add("reference", comparison.levels.back())
-      .add("levels", levels);
+  return Json{{"scenario", comparison.runs.back().scene.scenario.file.string()},
+              {"reference", comparison.levels.back()},
+              {"levels", levels}};
 }
 
 std::string to_text(const Comparison& comparison) {

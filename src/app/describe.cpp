@@ -6,6 +6,7 @@
 #include "common/errors.hpp"
 #include "dynamics/fidelity.hpp"
 #include "flexbody/body_file.hpp"
+#include "results/results_file.hpp"
 #include "scene/robot_reader.hpp"
 #include "scene/scenario_reader.hpp"
 #ifdef LIMBER_HAS_REDUCTION
@@ -35,17 +36,48 @@ std::string kind_name(joints::JointKind kind) {
 
 Json describe_link(const scene::Link& link) {
   Json json = Json::object();
-  json.add("name", link.name);
-  json.add("flexible", link.flexible.has_value());
+  json["name"] = link.name;
+  json["flexible"] = link.flexible.has_value();
   if (link.flexible) {
     const bool reduced = !link.flexible->reduced_file.empty();
-    json.add("source",
-             (reduced ? link.flexible->reduced_file : link.flexible->mesh.file)
-                 .string());
+    json["source"] =
+        (reduced ? link.flexible->reduced_file : link.flexible->mesh.file)
+            .string();
   } else if (link.inertia) {
-    json.add("mass", link.inertia->mass);
+    json["mass"] = link.inertia->mass;
   }
   return json;
+}
+
+Json describe_body(const std::filesystem::path& file) {
+  const flexbody::ReducedBody body = flexbody::read_body(file);
+  std::vector<std::string> interfaces;
+  for (const auto& table : body.interfaces) interfaces.push_back(table.name);
+  std::vector<std::string> groups;
+  for (const auto& group : body.groups) groups.push_back(group.name);
+  const VectorX hz =
+      body.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+  return Json{{"kind", "reduced body"},
+              {"name", body.name},
+              {"clamped", body.clamped},
+              {"nodes", body.mesh_nodes},
+              {"elements", body.mesh_elements},
+              {"boundary_nodes", body.mesh_boundary_nodes},
+              {"kept_nodes", body.rows.tags.size()},
+              {"mass", body.mass},
+              {"center_of_mass", to_json(body.p_MoBcm_M)},
+              {"inertia", to_json(body.inertia())},
+              {"modes", body.mode_count()},
+              {"frequencies_hz", to_json(hz)},
+              {"interfaces", interfaces},
+              {"groups", groups}};
+}
+
+Json describe_results(const std::filesystem::path& file) {
+  const results::ResultsContents contents = results::read_contents(file);
+  return Json{{"kind", "results"},         {"outputs", contents.outputs},
+              {"start", contents.start},   {"end", contents.end},
+              {"bodies", contents.bodies}, {"probes", contents.probes}};
 }
 
 }  // namespace
@@ -56,64 +88,42 @@ Json describe_scenario(const std::filesystem::path& file) {
   for (const auto& load : scenario.loads) loads.push_back(load.name);
   std::vector<std::string> probes;
   for (const auto& probe : scenario.probes) probes.push_back(probe.name);
-  return Json::object()
-      .add("kind", "scenario")
-      .add("robot", scenario.robot.string())
-      .add("duration", scenario.settings.end_time)
-      .add("step", scenario.settings.step)
-      .add("outputs", scenario.settings.output_times.size())
-      .add("fidelity", std::string(dynamics::to_string(scenario.fidelity)))
-      .add("loads", loads)
-      .add("probes", probes);
+  return Json{{"kind", "scenario"},
+              {"robot", scenario.robot.string()},
+              {"duration", scenario.settings.end_time},
+              {"step", scenario.settings.step},
+              {"outputs", scenario.settings.output_times.size()},
+              {"fidelity", std::string(dynamics::to_string(scenario.fidelity))},
+              {"loads", loads},
+              {"probes", probes}};
 }
 
 Json describe_robot(const std::filesystem::path& file) {
   const scene::Robot robot = scene::read_robot(file);
   Json links = Json::array();
-  for (const scene::Link& link : robot.links) links.push(describe_link(link));
+  for (const scene::Link& link : robot.links)
+    links.push_back(describe_link(link));
   Json joints = Json::array();
   for (const scene::Joint& joint : robot.joints) {
     const auto name = [&](int link) {
       return robot.links[static_cast<std::size_t>(link)].name;
     };
-    joints.push(Json::object()
-                    .add("name", joint.name)
-                    .add("type", kind_name(joint.kind))
-                    .add("parent", name(joint.parent))
-                    .add("child", name(joint.child)));
+    joints.push_back(Json{{"name", joint.name},
+                          {"type", kind_name(joint.kind)},
+                          {"parent", name(joint.parent)},
+                          {"child", name(joint.child)}});
   }
-  return Json::object()
-      .add("kind", "robot")
-      .add("name", robot.name)
-      .add("links", links)
-      .add("joints", joints)
-      .add("connectors", robot.connectors.size())
-      .add("warnings", robot.warnings);
+  return Json{{"kind", "robot"},
+              {"name", robot.name},
+              {"links", links},
+              {"joints", joints},
+              {"connectors", robot.connectors.size()},
+              {"warnings", robot.warnings}};
 }
 
 Json describe_hdf5(const std::filesystem::path& file) {
-  const flexbody::ReducedBody body = flexbody::read_body(file);
-  std::vector<std::string> interfaces;
-  for (const auto& table : body.interfaces) interfaces.push_back(table.name);
-  std::vector<std::string> groups;
-  for (const auto& group : body.groups) groups.push_back(group.name);
-  const VectorX hz =
-      body.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-  return Json::object()
-      .add("kind", "reduced body")
-      .add("name", body.name)
-      .add("clamped", body.clamped)
-      .add("nodes", body.mesh_nodes)
-      .add("elements", body.mesh_elements)
-      .add("boundary_nodes", body.mesh_boundary_nodes)
-      .add("kept_nodes", body.rows.tags.size())
-      .add("mass", body.mass)
-      .add("center_of_mass", VectorX(body.p_MoBcm_M))
-      .add("inertia", Json::matrix(body.inertia()))
-      .add("modes", body.mode_count())
-      .add("frequencies_hz", hz)
-      .add("interfaces", interfaces)
-      .add("groups", groups);
+  return results::is_results_file(file) ? describe_results(file)
+                                        : describe_body(file);
 }
 
 Json describe_mesh(const std::filesystem::path& file, double unit) {
@@ -123,18 +133,16 @@ Json describe_mesh(const std::filesystem::path& file, double unit) {
   const fem::Mesh mesh = fem::read_mesh(file, options);
   Json groups = Json::array();
   for (const fem::PhysicalGroup& group : mesh.groups) {
-    groups.push(Json::object()
-                    .add("name", group.name)
-                    .add("dimension", group.dimension)
-                    .add("nodes", group.nodes.size()));
+    groups.push_back(Json{{"name", group.name},
+                          {"dimension", group.dimension},
+                          {"nodes", group.nodes.size()}});
   }
-  return Json::object()
-      .add("kind", "mesh")
-      .add("nodes", mesh.node_count())
-      .add("elements", mesh.element_count())
-      .add("boundary_nodes", mesh.boundary_nodes.size())
-      .add("size", VectorX(mesh.size()))
-      .add("groups", groups);
+  return Json{{"kind", "mesh"},
+              {"nodes", mesh.node_count()},
+              {"elements", mesh.element_count()},
+              {"boundary_nodes", mesh.boundary_nodes.size()},
+              {"size", to_json(mesh.size())},
+              {"groups", groups}};
 #else
   (void)unit;
   throw InputError(file.string() +

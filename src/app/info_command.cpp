@@ -60,7 +60,7 @@ void add_info(CLI::App& app, Action& action) {
   command->callback([&action, options] {
     action = [options] {
       const Json json = describe(*options);
-      fmt::print("{}\n", options->json ? json.text() : json.outline());
+      fmt::print("{}\n", options->json ? to_text(json) : outline(json));
     };
   });
 }

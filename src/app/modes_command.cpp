@@ -26,17 +26,16 @@ VectorX frequencies(const flexbody::ReducedBody& body) {
 }
 
 void print_json(const flexbody::ReducedBody& body) {
-  const Json json = Json::object()
-                        .add("nodes", body.mesh_nodes)
-                        .add("elements", body.mesh_elements)
-                        .add("boundary_nodes", body.mesh_boundary_nodes)
-                        .add("clamped", body.clamped)
-                        .add("mass", body.mass)
-                        .add("center_of_mass", VectorX(body.p_MoBcm_M))
-                        .add("inertia", Json::matrix(body.inertia()))
-                        .add("eigenvalues", body.lambda)
-                        .add("frequencies_hz", frequencies(body));
-  fmt::print("{}\n", json.text());
+  const Json json = Json{{"nodes", body.mesh_nodes},
+                         {"elements", body.mesh_elements},
+                         {"boundary_nodes", body.mesh_boundary_nodes},
+                         {"clamped", body.clamped},
+                         {"mass", body.mass},
+                         {"center_of_mass", to_json(body.p_MoBcm_M)},
+                         {"inertia", to_json(body.inertia())},
+                         {"eigenvalues", to_json(body.lambda)},
+                         {"frequencies_hz", to_json(frequencies(body))}};
+  fmt::print("{}\n", to_text(json));
 }
 
 void print_text(const flexbody::ReducedBody& body) {

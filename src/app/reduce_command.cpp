@@ -38,12 +38,11 @@ void reduce(const Options& options) {
   clear_progress_bar();
   flexbody::write_body(body, options.output);
   if (options.json) {
-    const Json json = Json::object()
-                          .add("file", options.output)
-                          .add("nodes", body.mesh_nodes)
-                          .add("modes", body.mode_count())
-                          .add("mass", body.mass);
-    fmt::print("{}\n", json.text());
+    const Json json = Json{{"file", options.output},
+                           {"nodes", body.mesh_nodes},
+                           {"modes", body.mode_count()},
+                           {"mass", body.mass}};
+    fmt::print("{}\n", to_text(json));
   } else {
     fmt::print("{} nodes -> {} modes, in {}\n", body.mesh_nodes,
                body.mode_count(), options.output);

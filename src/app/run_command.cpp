@@ -67,8 +67,8 @@ void run(const Options& options) {
   if (result.failure) std::rethrow_exception(result.failure);
   if (options.json) {
     Json json = summarize(result);
-    json.add("folder", folder.string());
-    fmt::print("{}\n", json.text());
+    json["folder"] = folder.string();
+    fmt::print("{}\n", to_text(json));
   } else {
     print_text(result, folder);
   }

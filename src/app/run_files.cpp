@@ -77,7 +77,7 @@ void draw_run(const Run& run, const std::filesystem::path& folder) {
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
   results::write_results(folder / "results.h5", run.built.model, run.history);
   results::write_probes_csv(folder / "probes.csv", run.history);
-  write_text(folder / "summary.json", summarize(run).text());
+  write_text(folder / "summary.json", to_text(summarize(run)));
   if (xdmf) {
     results::write_xdmf(folder / "motion.xdmf", run.built.model, run.history);
   }
@@ -88,7 +88,7 @@ void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
 
 void write_comparison(const Comparison& comparison,
                       const std::filesystem::path& folder) {
-  write_text(folder / "comparison.json", to_json(comparison).text());
+  write_text(folder / "comparison.json", to_text(to_json(comparison)));
   if (!comparison.runs.back().scene.scenario.output.pictures) return;
   std::vector<const Run*> runs;
   for (const Run& run : comparison.runs) runs.push_back(&run);

@@ -39,12 +39,12 @@ Json summarize_energy(const results::History& history) {
   if (history.energies.empty()) return json;
   const dynamics::EnergyBalance& first = history.energies.front();
   const dynamics::EnergyBalance& last = history.energies.back();
-  json.add("initial", first.total());
-  json.add("final", last.total());
-  json.add("dissipated", last.dissipated);
-  json.add("work", last.work);
-  json.add("drift", (last.total() + last.dissipated - last.work) -
-                        (first.total() + first.dissipated - first.work));
+  json["initial"] = first.total();
+  json["final"] = last.total();
+  json["dissipated"] = last.dissipated;
+  json["work"] = last.work;
+  json["drift"] = (last.total() + last.dissipated - last.work) -
+                  (first.total() + first.dissipated - first.work);
   return json;
 }
 
@@ -61,10 +61,10 @@ Json summarize_probes(const results::History& history) {
   if (history.probe_rows.empty()) return json;
   for (std::size_t i = 0; i < history.columns.size(); ++i) {
     Json probe = Json::object();
-    probe.add("final", history.probe_rows.back()[i]);
-    probe.add("peak", find_peak(history, i));
-    probe.add("unit", history.columns[i].unit);
-    json.add(history.columns[i].name, probe);
+    probe["final"] = history.probe_rows.back()[i];
+    probe["peak"] = find_peak(history, i);
+    probe["unit"] = history.columns[i].unit;
+    json[history.columns[i].name] = probe;
   }
   return json;
 }
@@ -113,20 +113,20 @@ void check_output_folder(const std::filesystem::path& folder) {
 
 Json summarize(const Run& run) {
   Json json = Json::object();
-  json.add("scenario", run.scene.scenario.file.string());
-  json.add("completed", run.failure == nullptr);
-  json.add("bodies", run.built.model.bodies.size());
-  json.add("modes", count_modes(run));
-  json.add("couplers", run.built.model.couplers.size());
-  json.add("steps", run.statistics.steps);
-  json.add("newton_iterations", run.statistics.newton_iterations);
-  json.add("seconds_offline", run.built.seconds_offline);
-  json.add("seconds_online", run.statistics.seconds);
-  json.add("bodies_reduced", run.built.bodies_reduced);
-  json.add("bodies_cached", run.built.bodies_cached);
-  json.add("energy", summarize_energy(run.history));
-  json.add("probes", summarize_probes(run.history));
-  json.add("warnings", run.built.warnings);
+  json["scenario"] = run.scene.scenario.file.string();
+  json["completed"] = run.failure == nullptr;
+  json["bodies"] = run.built.model.bodies.size();
+  json["modes"] = count_modes(run);
+  json["couplers"] = run.built.model.couplers.size();
+  json["steps"] = run.statistics.steps;
+  json["newton_iterations"] = run.statistics.newton_iterations;
+  json["seconds_offline"] = run.built.seconds_offline;
+  json["seconds_online"] = run.statistics.seconds;
+  json["bodies_reduced"] = run.built.bodies_reduced;
+  json["bodies_cached"] = run.built.bodies_cached;
+  json["energy"] = summarize_energy(run.history);
+  json["probes"] = summarize_probes(run.history);
+  json["warnings"] = run.built.warnings;
   return json;
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "results/results_file.hpp"
 
+#include <fmt/format.h>
+
 #include <functional>
 
+#include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
 
 namespace limber::results {
 namespace {
+
+const std::string kFormat = "limber results";
 
 using dynamics::EnergyBalance;
 using dynamics::SystemState;
@@ -88,7 +93,7 @@ void write_energies(Hdf5File& out, const History& history) {
 void write_results(const std::filesystem::path& file,
                    const dynamics::SystemModel& model, const History& history) {
   Hdf5File out = Hdf5File::create(file);
-  out.write("format", "limber results", "what this file is");
+  out.write("format", kFormat, "what this file is");
   out.write("version", std::vector<std::int64_t>{kResultsFileVersion}, "1",
             "layout of this file");
   MatrixX times(count(history), 1);
@@ -102,6 +107,29 @@ void write_results(const std::filesystem::path& file,
   write_probes(out, history);
   write_energies(out, history);
   out.close();
+}
+
+bool is_results_file(const std::filesystem::path& file) {
+  const Hdf5File in = Hdf5File::open(file);
+  return in.has("format") && in.read_text("format") == kFormat;
+}
+
+ResultsContents read_contents(const std::filesystem::path& file) {
+  if (!is_results_file(file)) {
+    throw InputError(
+        fmt::format("'{}' is not a results file of Limber's", file.string()));
+  }
+  const Hdf5File in = Hdf5File::open(file);
+  const MatrixX times = in.read_matrix("time");
+  ResultsContents contents;
+  contents.outputs = times.rows();
+  if (times.size() > 0) {
+    contents.start = times(0, 0);
+    contents.end = times(times.rows() - 1, 0);
+  }
+  contents.bodies = in.list("bodies");
+  contents.probes = in.list("probes");
+  return contents;
 }
 
 }  // namespace limber::results

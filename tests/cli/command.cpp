@@ -3,7 +3,6 @@
 
 #include <sys/wait.h>
 
-#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -47,33 +46,6 @@ std::string read_text(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
-}
-
-bool is_one_json_object(const std::string& text) {
-  int depth = 0;
-  bool quoted = false;
-  std::size_t i = 0;
-  const auto skip_space = [&] {
-    while (i < text.size() && std::isspace(int(text[i])) != 0) ++i;
-  };
-  skip_space();
-  if (i == text.size() || text[i] != '{') return false;
-  for (; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      if (c == '"') quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == '{' || c == '[') {
-      ++depth;
-    } else if ((c == '}' || c == ']') && --depth == 0) {
-      break;
-    }
-  }
-  ++i;
-  skip_space();
-  return depth == 0 && !quoted && i == text.size();
 }
 
 }  // namespace limber::test

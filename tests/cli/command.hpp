@@ -31,7 +31,4 @@ class Workspace {
 
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
-/// Whether `text` is one JSON object and white space, nothing else.
-[[nodiscard]] bool is_one_json_object(const std::string& text);
-
 }  // namespace limber::test

@@ -1,58 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.hpp"
 
 namespace limber::test {
 namespace {
 
-using testing::HasSubstr;
+using nlohmann::json;
 
 const std::string kBeam = LIMBER_SOURCE_DIR "/meshes/beam579.msh";
 const std::string kExample = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
 
-void expect_json(const CommandResult& result,
-                 const std::vector<std::string>& keys) {
+/// Standard output, which must be one JSON object and nothing else.
+json parse(const CommandResult& result) {
   EXPECT_EQ(result.status, 0) << result.errors;
-  EXPECT_TRUE(is_one_json_object(result.out)) << result.out;
+  json object = json::parse(result.out, nullptr, false);
+  EXPECT_TRUE(object.is_object()) << result.out;
+  return object;
+}
+
+void expect_keys(const json& object, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
-    EXPECT_THAT(result.out, HasSubstr("\"" + key + "\":"));
+    EXPECT_TRUE(object.contains(key)) << key << " is not in " << object.dump(2);
   }
 }
 
 TEST(Json, OfModesHasThePromisedKeys) {
   const Workspace place;
-  expect_json(place.limber("modes '" + kBeam +
-                           "' --youngs-modulus 200e9 --poisson-ratio 0 "
-                           "--density 8000 --count 3 --json"),
+  const json modes =
+      parse(place.limber("modes '" + kBeam +
+                         "' --youngs-modulus 200e9 --poisson-ratio 0 "
+                         "--density 8000 --count 3 --json"));
+  expect_keys(modes,
               {"nodes", "elements", "boundary_nodes", "mass", "center_of_mass",
                "inertia", "eigenvalues", "frequencies_hz"});
+  EXPECT_EQ(modes["nodes"], 579);
+  EXPECT_EQ(modes["elements"], 254);
+  EXPECT_EQ(modes["boundary_nodes"], 426);
+  EXPECT_NEAR(modes["mass"].get<double>(), 40000.0, 1e-6);
+  EXPECT_NEAR(modes["center_of_mass"][2].get<double>(), 2.5, 1e-9);
+  // A box: m (a^2 + b^2) / 12.
+  EXPECT_NEAR(modes["inertia"][0][0].get<double>(), 40000.0 * 26.0 / 12.0,
+              1e-5);
+  EXPECT_EQ(modes["eigenvalues"].size(), 3U);
+  EXPECT_EQ(modes["frequencies_hz"].size(), 3U);
 }
 
 TEST(Json, OfRunHasThePromisedKeysAndLeavesResults) {
   const Workspace place;
-  expect_json(place.limber("run '" + kExample + "' --out results --json"),
-              {"steps", "newton_iterations", "seconds_offline",
-               "seconds_online", "energy", "initial", "final", "dissipated",
-               "work", "drift", "probes", "peak"});
+  const json run =
+      parse(place.limber("run '" + kExample + "' --out results --json"));
+  expect_keys(run, {"steps", "newton_iterations", "seconds_offline",
+                    "seconds_online", "energy", "probes"});
+  expect_keys(run["energy"],
+              {"initial", "final", "dissipated", "work", "drift"});
+  expect_keys(run["probes"]["A.ux"], {"final", "peak", "unit"});
+  EXPECT_EQ(run["steps"], 5000);
   for (const char* name : {"summary.json", "probes.csv", "results.h5"}) {
     EXPECT_TRUE(std::filesystem::exists(place.folder() / "results" / name))
         << name;
   }
+  const json kept =
+      json::parse(read_text(place.folder() / "results" / "summary.json"));
+  EXPECT_EQ(kept["probes"], run["probes"]);
 }
 
 TEST(Json, OfCompareTabulatesDifferences) {
   const Workspace place;
-  expect_json(
-      place.limber("compare '" + kExample +
-                   "' --fidelity rigid,coupled --out results --json"),
-      {"reference", "levels", "difference", "rms", "max", "seconds_online"});
+  const json compare =
+      parse(place.limber("compare '" + kExample +
+                         "' --fidelity rigid,coupled --out results --json"));
+  EXPECT_EQ(compare["reference"], "coupled");
+  ASSERT_EQ(compare["levels"].size(), 2U);
+  const json& rigid = compare["levels"][0];
+  expect_keys(rigid, {"fidelity", "steps", "seconds_online", "difference"});
+  EXPECT_GT(rigid["difference"]["B.ux"]["rms"].get<double>(), 0.0);
+  const json& itself = compare["levels"][1]["difference"]["B.ux"];
+  EXPECT_EQ(itself["rms"], 0.0);
+  EXPECT_EQ(itself["max"], 0.0);
 }
 
 TEST(Json, OfInfoTellsTheKind) {
   const Workspace place;
-  expect_json(place.limber("info '" + kBeam + "' --json"), {"kind", "nodes"});
-  expect_json(place.limber("info '" + kExample + "' --json"), {"kind"});
+  const json mesh = parse(place.limber("info '" + kBeam + "' --json"));
+  EXPECT_EQ(mesh["kind"], "mesh");
+  EXPECT_EQ(mesh["nodes"], 579);
+  EXPECT_EQ(parse(place.limber("info '" + kExample + "' --json"))["kind"],
+            "scenario");
+  parse(place.limber("run '" + kExample + "' --out results --json"));
+  const json results = parse(place.limber("info results/results.h5 --json"));
+  EXPECT_EQ(results["kind"], "results");
+  EXPECT_EQ(results["outputs"], 501);
+  EXPECT_EQ(results["end"], 0.5);
+  EXPECT_EQ(results["bodies"], json({"beam"}));
 }
 
 }  // namespace
