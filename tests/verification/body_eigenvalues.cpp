@@ -27,6 +27,7 @@ struct Case {
   std::string file;
   std::string mesh;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.file; }
 class BodyEigenvalues : public testing::TestWithParam<Case> {};
 
 TEST_P(BodyEigenvalues, MatchTheIndependentProgramFree) {

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "unit/flexbody/small_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <type_traits>
+
+namespace limber::flexbody::test {
+namespace {
+
+// Fills with numbers of all magnitudes.
+class Numbers {
+ public:
+  explicit Numbers(unsigned seed) : random_(seed) {}
+
+  double next() { return mantissa_(random_) * std::exp(exponent_(random_)); }
+  MatrixX matrix(Eigen::Index rows, Eigen::Index columns) {
+    MatrixX m(rows, columns);
+    for (double& x : m.reshaped()) x = next();
+    return m;
+  }
+
+ private:
+  std::mt19937 random_;
+  std::uniform_real_distribution<double> mantissa_{-1.0, 1.0};
+  std::uniform_real_distribution<double> exponent_{-30.0, 30.0};
+};
+
+// Sizes and values as bytes, so that even -0 and 0 differ.
+class Bytes {
+ public:
+  void add(const std::string& text) {
+    add_integer(text.size());
+    bytes_ += text;
+  }
+  template <typename Integer>
+  void add_integer(Integer value) {
+    add_raw(&value, sizeof(value));
+  }
+  void add(double value) { add_raw(&value, sizeof(value)); }
+  void add(const MatrixX& values) {
+    add_integer(values.rows());
+    add_integer(values.cols());
+    for (const double x : values.reshaped()) add(x);
+  }
+  void add(const std::vector<std::size_t>& values) {
+    add_integer(values.size());
+    for (const std::size_t v : values) add_integer(v);
+  }
+  [[nodiscard]] const std::string& get() const { return bytes_; }
+
+ private:
+  void add_raw(const void* data, std::size_t size) {
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+  std::string bytes_;
+};
+
+class FieldList {
+ public:
+  template <typename Value>
+  void add(const std::string& name, const Value& value) {
+    Bytes bytes;
+    if constexpr (std::is_integral_v<Value>) {
+      bytes.add_integer(value);
+    } else {
+      bytes.add(value);
+    }
+    fields_.emplace_back(name, bytes.get());
+  }
+  void add(const std::string& name, const std::vector<Matrix3>& matrices) {
+    add(name + " size", matrices.size());
+    for (const Matrix3& m : matrices) add(name, MatrixX(m));
+  }
+  [[nodiscard]] auto get() const { return fields_; }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> fields_;
+};
+
+void add_lists(const ReducedBody& body, FieldList& fields) {
+  fields.add("triangles size", body.triangles.size());
+  for (const auto& t : body.triangles) {
+    fields.add("triangle", std::vector<std::size_t>(t.begin(), t.end()));
+  }
+  fields.add("groups size", body.groups.size());
+  for (const NodeGroup& group : body.groups) {
+    fields.add("group name", group.name);
+    fields.add("group dimension", group.dimension);
+    fields.add("group tags", group.tags);
+    fields.add("group weights", MatrixX(group.weights));
+  }
+  fields.add("interfaces size", body.interfaces.size());
+  for (const InterfaceTable& table : body.interfaces) {
+    fields.add("interface name", table.name);
+    fields.add("interface p_B", MatrixX(table.p_B));
+    fields.add("interface Phi_B", MatrixX(table.Phi_B));
+    fields.add("interface Psi_B", MatrixX(table.Psi_B));
+    fields.add("interface rotation_rank", table.rotation_rank);
+    fields.add("interface flexibility", MatrixX(table.flexibility));
+  }
+}
+
+}  // namespace
+
+ReducedBody make_small_body(unsigned seed) {
+  Numbers numbers(seed);
+  constexpr Eigen::Index m = 2;
+  constexpr Eigen::Index n = 3;
+  ReducedBody body;
+  body.name = fmt::format("small body {}", seed);
+  body.content_key = fmt::format("key {}", seed);
+  body.clamped = seed % 2 == 1;
+  body.mass = numbers.next();
+  body.p_MoBcm_M = numbers.matrix(3, 1);
+  body.size = numbers.matrix(3, 1);
+  body.mesh_nodes = 1001 + seed;
+  body.mesh_elements = 1002 + seed;
+  body.mesh_boundary_nodes = 1003 + seed;
+  body.lambda = numbers.matrix(m, 1);
+  body.integrals.S0 = numbers.matrix(3, 3);
+  for (int k = 0; k < m; ++k) {
+    body.integrals.S1.emplace_back(numbers.matrix(3, 3));
+  }
+  for (int kl = 0; kl < m * m; ++kl) {
+    body.integrals.S2.emplace_back(numbers.matrix(3, 3));
+  }
+  body.rows.tags = {7, 5, 11};
+  body.rows.x_B = numbers.matrix(3, n);
+  body.rows.Phi_B = numbers.matrix(3 * n, m);
+  body.triangles = {{0, 1, 2}, {2, 1, 0}};
+  body.groups.push_back({"root", 2, {7, 5}, numbers.matrix(2, 1)});
+  body.groups.push_back({"tip", 0, {11}, numbers.matrix(1, 1)});
+  InterfaceTable table;
+  table.name = "flange";
+  table.p_B = numbers.matrix(3, 1);
+  table.Phi_B = numbers.matrix(3, m);
+  table.Psi_B = numbers.matrix(3, m);
+  table.rotation_rank = 2;
+  table.flexibility = numbers.matrix(6, 6);
+  body.interfaces.push_back(table);
+  return body;
+}
+
+std::vector<std::pair<std::string, std::string>> list_fields(
+    const ReducedBody& body) {
+  FieldList fields;
+  fields.add("name", body.name);
+  fields.add("clamped", body.clamped);
+  fields.add("mass", body.mass);
+  fields.add("p_MoBcm_M", MatrixX(body.p_MoBcm_M));
+  fields.add("size", MatrixX(body.size));
+  fields.add("S0", MatrixX(body.integrals.S0));
+  fields.add("S1", body.integrals.S1);
+  fields.add("S2", body.integrals.S2);
+  fields.add("lambda", MatrixX(body.lambda));
+  fields.add("row tags", body.rows.tags);
+  fields.add("x_B", MatrixX(body.rows.x_B));
+  fields.add("Phi_B", MatrixX(body.rows.Phi_B));
+  fields.add("mesh_nodes", body.mesh_nodes);
+  fields.add("mesh_elements", body.mesh_elements);
+  fields.add("mesh_boundary_nodes", body.mesh_boundary_nodes);
+  fields.add("content_key", body.content_key);
+  add_lists(body, fields);
+  return fields.get();
+}
+
+std::string find_difference(const ReducedBody& a, const ReducedBody& b) {
+  const auto in_a = list_fields(a);
+  const auto in_b = list_fields(b);
+  const auto [at_a, at_b] =
+      std::mismatch(in_a.begin(), in_a.end(), in_b.begin(), in_b.end());
+  if (at_a != in_a.end()) return at_a->first;
+  return at_b != in_b.end() ? at_b->first : "";
+}
+
+}  // namespace limber::flexbody::test
