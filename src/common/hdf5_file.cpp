@@ -5,7 +5,12 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <bit>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "common/errors.hpp"
@@ -16,88 +21,259 @@ namespace {
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+// What went wrong inside a file; `with_path` adds which file.
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+template <typename Work>
+auto with_path(const std::filesystem::path& file, const Work& work) {
+  try {
+    return work();
+  } catch (const Failure& failure) {
+    throw InputError(fmt::format("'{}': {}", file.string(), failure.what()));
+  }
+}
+
+// Passes on what an HDF5 call answers, unless it is the sign of failure.
+template <typename Answer>
+Answer checked(Answer answer) {
+  if (answer < 0) throw Failure("HDF5 reports an error; the file is damaged");
+  return answer;
+}
+
 // Closes an HDF5 identifier of any kind.
 class Handle {
  public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  using Closer = herr_t (*)(hid_t);
+  Handle(hid_t id, Closer closer) : id_(checked(id)), closer_(closer) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
-    if (id_ >= 0) close_(id_);
+    if (id_ >= 0) closer_(id_);
   }
   [[nodiscard]] hid_t get() const { return id_; }
-  [[nodiscard]] bool is_valid() const { return id_ >= 0; }
+  // For what was written: closing may be what fills the disk.
+  void close() { checked(closer_(std::exchange(id_, -1))); }
 
  private:
   hid_t id_;
-  Close close_;
+  Closer closer_;
 };
 
-// HDF5 prints its own error stack otherwise; ours is the one clear text.
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+// HDF5 prints its own error stack otherwise; ours is the one clear text. And
+// at exit it would close what a full disk kept it from closing, and crash
+// (h5py issue 914): every file is closed before, or has failed with an error.
+void prepare_library() {
+  static const herr_t before_first_use = H5dont_atexit();
+  static_cast<void>(before_first_use);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Handle make_text_type() { return {H5Tcopy(H5T_C_S1), H5Tclose}; }
+
+// One more than its letters: texts end in a zero.
+void set_length(const Handle& type, const std::string& text) {
+  checked(H5Tset_size(type.get(), text.size() + 1));
+}
 
 void add_text_attribute(hid_t object, const char* name,
                         const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), std::max<std::size_t>(1, text.size()));
+  const Handle type = make_text_type();
+  set_length(type, text);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, name, type.get(), space.get(),
-                                    H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
-  H5Awrite(attribute.get(), type.get(), text.c_str());
+  Handle attribute(H5Acreate2(object, name, type.get(), space.get(),
+                              H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose);
+  checked(H5Awrite(attribute.get(), type.get(), text.c_str()));
+  attribute.close();
 }
 
-// Creates, fills and describes one dataset. @returns false on any failure.
-bool write_dataset(hid_t file, const std::string& name, hid_t type,
-                   const std::vector<hsize_t>& shape, const void* data,
-                   const std::string& unit, const std::string& meaning) {
+// A checksum needs chunks: one for the whole, up to HDF5's size limit.
+void add_checksum(hid_t creation, std::vector<hsize_t> shape) {
+  const hsize_t most = hsize_t{1} << 26;
+  const hsize_t row = std::accumulate(shape.begin() + 1, shape.end(),
+                                      hsize_t{8}, std::multiplies<>());
+  shape[0] = std::clamp(most / row, hsize_t{1}, shape[0]);
+  checked(H5Pset_chunk(creation, static_cast<int>(shape.size()), shape.data()));
+  checked(H5Pset_fletcher32(creation));
+}
+
+hid_t make_space(const std::vector<hsize_t>& shape) {
+  if (shape.empty()) return H5Screate(H5S_SCALAR);
+  return H5Screate_simple(static_cast<int>(shape.size()), shape.data(),
+                          nullptr);
+}
+
+// Values and what they mean, as HDF5 wants them.
+struct Dataset {
+  const std::string& name;
+  hid_t type;
+  std::vector<hsize_t> shape;  // empty for one scalar
+  const void* data;
+  const std::string& unit;
+  const std::string& meaning;
+};
+
+void write_checked(hid_t file, const Dataset& values) {
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.get(), 1);
+  checked(H5Pset_create_intermediate_group(links.get(), 1));
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const std::vector<hsize_t>& shape = values.shape;
   const bool is_empty =
       std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
-  if (!shape.empty() && !is_empty) {
-    // A checksum needs chunks: one for the whole, up to HDF5's size limit.
-    std::vector<hsize_t> chunk = shape;
-    const hsize_t most = hsize_t{1} << 26;
-    const hsize_t row = std::accumulate(chunk.begin() + 1, chunk.end(),
-                                        hsize_t{8}, std::multiplies<>());
-    chunk[0] = std::clamp(most / row, hsize_t{1}, chunk[0]);
-    H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data());
-    H5Pset_fletcher32(creation.get());
+  if (!shape.empty() && !is_empty) add_checksum(creation.get(), shape);
+  const Handle space(make_space(shape), H5Sclose);
+  Handle set(H5Dcreate2(file, values.name.c_str(), values.type, space.get(),
+                        links.get(), creation.get(), H5P_DEFAULT),
+             H5Dclose);
+  if (!is_empty) {
+    checked(H5Dwrite(set.get(), values.type, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                     values.data));
   }
-  const Handle space(shape.empty()
-                         ? H5Screate(H5S_SCALAR)
-                         : H5Screate_simple(static_cast<int>(shape.size()),
-                                            shape.data(), nullptr),
-                     H5Sclose);
-  const Handle set(H5Dcreate2(file, name.c_str(), type, space.get(),
-                              links.get(), creation.get(), H5P_DEFAULT),
-                   H5Dclose);
-  if (!set.is_valid()) return false;
-  if (!is_empty &&
-      H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
-    return false;
+  if (!values.unit.empty()) add_text_attribute(set.get(), "unit", values.unit);
+  add_text_attribute(set.get(), "meaning", values.meaning);
+  set.close();
+}
+
+void write_dataset(hid_t file, const Dataset& values) {
+  try {
+    write_checked(file, values);
+  } catch (const Failure&) {
+    throw Failure(
+        fmt::format("'{}' cannot be written; is the disk full?", values.name));
   }
-  if (!unit.empty()) add_text_attribute(set.get(), "unit", unit);
-  add_text_attribute(set.get(), "meaning", meaning);
-  return true;
+}
+
+Handle open_dataset(hid_t file, const std::string& name) {
+  const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+  if (set < 0) throw Failure(fmt::format("it has no '{}'", name));
+  return {set, H5Dclose};
+}
+
+void check_class(hid_t set, H5T_class_t expected, const std::string& name,
+                 const char* kind) {
+  const Handle type(H5Dget_type(set), H5Tclose);
+  if (H5Tget_class(type.get()) != expected) {
+    throw Failure(fmt::format("'{}' is not {}", name, kind));
+  }
 }
 
 std::vector<hsize_t> shape_of(hid_t set) {
   const Handle space(H5Dget_space(set), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space.get());
-  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(rank, 0)));
+  const int rank = checked(H5Sget_simple_extent_ndims(space.get()));
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
   if (rank > 0) {
-    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+    checked(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr));
   }
   return shape;
 }
 
-bool has_class(hid_t set, H5T_class_t expected) {
+// Bytes of a shape's elements, or the largest number where it overflows.
+hsize_t bytes_of(const std::vector<hsize_t>& shape, hsize_t element) {
+  const hsize_t limit = std::numeric_limits<hsize_t>::max();
+  if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) {
+    return 0;
+  }
+  hsize_t bytes = element;
+  for (const hsize_t n : shape) {
+    if (bytes > limit / n) return limit;
+    bytes *= n;
+  }
+  return bytes;
+}
+
+// Memory is taken only for what the file can hold: a damaged shape may ask for
+// any amount. (Filters that compress would need another bound; we use none.)
+void check_fits(hid_t set, const std::vector<hsize_t>& shape,
+                const std::string& name) {
   const Handle type(H5Dget_type(set), H5Tclose);
-  return H5Tget_class(type.get()) == expected;
+  const Handle file(H5Iget_file_id(set), H5Fclose);
+  hsize_t file_size = 0;
+  checked(H5Fget_filesize(file.get(), &file_size));
+  const hsize_t stored = std::min(file_size, H5Dget_storage_size(set));
+  const hsize_t claimed = bytes_of(shape, H5Tget_size(type.get()));
+  if (claimed > stored) {
+    throw Failure(
+        fmt::format("'{}' claims {} bytes, but the file holds {} of it; it is "
+                    "damaged",
+                    name, claimed, stored));
+  }
+}
+
+void read_dataset(hid_t set, hid_t type, void* out, const std::string& name) {
+  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) < 0) {
+    throw Failure(
+        fmt::format("'{}' is damaged (its checksum does not match)", name));
+  }
+}
+
+MatrixX read_matrix_of(hid_t file, const std::string& name) {
+  const Handle set = open_dataset(file, name);
+  check_class(set.get(), H5T_FLOAT, name, "a matrix of numbers");
+  const std::vector<hsize_t> shape = shape_of(set.get());
+  if (shape.size() != 2) {
+    throw Failure(fmt::format("'{}' is not a matrix", name));
+  }
+  check_fits(set.get(), shape, name);
+  RowMajor rows(static_cast<Eigen::Index>(shape[0]),
+                static_cast<Eigen::Index>(shape[1]));
+  if (rows.size() > 0) {
+    read_dataset(set.get(), H5T_NATIVE_DOUBLE, rows.data(), name);
+  }
+  return rows;
+}
+
+std::vector<std::int64_t> read_integers_of(hid_t file,
+                                           const std::string& name) {
+  const Handle set = open_dataset(file, name);
+  check_class(set.get(), H5T_INTEGER, name, "a list of integers");
+  const std::vector<hsize_t> shape = shape_of(set.get());
+  if (shape.size() != 1) {
+    throw Failure(fmt::format("'{}' is not a list", name));
+  }
+  check_fits(set.get(), shape, name);
+  std::vector<std::int64_t> values(shape[0]);
+  if (!values.empty()) {
+    read_dataset(set.get(), H5T_NATIVE_INT64, values.data(), name);
+  }
+  return values;
+}
+
+std::string read_text_of(hid_t file, const std::string& name) {
+  const Handle set = open_dataset(file, name);
+  check_class(set.get(), H5T_STRING, name, "a text");
+  const Handle type(H5Dget_type(set.get()), H5Tclose);
+  const std::vector<hsize_t> shape = shape_of(set.get());
+  if (!shape.empty() || checked(H5Tis_variable_str(type.get())) > 0) {
+    throw Failure(fmt::format("'{}' is not one text of fixed length", name));
+  }
+  check_fits(set.get(), shape, name);
+  std::string text(H5Tget_size(type.get()), '\0');
+  read_dataset(set.get(), type.get(), text.data(), name);
+  // `write` ends a text with one zero, and it may hold others.
+  if (!text.empty() && text.back() == '\0') text.pop_back();
+  return text;
+}
+
+std::vector<std::string> list_of(hid_t file, const std::string& group) {
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*,
+                      void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    return 0;
+  };
+  const Handle id(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
+  checked(
+      H5Literate(id.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names));
+  return names;
+}
+
+hid_t create_file(const std::filesystem::path& file, std::uint64_t user_block) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  checked(H5Pset_userblock(creation.get(), user_block));
+  return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
 }
 
 }  // namespace
@@ -113,14 +289,13 @@ Hdf5File::~Hdf5File() {
   if (handle_ >= 0) H5Fclose(handle_);
 }
 
-void Hdf5File::fail(const std::string& what) const {
-  throw InputError(fmt::format("'{}': {}", file_.string(), what));
-}
-
-Hdf5File Hdf5File::create(const std::filesystem::path& file) {
-  silence();
+Hdf5File Hdf5File::create(const std::filesystem::path& file,
+                          std::uint64_t user_block) {
+  LIMBER_EXPECT(user_block == 0 ||
+                (user_block >= 512 && std::has_single_bit(user_block)));
+  prepare_library();
   const hid_t id =
-      H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+      with_path(file, [&] { return create_file(file, user_block); });
   if (id < 0) {
     throw InputError(fmt::format(
         "'{}' cannot be written; does its folder exist, and may you write "
@@ -131,8 +306,9 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file) {
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
-  silence();
-  if (!std::filesystem::exists(file)) {
+  prepare_library();
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
     throw InputError(fmt::format("'{}' does not exist", file.string()));
   }
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -146,31 +322,31 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file) {
 void Hdf5File::write(const std::string& name, const MatrixX& values,
                      const std::string& unit, const std::string& meaning) {
   const RowMajor rows = values;
-  if (!write_dataset(handle_, name, H5T_NATIVE_DOUBLE,
-                     {static_cast<hsize_t>(rows.rows()),
-                      static_cast<hsize_t>(rows.cols())},
-                     rows.data(), unit, meaning)) {
-    fail(fmt::format("'{}' cannot be written; is the disk full?", name));
-  }
+  const std::vector<hsize_t> shape = {static_cast<hsize_t>(rows.rows()),
+                                      static_cast<hsize_t>(rows.cols())};
+  with_path(file_, [&] {
+    write_dataset(handle_,
+                  {name, H5T_NATIVE_DOUBLE, shape, rows.data(), unit, meaning});
+  });
 }
 
 void Hdf5File::write(const std::string& name,
                      const std::vector<std::int64_t>& values,
                      const std::string& unit, const std::string& meaning) {
-  if (!write_dataset(handle_, name, H5T_NATIVE_INT64, {values.size()},
-                     values.data(), unit, meaning)) {
-    fail(fmt::format("'{}' cannot be written; is the disk full?", name));
-  }
+  const std::vector<hsize_t> shape = {values.size()};
+  with_path(file_, [&] {
+    write_dataset(
+        handle_, {name, H5T_NATIVE_INT64, shape, values.data(), unit, meaning});
+  });
 }
 
 void Hdf5File::write(const std::string& name, const std::string& text,
                      const std::string& meaning) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), text.size() + 1);
-  if (!write_dataset(handle_, name, type.get(), {}, text.c_str(), "",
-                     meaning)) {
-    fail(fmt::format("'{}' cannot be written; is the disk full?", name));
-  }
+  with_path(file_, [&] {
+    const Handle type = make_text_type();
+    set_length(type, text);
+    write_dataset(handle_, {name, type.get(), {}, text.c_str(), "", meaning});
+  });
 }
 
 void Hdf5File::write_array(const std::string& name,
@@ -181,81 +357,41 @@ void Hdf5File::write_array(const std::string& name,
   LIMBER_EXPECT(values.size() == std::accumulate(shape.begin(), shape.end(),
                                                  std::uint64_t{1},
                                                  std::multiplies<>()));
-  if (!write_dataset(handle_, name, H5T_NATIVE_DOUBLE,
-                     {shape.begin(), shape.end()}, values.data(), unit,
-                     meaning)) {
-    fail(fmt::format("'{}' cannot be written; is the disk full?", name));
-  }
+  const std::vector<hsize_t> extents(shape.begin(), shape.end());
+  with_path(file_, [&] {
+    write_dataset(handle_, {name, H5T_NATIVE_DOUBLE, extents, values.data(),
+                            unit, meaning});
+  });
 }
 
 bool Hdf5File::has(const std::string& name) const {
+  // An error says here that a group on the way does not exist.
   return H5Lexists(handle_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
 MatrixX Hdf5File::read_matrix(const std::string& name) const {
-  const Handle set(H5Dopen2(handle_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.is_valid() || !has_class(set.get(), H5T_FLOAT)) {
-    fail(fmt::format("it has no matrix '{}'", name));
-  }
-  const std::vector<hsize_t> shape = shape_of(set.get());
-  if (shape.size() != 2) fail(fmt::format("'{}' is not a matrix", name));
-  RowMajor rows(static_cast<Eigen::Index>(shape[0]),
-                static_cast<Eigen::Index>(shape[1]));
-  if (rows.size() > 0 && H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL,
-                                 H5P_DEFAULT, rows.data()) < 0) {
-    fail(fmt::format("'{}' is damaged (its checksum does not match)", name));
-  }
-  return rows;
+  return with_path(file_, [&] { return read_matrix_of(handle_, name); });
 }
 
 std::vector<std::int64_t> Hdf5File::read_integers(
     const std::string& name) const {
-  const Handle set(H5Dopen2(handle_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.is_valid() || !has_class(set.get(), H5T_INTEGER)) {
-    fail(fmt::format("it has no integers '{}'", name));
-  }
-  const std::vector<hsize_t> shape = shape_of(set.get());
-  if (shape.size() != 1) fail(fmt::format("'{}' is not a list", name));
-  std::vector<std::int64_t> values(shape[0]);
-  if (!values.empty() && H5Dread(set.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL,
-                                 H5P_DEFAULT, values.data()) < 0) {
-    fail(fmt::format("'{}' is damaged (its checksum does not match)", name));
-  }
-  return values;
+  return with_path(file_, [&] { return read_integers_of(handle_, name); });
 }
 
 std::string Hdf5File::read_text(const std::string& name) const {
-  const Handle set(H5Dopen2(handle_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.is_valid() || !has_class(set.get(), H5T_STRING)) {
-    fail(fmt::format("it has no text '{}'", name));
-  }
-  const Handle type(H5Dget_type(set.get()), H5Tclose);
-  std::string text(H5Tget_size(type.get()), '\0');
-  if (H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-              text.data()) < 0) {
-    fail(fmt::format("'{}' is damaged", name));
-  }
-  text.resize(std::min(text.size(), text.find('\0')));
-  return text;
+  return with_path(file_, [&] { return read_text_of(handle_, name); });
 }
 
 std::vector<std::string> Hdf5File::list(const std::string& group) const {
-  std::vector<std::string> names;
-  if (!has(group)) return names;
-  const auto add = [](hid_t, const char* name, const H5L_info_t*,
-                      void* out) -> herr_t {
-    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-    return 0;
-  };
-  const Handle id(H5Gopen2(handle_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  H5Literate(id.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
-  return names;
+  if (!has(group)) return {};
+  return with_path(file_, [&] { return list_of(handle_, group); });
 }
 
 void Hdf5File::close() {
   const std::int64_t handle = std::exchange(handle_, -1);
   if (handle >= 0 && H5Fclose(handle) < 0) {
-    fail("cannot be closed; is the disk full?");
+    throw InputError(fmt::format("'{}': cannot be closed; is the disk full?",
+                                 file_.string()));
   }
 }
 

@@ -13,10 +13,16 @@ namespace limber {
 /// A thin, throwing face of one HDF5 file. Every dataset carries the
 /// attributes "unit" and "meaning". Matrices are stored row by row as they
 /// print; all failures become InputError with the file's path.
+///
+/// Limits     HDF5 checks its data, but not its own structure: who must not
+///            trust a file verifies a digest of its bytes before opening it.
+///            Threads may use files at once where HDF5 is built thread-safe.
 class Hdf5File {
  public:
-  /// Makes a new file, replacing an old one.
-  [[nodiscard]] static Hdf5File create(const std::filesystem::path& file);
+  /// Makes a new file, replacing an old one. Its first `user_block` bytes (0,
+  /// or a power of two from 512) are left to the caller, after `close`.
+  [[nodiscard]] static Hdf5File create(const std::filesystem::path& file,
+                                       std::uint64_t user_block = 0);
   /// Opens an existing file for reading.
   [[nodiscard]] static Hdf5File open(const std::filesystem::path& file);
 
@@ -51,7 +57,6 @@ class Hdf5File {
 
  private:
   Hdf5File(std::int64_t handle, std::filesystem::path file);
-  [[noreturn]] void fail(const std::string& what) const;
 
   std::int64_t handle_ = -1;
   std::filesystem::path file_;

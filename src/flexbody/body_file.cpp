@@ -3,8 +3,17 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <xxhash.h>
 
-#include <functional>
+#include <atomic>
+#include <charconv>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
@@ -13,6 +22,47 @@ namespace limber::flexbody {
 namespace {
 
 const char* const kFormat = "limber reduced body";
+
+// HDF5 leaves this many bytes at the start to the seal.
+constexpr std::size_t kSealSize = 512;
+
+std::string make_seal(int version, const std::string& digest) {
+  std::string seal =
+      fmt::format("{}\nlayout {}\nxxh128 {}\n", kFormat, version, digest);
+  seal.resize(kSealSize, '\n');
+  return seal;
+}
+
+// Digest of all bytes from where `in` stands.
+std::string calc_digest(std::istream& in) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(
+      XXH3_createState(), XXH3_freeState);
+  if (!state || XXH3_128bits_reset(state.get()) != XXH_OK) {
+    throw std::bad_alloc();
+  }
+  std::vector<char> block(std::size_t{1} << 20);
+  do {
+    in.read(block.data(), static_cast<std::streamsize>(block.size()));
+    XXH3_128bits_update(state.get(), block.data(),
+                        static_cast<std::size_t>(in.gcount()));
+  } while (in);
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+// The version that a seal names, or nothing if it is no seal.
+std::optional<int> version_of(const std::string& seal) {
+  const std::string start = fmt::format("{}\nlayout ", kFormat);
+  if (!seal.starts_with(start)) return std::nullopt;
+  int version = 0;
+  const char* const end = seal.data() + seal.size();
+  const auto [after, error] =
+      std::from_chars(seal.data() + start.size(), end, version);
+  if (error != std::errc() || after == end || *after != '\n') {
+    return std::nullopt;
+  }
+  return version;
+}
 
 std::vector<std::int64_t> to_integers(const std::vector<std::size_t>& v) {
   return {v.begin(), v.end()};
@@ -107,6 +157,8 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   out.write("integrals/S2", stack(body.integrals.S2), "1",
             "int phi_k phi_l' dm, row k m + l, column-major 3 x 3 a row");
   out.write("lambda", MatrixX(body.lambda), "rad^2/s^2", "eigenvalues");
+  out.write("counts", to_integers({body.groups.size(), body.interfaces.size()}),
+            "1", "groups, interfaces");
   write_rows(out, body);
   write_groups(out, body);
   write_interfaces(out, body);
@@ -176,9 +228,9 @@ void read_rows(const Reader& reader, ReducedBody& body) {
   }
 }
 
-void read_groups(const Reader& reader, ReducedBody& body) {
-  for (const std::string& entry : reader.in().list("groups")) {
-    const std::string at = "groups/" + entry + "/";
+void read_groups(const Reader& reader, std::size_t count, ReducedBody& body) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string at = fmt::format("groups/{:04}/", i);
     NodeGroup group;
     group.name = reader.in().read_text(at + "name");
     group.dimension = static_cast<int>(reader.integer(at + "dimension"));
@@ -189,10 +241,11 @@ void read_groups(const Reader& reader, ReducedBody& body) {
   }
 }
 
-void read_interfaces(const Reader& reader, ReducedBody& body) {
+void read_interfaces(const Reader& reader, std::size_t count,
+                     ReducedBody& body) {
   const Eigen::Index m = body.lambda.size();
-  for (const std::string& entry : reader.in().list("interfaces")) {
-    const std::string at = "interfaces/" + entry + "/";
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string at = fmt::format("interfaces/{:04}/", i);
     InterfaceTable table;
     table.name = reader.in().read_text(at + "name");
     table.p_B = reader.matrix(at + "p_B", 3, 1);
@@ -205,28 +258,69 @@ void read_interfaces(const Reader& reader, ReducedBody& body) {
   }
 }
 
-void check_format(const Reader& reader) {
-  if (!reader.in().has("format") ||
-      reader.in().read_text("format") != kFormat) {
-    reader.fail("it is not a reduced body of Limber's");
+// Before HDF5 sees the file: a library that parses damaged structures can
+// answer with anything, a crash included.
+void check_seal(const std::filesystem::path& file) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(fmt::format("'{}' {}", file.string(), what));
+  };
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail("cannot be read; does it exist?");
+  std::string seal(kSealSize, '\0');
+  in.read(seal.data(), kSealSize);
+  const std::optional<int> version = version_of(seal);
+  if (!version) {
+    fail("is not a reduced body of this program's; make one of its mesh");
   }
-  const std::int64_t version = reader.integer("version");
-  if (version != kBodyFileVersion) {
-    reader.fail(fmt::format("its layout is version {}; this program reads {}",
-                            version, kBodyFileVersion));
+  if (*version != kBodyFileVersion) {
+    fail(
+        fmt::format("has layout version {}; this program reads {}. Make the "
+                    "reduced body anew",
+                    *version, kBodyFileVersion));
   }
+  if (!in || seal != make_seal(*version, calc_digest(in))) {
+    fail(
+        "is damaged (its digest does not match its content); make the reduced "
+        "body anew");
+  }
+}
+
+// A name beside `file` that no other writer uses at the same time.
+std::filesystem::path make_part_name(const std::filesystem::path& file) {
+  static std::atomic<unsigned> count{0};
+  std::filesystem::path part = file;
+  part += fmt::format(".part{}-{}", getpid(), count++);
+  return part;
 }
 
 }  // namespace
 
+void seal_body_file(const std::filesystem::path& file) {
+  std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+  stream.seekg(kSealSize);
+  if (!stream) {
+    throw InputError(fmt::format("'{}' cannot be sealed; is it a reduced body?",
+                                 file.string()));
+  }
+  const std::string seal = make_seal(kBodyFileVersion, calc_digest(stream));
+  stream.clear();  // of the end of the file, to which the digest has read
+  stream.seekp(0);
+  stream.write(seal.data(), static_cast<std::streamsize>(seal.size()));
+  stream.close();
+  if (!stream) {
+    throw InputError(
+        fmt::format("'{}' cannot be sealed; is the disk full?", file.string()));
+  }
+}
+
 void write_body(const ReducedBody& body, const std::filesystem::path& file) {
   // Whole or not at all: write beside it, then rename.
-  std::filesystem::path part = file;
-  part += fmt::format(".part{}", getpid());
+  const std::filesystem::path part = make_part_name(file);
   try {
-    Hdf5File out = Hdf5File::create(part);
+    Hdf5File out = Hdf5File::create(part, kSealSize);
     write_content(out, body);
     out.close();
+    seal_body_file(part);
     std::filesystem::rename(part, file);
   } catch (const std::exception& error) {
     std::error_code ignored;
@@ -237,9 +331,9 @@ void write_body(const ReducedBody& body, const std::filesystem::path& file) {
 }
 
 ReducedBody read_body(const std::filesystem::path& file) {
+  check_seal(file);
   const Hdf5File in = Hdf5File::open(file);
   const Reader reader(in, file);
-  check_format(reader);
   ReducedBody body;
   body.name = in.read_text("name");
   body.content_key = in.read_text("content_key");
@@ -247,10 +341,10 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.mass = reader.matrix("mass", 1, 1)(0, 0);
   body.p_MoBcm_M = reader.matrix("p_MoBcm_M", 3, 1);
   body.size = reader.matrix("size", 3, 1);
-  const auto counts = reader.sizes("mesh_counts", 3);
-  body.mesh_nodes = counts[0];
-  body.mesh_elements = counts[1];
-  body.mesh_boundary_nodes = counts[2];
+  const auto mesh_counts = reader.sizes("mesh_counts", 3);
+  body.mesh_nodes = mesh_counts[0];
+  body.mesh_elements = mesh_counts[1];
+  body.mesh_boundary_nodes = mesh_counts[2];
 
   const MatrixX lambda = in.read_matrix("lambda");
   const Eigen::Index m = lambda.rows();
@@ -259,8 +353,9 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.integrals.S1 = unstack(reader.matrix("integrals/S1", m, 9));
   body.integrals.S2 = unstack(reader.matrix("integrals/S2", m * m, 9));
   read_rows(reader, body);
-  read_groups(reader, body);
-  read_interfaces(reader, body);
+  const auto counts = reader.sizes("counts", 2);
+  read_groups(reader, counts[0], body);
+  read_interfaces(reader, counts[1], body);
   return body;
 }
 
