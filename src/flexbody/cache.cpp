@@ -5,9 +5,14 @@
 #include <xxhash.h>
 
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <set>
+#include <system_error>
 #include <type_traits>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "flexbody/body_file.hpp"
@@ -57,30 +62,37 @@ std::string read_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Files that a .geo script pulls in, by its Include and Merge lines.
-void add_included_files(const std::filesystem::path& file,
-                        const std::string& script, Digest& digest) {
+// Adds a .geo script and the files that it pulls in by its Include and Merge
+// lines, and those that they pull in; `seen` ends a circle.
+void add_script(const std::filesystem::path& file, Digest& digest,
+                std::set<std::filesystem::path>& seen) {
+  if (!seen.insert(file.lexically_normal()).second) return;
+  const std::string script = read_bytes(file);
+  digest.add(script);
   for (const char* keyword : {"Include", "Merge"}) {
     for (std::size_t at = script.find(keyword); at != std::string::npos;
          at = script.find(keyword, at + 1)) {
       const std::size_t open = script.find('"', at);
+      if (open == std::string::npos) break;
       const std::size_t close = script.find('"', open + 1);
       if (close == std::string::npos) break;
       const std::filesystem::path other =
           file.parent_path() / script.substr(open + 1, close - open - 1);
-      if (std::filesystem::is_regular_file(other)) {
-        digest.add(read_bytes(other));
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(other, ignored)) {
+        add_script(other, digest, seen);
       }
     }
   }
 }
 
 void add_mesh(const MeshSource& mesh, Digest& digest) {
-  const std::string bytes = read_bytes(mesh.file);
   digest.add(mesh.file.extension().string());
-  digest.add(bytes);
   if (mesh.file.extension() == ".geo") {
-    add_included_files(mesh.file, bytes, digest);
+    std::set<std::filesystem::path> seen;
+    add_script(mesh.file, digest, seen);
+  } else {
+    digest.add(read_bytes(mesh.file));
   }
   digest.add(mesh.size);
   digest.add(mesh.order);
@@ -101,9 +113,27 @@ void add_selection(const NodeSelection& nodes, Digest& digest) {
   }
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
+// The entry if it is there, sound and the asked one. Whatever else is in its
+// place, of whatever kind its damage is, is no reason to fail: the body can
+// be made anew.
+std::optional<ReducedBody> find_entry(const std::filesystem::path& file,
+                                      const std::string& key) {
+  try {
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    ReducedBody body = read_body(file);
+    if (body.content_key == key) return body;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
+}
+
+// An entry that cannot be kept only makes the next run take longer.
+void keep_entry(const ReducedBody& body, const std::filesystem::path& file) {
+  try {
+    std::filesystem::create_directories(file.parent_path());
+    write_body(body, file);
+  } catch (const std::exception&) {
+  }
 }
 
 }  // namespace
@@ -159,24 +189,14 @@ CachedBody load_or_reduce(
     const std::function<ReducedBody(const Recipe&)>& reduce) {
   const std::string key = content_key(recipe);
   const std::filesystem::path file = folder / (key + ".h5");
-  if (std::filesystem::exists(file)) {
-    try {
-      ReducedBody body = read_body(file);
-      // Two links of one shape share an entry; the name is the asker's.
-      body.name = recipe.name;
-      return {std::move(body), true};
-    } catch (const InputError&) {
-      // A damaged entry is made anew below.
-    }
+  if (std::optional<ReducedBody> body = find_entry(file, key)) {
+    // Two links of one shape share an entry; the name is the asker's.
+    body->name = recipe.name;
+    return {std::move(*body), true};
   }
   CachedBody made{reduce(recipe), false};
   made.body.content_key = key;
-  make_folder(folder);
-  try {
-    write_body(made.body, file);
-  } catch (const InputError&) {
-    // Not kept: the next run only takes longer.
-  }
+  keep_entry(made.body, file);
   return made;
 }
 

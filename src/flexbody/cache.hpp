@@ -10,9 +10,9 @@
 
 namespace limber::flexbody {
 
-/// Hash of everything that shapes the reduced body: the recipe's values, the
-/// mesh file's bytes, the format version. @throws InputError if the mesh file
-/// cannot be read.
+/// Hash of everything that shapes the reduced body: the recipe's values but its
+/// name, the bytes of the mesh file and of what a .geo script includes, the
+/// format version. @throws InputError if the mesh file cannot be read.
 [[nodiscard]] std::string content_key(const Recipe& recipe);
 
 /// Where reduced bodies are kept when a user names no place:
@@ -20,8 +20,9 @@ namespace limber::flexbody {
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
 /// The body from `folder` if it is there and sound, else from `reduce`, then
-/// kept. A damaged entry is made anew; a folder that cannot be written only
-/// costs the speed-up.
+/// kept. A damaged or foreign entry is made anew; a folder that cannot be
+/// written only costs the speed-up. Threads and processes may ask for one
+/// body at once: each may reduce it, and each gets it whole.
 struct CachedBody {
   ReducedBody body;
   bool was_cached = false;
