@@ -28,6 +28,7 @@ std::vector<dynamics::Fidelity> parse_levels(
         "--fidelity rigid,coupled");
   }
   std::vector<dynamics::Fidelity> levels;
+  levels.reserve(names.size());
   for (const std::string& name : names) {
     levels.push_back(dynamics::parse_fidelity(name));
   }

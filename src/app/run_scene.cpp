@@ -89,8 +89,8 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
     observe(run, now, energy);
   };
   try {
-    run.statistics = dynamics::simulate(run.built.model, state,
-                                        run.built.settings, observer, progress);
+    dynamics::simulate(run.built.model, state, run.built.settings, observer,
+                       progress, run.statistics);
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }

@@ -75,6 +75,21 @@ std::vector<Landmark> find_landmarks(const SystemModel& model, double start,
   return merged;
 }
 
+// Adds its own lifetime to `seconds`.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+ private:
+  double& seconds_;
+  Clock::time_point begin_ = Clock::now();
+};
+
 // The integrators behind one face.
 class Stepper {
  public:
@@ -129,6 +144,14 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
                               const SimulationSettings& settings,
                               const Observer& observer,
                               const Progress& progress) {
+  SimulationStatistics statistics;
+  simulate(model, state, settings, observer, progress, statistics);
+  return statistics;
+}
+
+void simulate(const SystemModel& model, SystemState& state,
+              const SimulationSettings& settings, const Observer& observer,
+              const Progress& progress, SimulationStatistics& statistics) {
   LIMBER_EXPECT(state.bodies.size() == model.bodies.size());
   LIMBER_EXPECT(state.eta.size() == model.modal_count);
   LIMBER_EXPECT(state.etadot.size() == model.modal_count);
@@ -149,8 +172,8 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
     observe();
   }
 
-  SimulationStatistics statistics;
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch stopwatch(statistics.seconds);
+  long steps = 0;
   Stepper stepper(model, settings);
   bool started = false;
   bool at_jump = false;
@@ -173,7 +196,7 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
       statistics.factorizations += result.factorizations;
       dissipated += result.dissipated;
       work += result.load_work;
-      if (progress && statistics.steps % 64 == 0) {
+      if (progress && ++steps % 64 == 0) {
         progress("simulating", (state.t - start) / (settings.end_time - start));
       }
     }
@@ -181,9 +204,6 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
     if (mark.is_output) observe();
   }
   report(progress, "simulating", 1.0);
-  statistics.seconds =
-      std::chrono::duration<double>(Clock::now() - begin).count();
-  return statistics;
 }
 
 }  // namespace limber::dynamics

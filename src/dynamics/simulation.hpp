@@ -50,4 +50,10 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
                               const Observer& observer,
                               const Progress& progress = {});
 
+/// The same, adding to `statistics`, which tells the cost also of a run that
+/// ends in a NumericalError.
+void simulate(const SystemModel& model, SystemState& state,
+              const SimulationSettings& settings, const Observer& observer,
+              const Progress& progress, SimulationStatistics& statistics);
+
 }  // namespace limber::dynamics
