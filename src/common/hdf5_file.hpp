@@ -43,6 +43,10 @@ class Hdf5File {
   void write_array(const std::string& name, const std::vector<double>& values,
                    const std::vector<std::uint64_t>& shape,
                    const std::string& unit, const std::string& meaning);
+  void write_array(const std::string& name,
+                   const std::vector<std::int64_t>& values,
+                   const std::vector<std::uint64_t>& shape,
+                   const std::string& unit, const std::string& meaning);
 
   [[nodiscard]] bool has(const std::string& name) const;
   [[nodiscard]] MatrixX read_matrix(const std::string& name) const;

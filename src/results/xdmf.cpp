@@ -18,8 +18,8 @@ using dynamics::SystemState;
 
 // All surfaces as one mesh: bodies' rows one after the other.
 struct Surface {
-  std::vector<std::size_t> bodies;  // indices of those with a mesh
-  std::vector<double> corners;      // three a triangle
+  std::vector<std::size_t> bodies;    // indices of those with a mesh
+  std::vector<std::int64_t> corners;  // three a triangle
   std::size_t nodes = 0;
 };
 
@@ -31,7 +31,8 @@ Surface gather_surface(const SystemModel& model) {
     surface.bodies.push_back(b);
     for (const auto& triangle : reduced->triangles) {
       for (const std::size_t corner : triangle) {
-        surface.corners.push_back(static_cast<double>(surface.nodes + corner));
+        surface.corners.push_back(
+            static_cast<std::int64_t>(surface.nodes + corner));
       }
     }
     surface.nodes += reduced->rows.tags.size();
@@ -66,12 +67,12 @@ Fields move_surface(const SystemModel& model, const Surface& surface,
   return fields;
 }
 
-void write_item(std::ostream& out, const std::string& shape,
+void write_item(std::ostream& out, const char* number, const std::string& shape,
                 const std::string& place) {
   fmt::print(out,
-             "<DataItem Dimensions=\"{}\" NumberType=\"Float\" "
+             "<DataItem Dimensions=\"{}\" NumberType=\"{}\" "
              "Precision=\"8\" Format=\"HDF\">{}</DataItem>\n",
-             shape, place);
+             shape, number, place);
 }
 
 }  // namespace
@@ -107,13 +108,14 @@ void write_xdmf(const std::filesystem::path& file, const SystemModel& model,
                "<Time Value=\"{:.17g}\"/>\n<Topology "
                "TopologyType=\"Triangle\" NumberOfElements=\"{}\">\n",
                history.times[i], triangles);
-    write_item(out, fmt::format("{} 3", triangles), name + ":/triangles");
+    write_item(out, "Int", fmt::format("{} 3", triangles),
+               name + ":/triangles");
     out << "</Topology><Geometry GeometryType=\"XYZ\">\n";
-    write_item(out, fmt::format("{} 3", surface.nodes),
+    write_item(out, "Float", fmt::format("{} 3", surface.nodes),
                fmt::format("{}:/{}points", name, at));
     out << "</Geometry><Attribute Name=\"deformation\" "
            "AttributeType=\"Scalar\" Center=\"Node\">\n";
-    write_item(out, fmt::format("{}", surface.nodes),
+    write_item(out, "Float", fmt::format("{}", surface.nodes),
                fmt::format("{}:/{}deformation", name, at));
     out << "</Attribute></Grid>\n";
   }

@@ -119,7 +119,8 @@ TEST_F(Hdf5FileTest, ReturnsATextWithZerosInside) {
 
 TEST_F(Hdf5FileTest, StoresAnArrayRowByRow) {
   Hdf5File out = Hdf5File::create(file());
-  out.write_array("array", {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, {2, 3}, "m", "rows");
+  out.write_array("array", std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0},
+                  {2, 3}, "m", "rows");
   out.close();
   const MatrixX rows{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
   EXPECT_EQ(Hdf5File::open(file()).read_matrix("array"), rows);
@@ -127,7 +128,9 @@ TEST_F(Hdf5FileTest, StoresAnArrayRowByRow) {
 
 TEST_F(Hdf5FileTest, ExpectsAsManyValuesAsAnArraysShapeHas) {
   Hdf5File out = Hdf5File::create(file());
-  EXPECT_THROW(out.write_array("array", {1.0}, {2, 3}, "m", ""), ContractError);
+  EXPECT_THROW(
+      out.write_array("array", std::vector<double>{1.0}, {2, 3}, "m", ""),
+      ContractError);
 }
 
 TEST_F(Hdf5FileTest, ListsTheNamesInAGroupSorted) {
