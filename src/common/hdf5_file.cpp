@@ -276,6 +276,11 @@ hid_t create_file(const std::filesystem::path& file, std::uint64_t user_block) {
   return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
 }
 
+std::uint64_t count_entries(const std::vector<std::uint64_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1},
+                         std::multiplies<>());
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(std::int64_t handle, std::filesystem::path file)
@@ -354,12 +359,23 @@ void Hdf5File::write_array(const std::string& name,
                            const std::vector<std::uint64_t>& shape,
                            const std::string& unit,
                            const std::string& meaning) {
-  LIMBER_EXPECT(values.size() == std::accumulate(shape.begin(), shape.end(),
-                                                 std::uint64_t{1},
-                                                 std::multiplies<>()));
+  LIMBER_EXPECT(values.size() == count_entries(shape));
   const std::vector<hsize_t> extents(shape.begin(), shape.end());
   with_path(file_, [&] {
     write_dataset(handle_, {name, H5T_NATIVE_DOUBLE, extents, values.data(),
+                            unit, meaning});
+  });
+}
+
+void Hdf5File::write_array(const std::string& name,
+                           const std::vector<std::int64_t>& values,
+                           const std::vector<std::uint64_t>& shape,
+                           const std::string& unit,
+                           const std::string& meaning) {
+  LIMBER_EXPECT(values.size() == count_entries(shape));
+  const std::vector<hsize_t> extents(shape.begin(), shape.end());
+  with_path(file_, [&] {
+    write_dataset(handle_, {name, H5T_NATIVE_INT64, extents, values.data(),
                             unit, meaning});
   });
 }
