@@ -126,6 +126,19 @@ TEST_F(Hdf5FileTest, StoresAnArrayRowByRow) {
   EXPECT_EQ(Hdf5File::open(file()).read_matrix("array"), rows);
 }
 
+TEST_F(Hdf5FileTest, StoresIntegersOfAnyShape) {
+  const std::vector<std::int64_t> values = {3, -1, 2};
+  Hdf5File out = Hdf5File::create(file());
+  out.write_array("list", values, {3}, "1", "numbers");
+  out.write_array("rows", values, {3, 1}, "1", "numbers");
+  EXPECT_THROW(out.write_array("few", values, {2}, "1", ""), ContractError);
+  out.close();
+  const Hdf5File in = Hdf5File::open(file());
+  EXPECT_EQ(in.read_integers("list"), values);
+  EXPECT_THROW((void)in.read_integers("rows"), InputError);
+  EXPECT_THROW((void)in.read_matrix("rows"), InputError);
+}
+
 TEST_F(Hdf5FileTest, ExpectsAsManyValuesAsAnArraysShapeHas) {
   Hdf5File out = Hdf5File::create(file());
   EXPECT_THROW(

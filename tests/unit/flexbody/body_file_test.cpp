@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -18,6 +19,9 @@
 
 #include "unit/flexbody/files.hpp"
 #include "unit/flexbody/small_body.hpp"
+
+// The leak sanitizer's, where it is linked.
+extern "C" void __lsan_disable() __attribute__((weak));
 
 namespace limber::flexbody::test {
 namespace {
@@ -56,27 +60,6 @@ void replace_all(std::string& bytes, const std::string& old,
     bytes.replace(at, old.size(), fresh);
   }
 }
-
-// As long as it lives, no file of this process grows beyond `size` bytes.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t size) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit low{size, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &low);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  using Handler = void (*)(int);
-  Handler handler_;
-  rlimit old_{};
-};
 
 TEST_F(BodyFile, ReturnsEveryFieldBitForBit) {
   for (const unsigned seed : {1U, 2U, 3U}) {
@@ -281,17 +264,28 @@ TEST_F(BodyFile, InAFolderThatDoesNotExistIsAnInputErrorThatNamesIt) {
       HasSubstr(elsewhere.string()));
 }
 
+// For a child process: writes where no file may grow beyond `size` bytes, and
+// exits with 0 if that is an InputError that names the file. HDF5 leaks what it
+// cannot write, and must not crash on it at exit.
+[[noreturn]] void write_on_full_disk(rlim_t size,
+                                     const std::filesystem::path& file) {
+  if (__lsan_disable) __lsan_disable();
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{size, size};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const std::string text =
+      find_input_error([&] { write_body(make_small_body(2), file); });
+  std::exit(text.find(file.string()) != std::string::npos ? 0 : 1);
+}
+
 TEST_F(BodyFile, OnAFullDiskIsAnInputErrorAndKeepsTheOldOne) {
   const ReducedBody old = make_small_body(1);
   write_body(old, file());
   const auto whole = std::filesystem::file_size(file());
   for (std::uintmax_t size = 0; size < whole; size += whole / 20) {
-    std::string text;
-    {
-      const FullDisk disk(size);
-      text = find_input_error([&] { write_body(make_small_body(2), file()); });
-    }
-    EXPECT_THAT(text, HasSubstr(file().string())) << size;
+    EXPECT_EXIT(write_on_full_disk(size, file()), ::testing::ExitedWithCode(0),
+                "")
+        << size;
   }
   EXPECT_EQ(find_difference(read_body(file()), old), "");
   EXPECT_EQ(folder_.count_files(), 1);
