@@ -56,7 +56,7 @@ void find_modes(const Options& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
   recipe.basis.eigenmodes = options.count;
-  recipe.rows = flexbody::KeptRows::interfaces;
+  recipe.rows = flexbody::parse_rows({"interfaces"});
   const flexbody::ReducedBody body = make_reducer(make_progress_bar())(recipe);
   clear_progress_bar();
   if (options.json) {

@@ -19,7 +19,7 @@ struct Options {
   std::vector<std::string> clamps;
   std::vector<std::string> interfaces;
   int eigenmodes = 10;
-  bool all_rows = false;
+  std::vector<std::string> rows = {"boundary"};
   bool json = false;
 };
 
@@ -27,7 +27,7 @@ void reduce(const Options& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
   recipe.basis.eigenmodes = options.eigenmodes;
-  if (options.all_rows) recipe.rows = flexbody::KeptRows::all;
+  recipe.rows = flexbody::parse_rows(options.rows);
   for (const std::string& group : options.interfaces) {
     flexbody::InterfaceRequest request;
     request.name = group;
@@ -64,8 +64,9 @@ void add_reduce(CLI::App& app, Action& action) {
                       "Group that is fixed; may be given again");
   command->add_option("--eigenmodes", options->eigenmodes, "Eigenmodes kept")
       ->check(CLI::NonNegativeNumber);
-  command->add_flag("--all-rows", options->all_rows,
-                    "Keep every node's rows, not the boundary's alone");
+  command->add_option("--rows", options->rows,
+                      "Nodes to keep: all, boundary (default), interfaces, or "
+                      "groups by name; may be given again");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { reduce(*options); }; });

@@ -261,25 +261,26 @@ void read_interfaces(const Reader& reader, std::size_t count,
 // Before HDF5 sees the file: a library that parses damaged structures can
 // answer with anything, a crash included.
 void check_seal(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& what) {
-    throw InputError(fmt::format("'{}' {}", file.string(), what));
+  const auto problem = [&](const std::string& what) {
+    return InputError(fmt::format("'{}' {}", file.string(), what));
   };
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail("cannot be read; does it exist?");
+  if (!in) throw problem("cannot be read; does it exist?");
   std::string seal(kSealSize, '\0');
   in.read(seal.data(), kSealSize);
   const std::optional<int> version = version_of(seal);
   if (!version) {
-    fail("is not a reduced body of this program's; make one of its mesh");
+    throw problem(
+        "is not a reduced body of this program's; make one of its mesh");
   }
   if (*version != kBodyFileVersion) {
-    fail(
+    throw problem(
         fmt::format("has layout version {}; this program reads {}. Make the "
                     "reduced body anew",
                     *version, kBodyFileVersion));
   }
   if (!in || seal != make_seal(*version, calc_digest(in))) {
-    fail(
+    throw problem(
         "is damaged (its digest does not match its content); make the reduced "
         "body anew");
   }

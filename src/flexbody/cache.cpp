@@ -169,7 +169,9 @@ std::string content_key(const Recipe& recipe) {
   digest.add(recipe.basis.interface_modes);
   digest.add(recipe.basis.load_modes);
   digest.add(recipe.basis.drop_tolerance);
-  digest.add(recipe.rows);
+  digest.add(recipe.rows.extent);
+  digest.add(recipe.rows.groups.size());
+  for (const std::string& group : recipe.rows.groups) digest.add(group);
   return digest.text();
 }
 

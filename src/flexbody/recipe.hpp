@@ -90,8 +90,18 @@ struct BasisOptions {
                                  ///< counts as dependent
 };
 
-/// Which nodal rows of the basis are kept.
-enum class KeptRows { all, boundary, interfaces };
+/// Which nodal rows of the basis are kept. Those of interfaces always are.
+struct KeptRows {
+  enum class Extent { all, boundary, groups };
+  Extent extent = Extent::boundary;
+  std::vector<std::string>
+      groups;  ///< with Extent::groups: these groups' nodes
+
+  bool operator==(const KeptRows&) const = default;
+};
+
+/// "all", "boundary", "interfaces" (nothing else), or names of groups.
+[[nodiscard]] KeptRows parse_rows(const std::vector<std::string>& words);
 
 struct Recipe {
   std::string name;
@@ -102,7 +112,7 @@ struct Recipe {
   std::vector<InterfaceRequest> interfaces;
   std::vector<LoadPattern> load_patterns;
   BasisOptions basis;
-  KeptRows rows = KeptRows::boundary;
+  KeptRows rows;
 };
 
 }  // namespace limber::flexbody

@@ -214,18 +214,22 @@ StaticModes find_static_modes(const fem::Mesh& mesh, const Recipe& recipe,
 /// Nodes whose rows are kept, sorted.
 std::vector<int> choose_rows(const fem::Mesh& mesh, const Recipe& recipe,
                              const std::vector<Interface>& interfaces) {
+  using Extent = KeptRows::Extent;
   std::set<int> kept;
-  if (recipe.rows == KeptRows::all)
+  const auto keep = [&](const std::vector<int>& nodes) {
+    kept.insert(nodes.begin(), nodes.end());
+  };
+  if (recipe.rows.extent == Extent::all)
     for (int n = 0; n < static_cast<int>(mesh.node_count()); ++n)
       kept.insert(kept.end(), n);
-  if (recipe.rows == KeptRows::boundary)
-    kept.insert(mesh.boundary_nodes.begin(), mesh.boundary_nodes.end());
-  for (const Interface& interface : interfaces)
-    kept.insert(interface.selection.nodes.begin(),
-                interface.selection.nodes.end());
-  for (const fem::PhysicalGroup& group : mesh.groups)
-    if (group.dimension < 3)
-      kept.insert(group.nodes.begin(), group.nodes.end());
+  if (recipe.rows.extent == Extent::boundary) {
+    keep(mesh.boundary_nodes);
+    for (const fem::PhysicalGroup& group : mesh.groups)
+      if (group.dimension < 3) keep(group.nodes);
+  }
+  for (const std::string& name : recipe.rows.groups)
+    keep(mesh.groups[fem::find_group(mesh, name)].nodes);
+  for (const Interface& interface : interfaces) keep(interface.selection.nodes);
   return {kept.begin(), kept.end()};
 }
 
@@ -262,8 +266,10 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
   body.rows.Phi_B = take_rows(Phi, kept);
   body.triangles = kept_triangles(mesh, kept);
   for (const fem::PhysicalGroup& group : mesh.groups) {
-    // A volume's inner rows are there only if all are kept.
-    if (group.dimension == 3 && recipe.rows != KeptRows::all) continue;
+    const auto is_kept = [&](int node) {
+      return std::binary_search(kept.begin(), kept.end(), node);
+    };
+    if (!std::all_of(group.nodes.begin(), group.nodes.end(), is_kept)) continue;
     const fem::WeightedNodes weighted = fem::weigh_group(mesh, group);
     body.groups.push_back({group.name, group.dimension,
                            tags_of(mesh, weighted.nodes), weighted.weights});
@@ -309,8 +315,9 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
     throw InputError(
         fmt::format("body '{}': {} eigenmodes; expected 0 or more.",
                     recipe.name, recipe.basis.eigenmodes));
-  for (const std::string& name : recipe.clamped_groups)
-    static_cast<void>(fem::find_group(mesh, name));
+  for (const auto* names : {&recipe.clamped_groups, &recipe.rows.groups})
+    for (const std::string& name : *names)
+      static_cast<void>(fem::find_group(mesh, name));
 
   fem::StructuralMatrices matrices = fem::assemble(mesh, materials, progress);
   const fem::SparseMatrix M_s = matrices.M_s;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 #include "common/names.hpp"
 
@@ -60,16 +62,8 @@ dynamics::ModalDamping read_damping(XmlElement& element) {
 }
 
 flexbody::KeptRows read_rows(XmlElement& element) {
-  const std::map<std::string, flexbody::KeptRows> kinds = {
-      {"all", flexbody::KeptRows::all},
-      {"boundary", flexbody::KeptRows::boundary},
-      {"interfaces", flexbody::KeptRows::interfaces}};
-  const std::string name = element.text("rows").value_or("boundary");
-  const auto found = kinds.find(name);
-  if (found != kinds.end()) return found->second;
-  element.fail(
-      describe_unknown("rows", name, {"all", "boundary", "interfaces"}));
-  return flexbody::KeptRows::boundary;
+  std::istringstream text(element.text("rows").value_or("boundary"));
+  return flexbody::parse_rows({std::istream_iterator<std::string>(text), {}});
 }
 
 void read_basis(XmlElement& element, FlexibleLink& link) {

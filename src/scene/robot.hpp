@@ -32,7 +32,7 @@ struct FlexibleLink {
   std::vector<flexbody::MaterialRegion> materials;
   dynamics::ModalDamping damping;
   flexbody::BasisOptions basis;
-  flexbody::KeptRows rows = flexbody::KeptRows::boundary;
+  flexbody::KeptRows rows;
   std::vector<std::string> clamped_groups;
   std::vector<flexbody::InterfaceRequest> interfaces;
   std::map<std::string, std::string> interface_of_joint;

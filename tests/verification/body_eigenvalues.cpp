@@ -76,7 +76,7 @@ TEST(BodyOfBox, MeshedBySizeHasTheReportsCountsAndTable) {
 
 TEST(BodyBasis, IsOrthonormalAndFreeOfRigidMotion) {
   flexbody::Recipe recipe = test::beam_recipe("beam579_v41.msh");
-  recipe.rows = flexbody::KeptRows::all;
+  recipe.rows = flexbody::parse_rows({"all"});
   recipe.interfaces = {{"root", flexbody::GroupNodes{"root"}},
                        {"tip", flexbody::GroupNodes{"tip"}}};
   const auto body = flexbody::reduce(recipe);

@@ -111,8 +111,9 @@ Changes list_load_and_basis_changes() {
       {"interface modes", [](Recipe& r) { r.basis.interface_modes = false; }},
       {"load modes", [](Recipe& r) { r.basis.load_modes = false; }},
       {"tolerance", [](Recipe& r) { r.basis.drop_tolerance = 1e-9; }},
-      {"all rows", [](Recipe& r) { r.rows = KeptRows::all; }},
-      {"few rows", [](Recipe& r) { r.rows = KeptRows::interfaces; }},
+      {"all rows", [](Recipe& r) { r.rows = parse_rows({"all"}); }},
+      {"few rows", [](Recipe& r) { r.rows = parse_rows({"interfaces"}); }},
+      {"a group's rows", [](Recipe& r) { r.rows = parse_rows({"side"}); }},
   };
 }
 

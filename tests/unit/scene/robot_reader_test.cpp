@@ -69,7 +69,7 @@ TEST(RobotReader, ReadsTheExtension) {
   const Robot robot = read(
       links("ab") + joint("j", "a", "b") + "<flexible link='b'>" + kMesh +
       "<origin xyz='0 0 1'/><damping ratio='0.02'/>"
-      "<basis eigenmodes='4' interface_modes='false' rows='all'/>"
+      "<basis eigenmodes='4' interface_modes='false' rows='root tip'/>"
       "<interface name='i' box_lower='0 0 0' box_upper='1 1 1' "
       "weighting='equal'/><attach joint='j' interface='i'/></flexible>"
       "<coupler joint='j' rotational_stiffness='5'/>"
@@ -80,7 +80,7 @@ TEST(RobotReader, ReadsTheExtension) {
   EXPECT_EQ(link.X_LM.p, Vector3::UnitZ());
   EXPECT_EQ(link.basis.eigenmodes, 4);
   EXPECT_FALSE(link.basis.interface_modes);
-  EXPECT_EQ(link.rows, flexbody::KeptRows::all);
+  EXPECT_EQ(link.rows, flexbody::parse_rows({"root", "tip"}));
   EXPECT_EQ(link.interfaces.at(0).weighting, flexbody::Weighting::equal);
   EXPECT_EQ(link.interface_of_joint.at("j"), "i");
   EXPECT_EQ(robot.joints[0].coupler.rotational_stiffness, 5.0);
