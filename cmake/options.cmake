@@ -14,6 +14,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND
    CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(limber_options INTERFACE -Wno-restrict)
 endif()
+# Gmsh exports its own copies of Eigen's templates: ours, if visible, would take
+# their place inside it, built with other options.
+target_compile_options(limber_options INTERFACE -fvisibility=hidden)
 if(LIMBER_SANITIZE)
   target_compile_options(limber_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=undefined
