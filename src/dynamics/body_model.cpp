@@ -24,16 +24,19 @@ Matrix3 inertia_of(const Matrix3& S) {
 void pack_inertia(const flexbody::ReducedBody& reduced, BodyModel& body) {
   const flexbody::InertiaShapeIntegrals& s = reduced.integrals;
   const int m = reduced.mode_count();
-  LIMBER_EXPECT(static_cast<int>(s.S1.size()) == m);
-  LIMBER_EXPECT(static_cast<int>(s.S2.size()) == m * m);
+  const auto count = static_cast<std::size_t>(m);
+  LIMBER_EXPECT(s.S1.size() == count);
+  LIMBER_EXPECT(s.S2.size() == count * count);
 
   body.J1.resize(6, m);
   body.J2.resize(6 * m, m);
   body.beta.resize(3 * m, m);
+  std::size_t pair = 0;
   for (int k = 0; k < m; ++k) {
-    body.J1.col(k) = pack_symmetric(inertia_of(s.S1[static_cast<size_t>(k)]));
+    body.J1.col(k) =
+        pack_symmetric(inertia_of(s.S1[static_cast<std::size_t>(k)]));
     for (int l = 0; l < m; ++l) {
-      const Matrix3& S2 = s.S2[static_cast<size_t>(k * m + l)];
+      const Matrix3& S2 = s.S2[pair++];
       body.J2.block<6, 1>(6 * k, l) = pack_symmetric(inertia_of(S2));
       // (phi_k x phi_l)_c = eps_cab S2_ab.
       body.beta.block<3, 1>(3 * l, k) = Vector3(

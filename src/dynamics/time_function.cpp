@@ -16,6 +16,8 @@ template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 // Whether t is at or past `edge`, seen from the given side of a jump.
 bool has_passed(double t, double edge, Side side) {
