@@ -109,6 +109,10 @@ TEST(BadInput, DegenerateElement) {
   expect_mesh_refused(two_tetrahedra("1 2 3 4", "1 2 3 3"), "element 2");
 }
 
+TEST(BadInput, InvertedElement) {
+  expect_mesh_refused(two_tetrahedra("1 2 3 4", "1 3 2 4"), "inverted");
+}
+
 TEST(BadInput, MeshOfSurfacesOnly) {
   expect_mesh_refused(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n"
