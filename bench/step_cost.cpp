@@ -69,8 +69,9 @@ Scene make_chain(const Body& body, int count) {
       builder.add_coupler("hinge" + std::to_string(i), hinge, last_tip,
                           at_root);
     } else {
-      builder.add_load("swing", at_root, kSwing * Vector3::UnitY(), {},
-                       dynamics::LoadFrame::world, dynamics::Sinusoid{20.0});
+      builder.add_load("swing", at_root, kSwing * Vector3::UnitY(),
+                       Vector3::Zero(), dynamics::LoadFrame::world,
+                       dynamics::Sinusoid{20.0});
     }
     last_tip = builder.attach_interface("tip" + std::to_string(i), b, tip,
                                         {Matrix3::Identity(), tip.p_B});

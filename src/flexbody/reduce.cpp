@@ -203,7 +203,8 @@ StaticModes find_static_modes(const fem::Mesh& mesh, const Recipe& recipe,
     const MatrixX answers = solve(interface.motion.spread(wrenches));
     const Matrix6 flexibility =
         interface.motion.apply(answers) * wrenches.transpose();
-    modes.flexibility.push_back(0.5 * (flexibility + flexibility.transpose()));
+    modes.flexibility.emplace_back(0.5 *
+                                   (flexibility + flexibility.transpose()));
     if (recipe.basis.interface_modes && interface.static_modes) append(answers);
   }
   const MatrixX loads = find_pattern_loads(mesh, recipe, interfaces);

@@ -65,7 +65,7 @@ dynamics::TimeFunction read_time_function(TomlTable& table) {
                                              {"table", read_table}},
                                             nullptr);
   if (!reader) return dynamics::Constant{};
-  const dynamics::TimeFunction function = reader(table);
+  dynamics::TimeFunction function = reader(table);
   table.finish();
   if (!table.problems().empty()) return function;
   try {

@@ -95,7 +95,7 @@ class TreeCheck {
   /// Name of the link at one end, or nothing if there is a problem with it.
   std::string end_of(const TiXmlElement& joint, const std::string& name,
                      const char* tag) {
-    const std::string link = attribute(joint.FirstChildElement(tag), "link");
+    std::string link = attribute(joint.FirstChildElement(tag), "link");
     if (line_of_link_.count(link) != 0) return link;
     problems_.add(joint.Row(),
                   fmt::format("joint '{}', <{}>: {}", name, tag,

@@ -17,7 +17,7 @@ double deflect(const std::string& mesh, int eigenmodes) {
   recipe.basis.eigenmodes = eigenmodes;
   recipe.interfaces = {{"tip", flexbody::GroupNodes{"tip"},
                         flexbody::Weighting::uniform, false}};
-  recipe.load_patterns = {{"tip", Vector3::UnitX(), {}}};
+  recipe.load_patterns = {{"tip", Vector3::UnitX(), Vector3::Zero()}};
   const auto body = flexbody::reduce(recipe);
   EXPECT_EQ(body.lambda.size(), eigenmodes + 1);
   const VectorX f = 500.0 * body.interfaces[0].Phi_B.row(0).transpose();
