@@ -15,5 +15,6 @@ void add_compare(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_reduce(CLI::App& app, Action& action);
+void add_wobble(CLI::App& app, Action& action);
 
 }  // namespace limber::app

@@ -26,34 +26,6 @@ std::filesystem::path find_folder(const Options& options,
   return std::filesystem::path("out") / scenario.name;
 }
 
-void print_text(const Run& run, const std::filesystem::path& folder) {
-  fmt::print("{} bodies, {} modes, {} couplers\n",
-             run.built.model.bodies.size(), run.built.model.modal_count,
-             run.built.model.couplers.size());
-  fmt::print("offline {:.3g} s ({} reduced, {} from the cache)\n",
-             run.built.seconds_offline, run.built.bodies_reduced,
-             run.built.bodies_cached);
-  fmt::print("online  {:.3g} s, {} steps, {} Newton iterations\n",
-             run.statistics.seconds, run.statistics.steps,
-             run.statistics.newton_iterations);
-  if (!run.history.energies.empty()) {
-    const dynamics::EnergyBalance& last = run.history.energies.back();
-    fmt::print("energy  {:.6g} J, work {:.6g} J, dissipated {:.6g} J\n",
-               last.total(), last.work, last.dissipated);
-  }
-  for (std::size_t i = 0; i < run.history.columns.size(); ++i) {
-    if (run.history.probe_rows.empty()) break;
-    double peak = 0.0;
-    for (const auto& row : run.history.probe_rows) {
-      peak = std::max(peak, std::abs(row[i]));
-    }
-    fmt::print("{:<28} final {:13.6g}  peak {:13.6g} {}\n",
-               run.history.columns[i].name, run.history.probe_rows.back()[i],
-               peak, run.history.columns[i].unit);
-  }
-  fmt::print("results in {}\n", folder.string());
-}
-
 void run(const Options& options) {
   scene::Overrides overrides;
   if (!options.fidelity.empty()) {
@@ -63,15 +35,8 @@ void run(const Options& options) {
   const std::filesystem::path folder = find_folder(options, scene.scenario);
   check_output_folder(folder);
   const Run result = run_scene(scene, options.cache);
-  write_run(result, folder, options.xdmf || scene.scenario.output.xdmf);
-  if (result.failure) std::rethrow_exception(result.failure);
-  if (options.json) {
-    Json json = summarize(result);
-    json["folder"] = folder.string();
-    fmt::print("{}\n", to_text(json));
-  } else {
-    print_text(result, folder);
-  }
+  finish_run(result, folder, options.json,
+             options.xdmf || scene.scenario.output.xdmf);
 }
 
 }  // namespace

@@ -32,6 +32,11 @@ void check_output_folder(const std::filesystem::path& folder);
 /// The run in figures: steps, times, energy, probes (name -> final, peak).
 [[nodiscard]] Json summarize(const Run& run);
 
+/// Writes the run's files and prints its summary, as JSON or as text.
+/// @throws NumericalError, after writing, if the run ended early.
+void finish_run(const Run& run, const std::filesystem::path& folder, bool json,
+                bool xdmf);
+
 /// Writes results.h5, probes.csv, summary.json and what the scenario asks for.
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf);
 

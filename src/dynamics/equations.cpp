@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/equations.hpp"
 
+#include <algorithm>
+
 #include "dynamics/body_model.hpp"
 
 namespace limber::dynamics {
@@ -138,6 +140,40 @@ void apply_load(const SystemModel& model, const SystemState& state,
       force.dot(motion.v_WF_W + motion.R_WB * slip) + moment.dot(motion.w_WF_W);
 }
 
+// Which column of a history holds at t; -1 before the first.
+Eigen::Index find_column(const std::vector<double>& times, double t,
+                         Side side) {
+  const auto next = side == Side::right
+                        ? std::upper_bound(times.begin(), times.end(), t)
+                        : std::lower_bound(times.begin(), times.end(), t);
+  return static_cast<Eigen::Index>(next - times.begin()) - 1;
+}
+
+void apply_body_load(const SystemModel& model, const SystemState& state,
+                     const BodyLoad& load, Side side, SystemTerms& terms) {
+  const flexbody::NodalLoad& history = load.history;
+  const Eigen::Index i = find_column(history.times, state.t, side);
+  if (i < 0) return;
+  const auto b = static_cast<std::size_t>(load.body);
+  const BodyModel& body = model.bodies[b];
+  const BodyState& rigid = state.bodies[b];
+  BodyTerms& t = terms.bodies[b];
+  const Vector3 force_W = t.R_WB * history.force.col(i);
+  Vector3 moment_B = history.moment.col(i);
+  for (int k = 0; k < body.modes; ++k) {
+    if (body.fidelity == Fidelity::coupled) {
+      moment_B += history.moment_by_mode.col(i * body.modes + k) *
+                  state.eta[body.offset + k];
+    }
+    t.modal_force[k] += history.modal(k, i);
+    terms.load_power += history.modal(k, i) * state.etadot[body.offset + k];
+  }
+  if (body.clamped) return;
+  t.force_W += force_W;
+  t.moment_B += moment_B;
+  terms.load_power += force_W.dot(rigid.v_WB_W) + moment_B.dot(rigid.w_WB_B);
+}
+
 void reset_forces(const SystemModel& model, const SystemState& state,
                   SystemTerms& terms) {
   terms.load_power = 0.0;
@@ -227,6 +263,9 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
   }
   for (const Load& load : model.loads) {
     apply_load(model, state, load, side, terms);
+  }
+  for (const BodyLoad& load : model.body_loads) {
+    apply_body_load(model, state, load, side, terms);
   }
 }
 

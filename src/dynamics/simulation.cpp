@@ -54,6 +54,11 @@ std::vector<Landmark> find_landmarks(const SystemModel& model, double start,
       if (t > start && t < settings.end_time) marks.push_back({t, true, false});
     }
   }
+  for (const BodyLoad& load : model.body_loads) {
+    for (const double t : load.history.times) {
+      if (t > start && t < settings.end_time) marks.push_back({t, true, false});
+    }
+  }
   marks.push_back({settings.end_time, false, false});
   std::stable_sort(
       marks.begin(), marks.end(),

@@ -169,6 +169,20 @@ LoadIndex SystemBuilder::add_load(const std::string& name,
   return static_cast<LoadIndex>(model_.loads.size()) - 1;
 }
 
+void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
+                                   const flexbody::NodalLoad& history) {
+  LIMBER_EXPECT(body >= 0 && body < static_cast<int>(model_.bodies.size()));
+  const BodyModel& target = model_.bodies[static_cast<std::size_t>(body)];
+  const auto count = static_cast<Eigen::Index>(history.times.size());
+  LIMBER_EXPECT(history.force.cols() == count &&
+                history.moment.cols() == count);
+  LIMBER_EXPECT(target.modes == 0 ||
+                (history.modal.rows() == target.modes &&
+                 history.modal.cols() == count &&
+                 history.moment_by_mode.cols() == target.modes * count));
+  model_.body_loads.push_back({name, body, history});
+}
+
 void SystemBuilder::set_gravity(const Vector3& gravity_W) {
   if (!gravity_W.allFinite()) throw InputError("gravity is not finite");
   model_.gravity_W = gravity_W;

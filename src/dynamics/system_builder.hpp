@@ -65,6 +65,10 @@ class SystemBuilder {
                      const Vector3& force, const Vector3& moment,
                      LoadFrame frame, const TimeFunction& function);
 
+  /// Nodal forces on a flexible body, which follow it.
+  void add_nodal_load(const std::string& name, BodyIndex body,
+                      const flexbody::NodalLoad& history);
+
   /// Uniform gravitational acceleration [m/s^2], world frame.
   void set_gravity(const Vector3& gravity_W);
 

@@ -8,6 +8,7 @@
 #include "common/pose.hpp"
 #include "dynamics/fidelity.hpp"
 #include "dynamics/time_function.hpp"
+#include "flexbody/nodal_load.hpp"
 #include "flexbody/reduced_body.hpp"
 #include "joints/coupler_law.hpp"
 
@@ -65,12 +66,20 @@ struct Load {
   TimeFunction function;
 };
 
+/// Nodal forces on one body, in reduced form.
+struct BodyLoad {
+  std::string name;
+  BodyIndex body = 0;
+  flexbody::NodalLoad history;
+};
+
 /// Bodies, couplers and loads; immutable once built, shared by threads.
 struct SystemModel {
   std::vector<BodyModel> bodies;
   std::vector<Attachment> attachments;
   std::vector<Coupler> couplers;
   std::vector<Load> loads;
+  std::vector<BodyLoad> body_loads;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
   int modal_count = 0;                  ///< modal coordinates of all bodies
 };

@@ -7,6 +7,7 @@
 
 #include "scene/default_stiffness.hpp"
 #include "scene/interface_tables.hpp"
+#include "scene/nodal_forces.hpp"
 #include "scene/problems.hpp"
 #include "scene/recipes.hpp"
 
@@ -247,8 +248,23 @@ void Assembly::add_connector(const Connector& connector) {
 
 void Assembly::add_loads() {
   for (const LoadSpec& load : scene_.scenario.loads) {
-    naming("load '" + load.name + "'", [&] { add_load(load); });
+    naming("load '" + load.name + "'", [&] {
+      load.nodal_forces.empty() ? add_load(load) : add_nodal_load(load);
+    });
   }
+}
+
+void Assembly::add_nodal_load(const LoadSpec& load) {
+  const int link = find_link(scene_.robot, load.where.link);
+  const BodyPlan& plan = plan_of(link);
+  const FlexibleLink& flexible = *scene_.robot.links[index(link)].flexible;
+  const ForceFile file = read_force_file(load.nodal_forces);
+  builder_.add_nodal_load(
+      load.name, body_index_[index(plans_.body_of_link[index(link)])],
+      flexbody::reduce_nodal_load(
+          *plan.reduced, file.times,
+          spread_over_nodes(*plan.reduced, flexible.clamped_groups, file,
+                            load.nodal_forces)));
 }
 
 void Assembly::add_load(const LoadSpec& load) {

@@ -49,6 +49,7 @@ class Assembly {
                                        const Pose& X_WF);
   void add_connector(const Connector& connector);
   void add_load(const LoadSpec& load);
+  void add_nodal_load(const LoadSpec& load);
   Probe make_probe(const ProbeSpec& spec) const;
 
   const Scene& scene_;

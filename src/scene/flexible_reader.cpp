@@ -7,7 +7,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "common/errors.hpp"
 #include "common/names.hpp"
+#include "scene/akantu_material.hpp"
 
 namespace limber::scene {
 namespace {
@@ -36,7 +38,22 @@ void read_mesh(XmlElement& element, const std::filesystem::path& folder,
   read_unit(element, mesh.unit);
 }
 
-flexbody::MaterialRegion read_material(XmlElement& element) {
+/// <material file="..."/>: an Akantu material file.
+std::vector<flexbody::MaterialRegion> read_material_file(
+    XmlElement& element, const std::filesystem::path& file) {
+  try {
+    return read_akantu_materials(file);
+  } catch (const InputError& error) {
+    element.fail(error.what());
+    return {{}};
+  }
+}
+
+std::vector<flexbody::MaterialRegion> read_material(
+    XmlElement& element, const std::filesystem::path& folder) {
+  if (const auto file = element.text("file")) {
+    return read_material_file(element, (folder / *file).lexically_normal());
+  }
   flexbody::MaterialRegion region;
   region.group = element.text("group").value_or("");
   region.material.youngs_modulus =
@@ -44,7 +61,7 @@ flexbody::MaterialRegion read_material(XmlElement& element) {
   region.material.poisson_ratio =
       element.required_number("poisson_ratio", {-1.0, 0.5, true, true});
   region.material.density = element.required_number("density", kPositive);
-  return region;
+  return {region};
 }
 
 dynamics::ModalDamping read_damping(XmlElement& element) {
@@ -172,7 +189,11 @@ FlexibleLink read_flexible(XmlElement& element,
        }},
       {"origin", [&](XmlElement& e) { link.X_LM = e.pose(); }},
       {"material",
-       [&](XmlElement& e) { link.materials.push_back(read_material(e)); }},
+       [&](XmlElement& e) {
+         for (const auto& region : read_material(e, folder)) {
+           link.materials.push_back(region);
+         }
+       }},
       {"damping", [&](XmlElement& e) { link.damping = read_damping(e); }},
       {"basis", [&](XmlElement& e) { read_basis(e, link); }},
       {"clamp",

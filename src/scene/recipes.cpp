@@ -141,6 +141,10 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   add_connections(recipe, robot, index);
   for (const LoadSpec& load : scenario.loads) {
     if (load.where.link != link.name) continue;
+    if (!load.nodal_forces.empty()) {
+      recipe.rows = flexbody::parse_rows({"all"});
+      continue;
+    }
     require_place(recipe, load.where);
     add_patterns(recipe, flexible, load);
   }

@@ -35,6 +35,9 @@ struct LoadSpec {
   Vector3 moment = Vector3::Zero();  ///< [N m]
   dynamics::LoadFrame frame = dynamics::LoadFrame::body;
   dynamics::TimeFunction time;
+  /// A force file (scene/force_file.hpp) in place of all but name and link:
+  /// forces on every node, axes of the mesh.
+  std::filesystem::path nodal_forces;
 };
 
 enum class Quantity {

@@ -166,14 +166,25 @@ Place read_place(TomlTable& table) {
   return place;
 }
 
-LoadSpec read_load(TomlTable& table) {
+LoadSpec read_nodal_load(TomlTable& table,
+                         const std::filesystem::path& folder) {
+  LoadSpec load;
+  load.name = table.required_text("name");
+  load.where.link = table.required_text("link");
+  load.nodal_forces =
+      (folder / table.required_text("nodal_forces")).lexically_normal();
+  return load;
+}
+
+LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("nodal_forces")) return read_nodal_load(table, folder);
   LoadSpec load;
   load.name = table.required_text("name");
   load.where = read_place(table);
   load.force = table.vector("force").value_or(Vector3::Zero());
   load.moment = table.vector("moment").value_or(Vector3::Zero());
   if (!table.has("force") && !table.has("moment")) {
-    table.fail("needs 'force' or 'moment'");
+    table.fail("needs 'force', 'moment' or 'nodal_forces'");
   }
   load.frame =
       read_choice<dynamics::LoadFrame>(table, "frame",
@@ -287,7 +298,9 @@ void read_root(TomlTable& root, Scenario& scenario) {
                [&](TomlTable& t) { read_initial(t, scenario); });
   read_section(root, "output",
                [&](TomlTable& t) { scenario.output = read_output(t); });
-  scenario.loads = read_items<LoadSpec>(root, "load", read_load);
+  scenario.loads = read_items<LoadSpec>(root, "load", [&](TomlTable& t) {
+    return read_load(t, scenario.file.parent_path());
+  });
   scenario.probes = read_items<ProbeSpec>(root, "probe", read_probe);
   root.finish();
 }

@@ -24,7 +24,12 @@ class Checker {
       check_level(link);
     }
     for (const LoadSpec& load : scenario_.loads) {
-      check_place("load '" + load.name + "'", load.where);
+      const std::string who = "load '" + load.name + "'";
+      if (load.nodal_forces.empty()) {
+        check_place(who, load.where);
+      } else {
+        check_flexible(who, load.where.link);
+      }
     }
     for (const ProbeSpec& probe : scenario_.probes) check_probe(probe);
     problems_.raise();
@@ -43,6 +48,13 @@ class Checker {
     if (link != nullptr && link->flexible) return;
     problems_.add(0, "[fidelity.links] " +
                          describe_unknown("flexible link", name, flexible_));
+  }
+
+  void check_flexible(const std::string& who, const std::string& name) {
+    const Link* link = find(name);
+    if (link != nullptr && link->flexible) return;
+    problems_.add(
+        0, who + ": " + describe_unknown("flexible link", name, flexible_));
   }
 
   void check_place(const std::string& who, const Place& place) {

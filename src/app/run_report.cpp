@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/run_scene.hpp"
+
+namespace limber::app {
+namespace {
+
+void print_text(const Run& run, const std::filesystem::path& folder) {
+  fmt::print("{} bodies, {} modes, {} couplers\n",
+             run.built.model.bodies.size(), run.built.model.modal_count,
+             run.built.model.couplers.size());
+  fmt::print("offline {:.3g} s ({} reduced, {} from the cache)\n",
+             run.built.seconds_offline, run.built.bodies_reduced,
+             run.built.bodies_cached);
+  fmt::print("online  {:.3g} s, {} steps, {} Newton iterations\n",
+             run.statistics.seconds, run.statistics.steps,
+             run.statistics.newton_iterations);
+  if (!run.history.energies.empty()) {
+    const dynamics::EnergyBalance& last = run.history.energies.back();
+    fmt::print("energy  {:.6g} J, work {:.6g} J, dissipated {:.6g} J\n",
+               last.total(), last.work, last.dissipated);
+  }
+  for (std::size_t i = 0; i < run.history.columns.size(); ++i) {
+    if (run.history.probe_rows.empty()) break;
+    double peak = 0.0;
+    for (const auto& row : run.history.probe_rows) {
+      peak = std::max(peak, std::abs(row[i]));
+    }
+    fmt::print("{:<28} final {:13.6g}  peak {:13.6g} {}\n",
+               run.history.columns[i].name, run.history.probe_rows.back()[i],
+               peak, run.history.columns[i].unit);
+  }
+  fmt::print("results in {}\n", folder.string());
+}
+
+}  // namespace
+
+void finish_run(const Run& run, const std::filesystem::path& folder, bool json,
+                bool xdmf) {
+  write_run(run, folder, xdmf);
+  if (run.failure) std::rethrow_exception(run.failure);
+  if (json) {
+    Json summary = summarize(run);
+    summary["folder"] = folder.string();
+    fmt::print("{}\n", to_text(summary));
+  } else {
+    print_text(run, folder);
+  }
+}
+
+}  // namespace limber::app

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/run_scene.hpp"
+#include "common/errors.hpp"
+#include "scene/akantu_material.hpp"
+
+namespace limber::app {
+namespace {
+
+struct Options {
+  std::string mesh;
+  std::string material;
+  std::string force;
+  double size = 0.0;
+  int order = 0;
+  double unit = 1.0;
+  int modes = 10;
+  double step = 0.0;
+  double duration = 0.0;
+  std::string solver = "CoupledRB";
+  std::vector<std::string> clamps;
+  std::vector<int> nodes;
+  std::string out;
+  std::string cache;
+  bool json = false;
+  bool xdmf = false;
+};
+
+scene::Robot make_robot(const Options& options) {
+  scene::FlexibleLink flexible;
+  flexible.mesh = {options.mesh, options.size, options.order, options.unit};
+  flexible.materials = scene::read_akantu_materials(options.material);
+  flexible.basis.eigenmodes = options.modes;
+  flexible.basis.interface_modes = false;
+  flexible.basis.load_modes = false;
+  flexible.clamped_groups = options.clamps;
+  scene::Robot robot;
+  robot.name = flexible.mesh.file.stem().string();
+  robot.file = options.mesh;
+  robot.links = {{robot.name, {}, flexible}};
+  return robot;
+}
+
+/// PureMA: a body that must be clamped; SimpleRB and CoupledRB: one that is
+/// free.
+dynamics::Fidelity find_level(const Options& options) {
+  const bool is_pure = options.solver == "PureMA";
+  if (is_pure == options.clamps.empty()) {
+    throw InputError(fmt::format(
+        "--solver {} {}", options.solver,
+        is_pure ? "has no rigid motion: name the held groups with --clamp"
+                : "moves freely: drop --clamp, or use --solver PureMA"));
+  }
+  return options.solver == "CoupledRB" ? dynamics::Fidelity::coupled
+                                       : dynamics::Fidelity::uncoupled;
+}
+
+std::vector<double> find_output_times(double step, double duration) {
+  std::vector<double> times;
+  const auto count = static_cast<long>(std::ceil(duration / step - 1e-9));
+  for (long i = 0; i < count; ++i) {
+    times.push_back(static_cast<double>(i) * step);
+  }
+  times.push_back(duration);
+  return times;
+}
+
+scene::Scenario make_scenario(const Options& options, const std::string& link) {
+  scene::Scenario scenario;
+  scenario.name = link;
+  scenario.file = options.force;
+  scenario.settings.end_time = options.duration;
+  scenario.settings.step = options.step;
+  scenario.settings.output_times =
+      find_output_times(options.step, options.duration);
+  scenario.fidelity = find_level(options);
+  scene::LoadSpec load;
+  load.name = "force";
+  load.where.link = link;
+  load.nodal_forces = options.force;
+  scenario.loads = {load};
+  for (const int tag : options.nodes) {
+    scene::ProbeSpec probe;
+    probe.name = fmt::format("node_{}", tag);
+    probe.where.link = link;
+    probe.where.nodes = flexbody::TaggedNode{static_cast<std::size_t>(tag)};
+    scenario.probes.push_back(probe);
+  }
+  return scenario;
+}
+
+void wobble(const Options& options) {
+  scene::Scene scene;
+  scene.robot = make_robot(options);
+  scene.scenario = make_scenario(options, scene.robot.name);
+  const std::filesystem::path folder =
+      options.out.empty() ? std::filesystem::path("out") / scene.scenario.name
+                          : std::filesystem::path(options.out);
+  check_output_folder(folder);
+  const Run result = run_scene(scene, options.cache);
+  finish_run(result, folder, options.json, options.xdmf);
+}
+
+}  // namespace
+
+void add_wobble(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "wobble", "Simulate one body from the WOBBLE package's input files");
+  command->add_option("--mesh", options->mesh, "Mesh (.msh) or geometry (.geo)")
+      ->required();
+  command->add_option("--material", options->material, "Akantu material file")
+      ->required();
+  command
+      ->add_option("--force", options->force,
+                   "Force file: times, then a row for each free degree of "
+                   "freedom")
+      ->required();
+  command->add_option("--step", options->step, "Time step [s]")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--duration", options->duration, "Duration [s]")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--modes", options->modes, "Eigenmodes")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--solver", options->solver, "PureMA, SimpleRB, CoupledRB")
+      ->check(CLI::IsMember({"PureMA", "SimpleRB", "CoupledRB"}));
+  command->add_option("--clamp", options->clamps,
+                      "Group that is fixed; may be given again");
+  command->add_option("--node", options->nodes,
+                      "Node to follow, by its tag; may be given again");
+  command->add_option("--size", options->size,
+                      "Element size when meshing geometry [mesh units]");
+  command->add_option("--order", options->order,
+                      "Element order when meshing geometry: 1, 2 or 3");
+  command->add_option("--unit", options->unit, "Metres per mesh unit");
+  command->add_option("--out", options->out, "Results folder");
+  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
+  command->callback(
+      [&action, options] { action = [options] { wobble(*options); }; });
+}
+
+}  // namespace limber::app

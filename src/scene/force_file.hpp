@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/types.hpp"
+
+namespace limber::scene {
+
+/// Nodal forces in time, as a text file of numbers: the first row the times
+/// from which a column of forces holds [s], then a row for each free degree of
+/// freedom [N], x, y, z node by node in the order of the mesh's tags.
+///
+/// Source     Appendix A of the WOBBLE report (EPFL LSMS, 2023).
+struct ForceFile {
+  std::vector<double> times;  ///< T, increasing [s]
+  MatrixX forces;             ///< free degrees of freedom x T [N]
+};
+
+/// Columns that repeat the one before are left out.
+/// @throws InputError with file and line: a row of another length, times that
+/// do not increase, what is not a finite number.
+[[nodiscard]] ForceFile read_force_file(const std::filesystem::path& file);
+
+}  // namespace limber::scene

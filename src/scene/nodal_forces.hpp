@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "flexbody/reduced_body.hpp"
+#include "scene/force_file.hpp"
+
+namespace limber::scene {
+
+/// A force file's rows at the rows of a body that keeps all of them, 3n x T
+/// [N]: nodes of clamped groups have no rows in the file and get zeros.
+/// @throws InputError naming `file` if the body does not keep every row or the
+/// file has another number of them than the body has free degrees of freedom.
+[[nodiscard]] MatrixX spread_over_nodes(
+    const flexbody::ReducedBody& body,
+    const std::vector<std::string>& clamped_groups, const ForceFile& forces,
+    const std::filesystem::path& file);
+
+}  // namespace limber::scene

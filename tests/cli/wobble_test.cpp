@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace limber::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr int kNodes = 579;
+
+/// The WOBBLE package's files: 100 N in x on node 1, for ever.
+class Wobble : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    place_.write("material.dat",
+                 "material elastic [\n name = steel\n rho = 8000\n E = 200e9\n"
+                 " nu = 0\n]\n");
+    place_.write("force.txt", force_rows(kNodes));
+  }
+
+  static std::string force_rows(int nodes, const std::string& times = "0") {
+    std::string text = times + "\n100\n";
+    for (int dof = 1; dof < 3 * nodes; ++dof) text += "0\n";
+    return text;
+  }
+
+  [[nodiscard]] CommandResult wobble(const std::string& more) const {
+    return place_.limber(
+        "wobble --mesh " LIMBER_SOURCE_DIR
+        "/meshes/beam579.msh --material material.dat --force force.txt "
+        "--modes 4 --step 1e-3 --duration 0.05 --out o " +
+        more);
+  }
+
+  Workspace place_;
+};
+
+// F t^2 / (2 m) for the centre of mass; its energy is the work.
+TEST_F(Wobble, MovesAFreeBodyByItsForces) {
+  for (const char* solver : {"SimpleRB", "CoupledRB"}) {
+    const CommandResult result =
+        wobble(fmt::format("--solver {} --node 1 --json", solver));
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const json run = json::parse(result.out);
+    EXPECT_EQ(run["steps"], 50);
+    const double energy = run["energy"]["final"];
+    EXPECT_NEAR(energy, run["energy"]["work"].get<double>(), 0.01 * energy);
+    const double moved = run["probes"]["node_1.ux"]["final"];
+    // The corner turns with the beam: it moves further than the centre.
+    EXPECT_GT(moved, 100.0 * 0.05 * 0.05 / (2.0 * 40000.0));
+  }
+}
+
+TEST_F(Wobble, HoldsAClampedBody) {
+  place_.write("force.txt", force_rows(kNodes - 37));
+  const CommandResult result = wobble("--solver PureMA --clamp root --json");
+  EXPECT_EQ(result.status, 0) << result.errors;
+}
+
+TEST_F(Wobble, RefusesAForceFileForAnotherMesh) {
+  place_.write("force.txt", force_rows(kNodes + 1));
+  const CommandResult result = wobble("");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("1740 rows of forces; expected 1737"));
+}
+
+TEST_F(Wobble, RefusesASolverThatDoesNotFitTheSupport) {
+  EXPECT_EQ(wobble("--solver PureMA").status, 2);
+  EXPECT_EQ(wobble("--solver CoupledRB --clamp root").status, 2);
+  EXPECT_THAT(wobble("--solver Fast").errors, HasSubstr("PureMA"));
+}
+
+}  // namespace
+}  // namespace limber::test
