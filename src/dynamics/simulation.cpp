@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/names.hpp"
+#include "dynamics/explicit_euler.hpp"
 #include "dynamics/generalized_alpha.hpp"
 #include "dynamics/runge_kutta.hpp"
 
@@ -116,11 +117,14 @@ class Stepper {
   }
 
  private:
-  using Scheme = std::variant<GeneralizedAlpha, RungeKutta4>;
+  using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler>;
   static Scheme make(const SystemModel& model,
                      const SimulationSettings& settings) {
     if (settings.integrator == IntegratorKind::runge_kutta_4) {
       return RungeKutta4(model);
+    }
+    if (settings.integrator == IntegratorKind::explicit_euler) {
+      return ExplicitEuler(model);
     }
     return GeneralizedAlpha(model, {settings.rho_inf, settings.newton_tolerance,
                                     settings.newton_iterations});
@@ -131,8 +135,8 @@ class Stepper {
 }  // namespace
 
 const std::vector<std::string>& integrator_names() {
-  static const std::vector<std::string> names = {"generalized-alpha",
-                                                 "runge-kutta-4"};
+  static const std::vector<std::string> names = {
+      "generalized-alpha", "runge-kutta-4", "explicit-euler"};
   return names;
 }
 

@@ -13,9 +13,9 @@
 
 namespace limber::dynamics {
 
-enum class IntegratorKind { generalized_alpha, runge_kutta_4 };
+enum class IntegratorKind { generalized_alpha, runge_kutta_4, explicit_euler };
 
-/// "generalized-alpha", "runge-kutta-4".
+/// "generalized-alpha", "runge-kutta-4", "explicit-euler".
 [[nodiscard]] const std::vector<std::string>& integrator_names();
 /// @throws InputError naming the nearest integrator.
 [[nodiscard]] IntegratorKind parse_integrator(std::string_view name);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/explicit_euler.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+
+ExplicitEuler::ExplicitEuler(const SystemModel& model)
+    : model_(model),
+      terms_(make_terms(model)),
+      accelerations_(make_accelerations(model)),
+      next_(make_state(model)) {
+  for (const BodyModel& body : model.bodies) {
+    for (int k = 0; k < body.modes; ++k) {
+      oscillators_.emplace_back(body.lambda[k], body.damping[k]);
+    }
+  }
+  responses_.resize(oscillators_.size());
+}
+
+void ExplicitEuler::set_step(double h) {
+  if (h == step_) return;
+  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+    responses_[i] = oscillators_[i].find_free_response(h);
+  }
+  step_ = h;
+}
+
+void ExplicitEuler::move_modes(SystemState& state) const {
+  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double lambda = oscillators_[i].lambda();
+    const flexbody::FreeResponse& r = responses_[i];
+    const double eta = state.eta[k];
+    const double etadot = state.etadot[k];
+    // All that acts on the mode but its own spring and damper.
+    const double load = accelerations_.etaddot[k] +
+                        oscillators_[i].damping() * etadot + lambda * eta;
+    state.eta[k] = r.stay * eta + r.impulse * etadot + r.step * load;
+    state.etadot[k] =
+        -lambda * r.impulse * eta + r.keep * etadot + r.impulse * load;
+  }
+}
+
+StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
+  set_step(h);
+  calc_terms(model_, state, Side::right, terms_);
+  solve_accelerations(model_, terms_, accelerations_);
+  StepResult result;
+  result.load_work = h * terms_.load_power;
+  result.dissipated = h * terms_.dissipated_power;
+  next_ = state;
+  next_.t = end;
+  move_modes(next_);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    BodyState& body = next_.bodies[b];
+    const Vector3& a = accelerations_.a_WB_W[b];
+    const Vector3& dw = accelerations_.dw_WB_B[b];
+    body.p_WB += h * body.v_WB_W + 0.5 * h * h * a;
+    body.v_WB_W += h * a;
+    body.quat_WB =
+        body.quat_WB * exp_quaternion(h * body.w_WB_B + 0.5 * h * h * dw);
+    body.quat_WB.normalize();
+    body.w_WB_B += h * dw;
+    const BodyModel& m = model_.bodies[b];
+    const double size = body.p_WB.squaredNorm() + body.w_WB_B.squaredNorm() +
+                        next_.eta.segment(m.offset, m.modes).squaredNorm();
+    if (!std::isfinite(size)) {
+      throw NumericalError(fmt::format(
+          "body '{}' at t = {:.9g} s: its motion is no longer finite; the "
+          "explicit step {:.3g} s is too long",
+          m.name, end, h));
+    }
+  }
+  std::swap(state, next_);
+  return result;
+}
+
+}  // namespace limber::dynamics

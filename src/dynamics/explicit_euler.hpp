@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "dynamics/equations.hpp"
+#include "dynamics/step_result.hpp"
+#include "flexbody/modal_response_oscillator.hpp"
+
+namespace limber::dynamics {
+
+/// The WOBBLE package's scheme: rigid motion by the accelerations at the
+/// step's start, modes exactly under the load at the step's start.
+///
+/// Equation   p += h v + h^2 a / 2, v += h a,
+///            R <- R exp(h w + h^2 dw / 2), w += h dw,
+///            each mode as an oscillator under f(t_n), by its closed form
+/// Source     WOBBLE report (EPFL LSMS, 2023), Eqs. 12, 26-28
+/// Limits     first order; energy grows with rotation. To compare with, and
+///            cheap; not for stiff couplers.
+class ExplicitEuler {
+ public:
+  explicit ExplicitEuler(const SystemModel& model);
+
+  /// Advances `state` by h, to the time `end`.
+  /// @throws NumericalError if the motion is no longer finite.
+  StepResult step(SystemState& state, double h, double end);
+
+ private:
+  void set_step(double h);
+  void move_modes(SystemState& state) const;
+
+  const SystemModel& model_;
+  SystemTerms terms_;
+  Accelerations accelerations_;
+  SystemState next_;
+  std::vector<flexbody::ModalOscillator> oscillators_;  // all modes
+  std::vector<flexbody::FreeResponse> responses_;       // over step_
+  double step_ = 0.0;
+};
+
+}  // namespace limber::dynamics
