@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/mode_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "common/errors.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// (M_s (x) I_3) X.
+MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X) {
+  LIMBER_EXPECT(M_s.rows() == M_s.cols() && X.rows() == 3 * M_s.cols());
+  MatrixX product(X.rows(), X.cols());
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    const Eigen::Map<const Matrix3X> nodal(X.col(k).data(), 3, M_s.cols());
+    const Eigen::MatrixX3d column = M_s * nodal.transpose();
+    Eigen::Map<Matrix3X>(product.col(k).data(), 3, M_s.cols()) =
+        column.transpose();
+  }
+  return product;
+}
+
+/// Unit translations and small rotations about the axes, 3N x 6.
+MatrixX rigid_motions(const Matrix3X& x) {
+  MatrixX motions = MatrixX::Zero(3 * x.cols(), 6);
+  for (Eigen::Index n = 0; n < x.cols(); ++n) {
+    motions.block<3, 3>(3 * n, 0) = Matrix3::Identity();
+    for (Eigen::Index a = 0; a < 3; ++a)
+      motions.block<3, 1>(3 * n, 3 + a) =
+          Vector3::Unit(a).cross(Vector3(x.col(n)));
+  }
+  return motions;
+}
+
+std::vector<int> find_order(const VectorX& shares, SelectionOrder order) {
+  std::vector<int> modes(static_cast<std::size_t>(shares.size()));
+  std::iota(modes.begin(), modes.end(), 0);
+  if (order == SelectionOrder::largest_first)
+    std::stable_sort(modes.begin(), modes.end(),
+                     [&](int a, int b) { return shares[a] > shares[b]; });
+  return modes;
+}
+
+/// Roundoff that a sum of m shares may miss its total by.
+double roundoff(Eigen::Index count) {
+  return 4e-16 * static_cast<double>(count + 1);
+}
+
+std::vector<int> select_for_case(const VectorX& shares, double total,
+                                 const SelectionOptions& options) {
+  std::vector<int> selected;
+  if (total == 0.0) return selected;
+  const double target = options.threshold * total;
+  const double slack = roundoff(shares.size()) * total;
+  double sum = 0.0;
+  for (const int mode : find_order(shares, options.order)) {
+    if (sum >= target - slack) break;
+    sum += shares[mode];
+    selected.push_back(mode);
+  }
+  std::sort(selected.begin(), selected.end());
+  return selected;
+}
+
+double sum_of(const VectorX& values, const std::vector<int>& modes) {
+  double sum = 0.0;
+  for (const int mode : modes) {
+    LIMBER_EXPECT(mode >= 0 && mode < values.size());
+    sum += values[mode];
+  }
+  return sum;
+}
+
+}  // namespace
+
+MatrixX calc_report_effective_mass(const MatrixX& Phi, const VectorX& lambda,
+                                   const SparseMatrix& M_s,
+                                   const MatrixX& loads) {
+  LIMBER_EXPECT(Phi.cols() == lambda.size());
+  LIMBER_EXPECT(Phi.rows() == loads.rows());
+  LIMBER_EXPECT((lambda.array() > 0.0).all());
+  const MatrixX projected = Phi.transpose() * multiply_mass(M_s, loads);
+  return lambda.cwiseInverse().asDiagonal() * projected.cwiseAbs();
+}
+
+MatrixX calc_modal_compliance(const MatrixX& modal_loads,
+                              const VectorX& lambda) {
+  LIMBER_EXPECT(modal_loads.rows() == lambda.size());
+  LIMBER_EXPECT((lambda.array() > 0.0).all());
+  return lambda.cwiseInverse().asDiagonal() * modal_loads.cwiseAbs2();
+}
+
+Participation calc_participation(const MatrixX& Phi, const SparseMatrix& M_s,
+                                 const Matrix3X& x) {
+  LIMBER_EXPECT(x.cols() == M_s.cols() && Phi.rows() == 3 * x.cols());
+  const MatrixX motions = rigid_motions(x);
+  const MatrixX loads = multiply_mass(M_s, motions);
+  Participation participation;
+  participation.factors = loads.transpose() * Phi;
+  participation.effective_mass = participation.factors.cwiseAbs2();
+  participation.rigid_mass =
+      motions.cwiseProduct(loads).colwise().sum().transpose();
+  return participation;
+}
+
+ModeSelection select_modes(const MatrixX& shares, const VectorX& totals,
+                           const SelectionOptions& options) {
+  LIMBER_EXPECT(shares.cols() == totals.size());
+  LIMBER_EXPECT((shares.array() >= 0.0).all());
+  LIMBER_EXPECT((totals.array() >= 0.0).all());
+  if (!(options.threshold >= 0.0 && options.threshold <= 1.0))
+    throw InputError(fmt::format(
+        "mode selection: the threshold is {:g}; it is a share of the whole, "
+        "from 0 to 1 (0.9 is 90 %).",
+        options.threshold));
+  ModeSelection selection;
+  std::set<int> joined;
+  for (Eigen::Index k = 0; k < totals.size(); ++k) {
+    selection.cases.push_back(
+        select_for_case(shares.col(k), totals[k], options));
+    joined.insert(selection.cases.back().begin(), selection.cases.back().end());
+  }
+  selection.modes.assign(joined.begin(), joined.end());
+  selection.reached = VectorX::Ones(totals.size());
+  for (Eigen::Index k = 0; k < totals.size(); ++k) {
+    if (totals[k] == 0.0) continue;
+    selection.reached[k] = sum_of(shares.col(k), selection.modes) / totals[k];
+    selection.complete =
+        selection.complete &&
+        selection.reached[k] >= options.threshold - roundoff(shares.rows());
+  }
+  return selection;
+}
+
+VectorX calc_static_error(const MatrixX& compliance, const VectorX& totals,
+                          const std::vector<int>& modes) {
+  LIMBER_EXPECT(compliance.cols() == totals.size());
+  VectorX errors = VectorX::Zero(totals.size());
+  for (Eigen::Index k = 0; k < totals.size(); ++k) {
+    if (totals[k] == 0.0) continue;
+    const double missed = 1.0 - sum_of(compliance.col(k), modes) / totals[k];
+    errors[k] = std::sqrt(std::max(0.0, missed));  // roundoff
+  }
+  return errors;
+}
+
+HarmonicError calc_harmonic_error(double static_error, double lambda_cut,
+                                  double omega) {
+  LIMBER_EXPECT(static_error >= 0.0 && lambda_cut > 0.0);
+  const double ratio = omega * omega / lambda_cut;
+  if (!(ratio < 1.0))
+    throw InputError(fmt::format(
+        "mode selection: the load vibrates at {:g} rad/s, but modes from {:g} "
+        "rad/s on are left out, which it drives near or above resonance. Keep "
+        "more modes.",
+        omega, std::sqrt(lambda_cut)));
+  return {static_error / (1.0 - ratio), static_error * ratio / (1.0 - ratio)};
+}
+
+MatrixX calc_mode_displacement(const MatrixX& Phi, const MatrixX& eta) {
+  LIMBER_EXPECT(Phi.cols() == eta.rows());
+  return Phi * eta;
+}
+
+MatrixX calc_mode_acceleration(const MatrixX& Phi, const VectorX& lambda,
+                               const MatrixX& eta, const MatrixX& modal_loads,
+                               const MatrixX& static_answers) {
+  LIMBER_EXPECT(Phi.cols() == lambda.size() && eta.rows() == lambda.size());
+  LIMBER_EXPECT(modal_loads.rows() == eta.rows() &&
+                modal_loads.cols() == eta.cols());
+  LIMBER_EXPECT(static_answers.rows() == Phi.rows() &&
+                static_answers.cols() == eta.cols());
+  const MatrixX moving = eta - lambda.cwiseInverse().asDiagonal() * modal_loads;
+  return static_answers + Phi * moving;
+}
+
+ReducedBasis augment_basis(const ReducedBasis& basis, const SparseMatrix& M_s,
+                           const VectorX& load, const VectorX& static_answer,
+                           double drop_tolerance) {
+  const MatrixX& Phi = basis.Phi;
+  LIMBER_EXPECT(Phi.cols() == basis.lambda.size());
+  LIMBER_EXPECT(load.size() == Phi.rows() &&
+                static_answer.size() == Phi.rows());
+  const auto square = [&](const VectorX& v) {
+    return v.dot(multiply_mass(M_s, v).col(0));
+  };
+  const VectorX modal_load = Phi.transpose() * load;
+  const VectorX x =
+      static_answer - Phi * modal_load.cwiseQuotient(basis.lambda);
+  const double mass = square(x);
+  const double tolerance = drop_tolerance * drop_tolerance;
+  if (mass <= tolerance * square(static_answer)) return basis;
+  const double energy = x.dot(load);
+  if (!(energy > 0.0))
+    throw NumericalError(fmt::format(
+        "residual vector: its stiffness is {:g} J, not positive. Is the static "
+        "answer that of this load, without rigid motion?",
+        energy));
+  ReducedBasis augmented{VectorX(basis.lambda.size() + 1),
+                         MatrixX(Phi.rows(), Phi.cols() + 1)};
+  augmented.lambda << basis.lambda, energy / mass;
+  augmented.Phi << Phi, x / std::sqrt(mass);
+  return augmented;
+}
+
+}  // namespace limber::flexbody
