@@ -53,7 +53,7 @@ class ModalOscillator {
 
  private:
   using Complex = std::complex<double>;
-  struct Roots {
+  struct Roots {  // [1/s]
     Complex s1, s2;
     Complex close, far;  // s1 - i omega, s2 - i omega
   };

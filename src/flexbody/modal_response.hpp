@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "common/types.hpp"
+#include "flexbody/modal_response_load.hpp"
+#include "flexbody/modal_response_oscillator.hpp"
+
+namespace limber::flexbody {
+
+/// State of m modes. Empty vectors mean zero.
+struct ModalState {
+  double time = 0.0;  ///< [s]
+  VectorX eta;        ///< m [kg^1/2 m]
+  VectorX etadot;     ///< m [kg^1/2 m/s]
+};
+
+/// Motion of m modes at T times, a column each.
+struct ModalHistory {
+  MatrixX eta;     ///< m x T [kg^1/2 m]
+  MatrixX etadot;  ///< m x T [kg^1/2 m/s]
+};
+
+/// Energies of m modes at T times, a column each.
+struct ModalEnergies {
+  MatrixX kinetic;  ///< m x T, etadot^2 / 2 [J]
+  MatrixX elastic;  ///< m x T, lambda eta^2 / 2 [J]
+  MatrixX load;     ///< m x T, -f eta of the step load f of the moment [J]
+  /// Constant in an undamped mode while its load is constant [J].
+  [[nodiscard]] MatrixX corrected() const { return kinetic + elastic + load; }
+};
+
+/// Response of independent modes to step loads and sinusoids, at any times
+/// and without time steps.
+///
+/// Equation   eta'' + damping eta' + lambda eta = f(t), for each mode
+/// Source     [@morrison2023, section 2], with damping, zero frequencies and
+///            sinusoids added; docs/theory/modal_response.md
+/// Limits     the load must not depend on the motion. Phases are exact up to
+///            the round-off of sqrt(lambda) t.
+///
+/// The cost is one evaluation of ModalOscillator per mode for each load
+/// change and each time asked for (and each sinusoid then), whatever the
+/// time between them. Modal quantities are in body axes; see ModalLoads.
+class ModalResponse {
+ public:
+  /// @param lambda m, >= 0 [rad^2/s^2]
+  /// @param damping m, diagonal of C, >= 0 [1/s]
+  /// @param loads on m modes; what they were before initial.time is ignored
+  /// @throws InputError, all problems at once, for sizes that differ, negative
+  /// or non-finite lambda, damping, initial state; and as check(loads).
+  ModalResponse(const VectorX& lambda, const VectorX& damping,
+                const ModalLoads& loads, const ModalState& initial);
+
+  [[nodiscard]] Eigen::Index modes() const { return std::ssize(modes_); }
+
+  /// @param times T, in any order, not before the initial time [s]
+  /// @throws InputError for a time that is earlier or not finite.
+  [[nodiscard]] ModalHistory evaluate(const std::vector<double>& times) const;
+
+  /// Arguments and errors as evaluate(). At a load change the new load counts.
+  [[nodiscard]] ModalEnergies evaluate_energies(
+      const std::vector<double>& times) const;
+
+  /// Work of the step load from the initial time to each of `times`, m x T
+  /// [J]: the exact sum of f (eta(end) - eta(begin)) over its intervals, the
+  /// motion due to sinusoids included. Arguments and errors as evaluate().
+  [[nodiscard]] MatrixX evaluate_step_work(
+      const std::vector<double>& times) const;
+
+  /// Starts of the intervals in which the step load is constant [s]: the
+  /// initial time, then the changes after it.
+  [[nodiscard]] const std::vector<double>& interval_starts() const {
+    return starts_;
+  }
+  /// Work of the step load in each such interval but the last, which has no
+  /// end; m x (intervals - 1) [J].
+  [[nodiscard]] MatrixX calc_interval_work() const;
+
+ private:
+  // A sinusoid from rest: cosine - i sine at its start, and what it leaves.
+  struct Wave {
+    double omega;
+    double start;
+    double end;
+    Eigen::VectorXcd amplitude;
+    VectorX end_eta;
+    VectorX end_etadot;
+  };
+  using Indices = std::vector<Eigen::Index>;
+
+  void add_intervals(const StepLoad& steps, const ModalState& initial);
+  void add_wave(const SinusoidalLoad& load);
+  void calc_steps(const std::vector<double>& times, const Indices& intervals,
+                  ModalHistory& history) const;
+  void add_waves(const std::vector<double>& times, ModalHistory& history) const;
+  void add_driven(const Wave& wave, const std::vector<FreeResponse>& free,
+                  Eigen::Index column, ModalHistory& history) const;
+  void add_left(const Wave& wave, const std::vector<FreeResponse>& free,
+                Eigen::Index column, ModalHistory& history) const;
+  [[nodiscard]] Indices find_intervals(const std::vector<double>& times) const;
+  [[nodiscard]] double find_step_growth(Eigen::Index mode,
+                                        Eigen::Index interval, double t) const;
+  [[nodiscard]] MatrixX find_wave_eta(const std::vector<double>& times) const;
+  [[nodiscard]] MatrixX make_zeros(const std::vector<double>& times) const {
+    return MatrixX::Zero(modes(), std::ssize(times));
+  }
+
+  std::vector<ModalOscillator> modes_;
+  std::vector<double> starts_;  // n intervals
+  MatrixX load_;                // m x n
+  ModalHistory at_start_;       // m x n, without the waves
+  std::vector<Wave> waves_;
+};
+
+}  // namespace limber::flexbody
