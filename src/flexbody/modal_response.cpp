@@ -129,7 +129,9 @@ void ModalResponse::add_intervals(const StepLoad& steps,
   const auto intervals = std::ssize(starts_);
   load_ = MatrixX::Zero(modes(), intervals);
   if (passed > 0) load_.col(0) = steps.values.col(passed - 1);
-  load_.rightCols(intervals - 1) = steps.values.rightCols(intervals - 1);
+  for (Eigen::Index j = 1; j < intervals; ++j) {
+    load_.col(j) = steps.values.col(passed + j - 1);
+  }
 
   at_start_ = {make_zeros(starts_), make_zeros(starts_)};
   at_start_.eta.col(0) = fill(initial.eta, modes());

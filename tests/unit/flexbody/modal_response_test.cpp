@@ -263,6 +263,8 @@ TEST(ModalResponse, LoadsBeforeTheStartCountAsTheyAreThen) {
                              1e300};
   const SinusoidalLoad cut{2.0, make_vector({std::sin(8.0)}),
                            make_vector({std::cos(8.0)}), 5.0, 1e300};
+  SinusoidalLoad over = early;
+  over.until = 4.5;
   const StepLoad past{{1.0, 2.0}, MatrixX{{7.0, 3.0}}};
   const StepLoad present{{5.0}, MatrixX{{3.0}}};
   const VectorX lambda = make_vector({4.0});
@@ -270,7 +272,8 @@ TEST(ModalResponse, LoadsBeforeTheStartCountAsTheyAreThen) {
   const ModalState start{5.0, {}, {}};
   const std::vector<double> times = make_grid(5.0, 20.0, 40);
   const ModalHistory a =
-      ModalResponse(lambda, damping, {past, {early}}, start).evaluate(times);
+      ModalResponse(lambda, damping, {past, {early, over}}, start)
+          .evaluate(times);
   const ModalHistory b =
       ModalResponse(lambda, damping, {present, {cut}}, start).evaluate(times);
   EXPECT_LT(find_difference(a, b), 100.0 * kEps);
