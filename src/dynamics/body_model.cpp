@@ -28,6 +28,10 @@ void pack_inertia(const flexbody::ReducedBody& reduced, BodyModel& body) {
   LIMBER_EXPECT(s.S1.size() == count);
   LIMBER_EXPECT(s.S2.size() == count * count);
 
+  if (body.clamped) {
+    LIMBER_EXPECT(s.P.cols() == m);
+    body.P = s.P;
+  }
   body.J1.resize(6, m);
   body.J2.resize(6 * m, m);
   body.beta.resize(3 * m, m);

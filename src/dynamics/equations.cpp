@@ -174,6 +174,19 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
   terms.load_power += force_W.dot(rigid.v_WB_W) + moment_B.dot(rigid.w_WB_B);
 }
 
+// Gravity bends a body that is held; a free one it only accelerates.
+void add_gravity_on_modes(const SystemModel& model, const BodyModel& body,
+                          const SystemState& state, BodyTerms& t,
+                          SystemTerms& terms) {
+  if (model.gravity_W.isZero(0.0)) return;
+  const Vector3 gravity_B = t.R_WB.transpose() * model.gravity_W;
+  for (int k = 0; k < body.modes; ++k) {
+    const double force = body.P.col(k).dot(gravity_B);
+    t.modal_force[k] += force;
+    terms.load_power += force * state.etadot[body.offset + k];
+  }
+}
+
 void reset_forces(const SystemModel& model, const SystemState& state,
                   SystemTerms& terms) {
   terms.load_power = 0.0;
@@ -188,6 +201,7 @@ void reset_forces(const SystemModel& model, const SystemState& state,
     }
     t.moment_B.setZero();
     t.modal_force.setZero();
+    if (body.clamped) add_gravity_on_modes(model, body, state, t, terms);
     if (body.modes > 0) {
       const ConstModes etadot = modes_of(body, state.etadot);
       terms.dissipated_power +=

@@ -36,6 +36,7 @@ struct BodyModel {
   Matrix6X J1;   ///< 6 x m
   MatrixX J2;    ///< 6m x m, row 6k + c
   MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k
+  Matrix3X P;    ///< 3 x m, int phi_k dm; no columns unless clamped
   /// What was reduced; null for a rigid body. For probes and pictures.
   std::shared_ptr<const flexbody::ReducedBody> reduced;
 };

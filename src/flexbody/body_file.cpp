@@ -156,6 +156,8 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
             "int x phi_k' dm, column-major 3 x 3 a row");
   out.write("integrals/S2", stack(body.integrals.S2), "1",
             "int phi_k phi_l' dm, row k m + l, column-major 3 x 3 a row");
+  out.write("integrals/P", MatrixX(body.integrals.P), "kg^1/2",
+            "int phi_k dm, 3 x m");
   out.write("lambda", MatrixX(body.lambda), "rad^2/s^2", "eigenvalues");
   out.write("counts", to_integers({body.groups.size(), body.interfaces.size()}),
             "1", "groups, interfaces");
@@ -353,6 +355,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.integrals.S0 = reader.matrix("integrals/S0", 3, 3);
   body.integrals.S1 = unstack(reader.matrix("integrals/S1", m, 9));
   body.integrals.S2 = unstack(reader.matrix("integrals/S2", m * m, 9));
+  body.integrals.P = reader.matrix("integrals/P", 3, m);
   read_rows(reader, body);
   const auto counts = reader.sizes("counts", 2);
   read_groups(reader, counts[0], body);

@@ -20,6 +20,9 @@ struct InertiaShapeIntegrals {
   Matrix3 S0 = Matrix3::Zero();  ///< [kg m^2]
   std::vector<Matrix3> S1;       ///< m entries [kg^1/2 m]
   std::vector<Matrix3> S2;       ///< m*m entries, index k*m + l [-]
+  /// int phi_k dm, 3 x m [kg^1/2]: what uniform gravity does to a mode. Zero
+  /// for a free body, whose modes leave the centre of mass where it is.
+  Matrix3X P;
 };
 
 /// Nodal rows of the reduced basis that were kept.

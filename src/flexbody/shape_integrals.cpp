@@ -27,12 +27,14 @@ InertiaShapeIntegrals calc_shape_integrals(
   result.S0 = 0.5 * (result.S0 + result.S0.transpose()).eval();
   result.S1.assign(m, Matrix3::Zero());
   result.S2.assign(m * m, Matrix3::Zero());
+  result.P.resize(3, Phi_B.cols());
   std::array<MatrixX, 3> phi;
   for (Eigen::Index a = 0; a < 3; ++a)
     phi[static_cast<std::size_t>(a)] = component_rows(Phi_B, a);
   for (Eigen::Index b = 0; b < 3; ++b) {
     const MatrixX& phi_b = phi[static_cast<std::size_t>(b)];
     const MatrixX M_phi = M_s * phi_b;
+    result.P.row(b) = M_phi.colwise().sum();
     const MatrixX first = Mx.transpose() * phi_b;  // 3 x m
     for (std::size_t k = 0; k < m; ++k)
       result.S1[k].col(b) = first.col(static_cast<Eigen::Index>(k));

@@ -7,7 +7,7 @@
 
 namespace limber::flexbody {
 
-/// S0, S1, S2 of a basis.
+/// S0, S1, S2 and P of a basis.
 /// @param M_s N x N nodal mass, both triangles [kg]
 /// @param x_B 3 x N undeformed positions from the centre of mass [m]
 /// @param Phi_B 3N x m mode shapes [kg^-1/2]

@@ -26,11 +26,13 @@ inline void fill_integrals(PointMassBody& body) {
   s.S0.setZero();
   s.S1.assign(static_cast<std::size_t>(m), Matrix3::Zero());
   s.S2.assign(static_cast<std::size_t>(m * m), Matrix3::Zero());
+  s.P = Matrix3X::Zero(3, m);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vector3 x = r.rows.x_B.col(i);
     s.S0 += body.masses[i] * x * x.transpose();
     for (int k = 0; k < m; ++k) {
       const Vector3 phi_k = r.rows.Phi_B.block<3, 1>(3 * i, k);
+      s.P.col(k) += body.masses[i] * phi_k;
       s.S1[static_cast<std::size_t>(k)] +=
           body.masses[i] * x * phi_k.transpose();
       for (int l = 0; l < m; ++l) {

@@ -129,6 +129,7 @@ ReducedBody make_small_body(unsigned seed) {
   for (int kl = 0; kl < m * m; ++kl) {
     body.integrals.S2.emplace_back(numbers.matrix(3, 3));
   }
+  body.integrals.P = numbers.matrix(3, m);
   body.rows.tags = {7, 5, 11};
   body.rows.x_B = numbers.matrix(3, n);
   body.rows.Phi_B = numbers.matrix(3 * n, m);
@@ -157,6 +158,7 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   fields.add("S0", MatrixX(body.integrals.S0));
   fields.add("S1", body.integrals.S1);
   fields.add("S2", body.integrals.S2);
+  fields.add("P", MatrixX(body.integrals.P));
   fields.add("lambda", MatrixX(body.lambda));
   fields.add("row tags", body.rows.tags);
   fields.add("x_B", MatrixX(body.rows.x_B));
