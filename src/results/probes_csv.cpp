@@ -9,13 +9,27 @@
 #include "common/errors.hpp"
 
 namespace limber::results {
+namespace {
+
+// Quoted if it needs to be, as RFC 4180 has it.
+std::string make_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) {
+    if (c == '"') field += '"';
+    field += c;
+  }
+  return field + '"';
+}
+
+}  // namespace
 
 void write_probes_csv(const std::filesystem::path& file,
                       const History& history) {
   std::ofstream out(file);
   fmt::print(out, "time [s]");
   for (const ProbeColumn& column : history.columns) {
-    fmt::print(out, ",{} [{}]", column.name, column.unit);
+    out << ',' << make_field(fmt::format("{} [{}]", column.name, column.unit));
   }
   out << '\n';
   for (std::size_t i = 0; i < history.times.size(); ++i) {
