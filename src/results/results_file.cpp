@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "results/path_step.hpp"
 
 namespace limber::results {
 namespace {
@@ -26,7 +27,7 @@ void write_probes(Hdf5File& out, const History& history) {
     for (std::size_t i = 0; i < history.times.size(); ++i) {
       values(static_cast<Eigen::Index>(i), 0) = history.probe_rows[i][c];
     }
-    out.write("probes/" + history.columns[c].name, values,
+    out.write("probes/" + to_path_step(history.columns[c].name), values,
               history.columns[c].unit, "probe at each output time");
   }
 }
@@ -50,7 +51,7 @@ void write_body_states(Hdf5File& out, const dynamics::BodyModel& body,
     eta.row(i) = state.eta.segment(body.offset, body.modes);
     etadot.row(i) = state.etadot.segment(body.offset, body.modes);
   }
-  const std::string at = "bodies/" + body.name + "/";
+  const std::string at = "bodies/" + to_path_step(body.name) + "/";
   out.write(at + "fidelity", std::string(to_string(body.fidelity)),
             "level of the body");
   out.write(at + "p_WB", position, "m", "centre of mass, world frame");
@@ -86,6 +87,12 @@ void write_energies(Hdf5File& out, const History& history) {
   }
   out.write("momentum/linear", linear, "kg m/s", "world frame");
   out.write("momentum/angular", angular, "kg m^2/s", "about the world origin");
+}
+
+std::vector<std::string> list_names(const Hdf5File& in, const char* group) {
+  std::vector<std::string> names = in.list(group);
+  for (std::string& name : names) name = from_path_step(name);
+  return names;
 }
 
 }  // namespace
@@ -127,8 +134,8 @@ ResultsContents read_contents(const std::filesystem::path& file) {
     contents.start = times(0, 0);
     contents.end = times(times.rows() - 1, 0);
   }
-  contents.bodies = in.list("bodies");
-  contents.probes = in.list("probes");
+  contents.bodies = list_names(in, "bodies");
+  contents.probes = list_names(in, "probes");
   return contents;
 }
 

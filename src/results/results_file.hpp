@@ -13,7 +13,8 @@ namespace limber::results {
 inline constexpr int kResultsFileVersion = 1;
 
 /// Writes rigid and modal states, probes and energies at every output time to
-/// one HDF5 file; every dataset carries its unit and meaning.
+/// one HDF5 file; every dataset carries its unit and meaning. Names of bodies
+/// and probes are spelled there as `to_path_step` has them.
 /// @throws InputError if the place cannot be written.
 void write_results(const std::filesystem::path& file,
                    const dynamics::SystemModel& model, const History& history);
