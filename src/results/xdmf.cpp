@@ -67,6 +67,23 @@ Fields move_surface(const SystemModel& model, const Surface& surface,
   return fields;
 }
 
+// A file's name as XML text.
+std::string escape(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (c == '&') {
+      text += "&amp;";
+    } else if (c == '<') {
+      text += "&lt;";
+    } else if (c == '>') {
+      text += "&gt;";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
 void write_item(std::ostream& out, const char* number, const std::string& shape,
                 const std::string& place) {
   fmt::print(out,
@@ -95,7 +112,7 @@ void write_xdmf(const std::filesystem::path& file, const SystemModel& model,
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
          "<Grid Name=\"bodies\" GridType=\"Collection\" "
          "CollectionType=\"Temporal\">\n";
-  const std::string name = data.filename().string();
+  const std::string name = escape(data.filename().string());
   for (std::size_t i = 0; i < history.times.size(); ++i) {
     const Fields fields = move_surface(model, surface, history.states[i]);
     const std::string at = fmt::format("steps/{:06}/", i);
