@@ -33,15 +33,21 @@ void add_data(GnuplotScript& script, const std::string& block,
   const std::size_t n = std::min(series.times.size(), series.values.size());
   const std::size_t stride = std::max<std::size_t>(1, n / kMostPoints);
   for (std::size_t i = 0; i < n; i += stride) {
-    script.add(fmt::format("{:.9g} {:.9g}", series.times[i], series.values[i]));
+    const double value = series.values[i];
+    script.add(std::isfinite(value)
+                   ? fmt::format("{:.9g} {:.9g}", series.times[i], value)
+                   : fmt::format("{:.9g} NaN", series.times[i]));
   }
   script.add("EOD");
 }
 
+// Of the finite values; only these are drawn.
 double largest(const Panel& panel) {
   double value = 0.0;
   for (const Series& series : panel.series) {
-    for (const double v : series.values) value = std::max(value, std::abs(v));
+    for (const double v : series.values) {
+      if (std::isfinite(v)) value = std::max(value, std::abs(v));
+    }
   }
   return value;
 }
@@ -156,6 +162,9 @@ std::string draw_energy(const std::filesystem::path& file,
   script.add("set format y '%.3g'; set lmargin 12; set rmargin 3");
   for (std::size_t p = 0; p < panels.size(); ++p) {
     script.add("set key outside top center horizontal samplen 3");
+    // Where there is nothing to see, gnuplot finds no range by itself.
+    const bool has_values = largest(*panels[p]) > 0.0;
+    script.add(has_values ? "set yrange [*:*]" : "set yrange [-1:1]");
     script.add("set ylabel " + quote(panels[p]->label));
     script.add("set xlabel 'time [s]'");
     std::string plot = "plot ";

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/pictures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <ostream>
+#include <utility>
+
+#include "dynamics/system_builder.hpp"
+#include "results/gnuplot.hpp"
+#include "small_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace limber::results {
+namespace {
+
+using test::make_empty_run;
+using test::make_small_run;
+using test::read_bytes;
+using test::SmallRun;
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+// Sets PATH, and sets it back.
+class Path {
+ public:
+  explicit Path(const std::string& value) {
+    if (const char* old = getenv("PATH")) old_ = old;
+    setenv("PATH", value.c_str(), 1);
+  }
+  Path(const Path&) = delete;
+  Path& operator=(const Path&) = delete;
+  ~Path() { setenv("PATH", old_.c_str(), 1); }
+
+ private:
+  std::string old_;
+};
+
+struct Size {
+  std::uint32_t width = 0;   // [pixels]
+  std::uint32_t height = 0;  // [pixels]
+};
+
+// What the header chunk of a whole PNG says; zeros if it is no whole PNG.
+// Source: PNG specification (ISO/IEC 15948), 5.2 and 11.2.2.
+Size read_png_size(const std::filesystem::path& file) {
+  const std::string bytes = read_bytes(file);
+  const std::string signature = "\x89PNG\r\n\x1a\n";
+  const std::string end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+  if (bytes.size() < 33 + end.size() || bytes.compare(0, 8, signature) != 0 ||
+      bytes.compare(8, 8, std::string("\0\0\0\x0dIHDR", 8)) != 0 ||
+      bytes.compare(bytes.size() - end.size(), end.size(), end) != 0) {
+    return {};
+  }
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    }
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+// Draws into a new folder and looks at what is there.
+template <typename Draw>
+Size draw_and_measure(const Draw& draw) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "picture.png";
+  EXPECT_EQ(draw(file), "");
+  EXPECT_TRUE(std::filesystem::exists(file));
+  return read_png_size(file);
+}
+
+// Large enough to read on a screen, small enough to fit one.
+void expect_sensible(const Size& size) {
+  EXPECT_GE(size.width, 600U);
+  EXPECT_LE(size.width, 2000U);
+  EXPECT_GE(size.height, 300U);
+  EXPECT_LE(size.height, 2000U);
+}
+
+Series make_series(const std::string& name, std::vector<double> values) {
+  Series series{name, {}, std::move(values)};
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    series.times.push_back(0.1 * static_cast<double>(i));
+  }
+  return series;
+}
+
+std::vector<double> wave(std::size_t count) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    values.push_back(std::sin(0.1 * static_cast<double>(i)));
+  }
+  return values;
+}
+
+/// Draws only where gnuplot can be run.
+class Pictures : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (system("gnuplot --version >/dev/null 2>&1") != 0) {
+      GTEST_SKIP() << "gnuplot is not installed";
+    }
+  }
+};
+
+TEST_F(Pictures, OverlayIsAPngThatGrowsWithItsPanels) {
+  const Panel panel{"u [m]",
+                    {make_series("a", wave(50)), make_series("b", wave(40))}};
+  const Size one = draw_and_measure(
+      [&](const auto& file) { return draw_overlay(file, "tip", {panel}); });
+  const Size three = draw_and_measure([&](const auto& file) {
+    return draw_overlay(file, "tip", {panel, panel, panel});
+  });
+  expect_sensible(one);
+  expect_sensible(three);
+  EXPECT_EQ(three.width, one.width);
+  EXPECT_GT(three.height, 2 * one.height);
+}
+
+TEST_F(Pictures, EnergyAndSceneOfARunArePngs) {
+  const SmallRun run = make_small_run();
+  expect_sensible(draw_and_measure(
+      [&](const auto& file) { return draw_energy(file, "run", run.history); }));
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_scene(file, "run", run.model,
+                      {run.history.states.front(), run.history.states.back()},
+                      20.0);
+  }));
+}
+
+TEST_F(Pictures, SceneOfRigidBodiesAloneIsAPng) {
+  dynamics::SystemBuilder builder;
+  const int ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
+  const dynamics::SystemModel free_ball = builder.build();
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_scene(file, "ball", free_ball, {make_state(free_ball)}, 1.0);
+  }));
+  builder.attach_frame("handle", ball, {Matrix3::Identity(), {1, 0, 0}});
+  const dynamics::SystemModel held_ball = builder.build();
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_scene(file, "ball", held_ball, {make_state(held_ball)}, 1.0);
+  }));
+}
+
+TEST_F(Pictures, SceneWithoutAStateSaysSo) {
+  const TemporaryFolder folder;
+  const std::string why = draw_scene(folder.path() / "scene.png", "run",
+                                     make_empty_run().model, {}, 1.0);
+  EXPECT_THAT(why, HasSubstr("no state"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+struct OddSeries {
+  std::string name;
+  std::vector<double> values;
+  friend std::ostream& operator<<(std::ostream& out, const OddSeries& series) {
+    return out << series.name;
+  }
+};
+
+const std::vector<OddSeries> kOddSeries = {
+    {"NaNInside", {0.0, 1.0, kNaN, -1.0, 0.5}},
+    {"NaNFirst", {kNaN, 1.0, 2.0}},
+    {"NaNAlone", {kNaN, kNaN, kNaN}},
+    {"InfinityInside", {0.0, 1.0, kInf, -kInf, 0.5}},
+    {"InfinityAlone", {kInf, -kInf}},
+    {"OneSample", {1.0}},
+    {"OneZero", {0.0}},
+    {"OneNaN", {kNaN}},
+    {"Constant", {3.0, 3.0, 3.0}},
+    {"LargeConstant", {-1e300, -1e300}},
+    {"Zeros", {0.0, 0.0, 0.0}},
+    {"Tiny", {1e-310, -1e-310, 0.0}},
+    {"Huge", {1e308, -1e308, 0.0}}};
+
+class OddSeriesPicture : public Pictures,
+                         public ::testing::WithParamInterface<OddSeries> {};
+
+TEST_P(OddSeriesPicture, IsDrawnAlone) {
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_overlay(file, "odd",
+                        {{"u [m]", {make_series("s", GetParam().values)}}});
+  }));
+}
+
+TEST_P(OddSeriesPicture, IsDrawnBesideAnOrdinaryPanel) {
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_overlay(file, "odd",
+                        {{"u [m]", {make_series("s", wave(30))}},
+                         {"v [m/s]", {make_series("s", GetParam().values)}}});
+  }));
+}
+
+TEST_P(OddSeriesPicture, IsDrawnAsEnergy) {
+  History history;
+  for (const double value : GetParam().values) {
+    history.times.push_back(0.1 * static_cast<double>(history.times.size()));
+    dynamics::EnergyBalance energy;
+    energy.kinetic_rigid = value;
+    energy.kinetic_modal = value;
+    energy.elastic = value;
+    energy.coupler = value;
+    energy.dissipated = value;
+    energy.work = value;
+    history.energies.push_back(energy);
+  }
+  expect_sensible(draw_and_measure(
+      [&](const auto& file) { return draw_energy(file, "odd", history); }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Values, OddSeriesPicture,
+                         ::testing::ValuesIn(kOddSeries),
+                         [](const auto& odd) { return odd.param.name; });
+
+TEST_F(Pictures, NamesOfAnyKindAreTextAndNotCommands) {
+  const TemporaryFolder folder;
+  const std::string trap = (folder.path() / "trap").string();
+  const std::string name = "Träger 'x'\n\"y\" `touch " + trap +
+                           "` {/*2 a_b^c} \\n'; system 'touch " + trap + "'; #";
+  const std::filesystem::path file = folder.path() / "it's \"a\" $(b) `c`.png";
+  EXPECT_EQ(draw_overlay(file, name, {{name, {make_series(name, wave(9))}}}),
+            "");
+  expect_sensible(read_png_size(file));
+  EXPECT_FALSE(std::filesystem::exists(trap));
+}
+
+TEST_F(Pictures, PlaceThatCannotBeWrittenIsNamed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "no_such/tip.png";
+  const Panel panel{"u [m]", {make_series("a", wave(50))}};
+  ::testing::internal::CaptureStdout();
+  const std::string why = draw_overlay(file, "tip", {panel});
+  // The picture does not go to our own output instead.
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_THAT(why, HasSubstr(file.string()));
+}
+
+TEST_F(Pictures, FailureLeavesNoOldPicture) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "p.png";
+  std::ofstream(file) << "an older picture";
+  GnuplotScript script(file, 600, 400);
+  script.add("plot no_such_thing");
+  EXPECT_THAT(script.run(), HasSubstr(file.string()));
+  EXPECT_NE(read_bytes(file), "an older picture");
+}
+
+// --- Without gnuplot --------------------------------------------------------
+
+TEST(PicturesWithoutGnuplot, SayWhatToInstallAndLeaveNothing) {
+  const SmallRun run = make_small_run();
+  const TemporaryFolder folder;
+  const TemporaryFolder empty;
+  const Path path(empty.path().string());
+  const std::filesystem::path file = folder.path() / "picture.png";
+  const Panel panel{"u [m]", {make_series("a", wave(50))}};
+  for (const std::string& why :
+       {draw_overlay(file, "tip", {panel}), draw_energy(file, "t", run.history),
+        draw_scene(file, "run", run.model, run.history.states, 1.0)}) {
+    EXPECT_THAT(why, HasSubstr("gnuplot is not installed"));
+    EXPECT_THAT(why, HasSubstr("gnuplot-nox"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// More text than a pipe holds (64 KiB): writing it goes on after the shell
+// that found no gnuplot has ended.
+TEST(PicturesWithoutGnuplot, LargePictureDoesNotEndTheProgram) {
+  const TemporaryFolder folder;
+  const TemporaryFolder empty;
+  const Path path(empty.path().string());
+  const Panel panel{"u [m]", {make_series("a", wave(200000))}};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THAT(draw_overlay(folder.path() / "p.png", "tip", {panel, panel}),
+                HasSubstr("gnuplot-nox"));
+  }
+  // Nor is the signal kept back for later.
+  sigset_t pending;
+  sigset_t blocked;
+  ASSERT_EQ(sigpending(&pending), 0);
+  ASSERT_EQ(pthread_sigmask(SIG_SETMASK, nullptr, &blocked), 0);
+  EXPECT_EQ(sigismember(&pending, SIGPIPE), 0);
+  EXPECT_EQ(sigismember(&blocked, SIGPIPE), 0);
+}
+
+// --- Quotation --------------------------------------------------------------
+
+TEST(GnuplotQuote, DoublesQuotesAndLeavesTheRest) {
+  EXPECT_EQ(quote("it's \"a\" \\n `b`"), "'it''s \"a\" \\n `b`'");
+}
+
+TEST(GnuplotQuote, StaysOnOneLine) {
+  EXPECT_EQ(quote("a\nb").find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace limber::results
