@@ -7,6 +7,7 @@
 #include "app/run_scene.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
+#include "results/path_step.hpp"
 #include "results/pictures.hpp"
 #include "results/probes_csv.hpp"
 #include "results/results_file.hpp"
@@ -56,7 +57,8 @@ void draw_probes(const std::vector<std::string>& names,
     }
     const std::string& name = first.built.probes[p].name;
     const std::string why = results::draw_overlay(
-        folder / ("probe_" + name + ".png"), name, panels);
+        folder / ("probe_" + results::to_path_step(name) + ".png"), name,
+        panels);
     warn(why);
     if (!why.empty()) return;  // the next would fail alike
   }
