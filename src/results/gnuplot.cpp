@@ -2,11 +2,11 @@
 #include "results/gnuplot.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/wait.h>
-#include <time.h>
 
+#include <csignal>
 #include <cstdio>
+#include <ctime>
 
 namespace limber::results {
 namespace {
