@@ -59,13 +59,12 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
 }
 
 void apply_wrench(const BodyModel& body, const Attachment& attachment,
-                  const AttachmentMotion& motion, const Vector3& arm_B,
-                  const Vector3& force_W, const Vector3& moment_W,
-                  BodyTerms& terms) {
+                  const AttachmentMotion& motion, const Vector3& force_W,
+                  const Vector3& moment_W, BodyTerms& terms) {
   const Vector3 force_B = motion.R_WB.transpose() * force_W;
   const Vector3 moment_B = motion.R_WB.transpose() * moment_W;
   terms.force_W += force_W;
-  terms.moment_B += arm_B.cross(force_B) + moment_B;
+  terms.moment_B += motion.arm_B.cross(force_B) + moment_B;
   if (body.modes == 0) return;
   const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
   for (int k = 0; k < body.modes; ++k) {
@@ -103,11 +102,31 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
     const Attachment& a = model.attachments[i];
     if (a.body == kWorld) return;
     const auto b = static_cast<std::size_t>(a.body);
-    apply_wrench(model.bodies[b], a, motion, motion.arm_B, f, t,
-                 terms.bodies[b]);
+    apply_wrench(model.bodies[b], a, motion, f, t, terms.bodies[b]);
   };
   apply(iM, M, force, moment);
   apply(iF, F, -force, -moment - shift);
+}
+
+// A load on the undeformed body: what a level without feedback sees. Linear
+// in the modes, so that it can also be answered in closed form.
+void apply_to_undeformed(const BodyModel& body, const Attachment& attachment,
+                         const SystemState& state, const BodyState& rigid,
+                         const Vector3& force_B, const Vector3& moment_B,
+                         BodyTerms& t, SystemTerms& terms) {
+  for (int k = 0; k < body.modes; ++k) {
+    const double force = attachment.Phi_B.col(k).dot(force_B) +
+                         attachment.Psi_B.col(k).dot(moment_B);
+    t.modal_force[k] += force;
+    terms.load_power += force * state.etadot[body.offset + k];
+  }
+  if (body.clamped) return;
+  const Vector3 force_W = t.R_WB * force_B;
+  const Vector3 about_center = attachment.p_BF.cross(force_B) + moment_B;
+  t.force_W += force_W;
+  t.moment_B += about_center;
+  terms.load_power +=
+      force_W.dot(rigid.v_WB_W) + about_center.dot(rigid.w_WB_B);
 }
 
 void apply_load(const SystemModel& model, const SystemState& state,
@@ -119,25 +138,22 @@ void apply_load(const SystemModel& model, const SystemState& state,
   if (attachment.body == kWorld) return;
   const auto b = static_cast<std::size_t>(attachment.body);
   const BodyModel& body = model.bodies[b];
-  const AttachmentMotion& motion = terms.attachments[i];
+  BodyTerms& t = terms.bodies[b];
 
-  Vector3 force = factor * load.force;
-  Vector3 moment = factor * load.moment;
-  if (!load.in_world) {
-    force = motion.R_WB * force;
-    moment = motion.R_WB * moment;
+  const Vector3 force = factor * load.force;
+  const Vector3 moment = factor * load.moment;
+  if (body.fidelity != Fidelity::coupled) {
+    const Matrix3 R = load.in_world ? Matrix3(t.R_WB.transpose())
+                                    : Matrix3(Matrix3::Identity());
+    apply_to_undeformed(body, attachment, state, state.bodies[b], R * force,
+                        R * moment, t, terms);
+    return;
   }
-  // Levels without feedback take the undeformed lever arm, and then the power
-  // is what that arm's point sees.
-  const bool deformed = body.fidelity == Fidelity::coupled;
-  const Vector3 arm = deformed ? motion.arm_B : attachment.p_BF;
-  apply_wrench(body, attachment, motion, arm, force, moment, terms.bodies[b]);
-
-  const Vector3 slip =
-      deformed ? Vector3::Zero()
-               : Vector3(state.bodies[b].w_WB_B.cross(arm - motion.arm_B));
-  terms.load_power +=
-      force.dot(motion.v_WF_W + motion.R_WB * slip) + moment.dot(motion.w_WF_W);
+  const AttachmentMotion& motion = terms.attachments[i];
+  const Vector3 force_W = load.in_world ? force : motion.R_WB * force;
+  const Vector3 moment_W = load.in_world ? moment : motion.R_WB * moment;
+  apply_wrench(body, attachment, motion, force_W, moment_W, t);
+  terms.load_power += force_W.dot(motion.v_WF_W) + moment_W.dot(motion.w_WF_W);
 }
 
 // Which column of a history holds at t; -1 before the first.
