@@ -10,9 +10,9 @@ namespace limber::app {
 namespace {
 
 void print_text(const Run& run, const std::filesystem::path& folder) {
-  fmt::print("{} bodies, {} modes, {} couplers\n",
+  fmt::print("{} bodies, {} modes ({} in closed form), {} couplers\n",
              run.built.model.bodies.size(), run.built.model.modal_count,
-             run.built.model.couplers.size());
+             run.statistics.exact_modes, run.built.model.couplers.size());
   fmt::print("offline {:.3g} s ({} reduced, {} from the cache)\n",
              run.built.seconds_offline, run.built.bodies_reduced,
              run.built.bodies_cached);

@@ -118,6 +118,7 @@ Json summarize(const Run& run) {
   json["bodies"] = run.built.model.bodies.size();
   json["modes"] = count_modes(run);
   json["couplers"] = run.built.model.couplers.size();
+  json["modes_exact"] = run.statistics.exact_modes;
   json["steps"] = run.statistics.steps;
   json["newton_iterations"] = run.statistics.newton_iterations;
   json["seconds_offline"] = run.built.seconds_offline;

@@ -7,6 +7,11 @@ namespace limber::dynamics {
 
 EnergyBalance calc_energy(const SystemModel& model, const SystemState& state) {
   SystemTerms terms = make_terms(model);
+  return calc_energy(model, state, terms);
+}
+
+EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
+                          SystemTerms& terms) {
   calc_terms(model, state, Side::right, terms);
   EnergyBalance balance;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

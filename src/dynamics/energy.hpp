@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/system_state.hpp"
+#include "dynamics/workspace.hpp"
 
 namespace limber::dynamics {
 
@@ -24,5 +25,9 @@ struct EnergyBalance {
 /// All but `dissipated` and `work`, which only a run can know.
 [[nodiscard]] EnergyBalance calc_energy(const SystemModel& model,
                                         const SystemState& state);
+/// The same in `terms` of make_terms(model), without allocation.
+[[nodiscard]] EnergyBalance calc_energy(const SystemModel& model,
+                                        const SystemState& state,
+                                        SystemTerms& terms);
 
 }  // namespace limber::dynamics

@@ -6,25 +6,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <variant>
 
 #include "common/errors.hpp"
 #include "common/names.hpp"
-#include "dynamics/explicit_euler.hpp"
-#include "dynamics/generalized_alpha.hpp"
-#include "dynamics/runge_kutta.hpp"
+#include "dynamics/exact_modes.hpp"
+#include "dynamics/landmarks.hpp"
+#include "dynamics/modal_loads.hpp"
+#include "dynamics/stepper.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// A time that a step must end on.
-struct Landmark {
-  double time = 0.0;
-  bool is_jump = false;
-  bool is_output = false;
-};
 
 void check_settings(const SystemState& state,
                     const SimulationSettings& settings) {
@@ -36,49 +29,25 @@ void check_settings(const SystemState& state,
   if (!(settings.step > 0.0) || !std::isfinite(settings.step)) {
     refuse(fmt::format("step is {:g} s; expected > 0", settings.step));
   }
+  for (std::size_t i = 0; i < settings.step_changes.size(); ++i) {
+    const StepChange& change = settings.step_changes[i];
+    if (!(change.step > 0.0) || !std::isfinite(change.step)) {
+      refuse(fmt::format("step from {:g} s on is {:g} s; expected > 0",
+                         change.from, change.step));
+    }
+    if (i > 0 && !(change.from > settings.step_changes[i - 1].from)) {
+      refuse(
+          fmt::format("steps change at {:g} s after {:g} s; times must "
+                      "increase",
+                      change.from, settings.step_changes[i - 1].from));
+    }
+  }
   if (!(settings.rho_inf >= 0.0) || !(settings.rho_inf <= 1.0)) {
     refuse(fmt::format("rho_inf is {:g}; expected 0 to 1", settings.rho_inf));
   }
   if (!(settings.newton_tolerance > 0.0) || settings.newton_iterations < 1) {
     refuse("newton_tolerance and newton_iterations must be > 0");
   }
-}
-
-std::vector<Landmark> find_landmarks(const SystemModel& model, double start,
-                                     const SimulationSettings& settings) {
-  std::vector<Landmark> marks;
-  for (const double t : settings.output_times) {
-    if (t > start && t <= settings.end_time) marks.push_back({t, false, true});
-  }
-  for (const Load& load : model.loads) {
-    for (const double t : break_times(load.function)) {
-      if (t > start && t < settings.end_time) marks.push_back({t, true, false});
-    }
-  }
-  for (const BodyLoad& load : model.body_loads) {
-    for (const double t : load.history.times) {
-      if (t > start && t < settings.end_time) marks.push_back({t, true, false});
-    }
-  }
-  marks.push_back({settings.end_time, false, false});
-  std::stable_sort(
-      marks.begin(), marks.end(),
-      [](const Landmark& a, const Landmark& b) { return a.time < b.time; });
-  // Times that differ by round-off alone are one. A jump's time wins, so that
-  // the load's own comparison with it is exact.
-  const double same = 1e-12 * std::max(std::abs(start), settings.end_time);
-  std::vector<Landmark> merged;
-  for (const Landmark& mark : marks) {
-    if (merged.empty() || mark.time - merged.back().time > same) {
-      merged.push_back(mark);
-      continue;
-    }
-    Landmark& last = merged.back();
-    if (mark.is_jump) last.time = mark.time;
-    last.is_jump |= mark.is_jump;
-    last.is_output |= mark.is_output;
-  }
-  return merged;
 }
 
 // Adds its own lifetime to `seconds`.
@@ -96,41 +65,132 @@ class Stopwatch {
   Clock::time_point begin_ = Clock::now();
 };
 
-// The integrators behind one face.
-class Stepper {
- public:
-  Stepper(const SystemModel& model, const SimulationSettings& settings)
-      : scheme_(make(model, settings)) {}
-
-  void start(const SystemState& state, double h) {
-    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
-      alpha->start(state, h);
-    }
-  }
-  void cross_jump(const SystemState& state, double h) {
-    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
-      alpha->cross_jump(state, h);
-    }
-  }
-  StepResult step(SystemState& state, double h, double end) {
-    return std::visit([&](auto& s) { return s.step(state, h, end); }, scheme_);
-  }
-
- private:
-  using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler>;
-  static Scheme make(const SystemModel& model,
-                     const SimulationSettings& settings) {
-    if (settings.integrator == IntegratorKind::runge_kutta_4) {
-      return RungeKutta4(model);
-    }
-    if (settings.integrator == IntegratorKind::explicit_euler) {
-      return ExplicitEuler(model);
-    }
-    return GeneralizedAlpha(model, {settings.rho_inf, settings.newton_tolerance,
-                                    settings.newton_iterations});
-  }
-  Scheme scheme_;
+// What the loads and the dampers did since the start [J].
+struct Losses {
+  double work = 0.0;
+  double dissipated = 0.0;
 };
+
+// Called with the state at the start, if that is asked for, and at outputs.
+using Visit = std::function<void(const SystemState&, const Losses&)>;
+
+struct Timeline {
+  double start = 0.0;
+  bool starts_with_output = false;
+  std::vector<Landmark> marks;
+};
+
+Timeline find_timeline(const SystemModel& model, double start,
+                       const SimulationSettings& settings) {
+  const auto& outputs = settings.output_times;
+  return {start, !outputs.empty() && outputs.front() <= start,
+          find_landmarks(model, start, settings)};
+}
+
+std::vector<double> find_visited_times(const Timeline& timeline) {
+  std::vector<double> times;
+  if (timeline.starts_with_output) times.push_back(timeline.start);
+  for (const Landmark& mark : timeline.marks) {
+    if (mark.is_output) times.push_back(mark.time);
+  }
+  return times;
+}
+
+// Takes the steps.
+void integrate(const SystemModel& model, SystemState& state,
+               const SimulationSettings& settings, const Timeline& timeline,
+               const Visit& visit, const Progress& progress,
+               SimulationStatistics& statistics) {
+  const double start = timeline.start;
+  Losses losses;
+  if (timeline.starts_with_output) visit(state, losses);
+  Stepper stepper(model, settings);
+  bool started = false;
+  bool at_jump = false;
+  for (const Landmark& mark : timeline.marks) {
+    const double origin = state.t;
+    const double span = mark.time - origin;
+    const double longest = find_longest_step(settings, origin);
+    const auto count =
+        static_cast<long>(std::ceil(span / longest * (1.0 - 1e-12)));
+    const double h = span / static_cast<double>(std::max(count, 1L));
+    if (!started) stepper.start(state, h);
+    if (at_jump) stepper.cross_jump(state, h);
+    started = true;
+    for (long i = 1; i <= count; ++i) {
+      // Times come from the landmark, not from a sum of steps.
+      const double end =
+          i == count ? mark.time : origin + static_cast<double>(i) * h;
+      const StepResult result = stepper.step(state, h, end);
+      statistics.newton_iterations += result.iterations;
+      statistics.factorizations += result.factorizations;
+      losses.dissipated += result.dissipated;
+      losses.work += result.load_work;
+      if (++statistics.steps % 64 == 0 && progress) {
+        progress("simulating", (state.t - start) / (settings.end_time - start));
+      }
+    }
+    at_jump = mark.is_jump;
+    if (mark.is_output) visit(state, losses);
+  }
+}
+
+// Nothing is left that needs steps.
+void pass_time(SystemState& state, const Timeline& timeline,
+               const Visit& visit) {
+  if (timeline.starts_with_output) visit(state, {});
+  for (const Landmark& mark : timeline.marks) {
+    state.t = mark.time;
+    if (mark.is_output) visit(state, {});
+  }
+}
+
+bool has_exact_modes(const SystemModel& model,
+                     const SimulationSettings& settings) {
+  if (!settings.exact_modes ||
+      settings.integrator == IntegratorKind::explicit_euler) {
+    return false;
+  }
+  for (BodyIndex b = 0; b < std::ssize(model.bodies); ++b) {
+    if (has_closed_modal_loads(model, b)) return true;
+  }
+  return false;
+}
+
+// Modes in closed form beside steps for the rest.
+void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
+                                const SimulationSettings& settings,
+                                const Timeline& timeline, const Visit& visit,
+                                const Progress& progress,
+                                SimulationStatistics& statistics) {
+  statistics.exact_modes = exact.count();
+  exact.prepare(find_visited_times(timeline));
+  SystemState rest = exact.take_rest(state);
+  SystemState whole = state;
+  std::size_t visited = 0;
+  const Visit visit_whole = [&](const SystemState& now, const Losses& losses) {
+    exact.join(now, visited, whole);
+    const ExactModes::Losses own = exact.losses(visited);
+    visit(whole, {losses.work + own.work, losses.dissipated + own.dissipated});
+    ++visited;
+  };
+  const auto leave = [&] {
+    exact.prepare({rest.t});
+    exact.join(rest, 0, state);
+  };
+  try {
+    if (exact.has_motion_left()) {
+      integrate(exact.rest(), rest, settings, timeline, visit_whole, progress,
+                statistics);
+    } else {
+      pass_time(rest, timeline, visit_whole);
+    }
+  } catch (const NumericalError&) {
+    leave();
+    throw;
+  }
+  leave();
+}
 
 }  // namespace
 
@@ -166,51 +226,22 @@ void simulate(const SystemModel& model, SystemState& state,
   LIMBER_EXPECT(state.etadot.size() == model.modal_count);
   check_settings(state, settings);
 
-  const double start = state.t;
-  const std::vector<Landmark> marks = find_landmarks(model, start, settings);
-  double dissipated = 0.0;
-  double work = 0.0;
-  const auto observe = [&] {
-    if (!observer) return;
-    EnergyBalance balance = calc_energy(model, state);
-    balance.dissipated = dissipated;
-    balance.work = work;
-    observer(state, balance);
-  };
-  if (!settings.output_times.empty() && settings.output_times[0] <= start) {
-    observe();
-  }
-
   const Stopwatch stopwatch(statistics.seconds);
-  long steps = 0;
-  Stepper stepper(model, settings);
-  bool started = false;
-  bool at_jump = false;
-  for (const Landmark& mark : marks) {
-    const double origin = state.t;
-    const double span = mark.time - origin;
-    const auto count =
-        static_cast<long>(std::ceil(span / settings.step * (1.0 - 1e-12)));
-    const double h = span / static_cast<double>(std::max(count, 1L));
-    if (!started) stepper.start(state, h);
-    if (at_jump) stepper.cross_jump(state, h);
-    started = true;
-    for (long i = 1; i <= count; ++i) {
-      // Times come from the landmark, not from a sum of steps.
-      const double end =
-          i == count ? mark.time : origin + static_cast<double>(i) * h;
-      const StepResult result = stepper.step(state, h, end);
-      ++statistics.steps;
-      statistics.newton_iterations += result.iterations;
-      statistics.factorizations += result.factorizations;
-      dissipated += result.dissipated;
-      work += result.load_work;
-      if (progress && ++steps % 64 == 0) {
-        progress("simulating", (state.t - start) / (settings.end_time - start));
-      }
-    }
-    at_jump = mark.is_jump;
-    if (mark.is_output) observe();
+  SystemTerms terms = make_terms(model);
+  const Visit visit = [&](const SystemState& now, const Losses& losses) {
+    if (!observer) return;
+    EnergyBalance balance = calc_energy(model, now, terms);
+    balance.dissipated = losses.dissipated;
+    balance.work = losses.work;
+    observer(now, balance);
+  };
+  const Timeline timeline = find_timeline(model, state.t, settings);
+  if (has_exact_modes(model, settings)) {
+    ExactModes exact(model, state);
+    integrate_with_exact_modes(exact, state, settings, timeline, visit,
+                               progress, statistics);
+  } else {
+    integrate(model, state, settings, timeline, visit, progress, statistics);
   }
   report(progress, "simulating", 1.0);
 }

@@ -20,20 +20,31 @@ enum class IntegratorKind { generalized_alpha, runge_kutta_4, explicit_euler };
 /// @throws InputError naming the nearest integrator.
 [[nodiscard]] IntegratorKind parse_integrator(std::string_view name);
 
+/// From a time on, another longest step.
+struct StepChange {
+  double from = 0.0;  ///< [s]
+  double step = 0.0;  ///< > 0 [s]
+};
+
 struct SimulationSettings {
   IntegratorKind integrator = IntegratorKind::generalized_alpha;
-  double end_time = 0.0;             ///< > start [s]
-  double step = 0.0;                 ///< longest step, > 0 [s]
-  std::vector<double> output_times;  ///< increasing, in [start, end] [s]
-  double rho_inf = 0.9;              ///< spectral radius at infinity [0,1]
-  double newton_tolerance = 1e-12;   ///< of a step's motion [-]
-  int newton_iterations = 20;        ///< at most, a step
+  double end_time = 0.0;                      ///< > start [s]
+  double step = 0.0;                          ///< longest step, > 0 [s]
+  std::vector<StepChange> step_changes = {};  ///< at increasing times
+  std::vector<double> output_times = {};  ///< increasing, in [start, end] [s]
+  double rho_inf = 0.9;                   ///< spectral radius at infinity [0,1]
+  double newton_tolerance = 1e-12;        ///< of a step's motion [-]
+  int newton_iterations = 20;             ///< at most, a step
+  /// Modes of `uncoupled` bodies that only known loads drive are answered in
+  /// closed form, without steps (not by explicit_euler, which samples loads).
+  bool exact_modes = true;
 };
 
 struct SimulationStatistics {
   long steps = 0;
   long newton_iterations = 0;
   long factorizations = 0;
+  int exact_modes = 0;   ///< modes answered in closed form
   double seconds = 0.0;  ///< wall time of the stepping [s]
 };
 
@@ -41,8 +52,9 @@ struct SimulationStatistics {
 using Observer = std::function<void(const SystemState&, const EnergyBalance&)>;
 
 /// Carries `state` to the end time. Steps land on output times and on every
-/// load discontinuity exactly. On NumericalError `state` holds the last good
-/// step, and everything up to there was observed.
+/// load discontinuity exactly. What needs no steps takes none. On
+/// NumericalError `state` holds the last good step, and everything up to there
+/// was observed.
 /// @throws InputError for settings outside their range; NumericalError naming
 /// the body and the time.
 SimulationStatistics simulate(const SystemModel& model, SystemState& state,

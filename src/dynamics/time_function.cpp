@@ -64,6 +64,16 @@ double evaluate_table(const Table& table, double t, Side side) {
   return (1.0 - share) * table.values[i] + share * table.values[i + 1];
 }
 
+double evaluate_harmonics(const HarmonicSum& sum, double t, Side side) {
+  if (!is_on(t, sum.from, sum.until, side)) return 0.0;
+  double value = sum.mean;
+  for (const Harmonic& h : sum.terms) {
+    const double angle = h.omega * (t - sum.from);
+    value += h.cosine * std::cos(angle) + h.sine * std::sin(angle);
+  }
+  return value;
+}
+
 void check_series(const std::vector<double>& times,
                   const std::vector<double>& values, std::size_t least,
                   const char* kind) {
@@ -95,6 +105,21 @@ void check_window(double from, double until, const char* kind) {
   }
 }
 
+void check_harmonics(const HarmonicSum& sum) {
+  check_window(sum.from, sum.until, "sum of sinusoids");
+  bool is_finite = std::isfinite(sum.mean);
+  for (const Harmonic& h : sum.terms) {
+    is_finite = is_finite && std::isfinite(h.cosine) && std::isfinite(h.sine);
+    if (h.omega >= 0.0 && std::isfinite(h.omega)) continue;
+    throw InputError(fmt::format(
+        "sum of sinusoids: an angular frequency is {:g} rad/s; expected >= 0",
+        h.omega));
+  }
+  if (!is_finite) {
+    throw InputError("sum of sinusoids: an amplitude is not finite");
+  }
+}
+
 }  // namespace
 
 void check(const TimeFunction& function) {
@@ -119,6 +144,7 @@ void check(const TimeFunction& function) {
                               s.frequency));
             }
           },
+          [](const HarmonicSum& s) { check_harmonics(s); },
           [](const Table& t) { check_series(t.times, t.values, 2, "table"); },
       },
       function);
@@ -137,6 +163,7 @@ double evaluate(const TimeFunction& function, double t, Side side) {
             return std::sin(
                 2.0 * std::numbers::pi * s.frequency * (t - s.from) + s.phase);
           },
+          [&](const HarmonicSum& s) { return evaluate_harmonics(s, t, side); },
           [&](const Table& table) { return evaluate_table(table, t, side); },
       },
       function);
@@ -157,6 +184,9 @@ std::vector<double> break_times(const TimeFunction& function) {
             return std::vector{p.start, p.start + 0.5 * p.duration, end};
           },
           [](const Sinusoid& s) {
+            return std::vector{s.from, s.until};
+          },
+          [](const HarmonicSum& s) {
             return std::vector{s.from, s.until};
           },
           [](const Table& t) { return t.times; },

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <variant>
 #include <vector>
 
 namespace limber::dynamics {
 
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
 /// Factor c(t) [-] of a load. `from`, `until` [s]; zero outside them.
 struct Constant {
   double from = 0.0;
-  double until = 1e300;
+  double until = kNever;
 };
 /// values[i] holds on [times[i], times[i+1]); zero before, last one held.
 struct StepSequence {
@@ -27,7 +30,20 @@ struct Sinusoid {
   double frequency = 0.0;
   double phase = 0.0;
   double from = 0.0;
-  double until = 1e300;
+  double until = kNever;
+};
+/// One term of a sum of sinusoids, angular frequency [rad/s].
+struct Harmonic {
+  double omega = 0.0;
+  double cosine = 0.0;
+  double sine = 0.0;
+};
+/// mean + sum of cosine cos(omega (t - from)) + sine sin(omega (t - from)).
+struct HarmonicSum {
+  double mean = 0.0;
+  std::vector<Harmonic> terms = {};
+  double from = 0.0;
+  double until = kNever;
 };
 /// Linear between points; zero outside them.
 struct Table {
@@ -36,7 +52,7 @@ struct Table {
 };
 
 using TimeFunction =
-    std::variant<Constant, StepSequence, Pulse, Sinusoid, Table>;
+    std::variant<Constant, StepSequence, Pulse, Sinusoid, HarmonicSum, Table>;
 
 /// Which side of a jump is meant when `t` is exactly on it.
 enum class Side { left, right };

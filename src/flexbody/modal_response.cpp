@@ -321,9 +321,8 @@ ModalResponse::Indices ModalResponse::find_intervals(
     const std::vector<double>& times) const {
   Indices intervals(times.size());
   Eigen::Index current = 0;
-  double last = starts_.front();
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < last) {
+    if (i == 0 || times[i] < times[i - 1]) {
       current = std::upper_bound(starts_.begin(), starts_.end(), times[i]) -
                 starts_.begin() - 1;
     }
@@ -332,7 +331,6 @@ ModalResponse::Indices ModalResponse::find_intervals(
       ++current;
     }
     intervals[i] = current;
-    last = times[i];
   }
   return intervals;
 }

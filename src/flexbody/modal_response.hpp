@@ -31,6 +31,13 @@ struct ModalEnergies {
   [[nodiscard]] MatrixX corrected() const { return kinetic + elastic + load; }
 };
 
+/// What m modes took from their loads and lost, from the initial time to each
+/// of T times, a column each.
+struct ModalLosses {
+  MatrixX work;        ///< m x T [J]
+  MatrixX dissipated;  ///< m x T [J]
+};
+
 /// Response of independent modes to step loads and sinusoids, at any times
 /// and without time steps.
 ///
@@ -69,6 +76,17 @@ class ModalResponse {
   [[nodiscard]] MatrixX evaluate_step_work(
       const std::vector<double>& times) const;
 
+  /// Work of all loads and dissipation. Under step loads alone the work is
+  /// evaluate_step_work(), and a damped mode dissipates what is then missing
+  /// from its energy. Under a sinusoid the energy tells the work instead, and
+  /// the dissipation is integrated by Gauss's rule over panels that resolve the
+  /// fastest rate, at most kMostPanels between two times.
+  /// @param times T, increasing, not before the initial time [s]
+  /// @throws InputError for a time that is earlier or not finite.
+  [[nodiscard]] ModalLosses evaluate_losses(
+      const std::vector<double>& times) const;
+  static constexpr int kMostPanels = 256;
+
   /// Starts of the intervals in which the step load is constant [s]: the
   /// initial time, then the changes after it.
   [[nodiscard]] const std::vector<double>& interval_starts() const {
@@ -102,6 +120,12 @@ class ModalResponse {
   [[nodiscard]] Indices find_intervals(const std::vector<double>& times) const;
   [[nodiscard]] double find_step_growth(Eigen::Index mode,
                                         Eigen::Index interval, double t) const;
+  [[nodiscard]] bool is_driven_by_wave(Eigen::Index mode) const;
+  [[nodiscard]] MatrixX find_energy(const std::vector<double>& times) const;
+  [[nodiscard]] MatrixX integrate_dissipation(
+      const std::vector<double>& times) const;
+  [[nodiscard]] std::vector<double> find_panels(
+      const std::vector<double>& times) const;
   [[nodiscard]] MatrixX find_wave_eta(const std::vector<double>& times) const;
   [[nodiscard]] MatrixX make_zeros(const std::vector<double>& times) const {
     return MatrixX::Zero(modes(), std::ssize(times));

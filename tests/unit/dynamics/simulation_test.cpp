@@ -439,6 +439,42 @@ TEST(Simulation, SameRunTwiceIsTheSameToTheBit) {
   EXPECT_EQ(a.state.bodies[3].p_WB, b.state.bodies[3].p_WB);
 }
 
+TEST(Simulation, StepsChangeWhereTheyAreToldTo) {
+  const SystemModel model = rigid_body(Matrix3::Identity());
+  const Outcome r = run(model, make_state(model),
+                        {.end_time = 1.0,
+                         .step = 0.01,
+                         .step_changes = {{0.1, 0.3}, {0.7, 0.05}},
+                         .output_times = {}});
+  EXPECT_EQ(r.statistics.steps, 10 + 2 + 6);
+}
+
+TEST(Simulation, UnevenStepsKeepTheSecondOrder) {
+  // Torque-free asymmetric top; the reference takes steps of its own.
+  const SystemModel model =
+      rigid_body(Vector3(1.0, 2.0, 3.0).asDiagonal().toDenseMatrix());
+  SystemState start = make_state(model);
+  start.bodies[0].w_WB_B = Vector3(0.5, 1.0, 0.2);
+  const Outcome reference = run(model, start,
+                                {.integrator = IntegratorKind::runge_kutta_4,
+                                 .end_time = 4.0,
+                                 .step = 1e-3,
+                                 .output_times = {}});
+  std::vector<double> errors;
+  for (const double h : {0.02, 0.01, 0.005}) {
+    SimulationSettings settings = {
+        .end_time = 4.0, .step = h, .output_times = {}};
+    for (int i = 1; i < 40; ++i) {  // long and short in turn, a factor of five
+      settings.step_changes.push_back({0.1 * i, i % 2 == 0 ? h : 0.2 * h});
+    }
+    const Outcome r = run(model, start, settings);
+    errors.push_back(
+        (r.state.bodies[0].w_WB_B - reference.state.bodies[0].w_WB_B).norm());
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.1);
+}
+
 TEST(Simulation, SettingsOutOfRangeAreRefused) {
   const SystemModel model = rigid_body(Matrix3::Identity());
   const auto refuse = [&](const SimulationSettings& settings) {
@@ -447,6 +483,9 @@ TEST(Simulation, SettingsOutOfRangeAreRefused) {
   };
   refuse({.end_time = 0.0, .step = 1e-3, .output_times = {}});
   refuse({.end_time = 1.0, .step = 0.0, .output_times = {}});
+  refuse({.end_time = 1.0, .step = 0.1, .step_changes = {{0.5, -0.1}}});
+  refuse(
+      {.end_time = 1.0, .step = 0.1, .step_changes = {{0.5, 0.1}, {0.5, 0.2}}});
   refuse({.end_time = 1.0, .step = 1e-3, .output_times = {}, .rho_inf = 1.5});
 }
 

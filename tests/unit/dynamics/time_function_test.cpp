@@ -11,6 +11,13 @@
 namespace limber::dynamics {
 namespace {
 
+TEST(TimeFunction, SumOfSinusoidsIsRefusedIfATermIsNotFinite) {
+  EXPECT_THROW(check(HarmonicSum{.terms = {{-1.0, 0.0, 1.0}}}),
+               InputError);
+  EXPECT_THROW(check(HarmonicSum{.mean = std::nan("")}), InputError);
+  EXPECT_NO_THROW(check(HarmonicSum{.terms = {{3.0, 1.0, 0.0}}}));
+}
+
 TEST(TimeFunction, PulseJumpsExactlyAtItsEdges) {
   const TimeFunction pulse = Pulse{PulseShape::rectangular, 0.1, 0.3};
   EXPECT_EQ(evaluate(pulse, 0.1, Side::left), 0.0);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/exact_modes.hpp"
+
+#include <algorithm>
+
+#include "dynamics/modal_loads.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+void drop_modes(BodyModel& body) {
+  body.modes = 0;
+  body.lambda.resize(0);
+  body.damping.resize(0);
+  body.J1.resize(6, 0);
+  body.J2.resize(0, 0);
+  body.beta.resize(0, 0);
+  body.P.resize(3, 0);
+}
+
+}  // namespace
+
+ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
+    : model_(model), rest_(model) {
+  rest_.modal_count = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    BodyModel& left = rest_.bodies[b];
+    left.offset = rest_.modal_count;
+    const auto index = static_cast<BodyIndex>(b);
+    if (has_closed_modal_loads(model, index)) {
+      const flexbody::ModalState state{
+          start.t, start.eta.segment(body.offset, body.modes),
+          start.etadot.segment(body.offset, body.modes)};
+      parts_.push_back({body.offset,
+                        {body.lambda, body.damping,
+                         find_modal_loads(model, index, start), state},
+                        {},
+                        {},
+                        {}});
+      count_ += body.modes;
+      drop_modes(left);
+    }
+    rest_.modal_count += left.modes;
+  }
+  for (Attachment& attachment : rest_.attachments) {
+    if (attachment.body == kWorld) continue;
+    const int modes =
+        rest_.bodies[static_cast<std::size_t>(attachment.body)].modes;
+    if (modes > 0) continue;
+    attachment.Phi_B.resize(3, 0);
+    attachment.Psi_B.resize(3, 0);
+  }
+}
+
+bool ExactModes::has_motion_left() const {
+  return std::any_of(
+      rest_.bodies.begin(), rest_.bodies.end(),
+      [](const BodyModel& body) { return !body.clamped || body.modes > 0; });
+}
+
+SystemState ExactModes::take_rest(const SystemState& whole) const {
+  SystemState rest = whole;
+  rest.eta.resize(rest_.modal_count);
+  rest.etadot.resize(rest_.modal_count);
+  for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
+    const BodyModel& left = rest_.bodies[b];
+    const int from = model_.bodies[b].offset;
+    rest.eta.segment(left.offset, left.modes) =
+        whole.eta.segment(from, left.modes);
+    rest.etadot.segment(left.offset, left.modes) =
+        whole.etadot.segment(from, left.modes);
+  }
+  return rest;
+}
+
+void ExactModes::prepare(const std::vector<double>& times) {
+  for (Part& part : parts_) {
+    part.history = part.response.evaluate(times);
+    const flexbody::ModalLosses losses = part.response.evaluate_losses(times);
+    part.work = losses.work.colwise().sum();
+    part.dissipated = losses.dissipated.colwise().sum();
+  }
+}
+
+void ExactModes::join(const SystemState& rest, std::size_t i,
+                      SystemState& whole) const {
+  whole.t = rest.t;
+  whole.bodies = rest.bodies;
+  for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
+    const BodyModel& left = rest_.bodies[b];
+    const int to = model_.bodies[b].offset;
+    whole.eta.segment(to, left.modes) =
+        rest.eta.segment(left.offset, left.modes);
+    whole.etadot.segment(to, left.modes) =
+        rest.etadot.segment(left.offset, left.modes);
+  }
+  const auto column = static_cast<Eigen::Index>(i);
+  for (const Part& part : parts_) {
+    const Eigen::Index modes = part.history.eta.rows();
+    whole.eta.segment(part.offset, modes) = part.history.eta.col(column);
+    whole.etadot.segment(part.offset, modes) = part.history.etadot.col(column);
+  }
+}
+
+ExactModes::Losses ExactModes::losses(std::size_t i) const {
+  Losses sum;
+  for (const Part& part : parts_) {
+    sum.work += part.work[static_cast<Eigen::Index>(i)];
+    sum.dissipated += part.dissipated[static_cast<Eigen::Index>(i)];
+  }
+  return sum;
+}
+
+}  // namespace limber::dynamics

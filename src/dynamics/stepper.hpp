@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <variant>
+
+#include "dynamics/explicit_euler.hpp"
+#include "dynamics/generalized_alpha.hpp"
+#include "dynamics/runge_kutta.hpp"
+#include "dynamics/simulation.hpp"
+
+namespace limber::dynamics {
+
+/// The integrators behind one face.
+class Stepper {
+ public:
+  Stepper(const SystemModel& model, const SimulationSettings& settings)
+      : scheme_(make(model, settings)) {}
+
+  /// Before the first step, which will be about `h` long [s].
+  void start(const SystemState& state, double h) {
+    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
+      alpha->start(state, h);
+    }
+  }
+  /// After a step that ended where a load jumps.
+  void cross_jump(const SystemState& state, double h) {
+    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
+      alpha->cross_jump(state, h);
+    }
+  }
+  /// Advances `state` by h, to the time `end` [s].
+  /// @throws NumericalError naming the body and the time.
+  StepResult step(SystemState& state, double h, double end) {
+    return std::visit([&](auto& s) { return s.step(state, h, end); }, scheme_);
+  }
+
+ private:
+  using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler>;
+  static Scheme make(const SystemModel& model,
+                     const SimulationSettings& settings) {
+    switch (settings.integrator) {
+      case IntegratorKind::runge_kutta_4:
+        return RungeKutta4(model);
+      case IntegratorKind::explicit_euler:
+        return ExplicitEuler(model);
+      case IntegratorKind::generalized_alpha:
+        break;
+    }
+    return GeneralizedAlpha(model, {settings.rho_inf, settings.newton_tolerance,
+                                    settings.newton_iterations});
+  }
+  Scheme scheme_;
+};
+
+}  // namespace limber::dynamics
