@@ -89,6 +89,7 @@ struct Scenario {
   BaseStart base;
   std::vector<ProbeSpec> probes;
   OutputSpec output;
+  std::vector<std::string> warnings;  ///< what was read, but not to the letter
 };
 
 }  // namespace limber::scene

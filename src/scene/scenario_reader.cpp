@@ -3,87 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
 
 #include "scene/time_function_reader.hpp"
+#include "scene/time_settings_reader.hpp"
 #include "scene/toml_table.hpp"
 
 namespace limber::scene {
 namespace {
-
-/// Most output times that a scenario may ask for: they stay in memory.
-constexpr double kMostOutputs = 1e7;
-
-std::vector<double> even_times(double end, double interval) {
-  std::vector<double> times;
-  // A last interval shorter than a millionth of the others is round-off.
-  const auto count = static_cast<long>(std::floor(end / interval + 1e-6));
-  for (long i = 0; i <= count; ++i) {
-    times.push_back(std::min(static_cast<double>(i) * interval, end));
-  }
-  if (end - times.back() > 1e-6 * interval) times.push_back(end);
-  times.back() = end;
-  return times;
-}
-
-std::vector<double> read_output_times(TomlTable& table, double end,
-                                      double step) {
-  const auto times = table.numbers("output_times", {0.0, end, false, false});
-  const auto interval = table.number("output_interval", kPositive);
-  if (times && interval) {
-    table.fail("has both 'output_times' and 'output_interval'; keep one");
-  }
-  if (!times) {
-    const double every = interval.value_or(step);
-    if (end / every > kMostOutputs) {
-      table.fail(
-          fmt::format("asks for {:.3g} output times, more than {:g}; "
-                      "use a longer output_interval",
-                      end / every, kMostOutputs));
-      return {0.0, end};
-    }
-    return even_times(end, every);
-  }
-  for (std::size_t i = 1; i < times->size(); ++i) {
-    if ((*times)[i] <= (*times)[i - 1]) {
-      table.fail("output_times", "must increase");
-      break;
-    }
-  }
-  if (times->empty()) table.fail("output_times", "is empty");
-  return *times;
-}
-
-dynamics::IntegratorKind read_integrator(TomlTable& table) {
-  const auto name = table.text("integrator");
-  if (!name) return dynamics::IntegratorKind::generalized_alpha;
-  try {
-    return dynamics::parse_integrator(*name);
-  } catch (const InputError& error) {
-    table.fail("integrator", error.problems().front());
-  }
-  return dynamics::IntegratorKind::generalized_alpha;
-}
-
-dynamics::SimulationSettings read_time(TomlTable& table) {
-  dynamics::SimulationSettings settings;
-  settings.end_time = table.required_number("duration", kPositive);
-  settings.step = table.required_number("step", kPositive);
-  settings.integrator = read_integrator(table);
-  settings.rho_inf = table.number("rho_inf", {0.0, 1.0, false, false})
-                         .value_or(settings.rho_inf);
-  settings.newton_tolerance =
-      table.number("newton_tolerance", {0.0, 1.0, true, true})
-          .value_or(settings.newton_tolerance);
-  settings.newton_iterations = table.integer("newton_iterations", 1, 10000)
-                                   .value_or(settings.newton_iterations);
-  settings.output_times =
-      read_output_times(table, settings.end_time, settings.step);
-  return settings;
-}
 
 dynamics::Fidelity read_level(TomlTable& table, const std::string& key,
                               dynamics::Fidelity otherwise) {
@@ -176,7 +105,8 @@ LoadSpec read_nodal_load(TomlTable& table,
   return load;
 }
 
-LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder) {
+LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder,
+                   std::vector<std::string>& warnings) {
   if (table.has("nodal_forces")) return read_nodal_load(table, folder);
   LoadSpec load;
   load.name = table.required_text("name");
@@ -194,7 +124,7 @@ LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder) {
   if (const toml::table* time = table.table("time")) {
     TomlTable function(*time, "load '" + load.name + "' time",
                        table.problems());
-    load.time = read_time_function(function);
+    load.time = read_time_function(function, folder, warnings);
   }
   return load;
 }
@@ -286,8 +216,9 @@ void read_root(TomlTable& root, Scenario& scenario) {
   scenario.robot = (scenario.file.parent_path() / root.required_text("robot"))
                        .lexically_normal();
   if (!root.has("time")) root.fail("needs [time] with 'duration' and 'step'");
-  read_section(root, "time",
-               [&](TomlTable& t) { scenario.settings = read_time(t); });
+  read_section(root, "time", [&](TomlTable& t) {
+    scenario.settings = read_time_settings(t);
+  });
   read_section(root, "fidelity",
                [&](TomlTable& t) { read_fidelity(t, scenario); });
   read_section(root, "gravity", [&](TomlTable& t) {
@@ -299,7 +230,7 @@ void read_root(TomlTable& root, Scenario& scenario) {
   read_section(root, "output",
                [&](TomlTable& t) { scenario.output = read_output(t); });
   scenario.loads = read_items<LoadSpec>(root, "load", [&](TomlTable& t) {
-    return read_load(t, scenario.file.parent_path());
+    return read_load(t, scenario.file.parent_path(), scenario.warnings);
   });
   scenario.probes = read_items<ProbeSpec>(root, "probe", read_probe);
   root.finish();

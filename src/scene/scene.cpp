@@ -46,9 +46,11 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
     set_start(probe, built.model, built.initial);
   }
   built.settings = scene.scenario.settings;
-  built.warnings = scene.robot.warnings;
-  built.warnings.insert(built.warnings.end(), assembly.warnings().begin(),
-                        assembly.warnings().end());
+  for (const auto* warnings : {&scene.robot.warnings, &scene.scenario.warnings,
+                               &assembly.warnings()}) {
+    built.warnings.insert(built.warnings.end(), warnings->begin(),
+                          warnings->end());
+  }
   built.bodies_reduced = reductions.reduced;
   built.bodies_cached = reductions.cached;
   built.seconds_offline =

@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/time_function_reader.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <functional>
+#include <numbers>
+
+#include "common/errors.hpp"
+#include "flexbody/fourier.hpp"
+#include "scene/series_file.hpp"
 
 namespace limber::scene {
 namespace {
 
-using Reader = std::function<dynamics::TimeFunction(TomlTable&)>;
+// What the kinds have in common.
+struct Source {
+  TomlTable& table;
+  const std::filesystem::path& folder;
+  std::vector<std::string>& warnings;
+};
+using Reader = std::function<dynamics::TimeFunction(Source&)>;
 
-dynamics::TimeFunction read_constant(TomlTable& table) {
+dynamics::TimeFunction read_constant(Source& source) {
+  TomlTable& table = source.table;
   dynamics::Constant function;
   function.from = table.number("from").value_or(function.from);
   function.until = table.number("until").value_or(function.until);
@@ -20,17 +35,39 @@ std::vector<double> required_numbers(TomlTable& table, const std::string& key) {
   return table.numbers(key).value_or(std::vector<double>{});
 }
 
-dynamics::TimeFunction read_steps(TomlTable& table) {
-  return dynamics::StepSequence{required_numbers(table, "times"),
-                                required_numbers(table, "values")};
+// The points of a history: `times` and `values`, or a `file` of both.
+Series read_points(Source& source) {
+  TomlTable& table = source.table;
+  const auto file = table.text("file");
+  if (!file) {
+    return {required_numbers(table, "times"),
+            required_numbers(table, "values")};
+  }
+  if (table.has("times") || table.has("values")) {
+    table.fail("has both 'file' and 'times' or 'values'; keep one");
+  }
+  (void)table.numbers("times");
+  (void)table.numbers("values");
+  try {
+    return read_series((source.folder / *file).lexically_normal());
+  } catch (const InputError& error) {
+    table.fail("file", error.problems().front());
+  }
+  return {};
 }
 
-dynamics::TimeFunction read_table(TomlTable& table) {
-  return dynamics::Table{required_numbers(table, "times"),
-                         required_numbers(table, "values")};
+dynamics::TimeFunction read_steps(Source& source) {
+  const Series points = read_points(source);
+  return dynamics::StepSequence{points.times, points.values};
 }
 
-dynamics::TimeFunction read_pulse(TomlTable& table) {
+dynamics::TimeFunction read_table(Source& source) {
+  const Series points = read_points(source);
+  return dynamics::Table{points.times, points.values};
+}
+
+dynamics::TimeFunction read_pulse(Source& source) {
+  TomlTable& table = source.table;
   using dynamics::PulseShape;
   dynamics::Pulse pulse;
   pulse.shape =
@@ -44,7 +81,8 @@ dynamics::TimeFunction read_pulse(TomlTable& table) {
   return pulse;
 }
 
-dynamics::TimeFunction read_sinusoid(TomlTable& table) {
+dynamics::TimeFunction read_sinusoid(Source& source) {
+  TomlTable& table = source.table;
   dynamics::Sinusoid function;
   function.frequency = table.required_number("frequency", kPositive);
   function.phase = table.number("phase").value_or(0.0);
@@ -53,19 +91,102 @@ dynamics::TimeFunction read_sinusoid(TomlTable& table) {
   return function;
 }
 
+dynamics::TimeFunction read_sinusoids(Source& source) {
+  TomlTable& table = source.table;
+  dynamics::HarmonicSum sum;
+  sum.mean = table.number("mean").value_or(0.0);
+  sum.from = table.number("from").value_or(sum.from);
+  sum.until = table.number("until").value_or(sum.until);
+  const std::vector<double> frequencies =
+      required_numbers(table, "frequencies");
+  const std::vector<double> amplitudes = required_numbers(table, "amplitudes");
+  const std::vector<double> phases =
+      table.numbers("phases").value_or(std::vector(frequencies.size(), 0.0));
+  if (amplitudes.size() != frequencies.size() ||
+      phases.size() != frequencies.size()) {
+    table.fail(fmt::format(
+        "{} frequencies, {} amplitudes, {} phases; expected as many of each",
+        frequencies.size(), amplitudes.size(), phases.size()));
+    return sum;
+  }
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    sum.terms.push_back({.omega = 2.0 * std::numbers::pi * frequencies[i],
+                         .cosine = amplitudes[i] * std::sin(phases[i]),
+                         .sine = amplitudes[i] * std::cos(phases[i])});
+  }
+  return sum;
+}
+
+// A misfit worth a word, of the table's largest value.
+constexpr double kTellMisfit = 0.01;
+
+dynamics::HarmonicSum to_sum(const flexbody::FourierSeries& series) {
+  dynamics::HarmonicSum sum;
+  sum.mean = series.cosine(0, 0);
+  sum.from = series.start;
+  const double omega = 2.0 * std::numbers::pi / series.period;
+  for (Eigen::Index k = 1; k < series.cosine.cols(); ++k) {
+    sum.terms.push_back({.omega = static_cast<double>(k) * omega,
+                         .cosine = series.cosine(0, k),
+                         .sine = series.sine(0, k)});
+  }
+  return sum;
+}
+
+// Outside of its table a measured load is zero, unless `until` goes on.
+dynamics::TimeFunction read_fourier(Source& source) {
+  TomlTable& table = source.table;
+  const Series points = read_points(source);
+  const auto harmonics = table.integer("harmonics", 0, 100000);
+  const auto until = table.number("until");
+  if (!harmonics) {
+    if (!table.has("harmonics")) table.fail("needs 'harmonics'");
+    return dynamics::Constant{};
+  }
+  if (points.times.size() != points.values.size()) {
+    table.fail(fmt::format("{} times but {} values", points.times.size(),
+                           points.values.size()));
+    return dynamics::Constant{};
+  }
+  try {
+    const Eigen::Map<const Eigen::RowVectorXd> values(
+        points.values.data(), std::ssize(points.values));
+    const flexbody::FourierSeries series =
+        flexbody::fit_fourier_series({points.times, values}, *harmonics);
+    const double largest = values.cwiseAbs().maxCoeff();
+    if (series.residual[0] > kTellMisfit * largest) {
+      source.warnings.push_back(fmt::format(
+          "{}: {} harmonics miss {:.3g} (root mean square) of the table, "
+          "whose largest value is {:.3g}",
+          table.path(), *harmonics, series.residual[0], largest));
+    }
+    dynamics::HarmonicSum sum = to_sum(series);
+    sum.until = until.value_or(series.start + series.period);
+    return sum;
+  } catch (const InputError& error) {
+    for (const std::string& problem : error.problems()) table.fail(problem);
+  }
+  return dynamics::Constant{};
+}
+
 }  // namespace
 
-dynamics::TimeFunction read_time_function(TomlTable& table) {
+dynamics::TimeFunction read_time_function(TomlTable& table,
+                                          const std::filesystem::path& folder,
+                                          std::vector<std::string>& warnings) {
   if (!table.has("kind")) table.fail("needs 'kind'");
   const Reader reader = read_choice<Reader>(table, "kind",
                                             {{"constant", read_constant},
                                              {"steps", read_steps},
                                              {"pulse", read_pulse},
                                              {"sinusoid", read_sinusoid},
+                                             {"sinusoids", read_sinusoids},
+                                             {"fourier", read_fourier},
                                              {"table", read_table}},
                                             nullptr);
   if (!reader) return dynamics::Constant{};
-  dynamics::TimeFunction function = reader(table);
+  Source source{table, folder, warnings};
+  dynamics::TimeFunction function = reader(source);
   table.finish();
   if (!table.problems().empty()) return function;
   try {

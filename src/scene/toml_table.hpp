@@ -27,6 +27,7 @@ class TomlTable {
   void fail(const std::string& key, const std::string& text) const;
   [[nodiscard]] Problems& problems() const { return problems_; }
   [[nodiscard]] int line() const;
+  [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& key) const;
 
   /// Readers of one key; each makes the key known.

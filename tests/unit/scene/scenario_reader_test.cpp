@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {
@@ -83,6 +86,88 @@ TEST(ScenarioReader, RefusesOutputTimesOutsideTheRun) {
   EXPECT_THAT(error_of(kStart + "output_times=[0.0, 2.0]\n"),
               HasSubstr("output_times"));
   EXPECT_THAT(error_of(kStart + "output_times=[0.5, 0.1]\n"),
+              HasSubstr("must increase"));
+}
+
+std::string with_load_time(const std::string& time) {
+  return kStart + "[[load]]\nname='l'\nlink='a'\nforce=[1,0,0]\ntime={" + time +
+         "}\n";
+}
+
+dynamics::TimeFunction read_function(const std::string& time) {
+  return read(with_load_time(time)).loads.at(0).time;
+}
+
+TEST(ScenarioReader, StepsMayChangeAndOutputsFollowThem) {
+  const Scenario scenario = read(
+      "robot='r.urdf'\n[time]\nduration=1.0\n"
+      "steps={from=[0.0,0.02],size=[0.01,0.49]}\n");
+  EXPECT_EQ(scenario.settings.step, 0.01);
+  ASSERT_EQ(scenario.settings.step_changes.size(), 1U);
+  EXPECT_EQ(scenario.settings.step_changes[0].from, 0.02);
+  EXPECT_THAT(
+      scenario.settings.output_times,
+      testing::Pointwise(testing::DoubleEq(), {0.0, 0.01, 0.02, 0.51, 1.0}));
+}
+
+TEST(ScenarioReader, RefusesStepsThatDoNotBeginAtTheStart) {
+  const std::string time = "robot='r.urdf'\n[time]\nduration=1.0\n";
+  EXPECT_THAT(error_of(time + "steps={from=[0.1],size=[0.01]}"),
+              HasSubstr("begin with 0"));
+  EXPECT_THAT(error_of(time + "steps={from=[0,0.5,0.5],size=[1,1,1]}"),
+              HasSubstr("must increase"));
+  EXPECT_THAT(error_of(time + "step=0.1\nsteps={from=[0],size=[0.1]}"),
+              HasSubstr("keep one"));
+}
+
+TEST(ScenarioReader, ReadsASumOfSinusoids) {
+  const auto function = read_function(
+      "kind='sinusoids',mean=2,frequencies=[1.0,3.0],amplitudes=[0.5,0.25],"
+      "phases=[0.0,0.3],until=9.0");
+  const double pi = std::numbers::pi;
+  const double t = 0.37;
+  EXPECT_NEAR(
+      dynamics::evaluate(function, t, dynamics::Side::right),
+      2.0 + 0.5 * std::sin(2.0 * pi * t) + 0.25 * std::sin(6.0 * pi * t + 0.3),
+      1e-14);
+  EXPECT_EQ(dynamics::evaluate(function, 9.5, dynamics::Side::right), 0.0);
+  EXPECT_THAT(error_of(with_load_time(
+                  "kind='sinusoids',frequencies=[1.0],amplitudes=[1,2]")),
+              HasSubstr("as many of each"));
+}
+
+TEST(ScenarioReader, FitsAFourierSeriesToAMeasuredLoad) {
+  // Four samples of 1 + sin(2 pi t) and one that closes the period.
+  const TemporaryFile file("load.csv",
+                           "time,force\n0,1\n0.25, 2\n0.5;1\n0.75 0\n1 1\n");
+  const auto function = read_function(
+      "kind='fourier',harmonics=1,until=5.0,"
+      "file='" +
+      file.path().string() + "'");
+  for (const double t : {0.1, 0.6, 2.3}) {
+    EXPECT_NEAR(dynamics::evaluate(function, t, dynamics::Side::right),
+                1.0 + std::sin(2.0 * std::numbers::pi * t), 1e-14);
+  }
+}
+
+TEST(ScenarioReader, TellsHowFarAFourierSeriesIsFromItsTable) {
+  const Scenario scenario = read(
+      with_load_time("kind='fourier',harmonics=1,times=[0,1,2,3,4,5,6,7,8],"
+                     "values=[0,1,0,-1,0,1,0,-1,0]"));
+  EXPECT_THAT(scenario.warnings,
+              testing::ElementsAre(HasSubstr("1 harmonics miss")));
+}
+
+TEST(ScenarioReader, RefusesATableOfALoadWithASlip) {
+  const TemporaryFile words("load.txt", "0 1\n1 two\n");
+  EXPECT_THAT(error_of(with_load_time("kind='table',file='" +
+                                      words.path().string() + "'")),
+              HasSubstr("load.txt:2"));
+  EXPECT_THAT(error_of(with_load_time("kind='table',file='no.txt'")),
+              HasSubstr("cannot read"));
+  const TemporaryFile back("load.txt", "0 1\n1 2\n0.5 2\n");
+  EXPECT_THAT(error_of(with_load_time("kind='fourier',harmonics=1,file='" +
+                                      back.path().string() + "'")),
               HasSubstr("must increase"));
 }
 

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/simulation.hpp"
+#include "scene/toml_table.hpp"
+
+namespace limber::scene {
+
+/// Reads a scenario's [time] table.
+[[nodiscard]] dynamics::SimulationSettings read_time_settings(TomlTable& table);
+
+}  // namespace limber::scene
