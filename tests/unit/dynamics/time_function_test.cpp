@@ -12,8 +12,7 @@ namespace limber::dynamics {
 namespace {
 
 TEST(TimeFunction, SumOfSinusoidsIsRefusedIfATermIsNotFinite) {
-  EXPECT_THROW(check(HarmonicSum{.terms = {{-1.0, 0.0, 1.0}}}),
-               InputError);
+  EXPECT_THROW(check(HarmonicSum{.terms = {{-1.0, 0.0, 1.0}}}), InputError);
   EXPECT_THROW(check(HarmonicSum{.mean = std::nan("")}), InputError);
   EXPECT_NO_THROW(check(HarmonicSum{.terms = {{3.0, 1.0, 0.0}}}));
 }
