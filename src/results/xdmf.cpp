@@ -8,11 +8,11 @@
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "dynamics/node_motion.hpp"
 
 namespace limber::results {
 namespace {
 
-using dynamics::BodyModel;
 using dynamics::SystemModel;
 using dynamics::SystemState;
 
@@ -49,20 +49,16 @@ Fields move_surface(const SystemModel& model, const Surface& surface,
                     const SystemState& state) {
   Fields fields;
   for (const std::size_t b : surface.bodies) {
-    const BodyModel& body = model.bodies[b];
-    const auto& rows = body.reduced->rows;
-    const auto n = static_cast<Eigen::Index>(rows.tags.size());
-    VectorX u = VectorX::Zero(3 * n);
-    if (body.modes > 0) {
-      u = rows.Phi_B * state.eta.segment(body.offset, body.modes);
-    }
-    const Matrix3 R = state.bodies[b].quat_WB.toRotationMatrix();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Vector3 p =
-          state.bodies[b].p_WB + R * (rows.x_B.col(i) + u.segment<3>(3 * i));
-      fields.points.insert(fields.points.end(), p.begin(), p.end());
-      fields.deformation.push_back(u.segment<3>(3 * i).norm());
-    }
+    const auto body = static_cast<dynamics::BodyIndex>(b);
+    const Eigen::Index n = model.bodies[b].reduced->rows.x_B.cols();
+    MatrixX nodes(3 * n, 1);
+    calc_node_deformations(model, body, {&state, 1}, nodes);
+    const VectorX sizes = nodes.reshaped(3, n).colwise().norm().transpose();
+    fields.deformation.insert(fields.deformation.end(), sizes.begin(),
+                              sizes.end());
+    calc_node_positions(model, body, {&state, 1}, nodes);
+    fields.points.insert(fields.points.end(), nodes.data(),
+                         nodes.data() + nodes.size());
   }
   return fields;
 }

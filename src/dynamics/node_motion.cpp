@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/node_motion.hpp"
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// States to a block: few enough that what the product leaves is still in the
+// cache when it is turned into the world.
+constexpr Eigen::Index kBlock = 16;
+
+const BodyModel& find_body(const SystemModel& model, BodyIndex body,
+                           std::span<const SystemState> states,
+                           const Eigen::Ref<MatrixX>& out) {
+  LIMBER_EXPECT(body >= 0 && body < std::ssize(model.bodies));
+  const BodyModel& found = model.bodies[static_cast<std::size_t>(body)];
+  LIMBER_EXPECT(found.reduced != nullptr);
+  LIMBER_EXPECT(out.rows() == 3 * found.reduced->rows.x_B.cols());
+  LIMBER_EXPECT(out.cols() == std::ssize(states));
+  return found;
+}
+
+// basis times [eta; rest] block by block, and `finish(j)` on every column while
+// it is near.
+template <typename Finish>
+void multiply(const BodyModel& body, const MatrixX& basis,
+              std::span<const SystemState> states, Eigen::Ref<MatrixX> out,
+              const Finish& finish) {
+  MatrixX coordinates = MatrixX::Ones(basis.cols(), kBlock);
+  for (Eigen::Index first = 0; first < out.cols(); first += kBlock) {
+    const Eigen::Index count = std::min(kBlock, out.cols() - first);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const SystemState& state = states[static_cast<std::size_t>(first + j)];
+      coordinates.col(j).head(body.modes) =
+          state.eta.segment(body.offset, body.modes);
+    }
+    out.middleCols(first, count).noalias() =
+        basis * coordinates.leftCols(count);
+    for (Eigen::Index j = first; j < first + count; ++j) finish(j);
+  }
+}
+
+// Modes and, as one more column with the coordinate 1, the undeformed shape.
+MatrixX join_shape(const BodyModel& body) {
+  const auto& rows = body.reduced->rows;
+  MatrixX basis(rows.x_B.size(), body.modes + 1);
+  basis << rows.Phi_B.leftCols(body.modes), rows.x_B.reshaped();
+  return basis;
+}
+
+// column <- R column + p, 3 numbers at a time.
+void move_column(const Matrix3& R, const Vector3& p, double* column,
+                 Eigen::Index nodes) {
+  for (double* node = column; node != column + 3 * nodes; node += 3) {
+    const double x = node[0];
+    const double y = node[1];
+    const double z = node[2];
+    node[0] = R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + p[0];
+    node[1] = R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + p[1];
+    node[2] = R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + p[2];
+  }
+}
+
+}  // namespace
+
+void calc_node_deformations(const SystemModel& model, BodyIndex body,
+                            std::span<const SystemState> states,
+                            Eigen::Ref<MatrixX> u_B) {
+  const BodyModel& b = find_body(model, body, states, u_B);
+  if (b.modes == 0) {
+    u_B.setZero();
+    return;
+  }
+  multiply(b, b.reduced->rows.Phi_B, states, u_B, [](Eigen::Index) {});
+}
+
+void calc_node_positions(const SystemModel& model, BodyIndex body,
+                         std::span<const SystemState> states,
+                         Eigen::Ref<MatrixX> p_WP) {
+  const BodyModel& b = find_body(model, body, states, p_WP);
+  const auto at = static_cast<std::size_t>(body);
+  multiply(b, join_shape(b), states, p_WP, [&](Eigen::Index j) {
+    const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
+    move_column(now.quat_WB.toRotationMatrix(), now.p_WB, p_WP.col(j).data(),
+                p_WP.rows() / 3);
+  });
+}
+
+void calc_node_displacements(const SystemModel& model, BodyIndex body,
+                             std::span<const SystemState> states,
+                             const Pose& X_WB0, Eigen::Ref<MatrixX> u_W) {
+  const BodyModel& b = find_body(model, body, states, u_W);
+  const auto at = static_cast<std::size_t>(body);
+  const Matrix3X start = (X_WB0.R * b.reduced->rows.x_B).colwise() + X_WB0.p;
+  multiply(b, join_shape(b), states, u_W, [&](Eigen::Index j) {
+    const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
+    move_column(now.quat_WB.toRotationMatrix(), now.p_WB, u_W.col(j).data(),
+                u_W.rows() / 3);
+    u_W.col(j) -= start.reshaped();
+  });
+}
+
+}  // namespace limber::dynamics
