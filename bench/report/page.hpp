@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plot.hpp"
+
+namespace limber::bench {
+
+/// The page that grows section by section: README.md, its pictures beside it,
+/// and what they show as CSV in data/.
+class Page {
+ public:
+  /// Makes the folder. @throws InputError if it cannot be made.
+  explicit Page(std::filesystem::path folder);
+
+  void heading(const std::string& text);
+  /// A paragraph of Markdown.
+  void text(const std::string& paragraph);
+  /// The first column is aligned left, the others right.
+  void table(const std::vector<std::string>& header,
+             const std::vector<std::vector<std::string>>& rows);
+  /// Draws `plot` as name.png and writes data/name.csv.
+  void figure(const Plot& plot, const std::string& name,
+              const std::string& caption);
+  /// Tells whether a claim holds in this run; a failure is counted.
+  void check(bool holds, const std::string& claim);
+
+  [[nodiscard]] int checks() const { return checks_; }
+  [[nodiscard]] int failures() const { return failures_; }
+  /// Why there were no pictures; empty if there were.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+
+  /// @throws InputError if it cannot be written.
+  void write() const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string body_;
+  std::string trouble_;
+  int checks_ = 0;
+  int failures_ = 0;
+};
+
+}  // namespace limber::bench
