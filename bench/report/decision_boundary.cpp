@@ -59,7 +59,7 @@ MatrixX find_deformation(const Body& body, const Run& run) {
 
 /// Largest over time of the root mean square over nodes [m].
 double find_largest(const MatrixX& u) {
-  const auto nodes = static_cast<double>(u.rows() / 3);
+  const Eigen::Index nodes = u.rows() / 3;
   return u.colwise().norm().maxCoeff() / std::sqrt(nodes);
 }
 
@@ -170,10 +170,8 @@ void write_decision_boundary(Page& page, Shared& shared) {
       "direction stays below the limit "
       "([choosing](../../../docs/theory/choosing.md)).");
   page.table(
-      {"limit", "report", "Limber, report's formula",
-       "bound on Omega^2, "
-       "sudden",
-       "bound on Omega^2, slow"},
+      {"limit", "report", "Limber, report's formula", "Omega^2 bound, sudden",
+       "Omega^2 bound, slow"},
       {{"1 um", "1.19", fmt::format("{:.4f}", near),
         fmt::format("{:.3f}", square(sudden.find_omega(0.0, kNegligible))),
         fmt::format("{:.3f}", square(slow.find_omega(0.0, kNegligible)))},

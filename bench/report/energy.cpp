@@ -40,7 +40,15 @@ double find_variation(const VectorX& corrected, double scale,
   return worst / scale;
 }
 
-void write_single_mode(Page& page) {
+/// One mode through the four steps.
+struct SingleMode {
+  std::vector<double> times;            // [s]
+  VectorX kinetic, elastic, corrected;  // [J]
+
+  [[nodiscard]] VectorX total() const { return kinetic + elastic; }
+};
+
+SingleMode simulate_single_mode() {
   constexpr double kOmega = 198.0;  // [rad/s]
   flexbody::ModalLoads loads;
   loads.steps.times = kStepTimes;
@@ -49,37 +57,48 @@ void write_single_mode(Page& page) {
   const flexbody::ModalState initial{0.0, VectorX::Zero(1), VectorX::Ones(1)};
   const flexbody::ModalResponse response(VectorX::Constant(1, kOmega * kOmega),
                                          VectorX::Zero(1), loads, initial);
-  const std::vector<double> times = spread_times(0.14, 1400);
-  const flexbody::ModalEnergies energies = response.evaluate_energies(times);
-  const VectorX kinetic = energies.kinetic.row(0).transpose();
-  const VectorX elastic = energies.elastic.row(0).transpose();
-  const VectorX corrected = energies.corrected().row(0).transpose();
-  const VectorX total = kinetic + elastic;
-  std::vector<double> load;
-  for (const double t : times) load.push_back(find_load(t));
+  SingleMode mode{spread_times(0.14, 1400), {}, {}, {}};
+  const flexbody::ModalEnergies energies =
+      response.evaluate_energies(mode.times);
+  mode.kinetic = energies.kinetic.row(0).transpose();
+  mode.elastic = energies.elastic.row(0).transpose();
+  mode.corrected = energies.corrected().row(0).transpose();
+  return mode;
+}
 
+Plot draw_single_mode(const SingleMode& mode) {
+  const std::vector<double>& t = mode.times;
+  std::vector<double> load;
+  for (const double time : t) load.push_back(find_load(time));
   Plot plot;
   plot.columns = 3;
   plot.panel_width = 420;
-  plot.panels = {{.title = "energies",
-                  .x_label = "time [s]",
-                  .y_label = "energy [J]",
-                  .curves = {{"kinetic", times, to_list(kinetic)},
-                             {"elastic", times, to_list(elastic)},
-                             {"total", times, to_list(total)}},
-                  .commands = {}},
-                 {.title = "modal load",
-                  .x_label = "time [s]",
-                  .y_label = "load [kg^{1/2} m/s^2]",
-                  .curves = {{"", times, load}},
-                  .commands = {}},
-                 {.title = "energy - load x displacement",
-                  .x_label = "time [s]",
-                  .y_label = "energy [J]",
-                  .curves = {{"corrected", times, to_list(corrected)},
-                             {"total", times, to_list(total), Mark::thin_line}},
-                  .commands = {}}};
-  const double variation = find_variation(corrected, total.maxCoeff(), times);
+  plot.panels = {
+      {.title = "energies",
+       .x_label = "time [s]",
+       .y_label = "energy [J]",
+       .curves = {{"kinetic", t, to_list(mode.kinetic)},
+                  {"elastic", t, to_list(mode.elastic)},
+                  {"total", t, to_list(mode.total())}},
+       .commands = {}},
+      {.title = "modal load",
+       .x_label = "time [s]",
+       .y_label = "load [kg^{1/2} m/s^2]",
+       .curves = {{"", t, load}},
+       .commands = {}},
+      {.title = "energy - load x displacement",
+       .x_label = "time [s]",
+       .y_label = "energy [J]",
+       .curves = {{"corrected", t, to_list(mode.corrected)},
+                  {"total", t, to_list(mode.total()), Mark::thin_line}},
+       .commands = {}}};
+  return plot;
+}
+
+void write_single_mode(Page& page) {
+  const SingleMode mode = simulate_single_mode();
+  const double variation =
+      find_variation(mode.corrected, mode.total().maxCoeff(), mode.times);
   page.heading("Figure 10: energy of one mode under steps");
   page.text(fmt::format(
       "omega = 198 rad/s, initial modal velocity 1, steps to 150, -100, 200 "
@@ -87,108 +106,89 @@ void write_single_mode(Page& page) {
       "picture). Within an interval of constant load the energy corrected for "
       "the load varies by at most {:.1e} of the largest energy.",
       variation));
-  page.figure(plot, "figure10", "Figure 10: energies, load, corrected energy");
+  page.figure(draw_single_mode(mode), "figure10",
+              "Figure 10: energies, load, corrected energy");
   page.check(variation < 1e-13,
              "the corrected energy is constant to 1e-13, also before and after "
              "the load, where it is the energy itself.");
 }
 
-struct Level {
-  std::string name;
+/// The free beam turning at 1 rad/s about x.
+struct Rotation {
+  std::string level;
   Fidelity fidelity;
   IntegratorKind integrator;
+  std::vector<double> times = {};      // [s]
+  std::vector<double> elastic = {};    // [J]
+  std::vector<double> kinetic = {};    // less the energy at the start [J]
+  std::vector<double> variation = {};  // of the total, relative [-]
+  double start = 0.0;                  // total [J]
+
+  [[nodiscard]] std::string scheme() const {
+    return dynamics::integrator_names()[static_cast<std::size_t>(integrator)];
+  }
+  [[nodiscard]] double worst() const {
+    return *std::max_element(variation.begin(), variation.end());
+  }
 };
 
-Run spin(const Body& body, const Level& level) {
-  const auto model = make_free_beam(body, level.fidelity, {});
+void simulate_rotation(const Body& body, Rotation& rotation) {
+  const auto model = make_free_beam(body, rotation.fidelity, {});
   dynamics::SystemState state = make_state(model);
   state.bodies[0].w_WB_B = Vector3::UnitX();
-  return run(model, state,
-             {.integrator = level.integrator,
-              .end_time = 0.02,
-              .step = 1e-5,
-              .output_times = spread_times(0.02, 1000)});
+  const Run result = run(model, state,
+                         {.integrator = rotation.integrator,
+                          .end_time = 0.02,
+                          .step = 1e-5,
+                          .output_times = spread_times(0.02, 1000)});
+  rotation.times = result.times;
+  rotation.start = result.energies[0].total();
+  for (const dynamics::EnergyBalance& e : result.energies) {
+    rotation.elastic.push_back(e.elastic);
+    rotation.kinetic.push_back(e.kinetic_rigid + e.kinetic_modal -
+                               rotation.start);
+    rotation.variation.push_back(std::abs(e.total() - rotation.start) /
+                                 rotation.start);
+  }
 }
 
-std::vector<double> take(const Run& run,
-                         double (*energy)(const dynamics::EnergyBalance&)) {
-  std::vector<double> values;
-  for (const auto& balance : run.energies) values.push_back(energy(balance));
-  return values;
-}
-
-void write_free_rotation(Page& page, const Body& body) {
-  const std::vector<Level> levels = {
-      {"uncoupled", Fidelity::uncoupled, IntegratorKind::generalized_alpha},
-      {"one-way", Fidelity::one_way, IntegratorKind::generalized_alpha},
-      {"coupled", Fidelity::coupled, IntegratorKind::generalized_alpha},
-      {"coupled", Fidelity::coupled, IntegratorKind::runge_kutta_4},
-      {"coupled", Fidelity::coupled, IntegratorKind::explicit_euler}};
-  Plot plot;
-  plot.columns = 3;
-  plot.panel_width = 420;
-  plot.panels = {{.title = "elastic energy",
-                  .x_label = "time [s]",
-                  .y_label = "energy [J]",
-                  .curves = {},
-                  .commands = {"set format y '%.1e'"}},
-                 {.title = "kinetic energy less its start",
-                  .x_label = "time [s]",
-                  .y_label = "energy [J]",
-                  .curves = {},
-                  .commands = {"set format y '%.1e'"}},
-                 {.title = "coupled: total energy, relative variation",
-                  .x_label = "time [s]",
-                  .y_label = "|E - E_0| / E_0",
-                  .is_log_y = true,
-                  .curves = {},
-                  .commands = {"set yrange [1e-17:*]"}}};
-  std::vector<std::vector<std::string>> rows;
-  double ours = 0.0;
-  double euler = 0.0;
-  for (const Level& level : levels) {
-    const Run result = spin(body, level);
-    const auto total = take(
-        result, [](const dynamics::EnergyBalance& e) { return e.total(); });
-    auto kinetic = take(result, [](const dynamics::EnergyBalance& e) {
-      return e.kinetic_rigid + e.kinetic_modal;
-    });
-    const auto elastic = take(
-        result, [](const dynamics::EnergyBalance& e) { return e.elastic; });
-    const std::string integrator =
-        dynamics::integrator_names()[static_cast<std::size_t>(
-            level.integrator)];
-    std::vector<double> variation;
-    for (const double e : total) {
-      variation.push_back(std::abs(e - total[0]) / total[0]);
+Plot draw_rotations(const std::vector<Rotation>& rotations) {
+  Panel elastic{.title = "elastic energy",
+                .x_label = "time [s]",
+                .y_label = "energy [J]",
+                .curves = {},
+                .commands = {"set format y '%.1e'"}};
+  Panel kinetic = elastic;
+  kinetic.title = "kinetic energy less its start";
+  Panel total{.title = "coupled: total energy, relative variation",
+              .x_label = "time [s]",
+              .y_label = "|E - E_0| / E_0",
+              .is_log_y = true,
+              .curves = {},
+              .commands = {"set yrange [1e-17:*]"}};
+  for (const Rotation& r : rotations) {
+    if (r.integrator == IntegratorKind::generalized_alpha) {
+      elastic.curves.push_back({r.level, r.times, r.elastic});
+      kinetic.curves.push_back({r.level, r.times, r.kinetic});
     }
-    const double worst = *std::max_element(variation.begin(), variation.end());
-    const double largest = *std::max_element(elastic.begin(), elastic.end());
-    rows.push_back({level.name, integrator, fmt::format("{:.4f}", total[0]),
-                    fmt::format("{:.2e}", largest),
-                    fmt::format("{:.1e}", worst)});
-    if (level.fidelity == Fidelity::coupled) {
-      (integrator == "explicit-euler" ? euler : ours) =
-          std::max(integrator == "explicit-euler" ? euler : ours, worst);
-      // Zero has no logarithm: below half an ulp there is nothing to see.
-      for (double& v : variation) v = std::max(v, 1e-17);
-      plot.panels[2].curves.push_back({integrator, result.times, variation});
-    }
-    if (level.integrator == IntegratorKind::generalized_alpha) {
-      for (double& e : kinetic) e -= total[0];  // undeformed at the start
-      plot.panels[0].curves.push_back({level.name, result.times, elastic});
-      plot.panels[1].curves.push_back({level.name, result.times, kinetic});
+    if (r.fidelity == Fidelity::coupled) {
+      total.curves.push_back({r.scheme(), r.times, r.variation});
+      // Zero has no logarithm; there is nothing to see below half an ulp.
+      for (double& v : total.curves.back().y) v = std::max(v, 1e-17);
     }
   }
-  page.heading("Figure 11: energy of free rotation");
-  page.text(
-      "The free beam, undeformed at first, turning at 1 rad/s about x; steps "
-      "of 1e-5 s, 0.02 s (about four periods of the first mode). The report "
-      "sees variations of some 1e-12 of the total energy in its CoupledRB.");
-  page.table({"level", "integrator", "energy [J]", "largest elastic [J]",
-              "variation / total"},
-             rows);
-  page.figure(plot, "figure11", "Figure 11: energy of free rotation");
+  return {{elastic, kinetic, total}, 3, 420, 330};
+}
+
+void explain_rotations(Page& page, const std::vector<Rotation>& rotations) {
+  double ours = 0.0;
+  double euler = 0.0;
+  for (const Rotation& r : rotations) {
+    if (r.fidelity != Fidelity::coupled) continue;
+    double& worst =
+        r.integrator == IntegratorKind::explicit_euler ? euler : ours;
+    worst = std::max(worst, r.worst());
+  }
   page.text(
       "`uncoupled` has kinetic energy alone. `one-way` lets the centrifugal "
       "force stretch the beam without paying for it: its total is wrong by "
@@ -202,6 +202,34 @@ void write_free_rotation(Page& page, const Body& body) {
              fmt::format("that is less than with the report's scheme at the "
                          "same step ({:.1e}).",
                          euler));
+}
+
+void write_free_rotation(Page& page, const Body& body) {
+  std::vector<Rotation> rotations = {
+      {"uncoupled", Fidelity::uncoupled, IntegratorKind::generalized_alpha},
+      {"one-way", Fidelity::one_way, IntegratorKind::generalized_alpha},
+      {"coupled", Fidelity::coupled, IntegratorKind::generalized_alpha},
+      {"coupled", Fidelity::coupled, IntegratorKind::runge_kutta_4},
+      {"coupled", Fidelity::coupled, IntegratorKind::explicit_euler}};
+  std::vector<std::vector<std::string>> rows;
+  for (Rotation& r : rotations) {
+    simulate_rotation(body, r);
+    rows.push_back({r.level, r.scheme(), fmt::format("{:.4f}", r.start),
+                    fmt::format("{:.2e}", *std::max_element(r.elastic.begin(),
+                                                            r.elastic.end())),
+                    fmt::format("{:.1e}", r.worst())});
+  }
+  page.heading("Figure 11: energy of free rotation");
+  page.text(
+      "The free beam, undeformed at first, turning at 1 rad/s about x; steps "
+      "of 1e-5 s, 0.02 s (about four periods of the first mode). The report "
+      "sees variations of some 1e-12 of the total energy in its CoupledRB.");
+  page.table({"level", "integrator", "energy [J]", "largest elastic [J]",
+              "variation / total"},
+             rows);
+  page.figure(draw_rotations(rotations), "figure11",
+              "Figure 11: energy of free rotation");
+  explain_rotations(page, rotations);
 }
 
 }  // namespace

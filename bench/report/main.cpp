@@ -34,8 +34,10 @@ std::vector<Section> list_sections() {
           {"energy", write_energy},
           {"time-steps", write_time_steps},
           {"beam-theory", alone(write_beam_theory)},
+          {"shear-swing", alone(write_shear_swing)},
           {"large-rotation", write_large_rotation},
           {"case-study", write_case_study},
+          {"case-cost", alone(write_case_cost)},
           {"boundary-savings", alone(write_boundary_savings)}};
 }
 

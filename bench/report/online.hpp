@@ -13,11 +13,12 @@ inline constexpr double kCaseStep = 8.7e-4;  // [s]
 /// 0, 8.7e-4, ..., 1 s.
 [[nodiscard]] std::vector<double> list_case_times();
 
-/// Seconds of the parts of one run.
+/// Seconds of processor time of the parts of one run.
 struct Cost {
   double projection = 0.0;  // forces to modes, model
   double steps = 0.0;
   double displacements = 0.0;
+  double wall = 0.0;  // all of them by the wall clock
   [[nodiscard]] double total() const {
     return projection + steps + displacements;
   }
@@ -49,7 +50,8 @@ struct Statistics {
 /// The same into `bytes` that the system has just handed out.
 [[nodiscard]] double time_filling_fresh(std::size_t bytes);
 
-/// Wall clock [s].
+/// Processor time of this thread [s]: what else runs on the machine does not
+/// count.
 [[nodiscard]] double read_clock();
 
 }  // namespace limber::bench

@@ -32,9 +32,11 @@ void write_truncation(Page& page, Shared& shared);         // Figure 8
 void write_decision_boundary(Page& page, Shared& shared);  // Figure 9
 void write_energy(Page& page, Shared& shared);             // Figures 10, 11
 void write_time_steps(Page& page, Shared& shared);         // Figures 12, 13
-void write_beam_theory(Page& page);                        // Figure 14
+void write_beam_theory(Page& page);                        // section 5.7.1
+void write_shear_swing(Page& page);                        // Figure 14
 void write_large_rotation(Page& page, Shared& shared);     // Figures 15 to 17
 void write_case_study(Page& page, Shared& shared);         // Figures 18, 19
+void write_case_cost(Page& page);                          // section 6.1
 void write_boundary_savings(Page& page);                   // Table 3, Figure 20
 
 }  // namespace limber::bench

@@ -69,8 +69,8 @@ double find_error(const VectorX& answer, const VectorX& exact) {
 Panel draw_case(const Case& c, const std::vector<double>& times) {
   constexpr int kPerPeriod = 8;
   Panel panel;
-  panel.title = fmt::format("{}: omega_F = {:g}, omega = {:g} rad/s", c.name,
-                            c.forcing, kOmega);
+  panel.title =
+      fmt::format("{}: {:g} on {:g} rad/s", c.name, c.forcing, kOmega);
   panel.x_label = "time [s]";
   panel.y_label = "r";
   panel.curves = {{"Eq. 37", times, to_list(sample_exact(c.forcing, times))},

@@ -172,8 +172,8 @@ void write_truncation(Page& page, Shared& shared) {
     std::vector<std::string> row = {fmt::format("{}", *count)};
     for (Eigen::Index c = 0; c < 3; ++c) {
       plot.panels[static_cast<std::size_t>(c)].curves.push_back(
-          {fmt::format("{} mode{}", *count, *count == 1 ? "" : "s"), times,
-           to_list(u.row(c).transpose()), Mark::line});
+          {*count == modes.lambda.size() ? "all" : fmt::format("{}", *count),
+           times, to_list(u.row(c).transpose()), Mark::line});
       row.push_back(fmt::format("{:.3e}", u.row(c).cwiseAbs().maxCoeff()));
       row.push_back(fmt::format(
           "{:.2f}", 100.0 * (u - truth).row(c).norm() / truth.row(c).norm()));
@@ -195,8 +195,9 @@ void write_truncation(Page& page, Shared& shared) {
       "smaller: with Poisson's ratio 0 that motion comes from the mesh's "
       "asymmetry alone. (The report's load seems to point along y; the square "
       "section makes it the same.)");
-  page.figure(plot, "figure08",
-              "Figure 8: displacement of the corner for numbers of modes");
+  page.figure(
+      plot, "figure08",
+      "Figure 8: displacement of the corner with 1, 2, 4, 10 and all modes");
   add_error_table(page, problem);
 }
 

@@ -25,7 +25,8 @@ inline void fill_integrals(PointMassBody& body) {
   auto& s = r.integrals;
   s.S0.setZero();
   s.S1.assign(static_cast<std::size_t>(m), Matrix3::Zero());
-  s.S2.assign(static_cast<std::size_t>(m * m), Matrix3::Zero());
+  const auto count = static_cast<std::size_t>(m);
+  s.S2.assign(count * count, Matrix3::Zero());
   s.P = Matrix3X::Zero(3, m);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vector3 x = r.rows.x_B.col(i);
@@ -37,7 +38,8 @@ inline void fill_integrals(PointMassBody& body) {
           body.masses[i] * x * phi_k.transpose();
       for (int l = 0; l < m; ++l) {
         const Vector3 phi_l = r.rows.Phi_B.block<3, 1>(3 * i, l);
-        s.S2[static_cast<std::size_t>(k * m + l)] +=
+        s.S2[static_cast<std::size_t>(k) * count +
+             static_cast<std::size_t>(l)] +=
             body.masses[i] * phi_k * phi_l.transpose();
       }
     }

@@ -86,8 +86,8 @@ MatrixX simulate_deformation(Fidelity level, double alpha, double Omega) {
 double find_difference(double alpha, double Omega) {
   const MatrixX d = simulate_deformation(Fidelity::coupled, alpha, Omega) -
                     simulate_deformation(Fidelity::uncoupled, alpha, Omega);
-  return d.colwise().norm().maxCoeff() /
-         std::sqrt(static_cast<double>(d.rows() / 3));
+  const Eigen::Index nodes = d.rows() / 3;
+  return d.colwise().norm().maxCoeff() / std::sqrt(nodes);
 }
 
 /// The start at which the run ends on the boundary, from that alpha.
