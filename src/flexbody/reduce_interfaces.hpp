@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fem/mesh.hpp"
+#include "fem/node_weights.hpp"
+#include "flexbody/interface_motion.hpp"
+#include "flexbody/recipe.hpp"
+
+/// A recipe's interfaces and the loads on them, on its mesh. Part of
+/// limber_reduction.
+namespace limber::flexbody {
+
+/// An interface request, tied to the mesh.
+struct Interface {
+  std::string name;
+  bool static_modes = true;
+  fem::WeightedNodes selection;
+  InterfaceMotion motion;
+};
+
+/// @throws InputError for a name given twice or a selection without nodes.
+[[nodiscard]] std::vector<Interface> find_interfaces(const fem::Mesh& mesh,
+                                                     const Recipe& recipe);
+
+/// Forces and moments that the interface can carry: 3 + rotation rank.
+[[nodiscard]] Matrix6X unit_wrenches(const InterfaceMotion& motion);
+
+/// Nodal forces of each load pattern, 3N x patterns [N].
+/// @throws InputError for an interface that does not exist.
+[[nodiscard]] MatrixX find_pattern_loads(
+    const fem::Mesh& mesh, const Recipe& recipe,
+    const std::vector<Interface>& interfaces);
+
+}  // namespace limber::flexbody

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_rows.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "flexbody/reduce_support.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+/// Nodes whose rows are kept, sorted.
+std::vector<int> choose_rows(const fem::Mesh& mesh, const Recipe& recipe,
+                             const std::vector<Interface>& interfaces) {
+  using Extent = KeptRows::Extent;
+  std::set<int> kept;
+  const auto keep = [&](const std::vector<int>& nodes) {
+    kept.insert(nodes.begin(), nodes.end());
+  };
+  if (recipe.rows.extent == Extent::all)
+    for (int n = 0; n < static_cast<int>(mesh.node_count()); ++n)
+      kept.insert(kept.end(), n);
+  if (recipe.rows.extent == Extent::boundary) {
+    keep(mesh.boundary_nodes);
+    for (const fem::PhysicalGroup& group : mesh.groups)
+      if (group.dimension < 3) keep(group.nodes);
+  }
+  for (const std::string& name : recipe.rows.groups)
+    keep(mesh.groups[fem::find_group(mesh, name)].nodes);
+  for (const Interface& interface : interfaces) keep(interface.selection.nodes);
+  return {kept.begin(), kept.end()};
+}
+
+std::vector<std::size_t> tags_of(const fem::Mesh& mesh,
+                                 const std::vector<int>& nodes) {
+  std::vector<std::size_t> tags;
+  for (const int node : nodes)
+    tags.push_back(mesh.tags[static_cast<std::size_t>(node)]);
+  return tags;
+}
+
+std::vector<std::array<std::size_t, 3>> kept_triangles(
+    const fem::Mesh& mesh, const std::vector<int>& kept) {
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (const std::array<int, 3>& nodes : fem::boundary_triangles(mesh)) {
+    std::array<std::size_t, 3> rows{};
+    bool is_kept = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = std::lower_bound(kept.begin(), kept.end(), nodes[i]);
+      is_kept = is_kept && found != kept.end() && *found == nodes[i];
+      rows[i] = static_cast<std::size_t>(found - kept.begin());
+    }
+    if (is_kept) triangles.push_back(rows);
+  }
+  return triangles;
+}
+
+}  // namespace
+
+void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
+               const std::vector<Interface>& interfaces, const MatrixX& Phi,
+               ReducedBody& body) {
+  const std::vector<int> kept = choose_rows(mesh, recipe, interfaces);
+  body.rows.tags = tags_of(mesh, kept);
+  body.rows.x_B = Matrix3X(mesh.x(Eigen::all, kept)).colwise() - body.p_MoBcm_M;
+  body.rows.Phi_B = take_rows(Phi, kept);
+  body.triangles = kept_triangles(mesh, kept);
+  for (const fem::PhysicalGroup& group : mesh.groups) {
+    const auto is_kept = [&](int node) {
+      return std::binary_search(kept.begin(), kept.end(), node);
+    };
+    if (!std::all_of(group.nodes.begin(), group.nodes.end(), is_kept)) continue;
+    const fem::WeightedNodes weighted = fem::weigh_group(mesh, group);
+    body.groups.push_back({group.name, group.dimension,
+                           tags_of(mesh, weighted.nodes), weighted.weights});
+  }
+}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "fem/mesh.hpp"
+#include "flexbody/reduce_interfaces.hpp"
+#include "flexbody/reduced_body.hpp"
+
+namespace limber::flexbody {
+
+/// Fills `rows`, `triangles` and `groups` of a body whose `p_MoBcm_M` is set.
+/// @param Phi 3N x m, all rows [kg^-1/2]
+/// @throws InputError for a group that does not exist.
+void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
+               const std::vector<Interface>& interfaces, const MatrixX& Phi,
+               ReducedBody& body);
+
+}  // namespace limber::flexbody

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_support.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <set>
+
+#include "common/errors.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+/// @throws InputError if the clamped nodes leave the body a rigid motion.
+void check_clamp(const fem::Mesh& mesh, const std::set<int>& clamped) {
+  const std::vector<int> nodes(clamped.begin(), clamped.end());
+  const Matrix3X x = mesh.x(Eigen::all, nodes);
+  const Matrix3X d = x.colwise() - Vector3(x.rowwise().mean());
+  const Eigen::JacobiSVD<MatrixX> svd(MatrixX(d * d.transpose()));
+  constexpr double kLine = 1e-12;  // squared, of the body's size
+  if (svd.singularValues()[1] > kLine * mesh.size().squaredNorm()) return;
+  throw InputError(fmt::format(
+      "{}: the clamped groups hold {} nodes on one line, about which the body "
+      "can still turn. Clamp a surface, or hold the body by couplers.",
+      mesh.source, clamped.size()));
+}
+
+}  // namespace
+
+Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
+                     fem::StructuralMatrices matrices) {
+  std::set<int> clamped;
+  for (const std::string& name : recipe.clamped_groups) {
+    const fem::PhysicalGroup& group = mesh.groups[fem::find_group(mesh, name)];
+    clamped.insert(group.nodes.begin(), group.nodes.end());
+  }
+  Support support;
+  support.is_clamped = !clamped.empty();
+  if (support.is_clamped) check_clamp(mesh, clamped);
+  for (int node = 0; node < static_cast<int>(mesh.node_count()); ++node)
+    if (!clamped.contains(node)) support.free_nodes.push_back(node);
+  if (!support.is_clamped) {
+    support.R = fem::make_rigid_modes(matrices.M_s, mesh.x);
+    support.matrices = std::move(matrices);
+    return support;
+  }
+  if (support.free_nodes.empty())
+    throw InputError(fmt::format("{}: every node is clamped; nothing can move.",
+                                 mesh.source));
+  support.matrices = fem::restrict_to(matrices, support.free_nodes);
+  support.R.resize(support.matrices.dof_count(), 0);
+  return support;
+}
+
+MatrixX take_rows(const MatrixX& full, const std::vector<int>& nodes) {
+  MatrixX part(3 * static_cast<Eigen::Index>(nodes.size()), full.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    part.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
+        full.middleRows<3>(3 * nodes[i]);
+  return part;
+}
+
+MatrixX put_rows(const MatrixX& part, const std::vector<int>& nodes,
+                 Eigen::Index all_nodes) {
+  MatrixX full = MatrixX::Zero(3 * all_nodes, part.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    full.middleRows<3>(3 * nodes[i]) =
+        part.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+  return full;
+}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "fem/matrices.hpp"
+#include "fem/mesh.hpp"
+#include "flexbody/recipe.hpp"
+
+/// Which nodes of a body can move. Part of limber_reduction.
+namespace limber::flexbody {
+
+/// Which nodes move, and the body's matrices on them.
+struct Support {
+  bool is_clamped = false;
+  std::vector<int> free_nodes;
+  fem::StructuralMatrices matrices;
+  MatrixX R;  ///< rigid modes of the free nodes; no columns if clamped
+};
+
+/// @throws InputError if the clamp holds every node, or leaves the body a rigid
+/// motion.
+[[nodiscard]] Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
+                                   fem::StructuralMatrices matrices);
+
+/// The rows (three a node) of `nodes`.
+[[nodiscard]] MatrixX take_rows(const MatrixX& full,
+                                const std::vector<int>& nodes);
+
+/// The inverse of take_rows: zero elsewhere.
+[[nodiscard]] MatrixX put_rows(const MatrixX& part,
+                               const std::vector<int>& nodes,
+                               Eigen::Index all_nodes);
+
+}  // namespace limber::flexbody
