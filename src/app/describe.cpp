@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "app/mode_options.hpp"
 #include "common/errors.hpp"
 #include "dynamics/fidelity.hpp"
 #include "flexbody/body_file.hpp"
@@ -57,20 +58,22 @@ Json describe_body(const std::filesystem::path& file) {
   for (const auto& group : body.groups) groups.push_back(group.name);
   const VectorX hz =
       body.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-  return Json{{"kind", "reduced body"},
-              {"name", body.name},
-              {"clamped", body.clamped},
-              {"nodes", body.mesh_nodes},
-              {"elements", body.mesh_elements},
-              {"boundary_nodes", body.mesh_boundary_nodes},
-              {"kept_nodes", body.rows.tags.size()},
-              {"mass", body.mass},
-              {"center_of_mass", to_json(body.p_MoBcm_M)},
-              {"inertia", to_json(body.inertia())},
-              {"modes", body.mode_count()},
-              {"frequencies_hz", to_json(hz)},
-              {"interfaces", interfaces},
-              {"groups", groups}};
+  Json json{{"kind", "reduced body"},
+            {"name", body.name},
+            {"clamped", body.clamped},
+            {"nodes", body.mesh_nodes},
+            {"elements", body.mesh_elements},
+            {"boundary_nodes", body.mesh_boundary_nodes},
+            {"kept_nodes", body.rows.tags.size()},
+            {"mass", body.mass},
+            {"center_of_mass", to_json(body.p_MoBcm_M)},
+            {"inertia", to_json(body.inertia())},
+            {"modes", body.mode_count()},
+            {"frequencies_hz", to_json(hz)},
+            {"interfaces", interfaces},
+            {"groups", groups}};
+  if (body.selection) json["automatic_modes"] = to_json(*body.selection);
+  return json;
 }
 
 Json describe_results(const std::filesystem::path& file) {

@@ -6,9 +6,12 @@
 #include "app/commands.hpp"
 #include "app/json.hpp"
 #include "app/mesh_options.hpp"
+#include "app/mode_options.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
+#include "common/errors.hpp"
 #include "flexbody/body_file.hpp"
+#include "scene/nodal_forces.hpp"
 
 namespace limber::app {
 namespace {
@@ -18,15 +21,22 @@ struct Options {
   std::string output;
   std::vector<std::string> clamps;
   std::vector<std::string> interfaces;
-  int eigenmodes = 10;
+  ModeOptions modes;
+  std::vector<std::string> forces;
   std::vector<std::string> rows = {"boundary"};
   bool json = false;
 };
 
-void reduce(const Options& options) {
+flexbody::Recipe make_recipe(const Options& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
-  recipe.basis.eigenmodes = options.eigenmodes;
+  apply(options.modes, recipe.basis);
+  for (const std::string& file : options.forces) {
+    recipe.nodal_forces.push_back(scene::read_load_cases(file));
+  }
+  if (!recipe.nodal_forces.empty() && !recipe.basis.automatic) {
+    throw InputError("--force gives load cases for --modes auto; add it");
+  }
   recipe.rows = flexbody::parse_rows(options.rows);
   for (const std::string& group : options.interfaces) {
     flexbody::InterfaceRequest request;
@@ -34,18 +44,34 @@ void reduce(const Options& options) {
     request.nodes = flexbody::GroupNodes{group};
     recipe.interfaces.push_back(request);
   }
+  return recipe;
+}
+
+void print_json(const flexbody::ReducedBody& body, const std::string& file) {
+  Json json = Json{{"file", file},
+                   {"nodes", body.mesh_nodes},
+                   {"modes", body.mode_count()},
+                   {"mass", body.mass}};
+  if (body.selection) json["automatic_modes"] = to_json(*body.selection);
+  fmt::print("{}\n", to_text(json));
+}
+
+void print_text(const flexbody::ReducedBody& body, const std::string& file) {
+  fmt::print("{} nodes -> {} modes, in {}\n", body.mesh_nodes,
+             body.mode_count(), file);
+  if (body.selection) fmt::print("{}\n", summarize(*body.selection));
+}
+
+void reduce(const Options& options) {
+  const flexbody::Recipe recipe = make_recipe(options);
   const flexbody::ReducedBody body = make_reducer(make_progress_bar())(recipe);
   clear_progress_bar();
+  if (body.selection) print_warnings(describe_shortfalls(*body.selection));
   flexbody::write_body(body, options.output);
   if (options.json) {
-    const Json json = Json{{"file", options.output},
-                           {"nodes", body.mesh_nodes},
-                           {"modes", body.mode_count()},
-                           {"mass", body.mass}};
-    fmt::print("{}\n", to_text(json));
+    print_json(body, options.output);
   } else {
-    fmt::print("{} nodes -> {} modes, in {}\n", body.mesh_nodes,
-               body.mode_count(), options.output);
+    print_text(body, options.output);
   }
 }
 
@@ -62,8 +88,10 @@ void add_reduce(CLI::App& app, Action& action) {
                       "Group that becomes an interface; may be given again");
   command->add_option("--clamp", options->clamps,
                       "Group that is fixed; may be given again");
-  command->add_option("--eigenmodes", options->eigenmodes, "Eigenmodes kept")
-      ->check(CLI::NonNegativeNumber);
+  add_mode_options(*command, "--modes,--eigenmodes", options->modes);
+  command->add_option("--force", options->forces,
+                      "With --modes auto: force file whose columns are load "
+                      "cases; may be given again. Without: the interfaces");
   command->add_option("--rows", options->rows,
                       "Nodes to keep: all, boundary (default), interfaces, or "
                       "groups by name; may be given again");

@@ -13,6 +13,10 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("{} bodies, {} modes ({} in closed form), {} couplers\n",
              run.built.model.bodies.size(), run.built.model.modal_count,
              run.statistics.exact_modes, run.built.model.couplers.size());
+  for (const dynamics::BodyModel& body : run.built.model.bodies) {
+    if (!body.reduced || !body.reduced->selection) continue;
+    fmt::print("'{}': {}\n", body.name, summarize(*body.reduced->selection));
+  }
   fmt::print("offline {:.3g} s ({} reduced, {} from the cache)\n",
              run.built.seconds_offline, run.built.bodies_reduced,
              run.built.bodies_cached);

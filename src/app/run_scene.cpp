@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/mode_options.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
@@ -69,6 +70,15 @@ Json summarize_probes(const results::History& history) {
   return json;
 }
 
+Json summarize_selections(const Run& run) {
+  Json json = Json::object();
+  for (const dynamics::BodyModel& body : run.built.model.bodies) {
+    if (!body.reduced || !body.reduced->selection) continue;
+    json[body.name] = to_json(*body.reduced->selection);
+  }
+  return json;
+}
+
 int count_modes(const Run& run) { return run.built.model.modal_count; }
 
 }  // namespace
@@ -117,6 +127,8 @@ Json summarize(const Run& run) {
   json["completed"] = run.failure == nullptr;
   json["bodies"] = run.built.model.bodies.size();
   json["modes"] = count_modes(run);
+  const Json selections = summarize_selections(run);
+  if (!selections.empty()) json["automatic_modes"] = selections;
   json["couplers"] = run.built.model.couplers.size();
   json["modes_exact"] = run.statistics.exact_modes;
   json["steps"] = run.statistics.steps;

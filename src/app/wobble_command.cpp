@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/mode_options.hpp"
 #include "app/run_scene.hpp"
 #include "common/errors.hpp"
 #include "scene/akantu_material.hpp"
@@ -19,7 +20,7 @@ struct Options {
   double size = 0.0;
   int order = 0;
   double unit = 1.0;
-  int modes = 10;
+  ModeOptions modes;
   double step = 0.0;
   double duration = 0.0;
   std::string solver = "CoupledRB";
@@ -35,7 +36,7 @@ scene::Robot make_robot(const Options& options) {
   scene::FlexibleLink flexible;
   flexible.mesh = {options.mesh, options.size, options.order, options.unit};
   flexible.materials = scene::read_akantu_materials(options.material);
-  flexible.basis.eigenmodes = options.modes;
+  apply(options.modes, flexible.basis);
   flexible.basis.interface_modes = false;
   flexible.basis.load_modes = false;
   flexible.clamped_groups = options.clamps;
@@ -127,8 +128,7 @@ void add_wobble(CLI::App& app, Action& action) {
   command->add_option("--duration", options->duration, "Duration [s]")
       ->required()
       ->check(CLI::PositiveNumber);
-  command->add_option("--modes", options->modes, "Eigenmodes")
-      ->check(CLI::NonNegativeNumber);
+  add_mode_options(*command, "--modes", options->modes);
   command
       ->add_option("--solver", options->solver, "PureMA, SimpleRB, CoupledRB")
       ->check(CLI::IsMember({"PureMA", "SimpleRB", "CoupledRB"}));

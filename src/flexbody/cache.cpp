@@ -44,6 +44,17 @@ class Digest {
   void add(const Vector3& v) {
     for (const double x : v) add(x);
   }
+  void add(const MatrixX& values) {
+    add(values.rows());
+    add(values.cols());
+    XXH3_128bits_update(
+        state_, values.data(),
+        sizeof(double) * static_cast<std::size_t>(values.size()));
+  }
+  void add(const std::vector<double>& values) {
+    add(values.size());
+    for (const double x : values) add(x);
+  }
   [[nodiscard]] std::string text() const {
     const XXH128_hash_t hash = XXH3_128bits_digest(state_);
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
@@ -164,8 +175,21 @@ std::string content_key(const Recipe& recipe) {
     digest.add(pattern.interface);
     digest.add(pattern.force);
     digest.add(pattern.moment);
+    digest.add(pattern.static_mode);
+  }
+  digest.add(recipe.nodal_forces.size());
+  for (const NodalForces& nodal : recipe.nodal_forces) {
+    digest.add(std::filesystem::path(nodal.name).filename().string());
+    digest.add(nodal.times);
+    digest.add(nodal.forces);
   }
   digest.add(recipe.basis.eigenmodes);
+  digest.add(recipe.basis.automatic.has_value());
+  if (recipe.basis.automatic) {
+    digest.add(recipe.basis.automatic->threshold);
+    digest.add(recipe.basis.automatic->measure);
+    digest.add(recipe.basis.automatic->candidates);
+  }
   digest.add(recipe.basis.interface_modes);
   digest.add(recipe.basis.load_modes);
   digest.add(recipe.basis.drop_tolerance);

@@ -1,7 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/recipe.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
+#include "common/errors.hpp"
+#include "common/names.hpp"
+
 namespace limber::flexbody {
+namespace {
+
+const std::vector<std::string>& measure_names() {
+  static const std::vector<std::string> names = {"compliance", "report",
+                                                 "mass"};
+  return names;
+}
+
+}  // namespace
+
+std::string_view to_string(ModeMeasure measure) {
+  return measure_names()[static_cast<std::size_t>(measure)];
+}
+
+ModeMeasure parse_measure(std::string_view name) {
+  const auto& names = measure_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError(describe_unknown("measure", name, names));
+  return static_cast<ModeMeasure>(found - names.begin());
+}
 
 KeptRows parse_rows(const std::vector<std::string>& words) {
   using Extent = KeptRows::Extent;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -74,16 +76,47 @@ struct InterfaceRequest {
   bool static_modes = true;
 };
 
-/// A load on an interface whose static-deformation mode enters the basis.
-/// Only its direction matters.
+/// A load on an interface: its static-deformation mode enters the basis, and
+/// it is a load case of automatic modes. Only its direction matters.
 struct LoadPattern {
   std::string interface;
   Vector3 force = Vector3::Zero();   ///< mesh frame [N]
   Vector3 moment = Vector3::Zero();  ///< mesh frame [N m]
+  bool static_mode = true;           ///< false: a load case alone
+};
+
+/// Forces on every node, load cases of automatic modes; only their directions
+/// matter. Rows: x, y, z of each node that is not clamped, in the order of the
+/// mesh's tags.
+struct NodalForces {
+  std::string name;           ///< for messages
+  std::vector<double> times;  ///< one a column, from which it holds [s]
+  MatrixX forces;             ///< 3 x free nodes, cases [N]
+};
+
+/// What a mode's share of a load case is measured by; docs/theory/choosing.md.
+enum class ModeMeasure {
+  compliance,  ///< work of the load on the mode's static answer
+  report,      ///< the report's effective mass, which takes all modes
+  mass,        ///< effective modal mass in x, y, z of a clamped body's base
+};
+
+[[nodiscard]] std::string_view to_string(ModeMeasure measure);
+/// @throws InputError naming the nearest.
+[[nodiscard]] ModeMeasure parse_measure(std::string_view name);
+
+/// Of the lowest eigenmodes, those that reach a share of every load case.
+/// The load cases are the recipe's load patterns and nodal forces; if it has
+/// neither, the forces and moments that its interfaces can carry.
+struct AutomaticModes {
+  double threshold = 0.9;  ///< of the total of all modes, in [0, 1] [-]
+  ModeMeasure measure = ModeMeasure::compliance;
+  int candidates = 60;  ///< lowest elastic eigenmodes to choose from
 };
 
 struct BasisOptions {
-  int eigenmodes = 10;           ///< lowest elastic eigenmodes
+  int eigenmodes = 10;                      ///< lowest elastic eigenmodes
+  std::optional<AutomaticModes> automatic;  ///< in place of `eigenmodes`
   bool interface_modes = true;   ///< static-deformation modes: interfaces
   bool load_modes = true;        ///< static-deformation modes: loads
   double drop_tolerance = 1e-8;  ///< relative M-norm below which a vector
@@ -111,6 +144,7 @@ struct Recipe {
       clamped_groups;  ///< fixed to the world; may be empty
   std::vector<InterfaceRequest> interfaces;
   std::vector<LoadPattern> load_patterns;
+  std::vector<NodalForces> nodal_forces;  ///< used by automatic modes alone
   BasisOptions basis;
   KeptRows rows;
 };

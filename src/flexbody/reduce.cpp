@@ -1,31 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/reduce.hpp"
 
-#include <fmt/format.h>
-
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/eigenmodes.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/reduce_interfaces.hpp"
+#include "flexbody/reduce_meshed_body.hpp"
 #include "flexbody/reduce_rows.hpp"
-#include "flexbody/reduce_support.hpp"
+#include "flexbody/reduce_selection.hpp"
 #include "flexbody/reduced_basis.hpp"
 #include "flexbody/shape_integrals.hpp"
 
 namespace limber::flexbody {
 namespace {
-
-std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
-                                                 const Recipe& recipe) {
-  std::vector<fem::MaterialAssignment> assignments;
-  for (const MaterialRegion& region : recipe.materials)
-    assignments.push_back(
-        {region.group,
-         {region.material.youngs_modulus, region.material.poisson_ratio,
-          region.material.density}});
-  return fem::assign_materials(mesh, assignments);
-}
 
 /// Static answers to unit loads, on the whole mesh.
 struct StaticModes {
@@ -33,22 +16,31 @@ struct StaticModes {
   std::vector<Matrix6> flexibility;  ///< per interface
 };
 
-StaticModes find_static_modes(const fem::Mesh& mesh, const Recipe& recipe,
-                              const std::vector<Interface>& interfaces,
-                              const Support& support,
-                              const fem::ElasticInverse& inverse) {
+/// Columns of the patterns whose static answers enter the basis.
+MatrixX find_mode_loads(const MeshedBody& body, const Recipe& recipe) {
+  if (!recipe.basis.load_modes) return MatrixX(3 * body.mesh.x.cols(), 0);
+  std::vector<Eigen::Index> columns;
+  for (std::size_t i = 0; i < recipe.load_patterns.size(); ++i)
+    if (recipe.load_patterns[i].static_mode)
+      columns.push_back(static_cast<Eigen::Index>(i));
+  return find_pattern_loads(body.mesh, recipe, body.interfaces)(Eigen::all,
+                                                                columns);
+}
+
+StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
+  const std::vector<int>& free_nodes = body.support.free_nodes;
   const auto solve = [&](const MatrixX& loads) {
-    return put_rows(inverse.solve(take_rows(loads, support.free_nodes)),
-                    support.free_nodes, mesh.x.cols());
+    return put_rows(body.inverse.solve(take_rows(loads, free_nodes)),
+                    free_nodes, body.mesh.x.cols());
   };
   StaticModes modes;
-  modes.vectors.resize(3 * mesh.x.cols(), 0);
+  modes.vectors.resize(3 * body.mesh.x.cols(), 0);
   const auto append = [&](const MatrixX& answers) {
     MatrixX joined(answers.rows(), modes.vectors.cols() + answers.cols());
     joined << modes.vectors, answers;
     modes.vectors = std::move(joined);
   };
-  for (const Interface& interface : interfaces) {
+  for (const Interface& interface : body.interfaces) {
     const Matrix6X wrenches = unit_wrenches(interface.motion);
     const MatrixX answers = solve(interface.motion.spread(wrenches));
     const Matrix6 flexibility =
@@ -57,8 +49,8 @@ StaticModes find_static_modes(const fem::Mesh& mesh, const Recipe& recipe,
                                    (flexibility + flexibility.transpose()));
     if (recipe.basis.interface_modes && interface.static_modes) append(answers);
   }
-  const MatrixX loads = find_pattern_loads(mesh, recipe, interfaces);
-  if (recipe.basis.load_modes && loads.cols() > 0) append(solve(loads));
+  const MatrixX loads = find_mode_loads(body, recipe);
+  if (loads.cols() > 0) append(solve(loads));
   return modes;
 }
 
@@ -88,52 +80,33 @@ ReducedBasis find_basis(const Recipe& recipe, const Support& support,
 }  // namespace
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
-  report(progress, "reading the mesh", 0.0);
-  const fem::Mesh mesh =
-      fem::read_mesh(recipe.mesh.file,
-                     {recipe.mesh.size, recipe.mesh.order, recipe.mesh.unit});
-  const std::vector<fem::ElasticMaterial> materials =
-      find_materials(mesh, recipe);
-  // Everything a user may have misspelt is looked at before the long work.
-  const std::vector<Interface> interfaces = find_interfaces(mesh, recipe);
-  static_cast<void>(find_pattern_loads(mesh, recipe, interfaces));
-  if (recipe.basis.eigenmodes < 0)
-    throw InputError(
-        fmt::format("body '{}': {} eigenmodes; expected 0 or more.",
-                    recipe.name, recipe.basis.eigenmodes));
-  for (const auto* names : {&recipe.clamped_groups, &recipe.rows.groups})
-    for (const std::string& name : *names)
-      static_cast<void>(fem::find_group(mesh, name));
-
-  fem::StructuralMatrices matrices = fem::assemble(mesh, materials, progress);
-  const fem::SparseMatrix M_s = matrices.M_s;
-  const Support support = make_support(mesh, recipe, std::move(matrices));
-  const fem::ElasticInverse inverse(support.matrices, support.R,
-                                    mesh.x(Eigen::all, support.free_nodes),
-                                    progress);
-  const fem::Eigenmodes eigenmodes =
-      fem::find_eigenmodes(inverse, recipe.basis.eigenmodes, progress);
+  const MeshedBody meshed(recipe, progress);
+  const fem::Mesh& mesh = meshed.mesh;
+  const ChosenModes chosen = choose_eigenmodes(meshed, recipe, progress);
   report(progress, "static-deformation modes", 0.0);
-  const StaticModes modes =
-      find_static_modes(mesh, recipe, interfaces, support, inverse);
-  const ReducedBasis basis = find_basis(recipe, support, eigenmodes, modes);
-  const MatrixX Phi = put_rows(basis.Phi, support.free_nodes, mesh.x.cols());
+  const StaticModes modes = find_static_modes(meshed, recipe);
+  const ReducedBasis basis =
+      find_basis(recipe, meshed.support, chosen.eigenmodes, modes);
+  const MatrixX Phi =
+      put_rows(basis.Phi, meshed.support.free_nodes, mesh.x.cols());
 
-  const fem::MassProperties inertia = fem::calc_mass_properties(M_s, mesh.x);
+  const fem::MassProperties inertia =
+      fem::calc_mass_properties(meshed.M_s, mesh.x);
   ReducedBody body;
   body.name = recipe.name;
-  body.clamped = support.is_clamped;
+  body.clamped = meshed.support.is_clamped;
   body.mass = inertia.mass;
   body.p_MoBcm_M = inertia.center;
   body.size = mesh.size();
   body.integrals =
-      calc_shape_integrals(M_s, mesh.x.colwise() - inertia.center, Phi);
+      calc_shape_integrals(meshed.M_s, mesh.x.colwise() - inertia.center, Phi);
   body.lambda = basis.lambda;
+  body.selection = finish_record(chosen, basis);
   body.mesh_nodes = mesh.node_count();
   body.mesh_elements = mesh.element_count();
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();
-  keep_rows(mesh, recipe, interfaces, Phi, body);
-  add_tables(interfaces, modes, Phi, body);
+  keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
+  add_tables(meshed.interfaces, modes, Phi, body);
   report(progress, "reduced", 1.0);
   return body;
 }

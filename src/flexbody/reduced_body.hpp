@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/types.hpp"
+#include "flexbody/selection_record.hpp"
 
 namespace limber::flexbody {
 
@@ -79,7 +81,8 @@ struct ReducedBody {
   std::size_t mesh_nodes = 0;
   std::size_t mesh_elements = 0;
   std::size_t mesh_boundary_nodes = 0;
-  std::string content_key;  ///< hash of all that went in
+  std::optional<SelectionRecord> selection;  ///< of automatic modes
+  std::string content_key;                   ///< hash of all that went in
 
   [[nodiscard]] int mode_count() const {
     return static_cast<int>(lambda.size());

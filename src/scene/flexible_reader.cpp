@@ -83,8 +83,36 @@ flexbody::KeptRows read_rows(XmlElement& element) {
   return flexbody::parse_rows({std::istream_iterator<std::string>(text), {}});
 }
 
+/// eigenmodes="auto" and what belongs to it.
+flexbody::AutomaticModes read_automatic(XmlElement& element) {
+  flexbody::AutomaticModes automatic;
+  automatic.threshold = element.number("threshold", {0.0, 1.0, false, false})
+                            .value_or(automatic.threshold);
+  automatic.candidates =
+      element.integer("candidates", 1, 100000).value_or(automatic.candidates);
+  try {
+    if (const auto measure = element.text("measure"))
+      automatic.measure = flexbody::parse_measure(*measure);
+  } catch (const InputError& error) {
+    element.fail(error.problems().front());
+  }
+  return automatic;
+}
+
+void read_eigenmodes(XmlElement& element, flexbody::BasisOptions& basis) {
+  if (element.text("eigenmodes") == "auto") {
+    basis.automatic = read_automatic(element);
+    return;
+  }
+  basis.eigenmodes = element.integer("eigenmodes", 0, 100000).value_or(10);
+  for (const char* name : {"threshold", "measure", "candidates"}) {
+    if (element.text(name))
+      element.fail(fmt::format("'{}' goes with eigenmodes=\"auto\"", name));
+  }
+}
+
 void read_basis(XmlElement& element, FlexibleLink& link) {
-  link.basis.eigenmodes = element.integer("eigenmodes", 0, 100000).value_or(10);
+  read_eigenmodes(element, link.basis);
   link.basis.interface_modes =
       element.boolean("interface_modes").value_or(true);
   link.basis.load_modes = element.boolean("load_modes").value_or(true);

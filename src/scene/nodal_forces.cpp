@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "common/errors.hpp"
 
@@ -52,6 +53,11 @@ MatrixX spread_over_nodes(const flexbody::ReducedBody& body,
         forces.forces.middleRows<3>(3 * next++);
   }
   return spread;
+}
+
+flexbody::NodalForces read_load_cases(const std::filesystem::path& file) {
+  ForceFile forces = read_force_file(file);
+  return {file.string(), std::move(forces.times), std::move(forces.forces)};
 }
 
 }  // namespace limber::scene

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "flexbody/recipe.hpp"
 #include "flexbody/reduced_body.hpp"
 #include "scene/force_file.hpp"
 
@@ -17,6 +18,11 @@ namespace limber::scene {
 [[nodiscard]] MatrixX spread_over_nodes(
     const flexbody::ReducedBody& body,
     const std::vector<std::string>& clamped_groups, const ForceFile& forces,
+    const std::filesystem::path& file);
+
+/// A force file as load cases for a reduction, which checks its rows.
+/// @throws InputError as read_force_file.
+[[nodiscard]] flexbody::NodalForces read_load_cases(
     const std::filesystem::path& file);
 
 }  // namespace limber::scene

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "scene/nodal_forces.hpp"
 
 namespace limber::scene {
 namespace {
@@ -63,33 +63,39 @@ bool is_single_node(const Place& place) {
           std::holds_alternative<flexbody::NearestNode>(*place.nodes));
 }
 
-void add_pattern(Recipe& recipe, const std::string& interface,
-                 const Vector3& force, const Vector3& moment) {
-  if (force.isZero() && moment.isZero()) return;
-  recipe.load_patterns.push_back({interface, force, moment});
-}
-
-/// A body-frame load is one pattern. One fixed in the world turns through all
-/// directions of the body, so it takes a pattern an axis.
+/// What the interface's own static-deformation modes cover needs none of its
+/// own, but is still a load case. A body-frame load is one pattern. One fixed
+/// in the world turns through all directions of the body, so it takes a pattern
+/// an axis.
 void add_patterns(Recipe& recipe, const FlexibleLink& link,
                   const LoadSpec& load) {
   const std::string name = find_place_interface(load.where);
   const InterfaceRequest* request = find_request(recipe, name);
-  if (request != nullptr && request->static_modes &&
-      link.basis.interface_modes) {
-    return;
-  }
+  const bool is_covered =
+      request != nullptr && request->static_modes && link.basis.interface_modes;
+  if (is_covered && !link.basis.automatic) return;
+  const auto add = [&](const Vector3& force, const Vector3& moment) {
+    if (force.isZero() && moment.isZero()) return;
+    recipe.load_patterns.push_back({name, force, moment, !is_covered});
+  };
   const Matrix3 R_ML = link.X_LM.R.transpose();
   if (load.frame == dynamics::LoadFrame::body) {
-    add_pattern(recipe, name, R_ML * load.force, R_ML * load.moment);
+    add(R_ML * load.force, R_ML * load.moment);
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 unit = Vector3::Unit(axis);
     const Vector3 none = Vector3::Zero();
-    if (!load.force.isZero()) add_pattern(recipe, name, unit, none);
-    if (!load.moment.isZero()) add_pattern(recipe, name, none, unit);
+    if (!load.force.isZero()) add(unit, none);
+    if (!load.moment.isZero()) add(none, unit);
   }
+}
+
+/// Nodal forces need every row; they are load cases of automatic modes.
+void add_nodal_forces(Recipe& recipe, const std::filesystem::path& file) {
+  recipe.rows = flexbody::parse_rows({"all"});
+  if (!recipe.basis.automatic) return;
+  recipe.nodal_forces.push_back(read_load_cases(file));
 }
 
 void add_connections(Recipe& recipe, const Robot& robot, int index) {
@@ -142,7 +148,7 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   for (const LoadSpec& load : scenario.loads) {
     if (load.where.link != link.name) continue;
     if (!load.nodal_forces.empty()) {
-      recipe.rows = flexbody::parse_rows({"all"});
+      add_nodal_forces(recipe, load.nodal_forces);
       continue;
     }
     require_place(recipe, load.where);

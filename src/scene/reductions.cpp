@@ -22,6 +22,7 @@ class Reduction {
   Reductions run() {
     for (std::size_t i = 0; i < scene_.robot.links.size(); ++i) {
       result_.of_link.push_back(find(static_cast<int>(i)));
+      warn(scene_.robot.links[i].name, result_.of_link.back());
     }
     return result_;
   }
@@ -43,6 +44,14 @@ class Reduction {
             "{}: link '{}': {}", scene_.robot.file.string(), link.name, text));
       }
       throw InputError(texts);
+    }
+  }
+
+  void warn(const std::string& link, const ReducedPointer& body) {
+    if (!body || !body->selection) return;
+    for (const std::string& text :
+         flexbody::describe_shortfalls(*body->selection)) {
+      result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
     }
   }
 

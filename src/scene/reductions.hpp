@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "scene/body_plan.hpp"
@@ -13,6 +14,7 @@ struct Reductions {
   std::vector<ReducedPointer> of_link;  ///< null where the link is rigid
   int reduced = 0;
   int cached = 0;
+  std::vector<std::string> warnings;  ///< what the bodies fall short of
 };
 
 /// Reduced bodies of all flexible links: from a file, from the cache, or from

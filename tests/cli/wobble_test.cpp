@@ -34,8 +34,8 @@ class Wobble : public ::testing::Test {
     return place_.limber(
         "wobble --mesh " LIMBER_SOURCE_DIR
         "/meshes/beam579.msh --material material.dat --force force.txt "
-        "--modes 4 --step 1e-3 --duration 0.05 --out o " +
-        more);
+        "--step 1e-3 --duration 0.05 --out o --cache c " +
+        more + (more.find("--modes") == std::string::npos ? " --modes 4" : ""));
   }
 
   Workspace place_;
@@ -61,6 +61,26 @@ TEST_F(Wobble, HoldsAClampedBody) {
   place_.write("force.txt", force_rows(kNodes - 37));
   const CommandResult result = wobble("--solver PureMA --clamp root --json");
   EXPECT_EQ(result.status, 0) << result.errors;
+}
+
+TEST_F(Wobble, ChoosesModesByItsForces) {
+  const CommandResult result = wobble("--modes auto --threshold 0.4 --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json chosen = json::parse(result.out)["automatic_modes"]["beam579"];
+  EXPECT_EQ(chosen["cases"].size(), 1U);
+  EXPECT_EQ(chosen["cases"][0]["load"], "force.txt from 0 s");
+  EXPECT_GE(chosen["cases"][0]["reached"], 0.4);
+  EXPECT_LT(chosen["eigenmodes"].size(), chosen["candidates"]);
+}
+
+TEST_F(Wobble, WarnsWhereTheCandidatesFallShort) {
+  const CommandResult result =
+      wobble("--modes auto --threshold 0.99 --candidates 2");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.errors,
+              HasSubstr("link 'beam579': automatic modes: 2 candidates reach"));
+  EXPECT_EQ(wobble("--modes 4 --threshold 0.99").status, 2);
+  EXPECT_EQ(wobble("--modes some").status, 2);
 }
 
 TEST_F(Wobble, RefusesAForceFileForAnotherMesh) {

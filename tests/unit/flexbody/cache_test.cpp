@@ -117,12 +117,34 @@ Changes list_load_and_basis_changes() {
   };
 }
 
+Changes list_automatic_changes() {
+  const auto choose = [](const AutomaticModes& automatic) {
+    return [automatic](Recipe& r) { r.basis.automatic = automatic; };
+  };
+  const auto force = [](const NodalForces& forces) {
+    return [forces](Recipe& r) { r.nodal_forces = {forces}; };
+  };
+  const MatrixX row = MatrixX::Ones(1, 2);
+  return {
+      {"automatic", choose({})},
+      {"threshold", choose({0.8})},
+      {"measure", choose({0.9, ModeMeasure::report})},
+      {"candidates", choose({0.9, ModeMeasure::compliance, 61})},
+      {"case alone", [](Recipe& r) { r.load_patterns[0].static_mode = false; }},
+      {"forces", force({"f", {0.0, 1.0}, row})},
+      {"other forces", force({"f", {0.0, 1.0}, 2.0 * row})},
+      {"forces at other times", force({"f", {0.0, 2.0}, row})},
+      {"forces of another name", force({"g", {0.0, 1.0}, row})},
+      {"forces of another shape", force({"f", {0.0}, row.transpose()})},
+  };
+}
+
 TEST_F(ContentKey, DiffersForEveryFieldThatShapesTheBody) {
   std::map<std::string, std::string> change_of = {
       {content_key(make_recipe(mesh())), "nothing"}};
   for (const Changes& changes :
        {list_mesh_and_material_changes(), list_interface_changes(),
-        list_load_and_basis_changes()}) {
+        list_load_and_basis_changes(), list_automatic_changes()}) {
     for (const auto& [name, change] : changes) {
       Recipe recipe = make_recipe(mesh());
       change(recipe);

@@ -105,6 +105,28 @@ void add_lists(const ReducedBody& body, FieldList& fields) {
   }
 }
 
+std::vector<std::size_t> to_sizes(const std::vector<int>& values) {
+  return {values.begin(), values.end()};
+}
+
+void add_selection(const ReducedBody& body, FieldList& fields) {
+  fields.add("selection", body.selection.has_value());
+  if (!body.selection) return;
+  fields.add("selection measure",
+             std::string(to_string(body.selection->measure)));
+  fields.add("selection threshold", body.selection->threshold);
+  fields.add("selection candidates", body.selection->candidates);
+  fields.add("selection modes", to_sizes(body.selection->modes));
+  fields.add("selection cases", body.selection->cases.size());
+  for (const SelectedCase& item : body.selection->cases) {
+    fields.add("case name", item.name);
+    fields.add("case modes", to_sizes(item.modes));
+    fields.add("case reached", item.reached);
+    fields.add("case eigenmode_error", item.eigenmode_error);
+    fields.add("case basis_error", item.basis_error);
+  }
+}
+
 }  // namespace
 
 ReducedBody make_small_body(unsigned seed) {
@@ -144,6 +166,14 @@ ReducedBody make_small_body(unsigned seed) {
   table.rotation_rank = 2;
   table.flexibility = numbers.matrix(6, 6);
   body.interfaces.push_back(table);
+  body.selection = SelectionRecord{
+      ModeMeasure::mass,
+      numbers.next(),
+      60,
+      {0, 3, 9},
+      {{"tip, force (1, 0, 0) N", {0, 9}, numbers.next(), numbers.next(), 0.5},
+       {"nothing", {}, 1.0, 0.0, 0.0},
+       {"file.txt from 0.1 s", {3}, 0.25, 0.125, numbers.next()}}};
   return body;
 }
 
@@ -168,6 +198,7 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   fields.add("mesh_boundary_nodes", body.mesh_boundary_nodes);
   fields.add("content_key", body.content_key);
   add_lists(body, fields);
+  add_selection(body, fields);
   return fields.get();
 }
 

@@ -88,6 +88,26 @@ TEST(RobotReader, ReadsTheExtension) {
   EXPECT_EQ(robot.connectors.at(0).to.point, Vector3(0, 0, 9));
 }
 
+TEST(RobotReader, ReadsAutomaticModes) {
+  const auto basis = [](const std::string& attributes) {
+    return links("a") + "<flexible link='a'>" + kMesh + "<basis " + attributes +
+           "/></flexible>";
+  };
+  const Robot robot = read(basis(
+      "eigenmodes='auto' threshold='0.8' measure='report' candidates='7'"));
+  const auto& automatic = robot.links[0].flexible->basis.automatic;
+  ASSERT_TRUE(automatic.has_value());
+  EXPECT_EQ(automatic->threshold, 0.8);
+  EXPECT_EQ(automatic->measure, flexbody::ModeMeasure::report);
+  EXPECT_EQ(automatic->candidates, 7);
+  EXPECT_THAT(error_of(basis("eigenmodes='4' threshold='0.8'")),
+              HasSubstr("'threshold' goes with eigenmodes=\"auto\""));
+  EXPECT_THAT(error_of(basis("eigenmodes='auto' measure='complience'")),
+              HasSubstr("did you mean 'compliance'"));
+  EXPECT_THAT(error_of(basis("eigenmodes='auto' threshold='1.1'")),
+              HasSubstr("threshold"));
+}
+
 TEST(RobotReader, NamesTheNearestKnownWord) {
   EXPECT_THAT(error_of(links("a") + "<flexible link='a'>" + kMesh +
                        "<dampin ratio='1'/></flexible>"),

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_meshed_body.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "fem/assembly.hpp"
+#include "fem/mesh_reader.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
+                                                 const Recipe& recipe) {
+  std::vector<fem::MaterialAssignment> assignments;
+  for (const MaterialRegion& region : recipe.materials)
+    assignments.push_back(
+        {region.group,
+         {region.material.youngs_modulus, region.material.poisson_ratio,
+          region.material.density}});
+  return fem::assign_materials(mesh, assignments);
+}
+
+fem::Mesh read_mesh(const MeshSource& source, const Progress& progress) {
+  report(progress, "reading the mesh", 0.0);
+  return fem::read_mesh(source.file, {source.size, source.order, source.unit});
+}
+
+void check_basis(const Recipe& recipe) {
+  const auto check_count = [&](int count) {
+    if (count >= 0) return;
+    throw InputError(fmt::format(
+        "body '{}': {} eigenmodes; expected 0 or more.", recipe.name, count));
+  };
+  check_count(recipe.basis.eigenmodes);
+  if (recipe.basis.automatic) check_count(recipe.basis.automatic->candidates);
+}
+
+/// Assembles after everything a user may have misspelt was looked at, so that
+/// no long work is lost. Fills `M_s`.
+Support assemble_support(const fem::Mesh& mesh, const Recipe& recipe,
+                         const std::vector<Interface>& interfaces,
+                         fem::SparseMatrix& M_s, const Progress& progress) {
+  const std::vector<fem::ElasticMaterial> materials =
+      find_materials(mesh, recipe);
+  static_cast<void>(find_pattern_loads(mesh, recipe, interfaces));
+  check_basis(recipe);
+  for (const auto* names : {&recipe.clamped_groups, &recipe.rows.groups})
+    for (const std::string& name : *names)
+      static_cast<void>(fem::find_group(mesh, name));
+  fem::StructuralMatrices matrices = fem::assemble(mesh, materials, progress);
+  M_s = matrices.M_s;
+  return make_support(mesh, recipe, std::move(matrices));
+}
+
+}  // namespace
+
+MeshedBody::MeshedBody(const Recipe& recipe, const Progress& progress)
+    : mesh(read_mesh(recipe.mesh, progress)),
+      interfaces(find_interfaces(mesh, recipe)),
+      support(assemble_support(mesh, recipe, interfaces, M_s, progress)),
+      inverse(support.matrices, support.R,
+              mesh.x(Eigen::all, support.free_nodes), progress) {}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "common/progress.hpp"
+#include "fem/elastic_inverse.hpp"
+#include "fem/mesh.hpp"
+#include "flexbody/recipe.hpp"
+#include "flexbody/reduce_interfaces.hpp"
+#include "flexbody/reduce_support.hpp"
+
+namespace limber::flexbody {
+
+/// A recipe's body with its matrices, ready to be asked for modes and static
+/// answers. Part of limber_reduction.
+struct MeshedBody {
+  /// @throws InputError naming the file, group or value.
+  MeshedBody(const Recipe& recipe, const Progress& progress);
+  MeshedBody(const MeshedBody&) = delete;  // `inverse` points into `support`
+  MeshedBody& operator=(const MeshedBody&) = delete;
+
+  fem::Mesh mesh;
+  std::vector<Interface> interfaces;
+  fem::SparseMatrix M_s;  ///< of all nodes [kg]
+  Support support;
+  fem::ElasticInverse inverse;  ///< of the free nodes
+};
+
+}  // namespace limber::flexbody

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/errors.hpp"
+#include "flexbody/mode_selection.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+int count_elastic(const fem::ElasticInverse& inverse) {
+  return static_cast<int>(inverse.matrices().dof_count() -
+                          inverse.rigid_count());
+}
+
+/// Sums over all modes of the mesh, which no solve gives.
+VectorX find_report_totals(const LoadCases& cases, const MeshedBody& body,
+                           const Progress& progress) {
+  LIMBER_EXPECT(can_find_all_modes(body));
+  report(progress, "all modes of the mesh", 0.0);
+  const fem::Eigenmodes all =
+      fem::find_eigenmodes(body.inverse, count_elastic(body.inverse), progress);
+  return calc_report_effective_mass(all.Phi, all.lambda,
+                                    body.support.matrices.M_s, cases.loads)
+      .colwise()
+      .sum()
+      .transpose();
+}
+
+CaseShares find_base_masses(const fem::Eigenmodes& modes,
+                            const Support& support) {
+  // Rotations do not enter, so the point they pass through does not matter.
+  const Matrix3X x = Matrix3X::Zero(3, support.matrices.node_count());
+  const Participation participation =
+      calc_participation(modes.Phi, support.matrices.M_s, x);
+  return {participation.effective_mass.topRows<3>().transpose(),
+          participation.rigid_mass.head<3>()};
+}
+
+MatrixX find_compliances(const MatrixX& Phi, const VectorX& lambda,
+                         const LoadCases& cases) {
+  return calc_modal_compliance(Phi.transpose() * cases.loads, lambda);
+}
+
+std::vector<int> all_of(Eigen::Index count) {
+  std::vector<int> modes(static_cast<std::size_t>(count));
+  std::iota(modes.begin(), modes.end(), 0);
+  return modes;
+}
+
+SelectionRecord make_record(const AutomaticModes& options,
+                            const ModeSelection& selection,
+                            const fem::Eigenmodes& candidates,
+                            const LoadCases& cases) {
+  SelectionRecord record;
+  record.measure = options.measure;
+  record.threshold = options.threshold;
+  record.candidates = static_cast<int>(candidates.lambda.size());
+  record.modes = selection.modes;
+  const VectorX errors = calc_static_error(
+      find_compliances(candidates.Phi, candidates.lambda, cases),
+      cases.compliance, selection.modes);
+  for (std::size_t i = 0; i < cases.names.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    record.cases.push_back({cases.names[i], selection.cases[i],
+                            selection.reached[k], errors[k], 0.0});
+  }
+  return record;
+}
+
+/// Before any long work.
+void check_measure(ModeMeasure measure, const MeshedBody& body) {
+  if (measure != ModeMeasure::report || can_find_all_modes(body)) return;
+  throw InputError(fmt::format(
+      "measure 'report' takes the sum over all modes of the mesh; {} free "
+      "degrees of freedom are more than the {} that it is done for. Use "
+      "measure 'compliance', whose total is one static solve.",
+      body.inverse.matrices().dof_count(), kMostDofsForAllModes));
+}
+
+}  // namespace
+
+bool can_find_all_modes(const MeshedBody& body) {
+  return body.inverse.matrices().dof_count() <= kMostDofsForAllModes;
+}
+
+CaseShares find_shares(ModeMeasure measure, const fem::Eigenmodes& modes,
+                       const LoadCases& cases, const MeshedBody& body,
+                       const Progress& progress) {
+  switch (measure) {
+    case ModeMeasure::report:
+      return {
+          calc_report_effective_mass(modes.Phi, modes.lambda,
+                                     body.support.matrices.M_s, cases.loads),
+          find_report_totals(cases, body, progress)};
+    case ModeMeasure::mass:
+      return find_base_masses(modes, body.support);
+    case ModeMeasure::compliance:
+      break;
+  }
+  return {find_compliances(modes.Phi, modes.lambda, cases), cases.compliance};
+}
+
+ChosenModes choose_eigenmodes(const MeshedBody& body, const Recipe& recipe,
+                              const Progress& progress) {
+  const fem::ElasticInverse& inverse = body.inverse;
+  ChosenModes chosen;
+  if (!recipe.basis.automatic) {
+    chosen.eigenmodes =
+        fem::find_eigenmodes(inverse, recipe.basis.eigenmodes, progress);
+    return chosen;
+  }
+  const AutomaticModes& options = *recipe.basis.automatic;
+  check_measure(options.measure, body);
+  chosen.cases = find_load_cases(body, recipe, options.measure);
+  const fem::Eigenmodes candidates = fem::find_eigenmodes(
+      inverse, std::min(options.candidates, count_elastic(inverse)), progress);
+  const CaseShares shares =
+      find_shares(options.measure, candidates, chosen.cases, body, progress);
+  const ModeSelection selection =
+      select_modes(shares.shares, shares.totals, {options.threshold});
+  chosen.record = make_record(options, selection, candidates, chosen.cases);
+  chosen.eigenmodes = {candidates.lambda(selection.modes),
+                       candidates.Phi(Eigen::all, selection.modes)};
+  return chosen;
+}
+
+std::optional<SelectionRecord> finish_record(const ChosenModes& chosen,
+                                             const ReducedBasis& basis) {
+  std::optional<SelectionRecord> record = chosen.record;
+  if (!record) return record;
+  const VectorX errors =
+      calc_static_error(find_compliances(basis.Phi, basis.lambda, chosen.cases),
+                        chosen.cases.compliance, all_of(basis.lambda.size()));
+  for (std::size_t i = 0; i < record->cases.size(); ++i)
+    record->cases[i].basis_error = errors[static_cast<Eigen::Index>(i)];
+  return record;
+}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/recipes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/scene/temporary_file.hpp"
+
+namespace limber::scene {
+namespace {
+
+using test::TemporaryFile;
+
+/// A flexible link with an interface "tip", whose static-deformation modes
+/// cover every load on it.
+Robot make_robot(bool automatic) {
+  FlexibleLink flexible;
+  flexible.mesh.file = "arm.msh";
+  flexible.interfaces = {{"tip", flexbody::GroupNodes{"tip"}}};
+  if (automatic) flexible.basis.automatic = flexbody::AutomaticModes{};
+  Robot robot;
+  robot.links = {{"arm", {}, flexible}};
+  return robot;
+}
+
+Scenario push_tip(dynamics::LoadFrame frame) {
+  LoadSpec load;
+  load.name = "push";
+  load.where.link = "arm";
+  load.where.interface = "tip";
+  load.force = Vector3(0.0, 2.0, 0.0);
+  load.frame = frame;
+  Scenario scenario;
+  scenario.loads = {load};
+  return scenario;
+}
+
+TEST(Recipes, LoadsThatAnInterfaceCoversNeedNoPattern) {
+  const Scenario scenario = push_tip(dynamics::LoadFrame::world);
+  EXPECT_TRUE(
+      make_recipe(make_robot(false), 0, scenario).load_patterns.empty());
+}
+
+TEST(Recipes, OfAutomaticModesHoldThemAsLoadCasesAlone) {
+  const Robot robot = make_robot(true);
+  const auto body =
+      make_recipe(robot, 0, push_tip(dynamics::LoadFrame::body)).load_patterns;
+  ASSERT_EQ(body.size(), 1U);
+  EXPECT_EQ(body[0].force, Vector3(0.0, 2.0, 0.0));
+  EXPECT_FALSE(body[0].static_mode);
+  const auto world =
+      make_recipe(robot, 0, push_tip(dynamics::LoadFrame::world)).load_patterns;
+  EXPECT_EQ(world.size(), 3U);  // it turns through the body
+}
+
+TEST(Recipes, OfAutomaticModesHoldNodalForces) {
+  const TemporaryFile file("forces.txt", "0 0.5\n1 2\n3 4\n5 6\n");
+  Scenario scenario;
+  LoadSpec load;
+  load.where.link = "arm";
+  load.nodal_forces = file.path();
+  scenario.loads = {load};
+  EXPECT_TRUE(make_recipe(make_robot(false), 0, scenario).nodal_forces.empty());
+  const auto recipe = make_recipe(make_robot(true), 0, scenario);
+  ASSERT_EQ(recipe.nodal_forces.size(), 1U);
+  EXPECT_EQ(recipe.nodal_forces[0].times, (std::vector<double>{0.0, 0.5}));
+  EXPECT_EQ(recipe.nodal_forces[0].forces.col(1), Vector3(2.0, 4.0, 6.0));
+  EXPECT_EQ(recipe.rows, flexbody::parse_rows({"all"}));
+}
+
+}  // namespace
+}  // namespace limber::scene
