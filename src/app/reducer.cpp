@@ -8,20 +8,43 @@
 
 namespace limber::app {
 
-scene::Reducer make_reducer(const Progress& progress) {
 #ifdef LIMBER_HAS_REDUCTION
+
+scene::Reducer make_reducer(const Progress& progress) {
   return [progress](const flexbody::Recipe& recipe) {
     return flexbody::reduce(recipe, progress);
   };
-#else
-  (void)progress;
-  return [](const flexbody::Recipe& recipe) -> flexbody::ReducedBody {
-    throw InputError(recipe.mesh.file.string() +
-                     ": this limber was built without meshing and reduction "
-                     "(LIMBER_REDUCTION=OFF); give a saved reduced body by "
-                     "<reduced file=.../>");
-  };
-#endif
 }
+
+flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
+                                   const Progress& progress) {
+  return flexbody::study_modes(recipe, progress);
+}
+
+#else
+
+namespace {
+
+[[noreturn]] void refuse(const flexbody::Recipe& recipe) {
+  throw InputError(recipe.mesh.file.string() +
+                   ": this limber was built without meshing and reduction "
+                   "(LIMBER_REDUCTION=OFF); give a saved reduced body by "
+                   "<reduced file=.../>");
+}
+
+}  // namespace
+
+scene::Reducer make_reducer(const Progress&) {
+  return [](const flexbody::Recipe& recipe) -> flexbody::ReducedBody {
+    refuse(recipe);
+  };
+}
+
+flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
+                                   const Progress&) {
+  refuse(recipe);
+}
+
+#endif
 
 }  // namespace limber::app

@@ -2,11 +2,16 @@
 #pragma once
 
 #include "common/progress.hpp"
+#include "flexbody/reduce_mode_study.hpp"
 #include "scene/scene.hpp"
 
 namespace limber::app {
 
 /// flexbody::reduce, or a refusal in a build without Gmsh and CHOLMOD.
 [[nodiscard]] scene::Reducer make_reducer(const Progress& progress);
+
+/// flexbody::study_modes, or the same refusal.
+[[nodiscard]] flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
+                                                 const Progress& progress);
 
 }  // namespace limber::app

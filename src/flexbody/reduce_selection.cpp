@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "common/errors.hpp"
-#include "flexbody/mode_selection.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -15,30 +14,6 @@ namespace {
 int count_elastic(const fem::ElasticInverse& inverse) {
   return static_cast<int>(inverse.matrices().dof_count() -
                           inverse.rigid_count());
-}
-
-/// Sums over all modes of the mesh, which no solve gives.
-VectorX find_report_totals(const LoadCases& cases, const MeshedBody& body,
-                           const Progress& progress) {
-  LIMBER_EXPECT(can_find_all_modes(body));
-  report(progress, "all modes of the mesh", 0.0);
-  const fem::Eigenmodes all =
-      fem::find_eigenmodes(body.inverse, count_elastic(body.inverse), progress);
-  return calc_report_effective_mass(all.Phi, all.lambda,
-                                    body.support.matrices.M_s, cases.loads)
-      .colwise()
-      .sum()
-      .transpose();
-}
-
-CaseShares find_base_masses(const fem::Eigenmodes& modes,
-                            const Support& support) {
-  // Rotations do not enter, so the point they pass through does not matter.
-  const Matrix3X x = Matrix3X::Zero(3, support.matrices.node_count());
-  const Participation participation =
-      calc_participation(modes.Phi, support.matrices.M_s, x);
-  return {participation.effective_mass.topRows<3>().transpose(),
-          participation.rigid_mass.head<3>()};
 }
 
 MatrixX find_compliances(const MatrixX& Phi, const VectorX& lambda,
@@ -88,6 +63,26 @@ bool can_find_all_modes(const MeshedBody& body) {
   return body.inverse.matrices().dof_count() <= kMostDofsForAllModes;
 }
 
+VectorX find_report_totals(const LoadCases& cases, const MeshedBody& body,
+                           const Progress& progress) {
+  LIMBER_EXPECT(can_find_all_modes(body));
+  report(progress, "all modes of the mesh", 0.0);
+  const fem::Eigenmodes all =
+      fem::find_eigenmodes(body.inverse, count_elastic(body.inverse), progress);
+  return calc_report_effective_mass(all.Phi, all.lambda,
+                                    body.support.matrices.M_s, cases.loads)
+      .colwise()
+      .sum()
+      .transpose();
+}
+
+Participation calc_base_participation(const MeshedBody& body,
+                                      const fem::Eigenmodes& modes) {
+  const fem::StructuralMatrices& matrices = body.support.matrices;
+  return calc_participation(modes.Phi, matrices.M_s,
+                            Matrix3X::Zero(3, matrices.node_count()));
+}
+
 CaseShares find_shares(ModeMeasure measure, const fem::Eigenmodes& modes,
                        const LoadCases& cases, const MeshedBody& body,
                        const Progress& progress) {
@@ -97,8 +92,11 @@ CaseShares find_shares(ModeMeasure measure, const fem::Eigenmodes& modes,
           calc_report_effective_mass(modes.Phi, modes.lambda,
                                      body.support.matrices.M_s, cases.loads),
           find_report_totals(cases, body, progress)};
-    case ModeMeasure::mass:
-      return find_base_masses(modes, body.support);
+    case ModeMeasure::mass: {
+      const Participation base = calc_base_participation(body, modes);
+      return {base.effective_mass.topRows<3>().transpose(),
+              base.rigid_mass.head<3>()};
+    }
     case ModeMeasure::compliance:
       break;
   }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fem/eigenmodes.hpp"
+#include "flexbody/mode_selection.hpp"
 #include "flexbody/reduce_load_cases.hpp"
 #include "flexbody/reduced_basis.hpp"
 #include "flexbody/selection_record.hpp"
@@ -17,6 +18,18 @@ namespace limber::flexbody {
 inline constexpr Eigen::Index kMostDofsForAllModes = 4000;
 
 [[nodiscard]] bool can_find_all_modes(const MeshedBody& body);
+
+/// Sums of the report's effective mass over all modes of the mesh, k.
+/// For bodies of which all modes can be found.
+[[nodiscard]] VectorX find_report_totals(const LoadCases& cases,
+                                         const MeshedBody& body,
+                                         const Progress& progress);
+
+/// Participation in translations of a clamped body's base, with the mass of
+/// its free nodes, on which all modes together are complete. The rotations'
+/// rows are zero.
+[[nodiscard]] Participation calc_base_participation(
+    const MeshedBody& body, const fem::Eigenmodes& modes);
 
 /// What every mode carries of every load case.
 struct CaseShares {

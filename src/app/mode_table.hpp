@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/json.hpp"
+#include "flexbody/reduce_mode_study.hpp"
+
+namespace limber::app {
+
+/// The study of `limber modes`, for programs and for people. Shares are in
+/// percent of the total over all modes of the mesh.
+[[nodiscard]] Json to_json(const flexbody::ModeStudy& study);
+void print_text(const flexbody::ModeStudy& study);
+
+}  // namespace limber::app

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_mode_study.hpp"
+
+#include "flexbody/mode_selection.hpp"
+#include "flexbody/reduce_selection.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+std::vector<LoadCaseStudy> study_loads(const MeshedBody& body,
+                                       const Recipe& recipe,
+                                       const fem::Eigenmodes& modes,
+                                       const Progress& progress) {
+  if (recipe.load_patterns.empty() && recipe.nodal_forces.empty()) return {};
+  const LoadCases cases =
+      find_load_cases(body, recipe, ModeMeasure::compliance);
+  const CaseShares work =
+      find_shares(ModeMeasure::compliance, modes, cases, body, progress);
+  CaseShares masses{
+      calc_report_effective_mass(modes.Phi, modes.lambda,
+                                 body.support.matrices.M_s, cases.loads),
+      VectorX()};
+  const bool has_total = can_find_all_modes(body);
+  if (has_total) masses.totals = find_report_totals(cases, body, progress);
+  std::vector<LoadCaseStudy> studies;
+  for (Eigen::Index k = 0; k < cases.count(); ++k) {
+    LoadCaseStudy study;
+    study.name = cases.names[static_cast<std::size_t>(k)];
+    study.effective_mass = masses.shares.col(k);
+    if (has_total) study.effective_mass_total = masses.totals[k];
+    study.compliance = work.shares.col(k);
+    study.compliance_total = work.totals[k];
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+BaseMotionStudy study_base(const MeshedBody& body,
+                           const fem::Eigenmodes& modes) {
+  const Participation participation = calc_base_participation(body, modes);
+  return {participation.factors.topRows<3>(),
+          participation.effective_mass.topRows<3>(),
+          participation.rigid_mass.head<3>()};
+}
+
+}  // namespace
+
+ModeStudy study_modes(const Recipe& recipe, const Progress& progress) {
+  const MeshedBody body(recipe, progress);
+  const fem::Eigenmodes modes =
+      fem::find_eigenmodes(body.inverse, recipe.basis.eigenmodes, progress);
+  const fem::MassProperties inertia =
+      fem::calc_mass_properties(body.M_s, body.mesh.x);
+  ModeStudy study;
+  study.mesh_nodes = body.mesh.node_count();
+  study.mesh_elements = body.mesh.element_count();
+  study.mesh_boundary_nodes = body.mesh.boundary_nodes.size();
+  study.clamped = body.support.is_clamped;
+  study.mass = inertia.mass;
+  study.p_MoBcm_M = inertia.center;
+  study.inertia = inertia.S0.trace() * Matrix3::Identity() - inertia.S0;
+  study.lambda = modes.lambda;
+  study.cases = study_loads(body, recipe, modes, progress);
+  if (study.clamped) study.base = study_base(body, modes);
+  report(progress, "studied", 1.0);
+  return study;
+}
+
+}  // namespace limber::flexbody
