@@ -72,7 +72,7 @@ Json describe_body(const std::filesystem::path& file) {
             {"frequencies_hz", to_json(hz)},
             {"interfaces", interfaces},
             {"groups", groups}};
-  if (body.selection) json["automatic_modes"] = to_json(*body.selection);
+  add_choices(body, json);
   return json;
 }
 
@@ -83,7 +83,21 @@ Json describe_results(const std::filesystem::path& file) {
               {"bodies", contents.bodies}, {"probes", contents.probes}};
 }
 
+Json describe_field(const flexbody::ProjectedField& field) {
+  return Json{{"modes", to_json(MatrixX(field.eta))},
+              {"rigid_share", field.rigid_share},
+              {"missed_share", field.missed_share}};
+}
+
 }  // namespace
+
+void add_choices(const flexbody::ReducedBody& body, Json& json) {
+  if (body.selection) json["automatic_modes"] = to_json(*body.selection);
+  if (const auto& field = body.initial.displacement)
+    json["initial_displacement"] = describe_field(*field);
+  if (const auto& field = body.initial.velocity)
+    json["initial_velocity"] = describe_field(*field);
+}
 
 Json describe_scenario(const std::filesystem::path& file) {
   const scene::Scenario scenario = scene::read_scenario(file);

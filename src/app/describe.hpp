@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/json.hpp"
+#include "flexbody/reduced_body.hpp"
 
 /// What `limber info` tells about each kind of file.
 namespace limber::app {
@@ -15,5 +16,8 @@ namespace limber::app {
 /// @param unit metres per mesh unit [m].
 [[nodiscard]] Json describe_mesh(const std::filesystem::path& file,
                                  double unit);
+
+/// Adds how a body's modes were chosen and what it starts with, if at all.
+void add_choices(const flexbody::ReducedBody& body, Json& json);
 
 }  // namespace limber::app

@@ -4,13 +4,14 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/json.hpp"
+#include "app/describe.hpp"
 #include "app/mesh_options.hpp"
 #include "app/mode_options.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
 #include "flexbody/body_file.hpp"
+#include "scene/link_start.hpp"
 #include "scene/nodal_forces.hpp"
 
 namespace limber::app {
@@ -23,6 +24,8 @@ struct Options {
   std::vector<std::string> interfaces;
   ModeOptions modes;
   std::vector<std::string> forces;
+  std::string initial_displacement;
+  std::string initial_velocity;
   std::vector<std::string> rows = {"boundary"};
   bool json = false;
 };
@@ -37,6 +40,10 @@ flexbody::Recipe make_recipe(const Options& options) {
   if (!recipe.nodal_forces.empty() && !recipe.basis.automatic) {
     throw InputError("--force gives load cases for --modes auto; add it");
   }
+  scene::LinkStart start;
+  start.displacement = options.initial_displacement;
+  start.velocity = options.initial_velocity;
+  add_initial_fields(start, recipe);
   recipe.rows = flexbody::parse_rows(options.rows);
   for (const std::string& group : options.interfaces) {
     flexbody::InterfaceRequest request;
@@ -47,12 +54,20 @@ flexbody::Recipe make_recipe(const Options& options) {
   return recipe;
 }
 
+void warn(const flexbody::ReducedBody& body) {
+  if (body.selection) print_warnings(describe_shortfalls(*body.selection));
+  if (const auto& field = body.initial.displacement)
+    print_warnings(describe_losses(*field, "initial displacement"));
+  if (const auto& field = body.initial.velocity)
+    print_warnings(describe_losses(*field, "initial velocity"));
+}
+
 void print_json(const flexbody::ReducedBody& body, const std::string& file) {
   Json json = Json{{"file", file},
                    {"nodes", body.mesh_nodes},
                    {"modes", body.mode_count()},
                    {"mass", body.mass}};
-  if (body.selection) json["automatic_modes"] = to_json(*body.selection);
+  add_choices(body, json);
   fmt::print("{}\n", to_text(json));
 }
 
@@ -66,7 +81,7 @@ void reduce(const Options& options) {
   const flexbody::Recipe recipe = make_recipe(options);
   const flexbody::ReducedBody body = make_reducer(make_progress_bar())(recipe);
   clear_progress_bar();
-  if (body.selection) print_warnings(describe_shortfalls(*body.selection));
+  warn(body);
   flexbody::write_body(body, options.output);
   if (options.json) {
     print_json(body, options.output);
@@ -92,6 +107,11 @@ void add_reduce(CLI::App& app, Action& action) {
   command->add_option("--force", options->forces,
                       "With --modes auto: force file whose columns are load "
                       "cases; may be given again. Without: the interfaces");
+  command->add_option("--initial-displacement", options->initial_displacement,
+                      "Nodal field that the body starts with: a row for each "
+                      "free degree of freedom [m]");
+  command->add_option("--initial-velocity", options->initial_velocity,
+                      "The same for its rate [m/s]");
   command->add_option("--rows", options->rows,
                       "Nodes to keep: all, boundary (default), interfaces, or "
                       "groups by name; may be given again");

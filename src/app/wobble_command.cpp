@@ -25,6 +25,8 @@ struct Options {
   double duration = 0.0;
   std::string solver = "CoupledRB";
   std::vector<std::string> clamps;
+  std::string initial_displacement;
+  std::string initial_velocity;
   std::vector<int> nodes;
   std::string out;
   std::string cache;
@@ -85,6 +87,11 @@ scene::Scenario make_scenario(const Options& options, const std::string& link) {
   load.where.link = link;
   load.nodal_forces = options.force;
   scenario.loads = {load};
+  if (!options.initial_displacement.empty() ||
+      !options.initial_velocity.empty()) {
+    scenario.link_starts[link] = {
+        {}, {}, options.initial_displacement, options.initial_velocity};
+  }
   for (const int tag : options.nodes) {
     scene::ProbeSpec probe;
     probe.name = fmt::format("node_{}", tag);
@@ -134,6 +141,11 @@ void add_wobble(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"PureMA", "SimpleRB", "CoupledRB"}));
   command->add_option("--clamp", options->clamps,
                       "Group that is fixed; may be given again");
+  command->add_option("--initial-displacement", options->initial_displacement,
+                      "Nodal field at the start: a row for each free degree "
+                      "of freedom [m]");
+  command->add_option("--initial-velocity", options->initial_velocity,
+                      "The same for its rate [m/s]");
   command->add_option("--node", options->nodes,
                       "Node to follow, by its tag; may be given again");
   command->add_option("--size", options->size,

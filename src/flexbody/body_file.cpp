@@ -11,13 +11,14 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "flexbody/body_file_reader.hpp"
+#include "flexbody/body_file_records.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -65,11 +66,9 @@ std::optional<int> version_of(const std::string& seal) {
   return version;
 }
 
-std::vector<std::int64_t> to_integers(const std::vector<std::size_t>& v) {
-  return {v.begin(), v.end()};
-}
+using Reader = BodyFileReader;
 
-std::vector<std::size_t> to_sizes(const std::vector<std::int64_t>& v) {
+std::vector<std::int64_t> to_integers(const std::vector<std::size_t>& v) {
   return {v.begin(), v.end()};
 }
 
@@ -135,43 +134,6 @@ void write_interfaces(Hdf5File& out, const ReducedBody& body) {
   }
 }
 
-// Flat lists: a load that changes often has thousands of cases.
-void write_selection(Hdf5File& out, const ReducedBody& body) {
-  const SelectionRecord record = body.selection.value_or(SelectionRecord{});
-  const auto count = static_cast<Eigen::Index>(record.cases.size());
-  std::string names;
-  MatrixX figures(count, 3);
-  std::vector<std::int64_t> asked_counts;
-  std::vector<std::int64_t> asked;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const SelectedCase& item = record.cases[static_cast<std::size_t>(i)];
-    names += item.name + '\n';
-    figures.row(i) << item.reached, item.eigenmode_error, item.basis_error;
-    asked_counts.push_back(static_cast<std::int64_t>(item.modes.size()));
-    asked.insert(asked.end(), item.modes.begin(), item.modes.end());
-  }
-  out.write("selection/is_automatic",
-            std::vector<std::int64_t>{body.selection ? 1 : 0}, "1",
-            "1 if eigenmodes were chosen by load cases");
-  out.write("selection/measure", std::string(to_string(record.measure)),
-            "what shares are of");
-  out.write("selection/threshold", MatrixX::Constant(1, 1, record.threshold),
-            "1", "share to reach");
-  out.write("selection/candidates",
-            std::vector<std::int64_t>{record.candidates}, "1",
-            "eigenmodes to choose from");
-  out.write("selection/modes",
-            std::vector<std::int64_t>(record.modes.begin(), record.modes.end()),
-            "1", "eigenmodes kept, from 0");
-  out.write("selection/case_names", names, "load cases, one a line");
-  out.write(
-      "selection/case_figures", figures, "1",
-      "a case a row: share reached, static error by eigenmodes, by basis");
-  out.write("selection/case_mode_counts", asked_counts, "1",
-            "eigenmodes that each case asks for");
-  out.write("selection/case_modes", asked, "1", "these, case by case, from 0");
-}
-
 void write_content(Hdf5File& out, const ReducedBody& body) {
   out.write("format", kFormat, "what this file is");
   out.write("version", std::vector<std::int64_t>{kBodyFileVersion}, "1",
@@ -202,54 +164,11 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_rows(out, body);
   write_groups(out, body);
   write_interfaces(out, body);
-  write_selection(out, body);
+  write_selection(out, body.selection);
+  write_field(out, "initial/displacement/", body.initial.displacement,
+              "kg^1/2 m");
+  write_field(out, "initial/velocity/", body.initial.velocity, "kg^1/2 m/s");
 }
-
-// Reads with sizes and finiteness checked; every doubt is an InputError.
-class Reader {
- public:
-  Reader(const Hdf5File& in, const std::filesystem::path& file)
-      : in_(in), file_(file) {}
-
-  [[nodiscard]] MatrixX matrix(const std::string& name, Eigen::Index rows,
-                               Eigen::Index columns) const {
-    MatrixX m = in_.read_matrix(name);
-    if (m.rows() != rows || m.cols() != columns) {
-      fail(fmt::format("'{}' is {} x {}; expected {} x {}", name, m.rows(),
-                       m.cols(), rows, columns));
-    }
-    if (!m.allFinite()) fail(fmt::format("'{}' is not finite", name));
-    return m;
-  }
-  [[nodiscard]] std::int64_t integer(const std::string& name) const {
-    const auto values = in_.read_integers(name);
-    if (values.size() != 1) fail(fmt::format("'{}' is not one number", name));
-    return values[0];
-  }
-  // Integers that are not negative, `count` of them (any number if negative).
-  [[nodiscard]] std::vector<std::size_t> sizes(const std::string& name,
-                                               std::int64_t count) const {
-    const auto values = in_.read_integers(name);
-    for (const std::int64_t v : values) {
-      if (v < 0) fail(fmt::format("'{}' holds {}", name, v));
-    }
-    if (count >= 0 && static_cast<std::int64_t>(values.size()) != count) {
-      fail(fmt::format("'{}' has {} entries; expected {}", name, values.size(),
-                       count));
-    }
-    return to_sizes(values);
-  }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(
-        fmt::format("'{}': {}; the reduced body is damaged, make it anew",
-                    file_.string(), what));
-  }
-  [[nodiscard]] const Hdf5File& in() const { return in_; }
-
- private:
-  const Hdf5File& in_;
-  const std::filesystem::path& file_;
-};
 
 void read_rows(const Reader& reader, ReducedBody& body) {
   const Eigen::Index m = body.lambda.size();
@@ -297,49 +216,6 @@ void read_interfaces(const Reader& reader, std::size_t count,
     table.flexibility = reader.matrix(at + "flexibility", 6, 6);
     body.interfaces.push_back(std::move(table));
   }
-}
-
-std::vector<std::string> split_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-ModeMeasure read_measure(const Reader& reader) {
-  try {
-    return parse_measure(reader.in().read_text("selection/measure"));
-  } catch (const InputError& error) {
-    reader.fail(error.what());
-  }
-}
-
-void read_selection(const Reader& reader, ReducedBody& body) {
-  if (reader.integer("selection/is_automatic") == 0) return;
-  SelectionRecord record;
-  record.measure = read_measure(reader);
-  record.threshold = reader.matrix("selection/threshold", 1, 1)(0, 0);
-  record.candidates = static_cast<int>(reader.integer("selection/candidates"));
-  const auto modes = reader.sizes("selection/modes", -1);
-  record.modes.assign(modes.begin(), modes.end());
-  const std::vector<std::string> names =
-      split_lines(reader.in().read_text("selection/case_names"));
-  const auto count = static_cast<std::int64_t>(names.size());
-  const MatrixX figures = reader.matrix("selection/case_figures", count, 3);
-  const auto asked_counts = reader.sizes("selection/case_mode_counts", count);
-  const auto asked = reader.sizes("selection/case_modes", -1);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (asked_counts[i] > asked.size() - at)
-      reader.fail("'selection/case_modes' is cut short");
-    const auto row = static_cast<Eigen::Index>(i);
-    SelectedCase item{
-        names[i], {}, figures(row, 0), figures(row, 1), figures(row, 2)};
-    for (const std::size_t end = at + asked_counts[i]; at < end; ++at)
-      item.modes.push_back(static_cast<int>(asked[at]));
-    record.cases.push_back(std::move(item));
-  }
-  body.selection = std::move(record);
 }
 
 // Before HDF5 sees the file: a library that parses damaged structures can
@@ -442,7 +318,9 @@ ReducedBody read_body(const std::filesystem::path& file) {
   const auto counts = reader.sizes("counts", 2);
   read_groups(reader, counts[0], body);
   read_interfaces(reader, counts[1], body);
-  read_selection(reader, body);
+  body.selection = read_selection(reader);
+  body.initial.displacement = read_field(reader, "initial/displacement/", m);
+  body.initial.velocity = read_field(reader, "initial/velocity/", m);
   return body;
 }
 

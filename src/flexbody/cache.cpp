@@ -183,6 +183,8 @@ std::string content_key(const Recipe& recipe) {
     digest.add(nodal.times);
     digest.add(nodal.forces);
   }
+  digest.add(MatrixX(recipe.initial_displacement.values));
+  digest.add(MatrixX(recipe.initial_velocity.values));
   digest.add(recipe.basis.eigenmodes);
   digest.add(recipe.basis.automatic.has_value());
   if (recipe.basis.automatic) {

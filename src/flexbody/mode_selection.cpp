@@ -9,24 +9,12 @@
 #include <set>
 
 #include "common/errors.hpp"
+#include "flexbody/multiply_mass.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// (M_s (x) I_3) X.
-MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X) {
-  LIMBER_EXPECT(M_s.rows() == M_s.cols() && X.rows() == 3 * M_s.cols());
-  MatrixX product(X.rows(), X.cols());
-  for (Eigen::Index k = 0; k < X.cols(); ++k) {
-    const Eigen::Map<const Matrix3X> nodal(X.col(k).data(), 3, M_s.cols());
-    const Eigen::MatrixX3d column = M_s * nodal.transpose();
-    Eigen::Map<Matrix3X>(product.col(k).data(), 3, M_s.cols()) =
-        column.transpose();
-  }
-  return product;
-}
 
 /// Unit translations and small rotations about the axes, 3N x 6.
 MatrixX rigid_motions(const Matrix3X& x) {

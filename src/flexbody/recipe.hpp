@@ -94,6 +94,12 @@ struct NodalForces {
   MatrixX forces;             ///< 3 x free nodes, cases [N]
 };
 
+/// A field on every node, rows as those of NodalForces; without any, none.
+struct NodalField {
+  std::string name;  ///< for messages
+  VectorX values;    ///< 3 x free nodes [m or m/s]
+};
+
 /// What a mode's share of a load case is measured by; docs/theory/choosing.md.
 enum class ModeMeasure {
   compliance,  ///< work of the load on the mode's static answer
@@ -145,6 +151,8 @@ struct Recipe {
   std::vector<InterfaceRequest> interfaces;
   std::vector<LoadPattern> load_patterns;
   std::vector<NodalForces> nodal_forces;  ///< used by automatic modes alone
+  NodalField initial_displacement;  ///< projected before rows are dropped [m]
+  NodalField initial_velocity;      ///< [m/s]
   BasisOptions basis;
   KeptRows rows;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/reduce.hpp"
 
+#include "flexbody/reduce_initial.hpp"
 #include "flexbody/reduce_meshed_body.hpp"
 #include "flexbody/reduce_rows.hpp"
 #include "flexbody/reduce_selection.hpp"
@@ -82,6 +83,7 @@ ReducedBasis find_basis(const Recipe& recipe, const Support& support,
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
   const MeshedBody meshed(recipe, progress);
   const fem::Mesh& mesh = meshed.mesh;
+  check_initial_fields(meshed, recipe);
   const ChosenModes chosen = choose_eigenmodes(meshed, recipe, progress);
   report(progress, "static-deformation modes", 0.0);
   const StaticModes modes = find_static_modes(meshed, recipe);
@@ -102,6 +104,7 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
       calc_shape_integrals(meshed.M_s, mesh.x.colwise() - inertia.center, Phi);
   body.lambda = basis.lambda;
   body.selection = finish_record(chosen, basis);
+  body.initial = project_initial_fields(meshed, recipe, basis);
   body.mesh_nodes = mesh.node_count();
   body.mesh_elements = mesh.element_count();
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();

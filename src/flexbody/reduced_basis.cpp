@@ -7,20 +7,12 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "flexbody/multiply_mass.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// (M_s (x) I_3) x, x as 3 x N.
-VectorX multiply_mass(const SparseMatrix& M_s, const VectorX& x) {
-  const Eigen::Map<const Matrix3X> nodal(x.data(), 3, M_s.cols());
-  const Eigen::MatrixX3d product = M_s * nodal.transpose();
-  VectorX result(x.size());
-  Eigen::Map<Matrix3X>(result.data(), 3, M_s.cols()) = product.transpose();
-  return result;
-}
 
 /// Signs are otherwise arbitrary: the largest entry is made positive, so that
 /// two runs agree.
@@ -48,7 +40,7 @@ MatrixX orthonormalise(const MatrixX& vectors, const SparseMatrix& M_s,
   Eigen::Index kept = rigid;
   for (Eigen::Index k = 0; k < vectors.cols(); ++k) {
     VectorX x = vectors.col(k);
-    const double before = std::sqrt(x.dot(multiply_mass(M_s, x)));
+    const double before = std::sqrt(x.dot(multiply_mass(M_s, x).col(0)));
     if (!std::isfinite(before))
       throw NumericalError(
           fmt::format("reduced basis: vector {} is not finite", k + 1));
@@ -59,7 +51,7 @@ MatrixX orthonormalise(const MatrixX& vectors, const SparseMatrix& M_s,
     // so that what is left of a nearly dependent vector is clean.
     for (int pass = 0; pass < 2 && norm > drop_tolerance; ++pass) {
       x -= Q.leftCols(kept) * (MQ.leftCols(kept).transpose() * x);
-      const double left = std::sqrt(x.dot(multiply_mass(M_s, x)));
+      const double left = std::sqrt(x.dot(multiply_mass(M_s, x).col(0)));
       norm *= left;
       if (left > 0.0) x /= left;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/types.hpp"
+#include "flexbody/initial_deformation.hpp"
 #include "flexbody/selection_record.hpp"
 
 namespace limber::flexbody {
@@ -82,7 +83,8 @@ struct ReducedBody {
   std::size_t mesh_elements = 0;
   std::size_t mesh_boundary_nodes = 0;
   std::optional<SelectionRecord> selection;  ///< of automatic modes
-  std::string content_key;                   ///< hash of all that went in
+  InitialDeformation initial;  ///< projections of the recipe's fields
+  std::string content_key;     ///< hash of all that went in
 
   [[nodiscard]] int mode_count() const {
     return static_cast<int>(lambda.size());

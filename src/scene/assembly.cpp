@@ -7,6 +7,7 @@
 
 #include "scene/default_stiffness.hpp"
 #include "scene/interface_tables.hpp"
+#include "scene/link_start.hpp"
 #include "scene/nodal_forces.hpp"
 #include "scene/problems.hpp"
 #include "scene/recipes.hpp"
@@ -110,6 +111,12 @@ void Assembly::add_body(const BodyPlan& plan) {
         "link '{}': the mesh has {:.4g} kg, <inertial> says {:.4g} kg; the "
         "mesh's is used",
         link.name, plan.mass, link.inertia->mass));
+  }
+  if (level_of(plan.name) == dynamics::Fidelity::rigid &&
+      find_start(scene_.scenario, link.name) != nullptr) {
+    warnings_.push_back(fmt::format(
+        "link '{}' is rigid in this run: its initial deformation is left out",
+        link.name));
   }
 }
 
@@ -321,6 +328,17 @@ Probe Assembly::make_probe(const ProbeSpec& spec) const {
 
 dynamics::SystemModel Assembly::build() const { return builder_.build(); }
 
+void Assembly::deform(const dynamics::BodyModel& body,
+                      dynamics::SystemState& state) const {
+  const LinkStart* start = find_start(scene_.scenario, body.name);
+  if (start == nullptr || body.modes == 0) return;
+  naming("[initial.links." + body.name + "]", [&] {
+    const ModalStart modal = find_modal_start(*start, *body.reduced);
+    state.eta.segment(body.offset, body.modes) = modal.eta;
+    state.etadot.segment(body.offset, body.modes) = modal.etadot;
+  });
+}
+
 dynamics::SystemState Assembly::make_initial_state(
     const dynamics::SystemModel& model) const {
   dynamics::SystemState state = dynamics::make_state(model);
@@ -334,6 +352,7 @@ dynamics::SystemState Assembly::make_initial_state(
     body.quat_WB = Quaternion(X_WB.R).normalized();
     body.v_WB_W = motion.v_WL_W + motion.w_WL_W.cross(X_WB.p - motion.X_WL.p);
     body.w_WB_B = X_WB.R.transpose() * motion.w_WL_W;
+    deform(model.bodies[index(body_index_[i])], state);
   }
   return state;
 }

@@ -51,6 +51,8 @@ class Assembly {
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   Probe make_probe(const ProbeSpec& spec) const;
+  void deform(const dynamics::BodyModel& body,
+              dynamics::SystemState& state) const;
 
   const Scene& scene_;
   const BodyPlans& plans_;

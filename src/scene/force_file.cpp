@@ -17,11 +17,11 @@ using Row = std::vector<double>;
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file)
+  Reader(const std::filesystem::path& file, const char* kind)
       : file_(file), stream_(file) {
     if (!stream_) {
       throw InputError(
-          fmt::format("{}: cannot read this force file", file.string()));
+          fmt::format("{}: cannot read this {}", file.string(), kind));
     }
   }
 
@@ -108,7 +108,7 @@ ForceFile without_repeats(const Row& times, const MatrixX& forces) {
 }  // namespace
 
 ForceFile read_force_file(const std::filesystem::path& file) {
-  Reader reader(file);
+  Reader reader(file, "force file");
   const Row times = read_times(reader);
   std::vector<Row> rows;
   for (Row row; reader.next(row);) {
@@ -119,6 +119,22 @@ ForceFile read_force_file(const std::filesystem::path& file) {
     rows.push_back(std::move(row));
   }
   return without_repeats(times, to_matrix(rows, times.size()));
+}
+
+VectorX read_nodal_field(const std::filesystem::path& file) {
+  Reader reader(file, "nodal field");
+  std::vector<double> values;
+  for (Row row; reader.next(row);) {
+    if (row.size() != 1) {
+      reader.fail(fmt::format(
+          "{} values; expected one, a row for each free degree of freedom",
+          row.size()));
+    }
+    values.push_back(row.front());
+  }
+  if (values.empty()) reader.fail("it holds no values");
+  return Eigen::Map<const VectorX>(values.data(),
+                                   static_cast<Eigen::Index>(values.size()));
 }
 
 }  // namespace limber::scene

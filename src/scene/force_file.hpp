@@ -23,4 +23,10 @@ struct ForceFile {
 /// do not increase, what is not a finite number.
 [[nodiscard]] ForceFile read_force_file(const std::filesystem::path& file);
 
+/// A nodal field, as a text file of numbers: a row for each free degree of
+/// freedom with one value, in the order of a force file and without its times.
+/// Displacements [m] or velocities [m/s], axes of the mesh.
+/// @throws InputError with file and line.
+[[nodiscard]] VectorX read_nodal_field(const std::filesystem::path& file);
+
 }  // namespace limber::scene

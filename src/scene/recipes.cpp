@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/link_start.hpp"
 #include "scene/nodal_forces.hpp"
 
 namespace limber::scene {
@@ -153,6 +154,9 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
     }
     require_place(recipe, load.where);
     add_patterns(recipe, flexible, load);
+  }
+  if (const LinkStart* start = find_start(scenario, link.name)) {
+    add_initial_fields(*start, recipe);
   }
   for (const ProbeSpec& probe : scenario.probes) {
     if (probe.where.link != link.name || is_single_node(probe.where)) continue;

@@ -22,8 +22,9 @@ namespace limber::scene {
 
 /// What to ask of the reduction of a flexible link in this scenario: the
 /// link's own interfaces, those of its joints and connectors, and those of
-/// the loads and probes on it. With automatic modes it holds the load cases.
-/// @throws InputError for a force file that cannot be read.
+/// the loads and probes on it. It holds the load cases
+/// of automatic modes and the nodal fields that the link starts with.
+/// @throws InputError for a force or field file that cannot be read.
 [[nodiscard]] flexbody::Recipe make_recipe(const Robot& robot, int link,
                                            const Scenario& scenario);
 

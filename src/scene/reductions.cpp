@@ -7,6 +7,7 @@
 
 #include "flexbody/body_file.hpp"
 #include "flexbody/cache.hpp"
+#include "scene/link_start.hpp"
 #include "scene/problems.hpp"
 #include "scene/recipes.hpp"
 
@@ -33,8 +34,7 @@ class Reduction {
     if (!link.flexible) return nullptr;
     try {
       if (!link.flexible->reduced_file.empty()) {
-        return std::make_shared<const flexbody::ReducedBody>(
-            flexbody::read_body(link.flexible->reduced_file));
+        return read(link);
       }
       return reduce(make_recipe(scene_.robot, index, scene_.scenario));
     } catch (const InputError& error) {
@@ -47,11 +47,25 @@ class Reduction {
     }
   }
 
+  ReducedPointer read(const Link& link) {
+    auto body = std::make_shared<const flexbody::ReducedBody>(
+        flexbody::read_body(link.flexible->reduced_file));
+    if (const LinkStart* start = find_start(scene_.scenario, link.name)) {
+      check_saved_fields(*start, *body);
+    }
+    return body;
+  }
+
   void warn(const std::string& link, const ReducedPointer& body) {
-    if (!body || !body->selection) return;
-    for (const std::string& text :
-         flexbody::describe_shortfalls(*body->selection)) {
-      result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
+    if (!body) return;
+    const auto add = [&](const std::vector<std::string>& texts) {
+      for (const std::string& text : texts) {
+        result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
+      }
+    };
+    if (body->selection) add(flexbody::describe_shortfalls(*body->selection));
+    if (const LinkStart* start = find_start(scene_.scenario, link)) {
+      add(describe_losses(*start, *body));
     }
   }
 

@@ -62,6 +62,15 @@ struct JointStart {
   std::vector<double> velocity;  ///< [m/s, rad/s]; empty: zero
 };
 
+/// Deformation of a flexible link at the start and its rate: by modal
+/// coordinates, or by files of nodal fields (scene/force_file.hpp).
+struct LinkStart {
+  std::vector<double> eta;     ///< [kg^1/2 m]; those not given are zero
+  std::vector<double> etadot;  ///< [kg^1/2 m/s]
+  std::filesystem::path displacement;
+  std::filesystem::path velocity;
+};
+
 /// Motion of the root link at the start, world axes.
 struct BaseStart {
   Vector3 position = Vector3::Zero();          ///< [m]
@@ -87,6 +96,7 @@ struct Scenario {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
   std::map<std::string, JointStart> joints;
   BaseStart base;
+  std::map<std::string, LinkStart> link_starts;
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< what was read, but not to the letter

@@ -156,24 +156,60 @@ BaseStart read_base(TomlTable& table) {
   return base;
 }
 
+JointStart read_joint_start(TomlTable& table) {
+  return {table.number_or_numbers("position"),
+          table.number_or_numbers("velocity")};
+}
+
+LinkStart read_link_start(TomlTable& table,
+                          const std::filesystem::path& folder) {
+  LinkStart start;
+  const auto path_of = [&](const std::string& key) {
+    const auto file = table.text(key);
+    return file ? (folder / *file).lexically_normal() : "";
+  };
+  start.displacement = path_of("displacement");
+  start.velocity = path_of("velocity");
+  const toml::table* modes = table.table("modes");
+  if (modes == nullptr) return start;
+  if (table.has("displacement") || table.has("velocity")) {
+    table.fail("has 'modes' and nodal fields; keep one of the two ways");
+  }
+  TomlTable values(*modes, "initial.links modes", table.problems());
+  start.eta = values.number_or_numbers("position");
+  start.etadot = values.number_or_numbers("velocity");
+  values.finish();
+  return start;
+}
+
+/// Tables by name inside [initial]: `NAME = { ... }`.
+template <typename Start, typename Read>
+void read_starts(TomlTable& table, const std::string& section,
+                 std::map<std::string, Start>& starts, Read read) {
+  const toml::table* items = table.table(section);
+  if (items == nullptr) return;
+  const std::string path = "initial." + section;
+  TomlTable by_name(*items, path, table.problems());
+  for (const auto& [key, node] : *items) {
+    const std::string name(key.str());
+    const toml::table* item = by_name.table(name);
+    if (item == nullptr) continue;
+    TomlTable values(*item, path + "." + name, table.problems());
+    starts[name] = read(values);
+    values.finish();
+  }
+}
+
 void read_initial(TomlTable& table, Scenario& scenario) {
   if (const toml::table* base = table.table("base")) {
     TomlTable values(*base, "initial.base", table.problems());
     scenario.base = read_base(values);
     values.finish();
   }
-  const toml::table* joints = table.table("joints");
-  if (joints == nullptr) return;
-  TomlTable by_name(*joints, "initial.joints", table.problems());
-  for (const auto& [key, node] : *joints) {
-    const std::string name(key.str());
-    const toml::table* joint = by_name.table(name);
-    if (joint == nullptr) continue;
-    TomlTable values(*joint, "initial.joints." + name, table.problems());
-    scenario.joints[name] = {values.number_or_numbers("position"),
-                             values.number_or_numbers("velocity")};
-    values.finish();
-  }
+  read_starts(table, "joints", scenario.joints, read_joint_start);
+  read_starts(table, "links", scenario.link_starts, [&](TomlTable& values) {
+    return read_link_start(values, scenario.file.parent_path());
+  });
 }
 
 OutputSpec read_output(TomlTable& table) {

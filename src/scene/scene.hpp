@@ -50,8 +50,10 @@ struct BuiltScene {
 };
 
 /// Reduces the flexible links (equal ones once, known ones from `cache`), puts
-/// the system together and finds its initial state: every body undeformed,
-/// every coupler at rest, velocities that agree with the joints' rates.
+/// the system together and finds its initial state: body frames where the
+/// joints put the undeformed links, with velocities that agree with the joints'
+/// rates, and flexible links deformed as the scenario says. Couplers rest in
+/// the undeformed configuration.
 /// @throws InputError naming the link, joint, load or probe.
 [[nodiscard]] BuiltScene build_system(const Scene& scene,
                                       const Reducer& reducer,

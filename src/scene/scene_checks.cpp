@@ -23,6 +23,9 @@ class Checker {
     for (const auto& [link, level] : scenario_.fidelity_of_link) {
       check_level(link);
     }
+    for (const auto& [link, start] : scenario_.link_starts) {
+      check_flexible("[initial.links]", link);
+    }
     for (const LoadSpec& load : scenario_.loads) {
       const std::string who = "load '" + load.name + "'";
       if (load.nodal_forces.empty()) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -35,6 +36,20 @@ TEST_F(Reduce, ChoosesModesByItsInterfacesAndKeepsTheRecord) {
   }
   const json kept = json::parse(place_.limber("info body.h5 --json").out);
   EXPECT_EQ(kept["automatic_modes"], chosen);
+}
+
+// A field that no ten modes hold.
+TEST_F(Reduce, ProjectsAnInitialDisplacementAndKeepsIt) {
+  std::string field;
+  for (int node = 0; node < 579; ++node)
+    field += fmt::format("{}\n0\n0\n", node);
+  place_.write("u.txt", field);
+  const CommandResult result = reduce("--initial-displacement u.txt");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json kept = json::parse(place_.limber("info body.h5 --json").out);
+  EXPECT_EQ(kept["initial_displacement"]["modes"].size(), 10U);
+  EXPECT_GT(kept["initial_displacement"]["missed_share"], 0.0);
+  EXPECT_FALSE(kept.contains("initial_velocity"));
 }
 
 TEST_F(Reduce, RefusesToChooseByNothing) {

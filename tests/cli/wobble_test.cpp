@@ -83,6 +83,21 @@ TEST_F(Wobble, WarnsWhereTheCandidatesFallShort) {
   EXPECT_EQ(wobble("--modes some").status, 2);
 }
 
+// A uniform velocity is rigid motion, which no mode can have.
+TEST_F(Wobble, SaysHowMuchOfAnInitialVelocityIsRigid) {
+  std::string ones;
+  for (int dof = 0; dof < 3 * kNodes; ++dof) ones += "1\n";
+  place_.write("v.txt", ones);
+  const CommandResult result = wobble("--initial-velocity v.txt");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("link 'beam579': 100 % of the initial "
+                                       "velocity (in the norm of mass) is "
+                                       "rigid motion"));
+  const CommandResult refused = wobble("--initial-displacement force.txt");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("force.txt: 1738 rows; expected 1737"));
+}
+
 TEST_F(Wobble, RefusesAForceFileForAnotherMesh) {
   place_.write("force.txt", force_rows(kNodes + 1));
   const CommandResult result = wobble("");

@@ -135,6 +135,12 @@ Changes list_automatic_changes() {
       {"other forces", force({"f", {0.0, 1.0}, 2.0 * row})},
       {"forces at other times", force({"f", {0.0, 2.0}, row})},
       {"forces of another name", force({"g", {0.0, 1.0}, row})},
+      {"displacement",
+       [](Recipe& r) { r.initial_displacement.values = VectorX::Ones(3); }},
+      {"velocity",
+       [](Recipe& r) { r.initial_velocity.values = VectorX::Ones(3); }},
+      {"another velocity",
+       [](Recipe& r) { r.initial_velocity.values = VectorX::Zero(3); }},
       {"forces of another shape", force({"f", {0.0}, row.transpose()})},
   };
 }

@@ -127,6 +127,16 @@ void add_selection(const ReducedBody& body, FieldList& fields) {
   }
 }
 
+void add_field(const std::optional<ProjectedField>& field,
+               const std::string& name, FieldList& fields) {
+  fields.add(name, field.has_value());
+  if (!field) return;
+  fields.add(name + " eta", MatrixX(field->eta));
+  fields.add(name + " rigid_share", field->rigid_share);
+  fields.add(name + " missed_share", field->missed_share);
+  fields.add(name + " key", field->key);
+}
+
 }  // namespace
 
 ReducedBody make_small_body(unsigned seed) {
@@ -174,6 +184,9 @@ ReducedBody make_small_body(unsigned seed) {
       {{"tip, force (1, 0, 0) N", {0, 9}, numbers.next(), numbers.next(), 0.5},
        {"nothing", {}, 1.0, 0.0, 0.0},
        {"file.txt from 0.1 s", {3}, 0.25, 0.125, numbers.next()}}};
+  body.initial.displacement =
+      ProjectedField{numbers.matrix(m, 1), 0.25, numbers.next(), "a key"};
+  if (seed % 2 == 0) body.initial.velocity = body.initial.displacement;
   return body;
 }
 
@@ -199,6 +212,8 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   fields.add("content_key", body.content_key);
   add_lists(body, fields);
   add_selection(body, fields);
+  add_field(body.initial.displacement, "initial displacement", fields);
+  add_field(body.initial.velocity, "initial velocity", fields);
   return fields.get();
 }
 

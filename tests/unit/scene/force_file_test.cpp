@@ -57,5 +57,23 @@ TEST(ForceFile, RefusesAnEmptyOrMissingFile) {
               HasSubstr("gone.txt"));
 }
 
+TEST(NodalField, IsOneValueARow) {
+  const TemporaryFile file("field.txt", "1\n\n-2.5\n3e-3\n");
+  EXPECT_EQ(read_nodal_field(file.path()), Vector3(1.0, -2.5, 3e-3));
+}
+
+TEST(NodalField, RefusesAnythingElseWithItsLine) {
+  const auto field_error = [](const std::string& text) {
+    const TemporaryFile file("field.txt", text);
+    return input_error([&] { (void)read_nodal_field(file.path()); });
+  };
+  EXPECT_THAT(field_error("1\n2 3\n"),
+              AllOf(HasSubstr("field.txt:2"), HasSubstr("2 values")));
+  EXPECT_THAT(field_error("1\ninf\n"), HasSubstr("field.txt:2"));
+  EXPECT_THAT(field_error("\n"), HasSubstr("no values"));
+  EXPECT_THAT(input_error([] { (void)read_nodal_field("gone.txt"); }),
+              HasSubstr("cannot read this nodal field"));
+}
+
 }  // namespace
 }  // namespace limber::scene

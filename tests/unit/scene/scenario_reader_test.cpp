@@ -61,6 +61,23 @@ TEST(ScenarioReader, ReadsInitialStateAndLevels) {
   EXPECT_EQ(scenario.gravity.z(), -9.81);
 }
 
+TEST(ScenarioReader, ReadsInitialDeformations) {
+  const Scenario scenario =
+      read(kStart +
+           "[initial.links]\na={modes={position=[1,2],velocity=3}}\n"
+           "[initial.links.b]\ndisplacement='u.txt'\nvelocity='sub/v.txt'\n");
+  EXPECT_EQ(scenario.link_starts.at("a").eta, (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(scenario.link_starts.at("a").etadot, std::vector<double>{3.0});
+  const LinkStart& b = scenario.link_starts.at("b");
+  EXPECT_EQ(b.displacement, scenario.file.parent_path() / "u.txt");
+  EXPECT_EQ(b.velocity.filename(), "v.txt");
+  EXPECT_THAT(error_of(kStart + "[initial.links.a]\nvelocity='v'\n"
+                                "modes={position=1}\n"),
+              HasSubstr("keep one of the two ways"));
+  EXPECT_THAT(error_of(kStart + "[initial.links.a]\nmodes={position=nan}\n"),
+              HasSubstr("position"));
+}
+
 TEST(ScenarioReader, NamesTheNearestKeyAndItsLine) {
   const std::string text = error_of(kStart + "rho_info = 0.5\n");
   EXPECT_THAT(text, HasSubstr("scenario.toml:5"));

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/body_file_records.hpp"
+
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace limber::flexbody {
+namespace {
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+ModeMeasure read_measure(const BodyFileReader& reader) {
+  try {
+    return parse_measure(reader.in().read_text("selection/measure"));
+  } catch (const InputError& error) {
+    reader.fail(error.what());
+  }
+}
+
+}  // namespace
+
+// Flat lists: a load that changes often has thousands of cases.
+void write_selection(Hdf5File& out,
+                     const std::optional<SelectionRecord>& selection) {
+  const SelectionRecord record = selection.value_or(SelectionRecord{});
+  const auto count = static_cast<Eigen::Index>(record.cases.size());
+  std::string names;
+  MatrixX figures(count, 3);
+  std::vector<std::int64_t> asked_counts;
+  std::vector<std::int64_t> asked;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const SelectedCase& item = record.cases[static_cast<std::size_t>(i)];
+    names += item.name + '\n';
+    figures.row(i) << item.reached, item.eigenmode_error, item.basis_error;
+    asked_counts.push_back(static_cast<std::int64_t>(item.modes.size()));
+    asked.insert(asked.end(), item.modes.begin(), item.modes.end());
+  }
+  out.write("selection/is_automatic",
+            std::vector<std::int64_t>{selection ? 1 : 0}, "1",
+            "1 if eigenmodes were chosen by load cases");
+  out.write("selection/measure", std::string(to_string(record.measure)),
+            "what shares are of");
+  out.write("selection/threshold", MatrixX::Constant(1, 1, record.threshold),
+            "1", "share to reach");
+  out.write("selection/candidates",
+            std::vector<std::int64_t>{record.candidates}, "1",
+            "eigenmodes to choose from");
+  out.write("selection/modes",
+            std::vector<std::int64_t>(record.modes.begin(), record.modes.end()),
+            "1", "eigenmodes kept, from 0");
+  out.write("selection/case_names", names, "load cases, one a line");
+  out.write(
+      "selection/case_figures", figures, "1",
+      "a case a row: share reached, static error by eigenmodes, by basis");
+  out.write("selection/case_mode_counts", asked_counts, "1",
+            "eigenmodes that each case asks for");
+  out.write("selection/case_modes", asked, "1", "these, case by case, from 0");
+}
+
+void write_field(Hdf5File& out, const std::string& at,
+                 const std::optional<ProjectedField>& projected,
+                 const std::string& unit) {
+  const ProjectedField field = projected.value_or(ProjectedField{});
+  out.write(at + "is_given", std::vector<std::int64_t>{projected ? 1 : 0}, "1",
+            "1 if the body was reduced with such a field");
+  out.write(at + "eta", MatrixX(field.eta), unit,
+            "modal coordinates, Phi' M u");
+  out.write(at + "shares",
+            MatrixX(Eigen::Vector2d(field.rigid_share, field.missed_share)),
+            "1", "left out: rigid motion, deformation outside the basis");
+  out.write(at + "key", field.key, "digest of the field");
+}
+
+std::optional<SelectionRecord> read_selection(const BodyFileReader& reader) {
+  if (reader.integer("selection/is_automatic") == 0) return std::nullopt;
+  SelectionRecord record;
+  record.measure = read_measure(reader);
+  record.threshold = reader.matrix("selection/threshold", 1, 1)(0, 0);
+  record.candidates = static_cast<int>(reader.integer("selection/candidates"));
+  const auto modes = reader.sizes("selection/modes", -1);
+  record.modes.assign(modes.begin(), modes.end());
+  const std::vector<std::string> names =
+      split_lines(reader.in().read_text("selection/case_names"));
+  const auto count = static_cast<std::int64_t>(names.size());
+  const MatrixX figures = reader.matrix("selection/case_figures", count, 3);
+  const auto asked_counts = reader.sizes("selection/case_mode_counts", count);
+  const auto asked = reader.sizes("selection/case_modes", -1);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (asked_counts[i] > asked.size() - at)
+      reader.fail("'selection/case_modes' is cut short");
+    const auto row = static_cast<Eigen::Index>(i);
+    SelectedCase item{
+        names[i], {}, figures(row, 0), figures(row, 1), figures(row, 2)};
+    for (const std::size_t end = at + asked_counts[i]; at < end; ++at)
+      item.modes.push_back(static_cast<int>(asked[at]));
+    record.cases.push_back(std::move(item));
+  }
+  return record;
+}
+
+std::optional<ProjectedField> read_field(const BodyFileReader& reader,
+                                         const std::string& at,
+                                         Eigen::Index m) {
+  if (reader.integer(at + "is_given") == 0) return std::nullopt;
+  const MatrixX shares = reader.matrix(at + "shares", 2, 1);
+  return ProjectedField{reader.matrix(at + "eta", m, 1), shares(0, 0),
+                        shares(1, 0), reader.in().read_text(at + "key")};
+}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "flexbody/body_file_reader.hpp"
+#include "flexbody/initial_deformation.hpp"
+#include "flexbody/selection_record.hpp"
+
+/// What a body's file holds beside the body: how its modes were chosen, and
+/// what it starts with.
+namespace limber::flexbody {
+
+void write_selection(Hdf5File& out,
+                     const std::optional<SelectionRecord>& selection);
+[[nodiscard]] std::optional<SelectionRecord> read_selection(
+    const BodyFileReader& reader);
+
+/// @param at group, with its slash; @param unit of the coordinates
+void write_field(Hdf5File& out, const std::string& at,
+                 const std::optional<ProjectedField>& projected,
+                 const std::string& unit);
+/// @param m number of modes
+[[nodiscard]] std::optional<ProjectedField> read_field(
+    const BodyFileReader& reader, const std::string& at, Eigen::Index m);
+
+}  // namespace limber::flexbody

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/initial_deformation.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "flexbody/multiply_mass.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+/// Shares below this are not worth a word.
+constexpr double kSmall = 0.01;
+/// What is left of a rigid field by roundoff.
+constexpr double kRoundoff = 1e-10;
+
+double calc_norm(const VectorX& u, const Eigen::SparseMatrix<double>& M_s) {
+  return std::sqrt(u.dot(multiply_mass(M_s, u).col(0)));
+}
+
+}  // namespace
+
+ProjectedField project_field(const VectorX& u, const MatrixX& Phi,
+                             const Eigen::SparseMatrix<double>& M_s,
+                             const MatrixX& R) {
+  LIMBER_EXPECT(u.size() == Phi.rows() && u.size() == R.rows());
+  const VectorX momentum = multiply_mass(M_s, u);
+  const VectorX rigid = R.transpose() * momentum;
+  const VectorX elastic = u - R * rigid;
+  ProjectedField field;
+  field.key = find_field_key(u);
+  field.eta = Phi.transpose() * multiply_mass(M_s, elastic);
+  const double whole = std::sqrt(u.dot(momentum));
+  const double deformed = calc_norm(elastic, M_s);
+  if (whole > 0.0) field.rigid_share = rigid.norm() / whole;
+  if (deformed > kRoundoff * whole) {
+    field.missed_share = calc_norm(elastic - Phi * field.eta, M_s) / deformed;
+  }
+  return field;
+}
+
+std::string find_field_key(const VectorX& u) {
+  const XXH128_hash_t hash = XXH3_128bits(
+      u.data(), sizeof(double) * static_cast<std::size_t>(u.size()));
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::vector<std::string> describe_losses(const ProjectedField& field,
+                                         const std::string& what) {
+  std::vector<std::string> texts;
+  if (field.rigid_share > kSmall) {
+    texts.push_back(fmt::format(
+        "{:.3g} % of the {} (in the norm of mass) is rigid motion and is left "
+        "out; give that by [initial.base] or [initial.joints]",
+        100.0 * field.rigid_share, what));
+  }
+  if (field.missed_share > kSmall) {
+    texts.push_back(fmt::format(
+        "{:.3g} % of the {} (deformation, in the norm of mass) is not in the "
+        "basis and is left out; keep more modes",
+        100.0 * field.missed_share, what));
+  }
+  return texts;
+}
+
+}  // namespace limber::flexbody
