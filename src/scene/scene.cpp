@@ -46,9 +46,8 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
     set_start(probe, built.model, built.initial);
   }
   built.settings = scene.scenario.settings;
-  for (const auto* warnings :
-       {&scene.robot.warnings, &scene.scenario.warnings, &reductions.warnings,
-        &assembly.warnings()}) {
+  for (const auto* warnings : {&scene.robot.warnings, &scene.scenario.warnings,
+                               &reductions.warnings, &assembly.warnings()}) {
     built.warnings.insert(built.warnings.end(), warnings->begin(),
                           warnings->end());
   }
