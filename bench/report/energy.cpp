@@ -222,7 +222,8 @@ void write_free_rotation(Page& page, const Body& body) {
   page.heading("Figure 11: energy of free rotation");
   page.text(
       "The free beam, undeformed at first, turning at 1 rad/s about x; steps "
-      "of 1e-5 s, 0.02 s (about four periods of the first mode). The report "
+      "of 1e-5 s, 0.02 s (ten periods of the first axial mode, which it "
+      "excites). The report "
       "sees variations of some 1e-12 of the total energy in its CoupledRB.");
   page.table({"level", "integrator", "energy [J]", "largest elastic [J]",
               "variation / total"},

@@ -155,9 +155,11 @@ void write_rotation(Page& page, const Body& body) {
   page.heading("Figure 12: time step, accelerating rotation");
   page.text(fmt::format(
       "|alpha| = 0.144 takes 2500 N on each end (2500 N x 5 m over 86667 kg "
-      "m^2), not the +-100 N of section 5.7.2: as in Table 2 the report counts "
-      "its forces by the node, 25 nodes at 100 N or the five of an edge at 500 "
-      "N. Here 2500 N along y and their opposite are shared by the nodes of "
+      "m^2), more than the +-100 N of section 5.7.2. Probably the report "
+      "counts "
+      "its forces by the node, as in Table 2: 25 nodes at 100 N, or the five "
+      "of an edge at 500 N. Here 2500 N along y and their opposite are shared "
+      "by the nodes of "
       "the end faces, which makes {:.4f} rad/s^2. Level `uncoupled`, 10 s, "
       "error of node A = (0, 0, 0) at the end relative to its displacement of "
       "{:.2f} m, against the closed form (angle alpha t^2/2 about a principal "
