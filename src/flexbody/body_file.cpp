@@ -158,6 +158,11 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
             "int phi_k phi_l' dm, row k m + l, column-major 3 x 3 a row");
   out.write("integrals/P", MatrixX(body.integrals.P), "kg^1/2",
             "int phi_k dm, 3 x m");
+  out.write("levers",
+            MatrixX(Vector3(body.levers.lumped, body.levers.consistent,
+                            body.levers.displacement)),
+            "kg m, kg m, m s^2",
+            "largest m |b| of row sums, |M b|, (Phi Lambda^-1 Phi' m|b|)_i");
   out.write("lambda", MatrixX(body.lambda), "rad^2/s^2", "eigenvalues");
   out.write("counts", to_integers({body.groups.size(), body.interfaces.size()}),
             "1", "groups, interfaces");
@@ -314,6 +319,8 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.integrals.S1 = unstack(reader.matrix("integrals/S1", m, 9));
   body.integrals.S2 = unstack(reader.matrix("integrals/S2", m * m, 9));
   body.integrals.P = reader.matrix("integrals/P", 3, m);
+  const MatrixX levers = reader.matrix("levers", 3, 1);
+  body.levers = {levers(0, 0), levers(1, 0), levers(2, 0)};
   read_rows(reader, body);
   const auto counts = reader.sizes("counts", 2);
   read_groups(reader, counts[0], body);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "common/errors.hpp"
 
@@ -27,6 +28,15 @@ void check_limit(double limit, const char* what, const char* unit) {
 VectorX find_levers(const VectorX& lumped_mass, const Matrix3X& x_B) {
   LIMBER_EXPECT(lumped_mass.size() == x_B.cols() && x_B.cols() > 0);
   return lumped_mass.cwiseProduct(x_B.colwise().norm().transpose());
+}
+
+/// max (Phi Lambda^-1 Phi^T g)_i, g_(3n+c) = m_n |b_n| [m s^2].
+double find_report_displacement(const MatrixX& Phi, const VectorX& lambda,
+                                const VectorX& levers) {
+  if (lambda.size() == 0) return 0.0;
+  const VectorX g = levers.transpose().replicate(3, 1).reshaped();
+  const VectorX eta = (Phi.transpose() * g).cwiseQuotient(lambda);
+  return (Phi * eta).cwiseAbs().maxCoeff();
 }
 
 /// G_k with a^T G_k a = phi_k . (-(a x (a x x))) integrated over the mass.
@@ -131,6 +141,22 @@ std::pair<double, double> bound_sudden(const Matrix3X& Phi_n,
 
 }  // namespace
 
+InertialLevers calc_inertial_levers(const Eigen::SparseMatrix<double>& M_s,
+                                    const Matrix3X& x_B, const MatrixX& Phi,
+                                    const VectorX& lambda) {
+  LIMBER_EXPECT(M_s.cols() == x_B.cols());
+  LIMBER_EXPECT(Phi.rows() == 3 * x_B.cols() && Phi.cols() == lambda.size());
+  LIMBER_EXPECT((lambda.array() > 0.0).all());
+  const VectorX row_sums = M_s * VectorX::Ones(M_s.cols());
+  const VectorX m_b = find_levers(row_sums, x_B);
+  const Eigen::MatrixX3d moments = M_s * x_B.transpose();
+  InertialLevers levers;
+  levers.lumped = m_b.maxCoeff();
+  levers.consistent = moments.rowwise().norm().maxCoeff();
+  levers.displacement = find_report_displacement(Phi, lambda, m_b);
+  return levers;
+}
+
 double find_report_force_boundary(const VectorX& lumped_mass,
                                   const Matrix3X& x_B, double force_limit) {
   check_limit(force_limit, "force", "N");
@@ -148,10 +174,8 @@ double find_report_displacement_boundary(const MatrixX& Phi,
   check_limit(displacement_limit, "displacement", "m");
   LIMBER_EXPECT(Phi.rows() == 3 * x_B.cols() && Phi.cols() == lambda.size());
   LIMBER_EXPECT(Phi.cols() > 0 && (lambda.array() > 0.0).all());
-  const VectorX levers = find_levers(lumped_mass, x_B);
-  const VectorX g = levers.transpose().replicate(3, 1).reshaped();
-  const VectorX eta = (Phi.transpose() * g).cwiseQuotient(lambda);
-  const double displacement = (Phi * eta).cwiseAbs().maxCoeff();
+  const double displacement =
+      find_report_displacement(Phi, lambda, find_levers(lumped_mass, x_B));
   if (!(displacement > 0.0))
     throw NumericalError("decision boundary: the modes displace no node");
   return displacement_limit / displacement;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <Eigen/Sparse>
 
 #include "common/types.hpp"
 #include "flexbody/reduced_body.hpp"
@@ -42,6 +42,15 @@ namespace limber::flexbody {
     const MatrixX& Phi, const VectorX& lambda, const VectorX& lumped_mass,
     const Matrix3X& x_B, double displacement_limit);
 
+/// The constants of the boundaries, of a whole mesh: the report's are their
+/// inverses times the limit, and `consistent` makes an InertialForceBound.
+/// @param M_s N x N nodal mass, both triangles [kg]; @param x_B 3 x N, from
+/// the centre of mass [m]; @param Phi 3N x m, without rigid motion
+/// @param lambda m, positive
+[[nodiscard]] InertialLevers calc_inertial_levers(
+    const Eigen::SparseMatrix<double>& M_s, const Matrix3X& x_B,
+    const MatrixX& Phi, const VectorX& lambda);
+
 /// Largest nodal inertial force of the undeformed body, over all nodes and all
 /// directions of the two vectors.
 ///
@@ -55,6 +64,9 @@ class InertialForceBound {
  public:
   /// @param moments 3 x N: M_s x for the consistent mass, or m_n b_n [kg m]
   explicit InertialForceBound(const Matrix3X& moments);
+  /// The same of a reduced body, from its `consistent` lever.
+  explicit InertialForceBound(const InertialLevers& levers)
+      : lever_(levers.consistent) {}
 
   /// Largest nodal force at alpha [rad/s^2] and Omega [rad/s] [N].
   [[nodiscard]] double calc_force(double alpha, double Omega) const;

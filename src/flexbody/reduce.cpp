@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/reduce.hpp"
 
+#include "flexbody/decision_boundary.hpp"
 #include "flexbody/reduce_initial.hpp"
 #include "flexbody/reduce_meshed_body.hpp"
 #include "flexbody/reduce_rows.hpp"
@@ -105,6 +106,10 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
   body.lambda = basis.lambda;
   body.selection = finish_record(chosen, basis);
   body.initial = project_initial_fields(meshed, recipe, basis);
+  if (!body.clamped) {
+    body.levers = calc_inertial_levers(
+        meshed.M_s, mesh.x.colwise() - inertia.center, Phi, basis.lambda);
+  }
   body.mesh_nodes = mesh.node_count();
   body.mesh_elements = mesh.element_count();
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();

@@ -60,6 +60,16 @@ struct InterfaceTable {
   Matrix6 flexibility = Matrix6::Zero();
 };
 
+/// What rotation does to the whole mesh, per unit of it: the constants of the
+/// decision boundaries (flexbody/decision_boundary.hpp). All zero if clamped.
+struct InertialLevers {
+  double lumped = 0.0;      ///< max m_n |b_n| of the row sums, signed [kg m]
+  double consistent = 0.0;  ///< max |sum_j M_nj b_j| [kg m]
+  /// max (Phi Lambda^-1 Phi^T m|b|)_i, the report's displacement per unit of
+  /// |alpha| + |Omega|^2 [m s^2]
+  double displacement = 0.0;
+};
+
 /// A flexible body after reduction: all that dynamics and pictures need.
 ///
 /// The body frame B sits at the centre of mass with the mesh frame's axes;
@@ -73,6 +83,7 @@ struct ReducedBody {
   Vector3 p_MoBcm_M = Vector3::Zero();  ///< c.m. in the mesh frame [m]
   Vector3 size = Vector3::Zero();       ///< bounding box edges [m]
   InertiaShapeIntegrals integrals;
+  InertialLevers levers;
   VectorX lambda;  ///< m eigenvalues [rad^2/s^2]
   NodeRows rows;
   std::vector<NodeGroup> groups;

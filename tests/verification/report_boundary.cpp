@@ -58,6 +58,20 @@ TEST_F(ReportBoundaryOfBeam, OfDisplacementHasTheReportsFigures) {
   EXPECT_NEAR(report_limit(0.05) / 59570.0, 1.0, kOtherMesh);
 }
 
+// What the reduced body keeps, whatever rows it keeps.
+TEST_F(ReportBoundaryOfBeam, IsKeptByTheReducedBody) {
+  constexpr double kRoundoff = 1e-9;
+  const flexbody::InertialLevers& levers = body_->levers;
+  EXPECT_NEAR(1e-6 / levers.displacement / report_limit(1e-6), 1.0, kRoundoff);
+  EXPECT_NEAR(levers.lumped * flexbody::find_report_force_boundary(
+                                  lumped(), body_->rows.x_B, 1.0),
+              1.0, kRoundoff);
+  const Matrix3X g = (*M_s_ * body_->rows.x_B.transpose()).transpose();
+  EXPECT_NEAR(flexbody::InertialForceBound(levers).calc_force(1.5, 1.2) /
+                  flexbody::InertialForceBound(g).calc_force(1.5, 1.2),
+              1.0, kRoundoff);
+}
+
 // The plain box that Gmsh itself meshes to the report's counts; an independent
 // program gives 1.191 and 59560 with Gmsh 4.8.
 TEST(ReportBoundaryOfBox, OfDisplacementHasTheReportsFigures) {

@@ -162,6 +162,7 @@ ReducedBody make_small_body(unsigned seed) {
     body.integrals.S2.emplace_back(numbers.matrix(3, 3));
   }
   body.integrals.P = numbers.matrix(3, m);
+  body.levers = {numbers.next(), numbers.next(), numbers.next()};
   body.rows.tags = {7, 5, 11};
   body.rows.x_B = numbers.matrix(3, n);
   body.rows.Phi_B = numbers.matrix(3 * n, m);
@@ -202,6 +203,9 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   fields.add("S1", body.integrals.S1);
   fields.add("S2", body.integrals.S2);
   fields.add("P", MatrixX(body.integrals.P));
+  fields.add("levers",
+             MatrixX(Vector3(body.levers.lumped, body.levers.consistent,
+                             body.levers.displacement)));
   fields.add("lambda", MatrixX(body.lambda));
   fields.add("row tags", body.rows.tags);
   fields.add("x_B", MatrixX(body.rows.x_B));
