@@ -11,6 +11,7 @@ using Action = std::function<void()>;
 
 /// Each adds its subcommand to `app`; choosing it sets `action`.
 void add_run(CLI::App& app, Action& action);
+void add_advise(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);

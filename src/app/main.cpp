@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   limber::app::Action action;
   limber::app::add_run(app, action);
+  limber::app::add_advise(app, action);
   limber::app::add_compare(app, action);
   limber::app::add_modes(app, action);
   limber::app::add_reduce(app, action);

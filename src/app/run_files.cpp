@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "app/comparison.hpp"
 #include "app/run_scene.hpp"
 #include "app/terminal.hpp"
-#include "common/errors.hpp"
+#include "app/text_file.hpp"
 #include "results/path_step.hpp"
 #include "results/pictures.hpp"
 #include "results/probes_csv.hpp"
@@ -15,14 +13,6 @@
 
 namespace limber::app {
 namespace {
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text << '\n') || !stream.flush()) {
-    throw InputError(fmt::format("'{}' cannot be written; is the disk full?",
-                                 file.string()));
-  }
-}
 
 /// A picture that cannot be drawn costs a warning, not the run.
 void warn(const std::string& why_none) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/run_scene.hpp"
+#include "app/terminal.hpp"
 
 namespace limber::app {
 namespace {
@@ -46,6 +47,7 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
 void finish_run(const Run& run, const std::filesystem::path& folder, bool json,
                 bool xdmf) {
   write_run(run, folder, xdmf);
+  print_warnings(find_level_warnings(run.levels));
   if (run.failure) std::rethrow_exception(run.failure);
   if (json) {
     Json summary = summarize(run);

@@ -105,6 +105,7 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
     run.failure = std::current_exception();
   }
   clear_progress_bar();
+  run.levels = judge_run(scene, run.built, run.history, cache);
   return run;
 }
 
@@ -139,6 +140,10 @@ Json summarize(const Run& run) {
   json["bodies_cached"] = run.built.bodies_cached;
   json["energy"] = summarize_energy(run.history);
   json["probes"] = summarize_probes(run.history);
+  json["levels"] = Json::array();
+  for (const BodyLevel& level : run.levels) {
+    json["levels"].push_back(to_json(level));
+  }
   json["warnings"] = run.built.warnings;
   return json;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/json.hpp"
+#include "app/levels.hpp"
 #include "dynamics/simulation.hpp"
 #include "results/history.hpp"
 #include "scene/scene.hpp"
@@ -17,7 +18,8 @@ struct Run {
   scene::BuiltScene built;
   results::History history;
   dynamics::SimulationStatistics statistics;
-  std::exception_ptr failure;  ///< the NumericalError that ended it early
+  std::vector<BodyLevel> levels;  ///< whether each body's was justified
+  std::exception_ptr failure;     ///< the NumericalError that ended it early
 };
 
 /// Builds and simulates a scene. On NumericalError the run holds what was

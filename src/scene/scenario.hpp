@@ -9,6 +9,7 @@
 
 #include "common/types.hpp"
 #include "dynamics/fidelity.hpp"
+#include "dynamics/level_advice.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_builder.hpp"
 #include "dynamics/time_function.hpp"
@@ -100,6 +101,7 @@ struct Scenario {
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< what was read, but not to the letter
+  dynamics::AdviceSettings advice;  ///< what may be neglected
 };
 
 }  // namespace limber::scene

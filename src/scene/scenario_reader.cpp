@@ -220,6 +220,14 @@ OutputSpec read_output(TomlTable& table) {
   return output;
 }
 
+dynamics::AdviceSettings read_advice(TomlTable& table) {
+  dynamics::AdviceSettings advice;
+  advice.displacement = table.number("displacement", kPositive);
+  advice.linear_limit = table.number("linear_limit", kPositive);
+  advice.force = table.number("force", kPositive);
+  return advice;
+}
+
 /// Reads one sub-table if it is there, and checks its keys.
 template <typename Read>
 void read_section(TomlTable& root, const std::string& name, Read read) {
@@ -265,6 +273,8 @@ void read_root(TomlTable& root, Scenario& scenario) {
                [&](TomlTable& t) { read_initial(t, scenario); });
   read_section(root, "output",
                [&](TomlTable& t) { scenario.output = read_output(t); });
+  read_section(root, "advice",
+               [&](TomlTable& t) { scenario.advice = read_advice(t); });
   scenario.loads = read_items<LoadSpec>(root, "load", [&](TomlTable& t) {
     return read_load(t, scenario.file.parent_path(), scenario.warnings);
   });

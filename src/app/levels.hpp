@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/json.hpp"
+#include "dynamics/level_advice.hpp"
+#include "results/history.hpp"
+#include "scene/scene.hpp"
+
+/// The level of each flexible body: what it was, what it should be.
+namespace limber::app {
+
+struct BodyLevel {
+  std::string name;
+  dynamics::Fidelity used = dynamics::Fidelity::coupled;  ///< or asked for
+  dynamics::BodyPeaks peaks;
+  dynamics::LevelLimits limits;
+  dynamics::LevelAdvice advice;
+  std::shared_ptr<const flexbody::ReducedBody> reduced;
+  std::vector<dynamics::RotationPoint> track;
+
+  /// The level used leaves out no more than the limits allow.
+  [[nodiscard]] bool is_justified() const {
+    return used >= advice.level && !advice.is_beyond_linear;
+  }
+};
+
+/// Advice on every flexible body that `survey` watched.
+/// @param model the survey's
+/// @param used one level a body of the model
+[[nodiscard]] std::vector<BodyLevel> judge_levels(
+    const dynamics::SystemModel& model, const dynamics::LevelSurvey& survey,
+    const std::vector<dynamics::Fidelity>& used,
+    const dynamics::AdviceSettings& settings);
+
+/// Whether the levels of a run were justified, from what it recorded.
+[[nodiscard]] std::vector<BodyLevel> judge_run(
+    const scene::Scene& scene, const scene::BuiltScene& built,
+    const results::History& history, const std::filesystem::path& cache);
+
+/// The scene with every flexible link at `level`, built with the reduced
+/// bodies that `model` has.
+[[nodiscard]] scene::BuiltScene build_at_level(
+    const scene::Scene& scene, dynamics::Fidelity level,
+    const dynamics::SystemModel& model, const std::filesystem::path& cache);
+
+/// A line for each body whose level was not justified.
+[[nodiscard]] std::vector<std::string> find_level_warnings(
+    const std::vector<BodyLevel>& levels);
+
+[[nodiscard]] Json to_json(const BodyLevel& level);
+/// A paragraph for people.
+[[nodiscard]] std::string to_text(const BodyLevel& level);
+/// The [fidelity] table of a scenario that follows the advice.
+[[nodiscard]] std::string to_fidelity_table(
+    const std::vector<BodyLevel>& levels);
+
+}  // namespace limber::app

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "app/levels.hpp"
+
+namespace limber::app {
+namespace {
+
+using dynamics::Fidelity;
+using dynamics::Peak;
+
+/// The boundaries of one body; what does not exist is empty.
+struct Boundaries {
+  std::optional<double> report_displacement;  ///< |alpha| + |Omega|^2 [1/s^2]
+  std::optional<double> report_linear;
+  std::optional<double> report_force;
+  std::optional<double> bound_displacement;  ///< Omega at alpha = 0 [rad/s]
+  std::optional<double> bound_linear;
+  std::optional<double> bound_force;
+};
+
+Boundaries find_boundaries(const BodyLevel& level) {
+  Boundaries result;
+  if (level.reduced->clamped) return result;
+  const flexbody::InertialLevers& levers = level.reduced->levers;
+  const dynamics::LevelLimits& limits = level.limits;
+  if (levers.displacement > 0.0) {
+    result.report_displacement = limits.displacement / levers.displacement;
+    result.report_linear = limits.linear_limit / levers.displacement;
+    const flexbody::InertialDisplacementBound bound(*level.reduced);
+    result.bound_displacement = bound.find_omega(0.0, limits.displacement);
+    result.bound_linear = bound.find_omega(0.0, limits.linear_limit);
+  }
+  if (limits.force && levers.lumped > 0.0) {
+    result.report_force = *limits.force / levers.lumped;
+  }
+  if (limits.force && levers.consistent > 0.0) {
+    result.bound_force = std::sqrt(*limits.force / levers.consistent);
+  }
+  return result;
+}
+
+Json to_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const Peak& peak) {
+  return Json{{"value", peak.value}, {"time", peak.time}};
+}
+
+Json describe_boundaries(const BodyLevel& level) {
+  const Boundaries b = find_boundaries(level);
+  const auto over = [](double value, const std::optional<double>& limit) {
+    return limit ? Json(value / *limit) : Json(nullptr);
+  };
+  return Json{
+      {"report",
+       {{"displacement", to_json(b.report_displacement)},
+        {"linear_limit", to_json(b.report_linear)},
+        {"force", to_json(b.report_force)},
+        {"margin", over(level.peaks.report.value, b.report_displacement)}}},
+      {"rigorous",
+       {{"displacement", to_json(b.bound_displacement)},
+        {"linear_limit", to_json(b.bound_linear)},
+        {"force", to_json(b.bound_force)},
+        {"margin", level.reduced->clamped ? Json(nullptr)
+                                          : Json(level.peaks.inertial_bound /
+                                                 level.limits.displacement)},
+        {"force_margin", over(level.peaks.force.value, level.limits.force)}}}};
+}
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : std::string("-");
+}
+
+std::string describe_rotation(const BodyLevel& level) {
+  if (level.reduced->clamped) {
+    return "  clamped to the world: no rotation, no boundary\n";
+  }
+  const dynamics::BodyPeaks& peaks = level.peaks;
+  const Boundaries b = find_boundaries(level);
+  std::string text = fmt::format(
+      "  peaks        alpha {:.3g} rad/s^2 at {:.4g} s, Omega {:.3g} rad/s at "
+      "{:.4g} s, turned {:.3g} rad\n",
+      peaks.alpha.value, peaks.alpha.time, peaks.Omega.value, peaks.Omega.time,
+      peaks.angle);
+  text += fmt::format(
+      "  boundary     report: alpha + Omega^2 <= {} 1/s^2, linear to {}; peak "
+      "{:.3g}\n"
+      "               bound:  Omega <= {} rad/s at any alpha, linear to {}; "
+      "margin {:.3g}\n",
+      number(b.report_displacement), number(b.report_linear),
+      peaks.report.value, number(b.bound_displacement), number(b.bound_linear),
+      peaks.inertial_bound / level.limits.displacement);
+  if (level.limits.force) {
+    text += fmt::format(
+        "  force        report: alpha + Omega^2 <= {} 1/s^2; bound: Omega <= "
+        "{} rad/s; peak {:.3g} of {:.3g} N\n",
+        number(b.report_force), number(b.bound_force), peaks.force.value,
+        *level.limits.force);
+  }
+  return text;
+}
+
+/// A key of TOML: bare where it can be.
+std::string to_key(const std::string& name) {
+  const bool is_bare =
+      !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+               c == '-';
+      });
+  return is_bare ? name : Json(name).dump();
+}
+
+}  // namespace
+
+Json to_json(const BodyLevel& level) {
+  const dynamics::BodyPeaks& peaks = level.peaks;
+  const dynamics::LevelAdvice& advice = level.advice;
+  Json json = Json::object();
+  json["body"] = level.name;
+  json["used"] = to_string(level.used);
+  json["recommended"] = to_string(advice.level);
+  json["justified"] = level.is_justified();
+  json["more_than_needed"] = level.used > advice.level;
+  json["beyond_linear_range"] = advice.is_beyond_linear;
+  json["reason"] = advice.reason;
+  json["limits"] = {{"displacement", level.limits.displacement},
+                    {"linear_limit", level.limits.linear_limit},
+                    {"force", to_json(level.limits.force)}};
+  json["peaks"] = {{"alpha", to_json(peaks.alpha)},
+                   {"omega", to_json(peaks.Omega)},
+                   {"alpha_plus_omega_squared", to_json(peaks.report)},
+                   {"nodal_inertial_force", to_json(peaks.force)},
+                   {"angle", peaks.angle},
+                   {"deformation", peaks.deformation},
+                   {"displacement", peaks.total},
+                   {"static_displacement_of_loads", peaks.loads},
+                   {"static_displacement_of_inertia", peaks.inertial}};
+  json["boundary"] = describe_boundaries(level);
+  json["left_out"] = {{"rigid", advice.errors.rigid},
+                      {"uncoupled", advice.errors.uncoupled},
+                      {"one-way", advice.errors.one_way}};
+  return json;
+}
+
+std::string to_text(const BodyLevel& level) {
+  const dynamics::BodyPeaks& peaks = level.peaks;
+  const dynamics::LevelAdvice& advice = level.advice;
+  std::string text = fmt::format(
+      "{}, asked to be {}\n"
+      "  neglect      {:.3g} m, linear to {:.3g} m\n",
+      level.name, to_string(level.used), level.limits.displacement,
+      level.limits.linear_limit);
+  text += describe_rotation(level);
+  text += fmt::format(
+      "  displacement loads {:.3g} m, inertia {:.3g} m (static); with "
+      "oscillation {:.3g} m, {:.3g} m of it bending its own nodes\n"
+      "  left out     rigid {:.3g} m, uncoupled {:.3g} m, one-way {:.3g} m\n",
+      peaks.loads, peaks.inertial, peaks.total, peaks.deformation,
+      advice.errors.rigid, advice.errors.uncoupled, advice.errors.one_way);
+  text += fmt::format("  recommended  {}: {}\n", to_string(advice.level),
+                      advice.reason);
+  if (advice.is_beyond_linear) {
+    text += fmt::format(
+        "  beware       {:.3g} m is beyond the linear range of {:.3g} m: no "
+        "level is right\n",
+        peaks.deformation, level.limits.linear_limit);
+  }
+  return text;
+}
+
+std::string to_fidelity_table(const std::vector<BodyLevel>& levels) {
+  std::map<Fidelity, int> counts;
+  for (const BodyLevel& level : levels) ++counts[level.advice.level];
+  Fidelity usual = Fidelity::coupled;
+  for (const auto& [level, count] : counts) {
+    if (!counts.contains(usual) || count >= counts[usual]) usual = level;
+  }
+  std::string others;
+  for (const BodyLevel& level : levels) {
+    if (level.advice.level == usual) continue;
+    others += fmt::format("{}{} = \"{}\"", others.empty() ? "" : ", ",
+                          to_key(level.name), to_string(level.advice.level));
+  }
+  std::string table =
+      fmt::format("[fidelity]\ndefault = \"{}\"\n", to_string(usual));
+  if (!others.empty()) table += "links = { " + others + " }\n";
+  return table;
+}
+
+}  // namespace limber::app

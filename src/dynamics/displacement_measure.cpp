@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/displacement_measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// The bodies and couplers as a graph.
+class CouplerGraph {
+ public:
+  explicit CouplerGraph(const SystemModel& model)
+      : model_(model),
+        diameters_(model.bodies.size(), 0.0),
+        ends_(model.bodies.size()) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const auto& reduced = model.bodies[b].reduced;
+      if (reduced) diameters_[b] = reduced->size.norm();
+    }
+    for (const Attachment& a : model.attachments) {
+      if (a.body == kWorld || model.bodies[index(a.body)].reduced) continue;
+      double& diameter = diameters_[index(a.body)];
+      diameter = std::max(diameter, 2.0 * a.p_BF.norm());
+    }
+    for (const Coupler& c : model.couplers) {
+      add_end(c.frame_F, c.frame_M);
+      add_end(c.frame_M, c.frame_F);
+    }
+  }
+
+  /// Longest path from `body` over the coupler that ends at `other`.
+  [[nodiscard]] double find_reach(BodyIndex body, AttachmentIndex other) const {
+    std::vector<bool> visited(model_.bodies.size(), false);
+    if (body != kWorld) visited[index(body)] = true;
+    return find_reach(other, visited);
+  }
+
+ private:
+  void add_end(AttachmentIndex near, AttachmentIndex far) {
+    const BodyIndex body = model_.attachments[index(near)].body;
+    if (body != kWorld) ends_[index(body)].push_back(far);
+  }
+
+  double find_reach(AttachmentIndex other, std::vector<bool>& visited) const {
+    const BodyIndex body = model_.attachments[index(other)].body;
+    if (body == kWorld || visited[index(body)]) return 0.0;
+    visited[index(body)] = true;
+    double beyond = 0.0;
+    for (const AttachmentIndex far : ends_[index(body)]) {
+      beyond = std::max(beyond, find_reach(far, visited));
+    }
+    return diameters_[index(body)] + beyond;
+  }
+
+  const SystemModel& model_;
+  std::vector<double> diameters_;                   ///< one a body [m]
+  std::vector<std::vector<AttachmentIndex>> ends_;  ///< far ends, one a body
+};
+
+}  // namespace
+
+std::vector<double> find_reaches(const SystemModel& model) {
+  const CouplerGraph graph(model);
+  std::vector<double> reaches(model.attachments.size(), 0.0);
+  const auto include = [&](AttachmentIndex near, AttachmentIndex far) {
+    double& reach = reaches[index(near)];
+    reach = std::max(
+        reach, graph.find_reach(model.attachments[index(near)].body, far));
+  };
+  for (const Coupler& c : model.couplers) {
+    include(c.frame_F, c.frame_M);
+    include(c.frame_M, c.frame_F);
+  }
+  return reaches;
+}
+
+DisplacementMeasure::DisplacementMeasure(const BodyModel& body)
+    : reduced_(body.reduced) {
+  LIMBER_EXPECT(reduced_ != nullptr);
+  find_mode_sizes();
+}
+
+DisplacementMeasure::DisplacementMeasure(const SystemModel& model,
+                                         BodyIndex body,
+                                         const std::vector<double>& reaches)
+    : reduced_(model.bodies[index(body)].reduced) {
+  LIMBER_EXPECT(reduced_ != nullptr);
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    const Attachment& a = model.attachments[i];
+    if (a.body != body || reaches[i] == 0.0) continue;
+    carried_.push_back({a.Phi_B, a.Psi_B, reaches[i]});
+  }
+  find_mode_sizes();
+}
+
+void DisplacementMeasure::find_mode_sizes() {
+  const Eigen::Index m = reduced_->lambda.size();
+  mode_sizes_.resize(m);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    mode_sizes_[k] = calc_displacement(VectorX::Unit(m, k));
+  }
+}
+
+double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
+  LIMBER_EXPECT(eta.size() == reduced_->lambda.size());
+  if (eta.size() == 0) return 0.0;
+  double largest = 0.0;
+  if (reduced_->rows.x_B.cols() > 0) {
+    const VectorX u = reduced_->rows.Phi_B * eta;
+    largest = u.reshaped(3, reduced_->rows.x_B.cols())
+                  .colwise()
+                  .squaredNorm()
+                  .maxCoeff();
+    largest = std::sqrt(largest);
+  }
+  for (const Carried& end : carried_) {
+    largest = std::max(largest, (end.Phi_B * eta).norm() +
+                                    end.reach * (end.Psi_B * eta).norm());
+  }
+  return largest;
+}
+
+PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)
+    : measure_(&measure), eta_0_(VectorX::Zero(measure.mode_sizes().size())) {}
+
+void PeakDisplacement::include(const VectorX& eta) {
+  constexpr double kLow = 0.01;
+  const double bound =
+      u_0_ + measure_->mode_sizes().dot((eta - eta_0_).cwiseAbs());
+  if (bound <= (1.0 + kLow) * peak_) return;
+  const double from_zero = measure_->mode_sizes().dot(eta.cwiseAbs());
+  if (from_zero <= (1.0 + kLow) * peak_) return;
+  eta_0_ = eta;
+  u_0_ = measure_->calc_displacement(eta);
+  peak_ = std::max(peak_, u_0_);
+}
+
+}  // namespace limber::dynamics

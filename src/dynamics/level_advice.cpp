@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/level_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "dynamics/body_model.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+/// A force that comes at once swings a mode to twice its static answer.
+constexpr double kSudden = 2.0;
+
+void check_setting(const std::optional<double>& value, const char* what,
+                   const char* unit) {
+  if (!value || (*value > 0.0 && std::isfinite(*value))) return;
+  throw InputError(
+      fmt::format("advice: the {} is {:g} {}; expected a positive number", what,
+                  *value, unit));
+}
+
+/// How far a pair of modes moves its upper frequency under the Coriolis force
+/// 2 b of one on the other: s^4 - (a + c + 4 b^2) s^2 + a c = 0.
+double shift_pair(double lambda_k, double lambda_l, double b) {
+  const double spread = std::abs(lambda_k - lambda_l);
+  const double coupling = 4.0 * b * b;
+  // (p^2 - 4 a c), p = a + c + 4 b^2, written so that nothing cancels.
+  const double root = std::sqrt(
+      spread * spread + coupling * (2.0 * (lambda_k + lambda_l) + coupling));
+  const double upper = std::max(lambda_k, lambda_l);
+  const double risen = 0.5 * (coupling + root - spread);  // s^2 - upper
+  return risen / (std::sqrt(upper + risen) + std::sqrt(upper));
+}
+
+/// Largest Coriolis coupling of two modes, Omega . beta_kl [rad/s].
+double bound_coriolis(const BodyModel& body, const BodyPeaks& peaks, int k,
+                      int l) {
+  return peaks.Omega_B.dot(Vector3(body.beta.block<3, 1>(3 * l, k)).cwiseAbs());
+}
+
+/// What rotation makes of the modes' oscillation in `time` [s]: it takes what
+/// mode l does to mode k, as far as their frequencies let it, and shifts the
+/// frequencies.
+VectorX find_drift(const BodyModel& body, const BodyPeaks& peaks, double time) {
+  const VectorX omega = body.lambda.cwiseSqrt();
+  const double Omega = peaks.Omega.value;
+  const auto bound = [](double share) { return std::min(share, 2.0); };
+  VectorX drift(body.modes);
+  for (int k = 0; k < body.modes; ++k) {
+    drift[k] = bound(time * Omega * Omega / omega[k]) * peaks.oscillation[k];
+    for (int l = 0; l < body.modes; ++l) {
+      if (l == k) continue;
+      const double b = bound_coriolis(body, peaks, k, l);
+      const double apart = std::abs(body.lambda[k] - body.lambda[l]);
+      const double exchanged = std::min(b * time, 4.0 * b * omega[l] / apart);
+      drift[k] += bound(exchanged) * peaks.oscillation[l];
+      if (2.0 * b > std::abs(omega[k] - omega[l])) continue;  // the same again
+      const double shift = shift_pair(body.lambda[k], body.lambda[l], b);
+      drift[k] += bound(time * shift) * peaks.oscillation[k];
+    }
+  }
+  return drift;
+}
+
+/// Largest forces on the modes that one-way leaves out: Coriolis and the
+/// centrifugal force of the deformation itself.
+VectorX bound_forces(const BodyModel& body, const BodyPeaks& peaks) {
+  const Vector6 w_squared = half_square(peaks.Omega_B);
+  const VectorX rates = body.lambda.cwiseSqrt().cwiseProduct(peaks.oscillation);
+  VectorX forces = VectorX::Zero(body.modes);
+  for (int k = 0; k < body.modes; ++k) {
+    for (int l = 0; l < body.modes; ++l) {
+      const Vector6 J2 = body.J2.block<6, 1>(6 * k, l).cwiseAbs();
+      forces[k] += 2.0 * bound_coriolis(body, peaks, k, l) * rates[l] +
+                   w_squared.dot(J2) * peaks.modes[l];
+    }
+  }
+  return forces;
+}
+
+/// What one-way leaves out of the modes' own motion [m].
+double find_modal_error(const BodyModel& body, const BodyPeaks& peaks) {
+  if (peaks.Omega.value == 0.0) return 0.0;
+  const VectorX drift =
+      find_drift(body, peaks, peaks.angle / peaks.Omega.value);
+  const VectorX answer = bound_forces(body, peaks).cwiseQuotient(body.lambda);
+  return peaks.mode_sizes.dot(answer + drift);
+}
+
+/// "1.2e-06 m".
+std::string metres(double value) { return fmt::format("{:.2g} m", value); }
+
+std::string explain(const BodyModel& body, const BodyPeaks& peaks,
+                    const LevelLimits& limits, const LevelAdvice& advice) {
+  const std::string limit = metres(limits.displacement);
+  const LevelErrors& e = advice.errors;
+  switch (advice.level) {
+    case Fidelity::rigid:
+      if (body.modes == 0) return "it has no modes";
+      return fmt::format("all that its modes do stays at {}, within {}",
+                         metres(e.rigid), limit);
+    case Fidelity::uncoupled:
+      if (body.clamped) {
+        return fmt::format("it bends by {}, more than {}; it does not turn",
+                           metres(e.rigid), limit);
+      }
+      return fmt::format(
+          "it moves by {}, and rotation changes that by {}, within {}",
+          metres(e.rigid), metres(e.uncoupled), limit);
+    case Fidelity::one_way:
+      if (e.uncoupled <= limits.displacement) {
+        return fmt::format(
+            "nodal inertial forces reach {:.2g} N, more than {:.2g} N; what "
+            "one-way leaves out moves it by {}, within {}",
+            peaks.force.value, limits.force.value_or(0.0), metres(e.one_way),
+            limit);
+      }
+      return fmt::format(
+          "inertial forces move it by {}, more than {}; what one-way leaves "
+          "out, by {}",
+          metres(e.uncoupled), limit, metres(e.one_way));
+    case Fidelity::coupled:
+      break;
+  }
+  return fmt::format(
+      "it moves by {} while it turns by {:.2g} rad at up to {:.2g} rad/s: "
+      "without coupling the error may reach {}, more than {}",
+      metres(e.rigid), peaks.angle, peaks.Omega.value, metres(e.one_way),
+      limit);
+}
+
+}  // namespace
+
+void check(const AdviceSettings& settings) {
+  check_setting(settings.displacement, "neglected displacement", "m");
+  check_setting(settings.linear_limit, "linear limit", "m");
+  check_setting(settings.force, "force limit", "N");
+}
+
+LevelLimits find_limits(const AdviceSettings& settings,
+                        const flexbody::ReducedBody& body) {
+  check(settings);
+  const double size = body.size.maxCoeff();
+  return {settings.displacement.value_or(kNeglectedShare * size),
+          settings.linear_limit.value_or(kLinearShare * size), settings.force};
+}
+
+LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {
+  LevelErrors errors;
+  errors.rigid = peaks.total;
+  if (body.modes == 0 || body.clamped) return errors;
+  errors.one_way = find_modal_error(body, peaks) + peaks.turned_aside;
+  errors.rigid += peaks.turned_aside;
+  errors.uncoupled = kSudden * peaks.inertial + errors.one_way;
+  return errors;
+}
+
+LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
+                   const LevelLimits& limits) {
+  LIMBER_EXPECT(body.reduced != nullptr);
+  LevelAdvice advice;
+  advice.errors = estimate_errors(body, peaks);
+  const bool is_forced = limits.force && peaks.force.value > *limits.force;
+  const auto is_small = [&](double error) {
+    return error <= limits.displacement;
+  };
+  if (is_small(advice.errors.rigid) && !is_forced) {
+    advice.level = Fidelity::rigid;
+  } else if (is_small(advice.errors.uncoupled) && !is_forced) {
+    advice.level = Fidelity::uncoupled;
+  } else if (is_small(advice.errors.one_way)) {
+    advice.level = Fidelity::one_way;
+  }
+  advice.reason = explain(body, peaks, limits, advice);
+  advice.is_beyond_linear = peaks.deformation > limits.linear_limit;
+  return advice;
+}
+
+}  // namespace limber::dynamics

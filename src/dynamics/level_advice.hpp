@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dynamics/level_survey.hpp"
+
+namespace limber::dynamics {
+
+/// What a user is willing to neglect. Whatever is not set follows from the
+/// body: the report's 1 um and 5 cm for a beam of 5 m.
+struct AdviceSettings {
+  std::optional<double> displacement;  ///< > 0 [m]
+  std::optional<double> linear_limit;  ///< > 0 [m]
+  std::optional<double> force;         ///< > 0, nodal inertial force [N]
+};
+/// @throws InputError if one that is set is not positive and finite.
+void check(const AdviceSettings& settings);
+/// Shares of the longest edge of the body's bounding box.
+inline constexpr double kNeglectedShare = 2e-7;
+inline constexpr double kLinearShare = 0.01;
+
+/// The settings for one body.
+struct LevelLimits {
+  double displacement = 0.0;    ///< that the user neglects [m]
+  double linear_limit = 0.0;    ///< end of linear elasticity [m]
+  std::optional<double> force;  ///< nodal inertial force neglected [N]
+};
+/// @throws InputError as check().
+[[nodiscard]] LevelLimits find_limits(const AdviceSettings& settings,
+                                      const flexbody::ReducedBody& body);
+
+/// Displacement that each level leaves out, by estimate [m].
+struct LevelErrors {
+  double rigid = 0.0;
+  double uncoupled = 0.0;
+  double one_way = 0.0;
+};
+
+/// Equation   rigid      u + s
+///            uncoupled  2 u_i + e
+///            one-way    e = s + sum_k |phi_k| (f_k / lambda_k + d_k)
+/// Source     docs/theory/choosing.md, "Which level"; u, u_i and s are
+///            BodyPeaks' total, inertial and turned_aside; f_k bounds the
+///            forces on mode k that one-way leaves out, d_k what rotation makes
+///            of oscillation
+/// Limits     estimates, with factors that err to the safe side
+[[nodiscard]] LevelErrors estimate_errors(const BodyModel& body,
+                                          const BodyPeaks& peaks);
+
+/// The least level for one body, and why.
+struct LevelAdvice {
+  Fidelity level = Fidelity::coupled;
+  std::string reason;  ///< one sentence with its numbers
+  LevelErrors errors;
+  /// Linear elasticity may not hold: then no level is right.
+  bool is_beyond_linear = false;
+};
+/// @param body with its modes, at Fidelity::uncoupled
+[[nodiscard]] LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
+                                 const LevelLimits& limits);
+
+}  // namespace limber::dynamics

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/level_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "dynamics/body_model.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+/// A load that comes at once swings a mode to twice its static answer.
+constexpr double kSudden = 2.0;
+constexpr std::size_t kMostPoints = 4096;  // of a track
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<double> find_jumps(const SystemModel& model) {
+  std::vector<double> times;
+  for (const Load& load : model.loads) {
+    const std::vector<double> own = break_times(load.function);
+    times.insert(times.end(), own.begin(), own.end());
+  }
+  for (const BodyLoad& load : model.body_loads) {
+    const std::vector<double>& own = load.history.times;
+    times.insert(times.end(), own.begin(), own.end());
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+bool is_held(const SystemModel& model, BodyIndex body) {
+  return std::any_of(
+      model.couplers.begin(), model.couplers.end(), [&](const Coupler& c) {
+        return model.attachments[index(c.frame_F)].body == body ||
+               model.attachments[index(c.frame_M)].body == body;
+      });
+}
+
+void include_largest(VectorX& largest, const VectorX& values) {
+  largest = largest.cwiseMax(values);
+}
+
+}  // namespace
+
+LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
+                          const std::vector<double>& reaches)
+    : body(index_of_body),
+      J0_inverse(model.bodies[index(body)].J0.inverse()),
+      flexibility(model.bodies[index(body)].lambda.cwiseInverse()),
+      omega(model.bodies[index(body)].lambda.cwiseSqrt()),
+      own(std::make_shared<DisplacementMeasure>(model.bodies[index(body)])),
+      anywhere(std::make_shared<DisplacementMeasure>(model, body, reaches)),
+      force_bound(model.bodies[index(body)].reduced->levers),
+      inertial(*anywhere),
+      loads(*anywhere),
+      total(*anywhere),
+      deformation(*own) {
+  const BodyModel& b = model.bodies[index(body)];
+  LIMBER_EXPECT(b.fidelity == Fidelity::uncoupled);
+  if (!b.clamped && b.modes > 0) {
+    bound.emplace(*b.reduced);
+    bound_per_omega2 = bound->calc_displacement(0.0, 1.0);
+    bound_per_alpha = bound->calc_displacement(1.0, 0.0);
+  }
+  peaks.body = body;
+  peaks.modes = VectorX::Zero(b.modes);
+  peaks.oscillation = VectorX::Zero(b.modes);
+  last_eta = VectorX::Zero(b.modes);
+  peaks.mode_sizes = anywhere->mode_sizes();
+  half_size = 0.5 * b.reduced->size;
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    if (model.attachments[i].body == body) reach = std::max(reach, reaches[i]);
+  }
+  // What couplers hold does not turn alone about its slenderest axis.
+  compliance = J0_inverse;
+  if (is_held(model, body)) {
+    compliance = Matrix3::Identity() /
+                 b.J0.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  }
+}
+
+LevelSurvey::LevelSurvey(const SystemModel& model)
+    : model_(model),
+      terms_(make_terms(model)),
+      state_(make_state(model)),
+      jumps_(find_jumps(model)) {
+  const std::vector<double> reaches = find_reaches(model);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].reduced) continue;
+    watches_.emplace_back(model, static_cast<BodyIndex>(b), reaches);
+  }
+}
+
+void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
+  LIMBER_EXPECT(source.bodies.size() == model_.bodies.size());
+  LIMBER_EXPECT(state.bodies.size() == model_.bodies.size());
+  state_.t = state.t;
+  state_.bodies = state.bodies;
+  for (Watch& watch : watches_) {
+    const BodyModel& from = source.bodies[index(watch.body)];
+    const BodyModel& to = model_.bodies[index(watch.body)];
+    LIMBER_EXPECT(from.modes == to.modes || from.modes == 0);
+    watch.is_observed = from.modes > 0;
+    watch.misses_inertial = from.fidelity == Fidelity::uncoupled;
+    if (!watch.is_observed) continue;
+    state_.eta.segment(to.offset, to.modes) =
+        state.eta.segment(from.offset, from.modes);
+    state_.etadot.segment(to.offset, to.modes) =
+        state.etadot.segment(from.offset, from.modes);
+  }
+  if (std::binary_search(jumps_.begin(), jumps_.end(), state.t)) {
+    include(state_, Side::left);
+  }
+  include(state_, Side::right);
+}
+
+void LevelSurvey::include(const SystemState& state, Side side) {
+  calc_terms(model_, state, side, terms_);
+  for (Watch& watch : watches_) {
+    const BodyTerms& terms = terms_.bodies[index(watch.body)];
+    if (!model_.bodies[index(watch.body)].clamped) {
+      include_rotation(state, terms, watch);
+    }
+    if (model_.bodies[index(watch.body)].modes > 0) {
+      include_deformation(state, terms, watch);
+    }
+    watch.last_time = state.t;
+  }
+  ++count_;
+  thin_tracks();
+}
+
+// Every second point goes when there are too many.
+void LevelSurvey::thin_tracks() {
+  bool is_full = false;
+  for (const Watch& watch : watches_) {
+    is_full |= watch.track.size() >= 2 * kMostPoints;
+  }
+  if (!is_full) return;
+  for (Watch& watch : watches_) {
+    std::vector<RotationPoint> kept;
+    for (std::size_t i = 0; i < watch.track.size(); i += 2) {
+      kept.push_back(watch.track[i]);
+    }
+    watch.track = std::move(kept);
+  }
+  stride_ *= 2;
+}
+
+void LevelSurvey::include_rotation(const SystemState& state,
+                                   const BodyTerms& terms, Watch& watch) {
+  const Vector3& w = state.bodies[index(watch.body)].w_WB_B;
+  const double Omega = w.norm();
+  const double alpha =
+      (watch.J0_inverse * (terms.moment_B - terms.bias_r)).norm();
+  BodyPeaks& peaks = watch.peaks;
+  peaks.alpha.include(alpha, state.t);
+  peaks.Omega.include(Omega, state.t);
+  peaks.report.include(alpha + Omega * Omega, state.t);
+  peaks.force.include(watch.force_bound.calc_force(alpha, Omega), state.t);
+  peaks.Omega_B = peaks.Omega_B.cwiseMax(w.cwiseAbs());
+  if (watch.bound &&
+      watch.bound_per_omega2 * Omega * Omega + watch.bound_per_alpha * alpha >
+          peaks.inertial_bound) {
+    peaks.inertial_bound = std::max(
+        peaks.inertial_bound, watch.bound->calc_displacement(alpha, Omega));
+  }
+  if (watch.last_time) {
+    peaks.angle +=
+        0.5 * (Omega + watch.last_Omega) * (state.t - *watch.last_time);
+  }
+  watch.last_Omega = Omega;
+  if (count_ % stride_ == 0) watch.track.push_back({alpha, Omega});
+}
+
+// What a change of the static answer leaves swinging: all of it if it comes at
+// once, its rate over the frequency if it comes as a ramp.
+VectorX LevelSurvey::find_oscillation(const Watch& watch, const VectorX& eta,
+                                      double t) {
+  const VectorX change = (eta - watch.last_eta).cwiseAbs();
+  const double time = watch.last_time ? t - *watch.last_time : 0.0;
+  return change.cwiseQuotient((time * watch.omega).cwiseMax(1.0));
+}
+
+void LevelSurvey::include_deformation(const SystemState& state,
+                                      const BodyTerms& terms, Watch& watch) {
+  const BodyModel& body = model_.bodies[index(watch.body)];
+  VectorX inertial = VectorX::Zero(body.modes);
+  if (!body.clamped) {
+    inertial = watch.flexibility.cwiseProduct(
+        body.J1.transpose() *
+        half_square(state.bodies[index(watch.body)].w_WB_B));
+    watch.inertial.include(inertial);
+  }
+  VectorX eta;
+  if (watch.is_observed) {
+    eta = state.eta.segment(body.offset, body.modes);
+    VectorX swings = state.etadot.segment(body.offset, body.modes)
+                         .cwiseAbs()
+                         .cwiseQuotient(watch.omega);
+    if (watch.misses_inertial) {
+      eta += inertial;
+      swings += find_oscillation(watch, inertial, state.t);
+      watch.last_eta = inertial;
+    }
+    include_largest(watch.peaks.oscillation, swings);
+  } else {
+    const VectorX loads = watch.flexibility.cwiseProduct(terms.modal_force);
+    watch.loads.include(loads);
+    eta = loads + inertial;
+    include_largest(watch.peaks.oscillation,
+                    find_oscillation(watch, eta, state.t));
+    watch.last_eta = eta;
+  }
+  watch.total.include(eta);
+  watch.deformation.include(eta);
+  include_largest(watch.peaks.modes, eta.cwiseAbs());
+  if (!body.clamped) include_slip(body, eta, state, watch);
+}
+
+// A body of inertia J0 + dJ keeps J0 w0 = (J0 + dJ) w: it turns more slowly by
+// J0^-1 dJ w.
+void LevelSurvey::include_slip(const BodyModel& body, const VectorX& eta,
+                               const SystemState& state, Watch& watch) {
+  const Vector3 slip = watch.compliance * unpack_symmetric(body.J1 * eta) *
+                       state.bodies[index(watch.body)].w_WB_B;
+  if (watch.last_time) {
+    watch.slipped +=
+        0.5 * (slip + watch.last_slip) * (state.t - *watch.last_time);
+  }
+  watch.last_slip = slip;
+  const Vector3 angle = watch.slipped.cwiseAbs();
+  const Vector3& l = watch.half_size;
+  const Vector3 corner(angle[1] * l[2] + angle[2] * l[1],
+                       angle[2] * l[0] + angle[0] * l[2],
+                       angle[0] * l[1] + angle[1] * l[0]);
+  watch.peaks.turned_aside = std::max(
+      {watch.peaks.turned_aside, corner.norm(), angle.norm() * watch.reach});
+}
+
+std::vector<BodyPeaks> LevelSurvey::find_peaks() const {
+  std::vector<BodyPeaks> all;
+  for (const Watch& watch : watches_) {
+    BodyPeaks peaks = watch.peaks;
+    const double factor = watch.is_observed ? 1.0 : kSudden;
+    peaks.inertial = watch.inertial.value();
+    peaks.loads = watch.loads.value();
+    peaks.total = factor * watch.total.value();
+    peaks.deformation = factor * watch.deformation.value();
+    peaks.modes *= factor;
+    peaks.oscillation *= factor;
+    if (watch.is_observed && watch.misses_inertial) {
+      // The static answer is in; it may swing as far again.
+      peaks.total += (kSudden - 1.0) * peaks.inertial;
+      peaks.deformation += (kSudden - 1.0) * peaks.inertial;
+    }
+    all.push_back(std::move(peaks));
+  }
+  return all;
+}
+
+std::vector<std::vector<RotationPoint>> LevelSurvey::tracks() const {
+  std::vector<std::vector<RotationPoint>> all;
+  for (const Watch& watch : watches_) all.push_back(watch.track);
+  return all;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/level_advice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "common/errors.hpp"
+#include "support/chain.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kRoundoff = 1e-12;
+
+SystemModel make_chain_model(int bodies) {
+  limber::testing::ChainOptions options;
+  options.bodies = bodies;
+  options.fidelity = Fidelity::uncoupled;
+  return limber::testing::make_chain(options).builder.build();
+}
+
+// Each coupler's end carries all that lies beyond it.
+TEST(Reaches, OfAChainAreTheDiametersBeyond) {
+  const SystemModel model = make_chain_model(4);
+  const double diameter = model.bodies[0].reduced->size.norm();
+  const std::vector<double> reaches = find_reaches(model);
+  ASSERT_EQ(reaches.size(), 8U);  // root and tip of each body
+  EXPECT_EQ(reaches.front(), 0.0);
+  EXPECT_EQ(reaches.back(), 0.0);
+  for (int joint = 0; joint < 3; ++joint) {
+    const auto tip = static_cast<std::size_t>(2 * joint + 1);
+    EXPECT_NEAR(reaches[tip], (3 - joint) * diameter, kRoundoff);
+    EXPECT_NEAR(reaches[tip + 1], (joint + 1) * diameter, kRoundoff);
+  }
+}
+
+TEST(DisplacementMeasure, IsTheLargestNodesOfItsOwnBody) {
+  const SystemModel model = make_chain_model(1);
+  const flexbody::ReducedBody& body = *model.bodies[0].reduced;
+  const VectorX eta = VectorX::LinSpaced(body.mode_count(), -1.0, 2.0);
+  double largest = 0.0;
+  for (Eigen::Index n = 0; n < body.rows.x_B.cols(); ++n) {
+    largest =
+        std::max(largest, (body.rows.Phi_B.middleRows<3>(3 * n) * eta).norm());
+  }
+  EXPECT_NEAR(DisplacementMeasure(model.bodies[0]).calc_displacement(eta),
+              largest, kRoundoff * largest);
+}
+
+// A body that bends takes what it carries with its interface's rotation.
+TEST(DisplacementMeasure, GrowsWithWhatTheBodyCarries) {
+  const SystemModel model = make_chain_model(2);
+  std::vector<double> reaches = find_reaches(model);
+  reaches[1] = 1000.0;  // m: far more than the body's own bending
+  const Attachment& tip = model.attachments[1];
+  const VectorX eta = VectorX::LinSpaced(6, -1.0, 2.0);
+  const double carried =
+      (tip.Phi_B * eta).norm() + reaches[1] * (tip.Psi_B * eta).norm();
+  const double own =
+      DisplacementMeasure(model.bodies[0]).calc_displacement(eta);
+  ASSERT_GT(carried, own);
+  EXPECT_NEAR(DisplacementMeasure(model, 0, reaches).calc_displacement(eta),
+              carried, kRoundoff * carried);
+}
+
+TEST(PeakDisplacement, IsWithinOnePercentOfTheLargest) {
+  const SystemModel model = make_chain_model(3);
+  const DisplacementMeasure measure(model, 1, find_reaches(model));
+  PeakDisplacement peak(measure);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  VectorX eta = VectorX::Zero(6);
+  double largest = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    for (double& x : eta) x += 0.1 * normal(random);
+    largest = std::max(largest, measure.calc_displacement(eta));
+    peak.include(eta);
+  }
+  EXPECT_LE(peak.value(), largest);
+  EXPECT_GE(1.01 * peak.value(), largest);
+}
+
+/// Peaks of the first of `bodies`, spun for a second at `Omega`.
+BodyPeaks spin(const SystemModel& model, const Vector3& w_B) {
+  LevelSurvey survey(model);
+  SystemModel rigid = model;
+  rigid.bodies[0].modes = 0;
+  SystemState state = make_state(model);
+  state.bodies[0].w_WB_B = w_B;
+  for (int i = 0; i <= 10; ++i) {
+    state.t = 0.1 * i;
+    survey.include(rigid, state);
+  }
+  return survey.find_peaks().front();
+}
+
+// Lambda^-1 J1^T (w w): four times as much at twice the speed.
+TEST(LevelSurvey, FindsInertialDisplacementInTheSquareOfTheSpeed) {
+  const SystemModel model = make_chain_model(1);
+  const BodyPeaks slow = spin(model, {0.1, 0.0, 0.2});
+  const BodyPeaks fast = spin(model, {0.2, 0.0, 0.4});
+  EXPECT_GT(slow.inertial, 0.0);
+  EXPECT_NEAR(fast.inertial / slow.inertial, 4.0, kRoundoff);
+  EXPECT_NEAR(fast.angle, Vector3(0.2, 0.0, 0.4).norm(), kRoundoff);
+  EXPECT_LE(slow.inertial, slow.inertial_bound * (1.0 + kRoundoff));
+  EXPECT_EQ(slow.loads, 0.0);
+  EXPECT_NEAR(slow.total, 2.0 * slow.inertial, kRoundoff);
+}
+
+TEST(LevelAdvice, RisesWithTheSpeed) {
+  const SystemModel model = make_chain_model(1);
+  const LevelLimits limits{1e-6, 1.0, std::nullopt};
+  Fidelity before = Fidelity::rigid;
+  for (const double Omega : {0.0, 1e-4, 1e-2, 1.0, 100.0}) {
+    const BodyPeaks peaks = spin(model, {Omega, 0.5 * Omega, 0.0});
+    const Fidelity now = advise(model.bodies[0], peaks, limits).level;
+    EXPECT_GE(now, before);
+    before = now;
+  }
+  EXPECT_EQ(before, Fidelity::coupled);
+  EXPECT_EQ(advise(model.bodies[0], spin(model, Vector3::Zero()), limits).level,
+            Fidelity::rigid);
+}
+
+TEST(LevelAdvice, NamesTheNumbersThatDecide) {
+  const SystemModel model = make_chain_model(1);
+  const BodyPeaks peaks = spin(model, {1e-3, 0.0, 0.0});
+  const LevelLimits limits{1e-5, 1.0, std::nullopt};
+  EXPECT_THAT(advise(model.bodies[0], peaks, limits).reason,
+              HasSubstr("within 1e-05 m"));
+}
+
+TEST(LevelAdvice, TakesInertialForcesInWhereTheyExceedTheForceLimit) {
+  const SystemModel model = make_chain_model(1);
+  BodyPeaks peaks = spin(model, {1e-4, 0.0, 0.0});
+  LevelLimits limits{1.0, 1.0, 5.0};
+  EXPECT_EQ(advise(model.bodies[0], peaks, limits).level, Fidelity::rigid);
+  peaks.force = {5.1, 0.0};
+  const LevelAdvice advice = advise(model.bodies[0], peaks, limits);
+  EXPECT_EQ(advice.level, Fidelity::one_way);
+  EXPECT_THAT(advice.reason, HasSubstr("5.1 N"));
+}
+
+TEST(LevelAdvice, KnowsTheEndOfTheLinearRange) {
+  const SystemModel model = make_chain_model(1);
+  const BodyPeaks peaks = spin(model, {1.0, 0.0, 0.0});
+  const double u = peaks.deformation;
+  const auto is_beyond = [&](double limit) {
+    return advise(model.bodies[0], peaks, {1e-9, limit, std::nullopt})
+        .is_beyond_linear;
+  };
+  EXPECT_TRUE(is_beyond(0.99 * u));
+  EXPECT_FALSE(is_beyond(1.01 * u));
+}
+
+// Nothing turns it, whatever the loads do.
+TEST(LevelAdvice, OfAClampedBodyIsAtMostUncoupled) {
+  SystemModel model = make_chain_model(1);
+  auto clamped =
+      std::make_shared<flexbody::ReducedBody>(*model.bodies[0].reduced);
+  clamped->clamped = true;
+  model.bodies[0].reduced = clamped;
+  model.bodies[0].clamped = true;
+  BodyPeaks peaks = spin(model, Vector3::Zero());
+  const LevelLimits limits{1e-6, 1.0, std::nullopt};
+  EXPECT_EQ(advise(model.bodies[0], peaks, limits).level, Fidelity::rigid);
+  peaks.total = 1.0;
+  EXPECT_EQ(advise(model.bodies[0], peaks, limits).level, Fidelity::uncoupled);
+}
+
+TEST(AdviceSettings, FollowTheBodysSize) {
+  flexbody::ReducedBody body;
+  body.size = {1.0, 1.0, 5.0};
+  const LevelLimits limits = find_limits({}, body);
+  EXPECT_NEAR(limits.displacement, 1e-6, kRoundoff);  // the report's
+  EXPECT_NEAR(limits.linear_limit, 0.05, kRoundoff);
+  EXPECT_FALSE(limits.force);
+}
+
+TEST(AdviceSettings, RefuseWhatIsNotPositive) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : {0.0, -1.0, infinity, std::nan("")}) {
+    EXPECT_THROW(check({value, {}, {}}), InputError);
+    EXPECT_THROW(check({{}, value, {}}), InputError);
+    EXPECT_THROW(check({{}, {}, value}), InputError);
+  }
+  EXPECT_NO_THROW(check({1.0, 2.0, 3.0}));
+}
+
+}  // namespace
+}  // namespace limber::dynamics
