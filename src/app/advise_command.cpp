@@ -106,9 +106,11 @@ std::vector<BodyLevel> find_levels(const scene::Scene& scene,
   };
   dynamics::simulate(rigid.model, state, settings, observer, progress);
   clear_progress_bar();
-  return judge_levels(flexible.model, survey,
-                      find_asked(scene.scenario, flexible.model),
-                      scene.scenario.advice);
+  std::vector<BodyLevel> levels = judge_levels(
+      flexible.model, survey, find_asked(scene.scenario, flexible.model),
+      scene.scenario.advice);
+  find_bounds(levels);
+  return levels;
 }
 
 void write_picture(const std::filesystem::path& file, const std::string& title,

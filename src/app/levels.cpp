@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "app/reducer.hpp"
 #include "flexbody/cache.hpp"
 
@@ -99,6 +101,17 @@ std::vector<BodyLevel> judge_run(const scene::Scene& scene,
     survey.include(built.model, state);
   }
   return judge_levels(model, survey, used, scene.scenario.advice);
+}
+
+void find_bounds(std::vector<BodyLevel>& levels) {
+  using Bound = flexbody::InertialDisplacementBound;
+  std::map<const flexbody::ReducedBody*, std::shared_ptr<const Bound>> known;
+  for (BodyLevel& level : levels) {
+    if (level.reduced->clamped || level.reduced->mode_count() == 0) continue;
+    auto& bound = known[level.reduced.get()];
+    if (!bound) bound = std::make_shared<const Bound>(*level.reduced);
+    level.bound = bound;
+  }
 }
 
 std::vector<std::string> find_level_warnings(

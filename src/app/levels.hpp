@@ -22,6 +22,8 @@ struct BodyLevel {
   dynamics::LevelAdvice advice;
   std::shared_ptr<const flexbody::ReducedBody> reduced;
   std::vector<dynamics::RotationPoint> track;
+  /// Of rotation; made by find_bounds alone, since it takes a while.
+  std::shared_ptr<const flexbody::InertialDisplacementBound> bound;
 
   /// The level used leaves out no more than the limits allow.
   [[nodiscard]] bool is_justified() const {
@@ -47,6 +49,9 @@ struct BodyLevel {
 [[nodiscard]] scene::BuiltScene build_at_level(
     const scene::Scene& scene, dynamics::Fidelity level,
     const dynamics::SystemModel& model, const std::filesystem::path& cache);
+
+/// Gives free bodies their `bound`.
+void find_bounds(std::vector<BodyLevel>& levels);
 
 /// A line for each body whose level was not justified.
 [[nodiscard]] std::vector<std::string> find_level_warnings(

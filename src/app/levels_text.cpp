@@ -23,6 +23,7 @@ struct Boundaries {
   std::optional<double> bound_displacement;  ///< Omega at alpha = 0 [rad/s]
   std::optional<double> bound_linear;
   std::optional<double> bound_force;
+  std::optional<double> margin;  ///< of the bound at the peaks [-]
 };
 
 Boundaries find_boundaries(const BodyLevel& level) {
@@ -30,12 +31,15 @@ Boundaries find_boundaries(const BodyLevel& level) {
   if (level.reduced->clamped) return result;
   const flexbody::InertialLevers& levers = level.reduced->levers;
   const dynamics::LevelLimits& limits = level.limits;
-  if (levers.displacement > 0.0) {
+  if (levers.displacement > 0.0 && level.bound) {
     result.report_displacement = limits.displacement / levers.displacement;
     result.report_linear = limits.linear_limit / levers.displacement;
-    const flexbody::InertialDisplacementBound bound(*level.reduced);
-    result.bound_displacement = bound.find_omega(0.0, limits.displacement);
-    result.bound_linear = bound.find_omega(0.0, limits.linear_limit);
+    result.bound_displacement =
+        level.bound->find_omega(0.0, limits.displacement);
+    result.bound_linear = level.bound->find_omega(0.0, limits.linear_limit);
+    // Both at their peaks: in the mean-axis frame alpha bends nothing.
+    result.margin = level.bound->calc_margin(
+        level.peaks.alpha.value, level.peaks.Omega.value, limits.displacement);
   }
   if (limits.force && levers.lumped > 0.0) {
     result.report_force = *limits.force / levers.lumped;
@@ -69,9 +73,7 @@ Json describe_boundaries(const BodyLevel& level) {
        {{"displacement", to_json(b.bound_displacement)},
         {"linear_limit", to_json(b.bound_linear)},
         {"force", to_json(b.bound_force)},
-        {"margin", level.reduced->clamped ? Json(nullptr)
-                                          : Json(level.peaks.inertial_bound /
-                                                 level.limits.displacement)},
+        {"margin", to_json(b.margin)},
         {"force_margin", over(level.peaks.force.value, level.limits.force)}}}};
 }
 
@@ -94,10 +96,10 @@ std::string describe_rotation(const BodyLevel& level) {
       "  boundary     report: alpha + Omega^2 <= {} 1/s^2, linear to {}; peak "
       "{:.3g}\n"
       "               bound:  Omega <= {} rad/s at any alpha, linear to {}; "
-      "margin {:.3g}\n",
+      "margin {}\n",
       number(b.report_displacement), number(b.report_linear),
       peaks.report.value, number(b.bound_displacement), number(b.bound_linear),
-      peaks.inertial_bound / level.limits.displacement);
+      number(b.margin));
   if (level.limits.force) {
     text += fmt::format(
         "  force        report: alpha + Omega^2 <= {} 1/s^2; bound: Omega <= "
@@ -143,7 +145,7 @@ Json to_json(const BodyLevel& level) {
                    {"displacement", peaks.total},
                    {"static_displacement_of_loads", peaks.loads},
                    {"static_displacement_of_inertia", peaks.inertial}};
-  json["boundary"] = describe_boundaries(level);
+  if (level.bound) json["boundary"] = describe_boundaries(level);
   json["left_out"] = {{"rigid", advice.errors.rigid},
                       {"uncoupled", advice.errors.uncoupled},
                       {"one-way", advice.errors.one_way}};

@@ -11,6 +11,13 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+/// Longest displacement of a node, u = 3n.
+double find_largest(const VectorX& u) {
+  if (u.size() == 0) return 0.0;
+  return std::sqrt(
+      u.reshaped(3, u.size() / 3).colwise().squaredNorm().maxCoeff());
+}
+
 /// The bodies and couplers as a graph.
 class CouplerGraph {
  public:
@@ -102,22 +109,19 @@ void DisplacementMeasure::find_mode_sizes() {
   const Eigen::Index m = reduced_->lambda.size();
   mode_sizes_.resize(m);
   for (Eigen::Index k = 0; k < m; ++k) {
-    mode_sizes_[k] = calc_displacement(VectorX::Unit(m, k));
+    mode_sizes_[k] = find_largest(reduced_->rows.Phi_B.col(k));
+    for (const Carried& end : carried_) {
+      mode_sizes_[k] =
+          std::max(mode_sizes_[k], end.Phi_B.col(k).norm() +
+                                       end.reach * end.Psi_B.col(k).norm());
+    }
   }
 }
 
 double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
   LIMBER_EXPECT(eta.size() == reduced_->lambda.size());
   if (eta.size() == 0) return 0.0;
-  double largest = 0.0;
-  if (reduced_->rows.x_B.cols() > 0) {
-    const VectorX u = reduced_->rows.Phi_B * eta;
-    largest = u.reshaped(3, reduced_->rows.x_B.cols())
-                  .colwise()
-                  .squaredNorm()
-                  .maxCoeff();
-    largest = std::sqrt(largest);
-  }
+  double largest = find_largest(reduced_->rows.Phi_B * eta);
   for (const Carried& end : carried_) {
     largest = std::max(largest, (end.Phi_B * eta).norm() +
                                     end.reach * (end.Psi_B * eta).norm());

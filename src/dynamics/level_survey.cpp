@@ -59,11 +59,6 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
       deformation(*own) {
   const BodyModel& b = model.bodies[index(body)];
   LIMBER_EXPECT(b.fidelity == Fidelity::uncoupled);
-  if (!b.clamped && b.modes > 0) {
-    bound.emplace(*b.reduced);
-    bound_per_omega2 = bound->calc_displacement(0.0, 1.0);
-    bound_per_alpha = bound->calc_displacement(1.0, 0.0);
-  }
   peaks.body = body;
   peaks.modes = VectorX::Zero(b.modes);
   peaks.oscillation = VectorX::Zero(b.modes);
@@ -161,12 +156,6 @@ void LevelSurvey::include_rotation(const SystemState& state,
   peaks.report.include(alpha + Omega * Omega, state.t);
   peaks.force.include(watch.force_bound.calc_force(alpha, Omega), state.t);
   peaks.Omega_B = peaks.Omega_B.cwiseMax(w.cwiseAbs());
-  if (watch.bound &&
-      watch.bound_per_omega2 * Omega * Omega + watch.bound_per_alpha * alpha >
-          peaks.inertial_bound) {
-    peaks.inertial_bound = std::max(
-        peaks.inertial_bound, watch.bound->calc_displacement(alpha, Omega));
-  }
   if (watch.last_time) {
     peaks.angle +=
         0.5 * (Omega + watch.last_Omega) * (state.t - *watch.last_time);

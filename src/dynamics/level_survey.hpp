@@ -38,11 +38,10 @@ struct BodyPeaks {
   double angle = 0.0;  ///< turned, integral of |Omega| [rad]
   /// Largest size of each component of Omega, axes of the body [rad/s].
   Vector3 Omega_B = Vector3::Zero();
-  double inertial_bound = 0.0;  ///< of inertial forces, any direction, static
-  double inertial = 0.0;        ///< of inertial forces, static [m]
-  double loads = 0.0;           ///< of loads, couplers and gravity, static [m]
-  double total = 0.0;           ///< of all, with what oscillation adds [m]
-  double deformation = 0.0;     ///< of the body's own nodes, as `total` [m]
+  double inertial = 0.0;     ///< of inertial forces, static [m]
+  double loads = 0.0;        ///< of loads, couplers and gravity, static [m]
+  double total = 0.0;        ///< of all, with what oscillation adds [m]
+  double deformation = 0.0;  ///< of the body's own nodes, as `total` [m]
   /// Where rotation gets the body and what it carries beside where it would
   /// get them with the undeformed inertia [m].
   double turned_aside = 0.0;
@@ -88,10 +87,7 @@ class LevelSurvey {
     VectorX omega;                         ///< sqrt(lambda) [rad/s]
     std::shared_ptr<const DisplacementMeasure> own;
     std::shared_ptr<const DisplacementMeasure> anywhere;
-    std::optional<flexbody::InertialDisplacementBound> bound;
     flexbody::InertialForceBound force_bound;
-    double bound_per_omega2 = 0.0;
-    double bound_per_alpha = 0.0;
     PeakDisplacement inertial;
     PeakDisplacement loads;
     PeakDisplacement total;
