@@ -108,8 +108,10 @@ DisplacementMeasure::DisplacementMeasure(const SystemModel& model,
 void DisplacementMeasure::find_mode_sizes() {
   const Eigen::Index m = reduced_->lambda.size();
   mode_sizes_.resize(m);
+  node_sizes_.resize(m);
   for (Eigen::Index k = 0; k < m; ++k) {
-    mode_sizes_[k] = find_largest(reduced_->rows.Phi_B.col(k));
+    node_sizes_[k] = find_largest(reduced_->rows.Phi_B.col(k));
+    mode_sizes_[k] = node_sizes_[k];
     for (const Carried& end : carried_) {
       mode_sizes_[k] =
           std::max(mode_sizes_[k], end.Phi_B.col(k).norm() +
@@ -121,12 +123,14 @@ void DisplacementMeasure::find_mode_sizes() {
 double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
   LIMBER_EXPECT(eta.size() == reduced_->lambda.size());
   if (eta.size() == 0) return 0.0;
-  double largest = find_largest(reduced_->rows.Phi_B * eta);
+  double largest = 0.0;
   for (const Carried& end : carried_) {
     largest = std::max(largest, (end.Phi_B * eta).norm() +
                                     end.reach * (end.Psi_B * eta).norm());
   }
-  return largest;
+  // Own nodes are many: not looked at where they cannot be the largest.
+  if (node_sizes_.dot(eta.cwiseAbs()) <= largest) return largest;
+  return std::max(largest, find_largest(reduced_->rows.Phi_B * eta));
 }
 
 PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)

@@ -47,6 +47,7 @@ class DisplacementMeasure {
   std::shared_ptr<const flexbody::ReducedBody> reduced_;
   std::vector<Carried> carried_;
   VectorX mode_sizes_;
+  VectorX node_sizes_;  ///< the same of own nodes
 };
 
 /// Peak of a DisplacementMeasure over many modal coordinates. Most are passed
