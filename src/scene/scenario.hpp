@@ -101,7 +101,7 @@ struct Scenario {
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< what was read, but not to the letter
-  dynamics::AdviceSettings advice;  ///< what may be neglected
+  dynamics::AdviceSettings advice;    ///< what may be neglected
 };
 
 }  // namespace limber::scene
