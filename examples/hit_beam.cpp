@@ -21,7 +21,9 @@ int main(int, char** argv) {
   scene.add_load("hit", tip, {1e4, 0, 0}, {0, 0, 0}, {}, pulse);
   const dynamics::SystemModel model = scene.build();
   dynamics::SystemState state = make_state(model);
-  simulate(model, state, {{}, 0.05, 1e-4, {0.01, 0.05}}, [&](auto& now, auto&) {
+  const dynamics::SimulationSettings settings{
+      .end_time = 0.05, .step = 1e-4, .output_times = {0.01, 0.05}};
+  simulate(model, state, settings, [&](auto& now, auto&) {
     const Vector3 p = find_frame_motion(model, now, tip).X_WF.p;
     std::printf("t = %.2f s  tip x = %.3e m\n", now.t, p.x());
   });
