@@ -22,11 +22,15 @@ else()
   set(without_reduction
     PATTERN reduce.hpp EXCLUDE PATTERN reduce_*.hpp EXCLUDE)
 endif()
+if(LIMBER_REFERENCE)
+  list(APPEND layers reference)
+endif()
 foreach(layer IN LISTS layers)
   list(APPEND targets limber_${layer})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${layer}/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber/${layer}
-    FILES_MATCHING PATTERN *.hpp ${without_reduction})
+    FILES_MATCHING PATTERN *.hpp ${without_reduction}
+    PATTERN simbody_*.hpp EXCLUDE)  # those need Simbody's headers
 endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/src/limber.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limber)

@@ -13,6 +13,7 @@ using Action = std::function<void()>;
 void add_run(CLI::App& app, Action& action);
 void add_advise(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_reduce(CLI::App& app, Action& action);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#ifdef LIMBER_HAS_REFERENCE
+
+#include <string>
+
+#include "app/json.hpp"
+#include "reference/verification.hpp"
+
+namespace limber::app {
+
+/// What `limber verify` tells.
+struct VerificationReport {
+  std::string scenario;
+  dynamics::IntegratorKind integrator =
+      dynamics::IntegratorKind::generalized_alpha;
+  reference::VerificationOptions options;
+  reference::Verification result;
+};
+
+[[nodiscard]] Json to_json(const VerificationReport& report);
+/// Tables: differences body by body at the smallest step; and, if the step was
+/// halved, the relative difference and its order at each.
+[[nodiscard]] std::string to_text(const VerificationReport& report);
+
+}  // namespace limber::app
+
+#endif

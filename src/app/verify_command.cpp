@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/reducer.hpp"
+#include "app/terminal.hpp"
+#include "app/verification_report.hpp"
+#include "common/errors.hpp"
+#include "flexbody/cache.hpp"
+
+namespace limber::app {
+namespace {
+
+struct Options {
+  std::string scenario;
+  std::string joints = "bushings";
+  std::string integrator;
+  std::string cache;
+  double step = 0.0;
+  double duration = 0.0;
+  double accuracy = 1e-12;
+  int refine = 0;
+  bool json = false;
+};
+
+#ifdef LIMBER_HAS_REFERENCE
+
+/// What the command line puts in place of the file's word.
+void apply(const Options& options, dynamics::SimulationSettings& settings) {
+  if (!options.integrator.empty()) {
+    settings.integrator = dynamics::parse_integrator(options.integrator);
+  }
+  if (options.step > 0.0) {
+    settings.step = options.step;
+    settings.step_changes.clear();
+  }
+  if (options.duration > 0.0) {
+    settings.end_time = options.duration;
+    std::erase_if(settings.output_times,
+                  [&](double t) { return t > options.duration; });
+  }
+}
+
+scene::BuiltScene build(const scene::Scene& scene, const Options& options) {
+  scene::BuiltScene built = scene::build_system(
+      scene, make_reducer(make_progress_bar()),
+      options.cache.empty() ? flexbody::default_cache_folder()
+                            : std::filesystem::path(options.cache));
+  clear_progress_bar();
+  print_warnings(built.warnings);
+  return built;
+}
+
+void verify(const Options& options) {
+  VerificationReport report;
+  report.scenario = options.scenario;
+  report.options.witness.joints = reference::parse_joint_model(options.joints);
+  report.options.witness.accuracy = options.accuracy;
+  report.options.refinements = options.refine;
+  scene::Overrides overrides;
+  overrides.fidelity = dynamics::Fidelity::rigid;
+  scene::Scene scene = scene::load_scene(options.scenario, overrides);
+  apply(options, scene.scenario.settings);
+  report.integrator = scene.scenario.settings.integrator;
+  report.result = reference::verify(scene, build(scene, options),
+                                    report.options, make_progress_bar());
+  clear_progress_bar();
+  fmt::print("{}\n", options.json ? to_text(to_json(report)) : to_text(report));
+}
+
+#else
+
+void verify(const Options& /*options*/) {
+  throw InputError(
+      "verify: this limber was built without Simbody (LIMBER_REFERENCE=OFF); "
+      "build with -DLIMBER_REFERENCE=ON");
+}
+
+#endif
+
+}  // namespace
+
+void add_verify(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "verify", "Compare the level `rigid` with Simbody, body by body");
+  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
+      ->required();
+  command->add_option("--joints", options->joints,
+                      "What stands for joints in Simbody: bushings (default), "
+                      "linear-bushings, ideal");
+  command->add_option("--step", options->step, "Our longest step [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--duration", options->duration, "End of both runs [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--integrator", options->integrator,
+                      "Ours: generalized-alpha, runge-kutta-4, "
+                      "explicit-euler");
+  command->add_option("--accuracy", options->accuracy,
+                      "Of Simbody's integrator (default 1e-12)");
+  command
+      ->add_option("--refine", options->refine,
+                   "Halve our step this often; shows the order")
+      ->check(CLI::Range(0, 20));
+  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->callback(
+      [&action, options] { action = [options] { verify(*options); }; });
+}
+
+}  // namespace limber::app

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reference/scene_mechanism.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "common/errors.hpp"
+#include "scene/body_plan.hpp"
+
+namespace limber::reference {
+namespace {
+
+using joints::JointKind;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Pose turn_z_to(const Vector3& axis) {
+  return {Quaternion::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix(),
+          Vector3::Zero()};
+}
+
+Mobilizer find_mobilizer(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::continuous:
+      return Mobilizer::pin;
+    case JointKind::prismatic:
+      return Mobilizer::slider;
+    case JointKind::planar:
+      return Mobilizer::planar;
+    case JointKind::floating:
+      return Mobilizer::free;
+    case JointKind::fixed:
+      break;
+  }
+  return Mobilizer::weld;
+}
+
+std::vector<double> join(const Vector3& a, const Vector3& b) {
+  return {a[0], a[1], a[2], b[0], b[1], b[2]};
+}
+
+std::vector<scene::ReducedPointer> find_reduced(
+    const scene::Scene& scene, const dynamics::SystemModel& model) {
+  std::map<std::string, scene::ReducedPointer> by_name;
+  for (const dynamics::BodyModel& body : model.bodies) {
+    by_name[body.name] = body.reduced;
+  }
+  std::vector<scene::ReducedPointer> reduced;
+  for (const scene::Link& link : scene.robot.links) {
+    reduced.push_back(link.flexible ? by_name.at(link.name) : nullptr);
+  }
+  return reduced;
+}
+
+void check_levels(const dynamics::SystemModel& model) {
+  for (const dynamics::BodyModel& body : model.bodies) {
+    if (body.fidelity == dynamics::Fidelity::rigid) continue;
+    throw InputError(fmt::format(
+        "link '{}' is at level '{}'; rigid bodies are compared at 'rigid'",
+        body.name, dynamics::to_string(body.fidelity)));
+  }
+}
+
+class Translator {
+ public:
+  Translator(const scene::Scene& scene, const scene::BuiltScene& built)
+      : scene_(scene),
+        robot_(scene.robot),
+        model_(built.model),
+        plans_(scene::plan_bodies(robot_, find_reduced(scene, model_))) {}
+
+  Mechanism run() {
+    mechanism_.gravity_W = scene_.scenario.gravity;
+    for (int link = 0; link < std::ssize(robot_.links); ++link) add_link(link);
+    add_joint_bushings();
+    add_connectors();
+    add_loads();
+    for (const scene::BodyPlan& plan : plans_.bodies) {
+      if (plan.is_world) continue;
+      const int link = plan.links.front();
+      mechanism_.watched.push_back({link, X_LB(link)});
+    }
+    return mechanism_;
+  }
+
+ private:
+  [[nodiscard]] Pose X_LB(int link) const {
+    return plans_.X_BL[index(link)].inverse();
+  }
+
+  void set_mass(int link, MechanismBody& body) const {
+    const scene::BodyPlan& plan =
+        plans_.bodies[index(plans_.body_of_link[index(link)])];
+    const auto& inertia = robot_.links[index(link)].inertia;
+    if (plan.reduced) {
+      const Pose X = X_LB(link);
+      body.mass = plan.reduced->mass;
+      body.p_LBcm = X.p;
+      body.inertia = X.R * plan.reduced->inertia() * X.R.transpose();
+    } else if (inertia) {
+      body.mass = inertia->mass;
+      body.p_LBcm = inertia->p_LBcm;
+      body.inertia = inertia->inertia;
+    }
+  }
+
+  void set_root(MechanismBody& body) const {
+    const scene::BaseStart& base = scene_.scenario.base;
+    const auto& flexible = plans_.bodies.front().reduced;
+    body.mobilizer = robot_.has_world_root() || (flexible && flexible->clamped)
+                         ? Mobilizer::weld
+                         : Mobilizer::free;
+    if (body.mobilizer == Mobilizer::weld) {
+      const Vector3& rpy = base.orientation_rpy;
+      body.X_PF.R = (Eigen::AngleAxisd(rpy[2], Vector3::UnitZ()) *
+                     Eigen::AngleAxisd(rpy[1], Vector3::UnitY()) *
+                     Eigen::AngleAxisd(rpy[0], Vector3::UnitX()))
+                        .toRotationMatrix();
+      body.X_PF.p = base.position;
+      return;
+    }
+    body.position = join(base.position, base.orientation_rpy);
+    body.velocity = join(base.velocity, base.angular_velocity);
+  }
+
+  void set_joint(const scene::Joint& joint, MechanismBody& body) const {
+    const bool has_axis =
+        joint.kind != JointKind::fixed && joint.kind != JointKind::floating;
+    const Pose axis = has_axis ? turn_z_to(joint.axis_J) : Pose{};
+    body.parent = joint.parent;
+    body.mobilizer = find_mobilizer(joint.kind);
+    body.X_PF = joint.X_PJ * axis;
+    body.X_LM = axis;
+    const auto start = scene_.scenario.joints.find(joint.name);
+    if (start == scene_.scenario.joints.end()) return;
+    body.position = start->second.position;
+    body.velocity = start->second.velocity;
+  }
+
+  void add_link(int link) {
+    MechanismBody body;
+    body.name = robot_.links[index(link)].name;
+    set_mass(link, body);
+    if (link == 0) {
+      set_root(body);
+    } else {
+      set_joint(robot_.joints[index(link - 1)], body);
+    }
+    mechanism_.bodies.push_back(body);
+  }
+
+  /// An attachment of the built model, on the first link of its body.
+  [[nodiscard]] MechanismFrame find_frame(
+      dynamics::AttachmentIndex attachment) const {
+    const dynamics::Attachment& a = model_.attachments[index(attachment)];
+    const Pose X_BF{a.R_BF, a.p_BF};
+    if (a.body == dynamics::kWorld) return {kGround, X_BF};
+    return on_body(a.body, X_BF);
+  }
+
+  [[nodiscard]] MechanismFrame on_body(dynamics::BodyIndex body,
+                                       const Pose& X_BF) const {
+    dynamics::BodyIndex count = 0;
+    for (const scene::BodyPlan& plan : plans_.bodies) {
+      if (plan.is_world || count++ != body) continue;
+      const int link = plan.links.front();
+      return {link, X_LB(link) * X_BF};
+    }
+    LIMBER_EXPECT(false && "a body without a plan");
+    return {};
+  }
+
+  /// Couplers come in the order in which a scene adds them: joints first.
+  void add_joint_bushings() {
+    std::size_t coupler = 0;
+    for (const int i : plans_.coupled_joints) {
+      const scene::Joint& joint = robot_.joints[index(i)];
+      const bool exists = coupler < model_.couplers.size() &&
+                          model_.couplers[coupler].name == joint.name;
+      if (!exists) continue;  // floating, without damping
+      const dynamics::Coupler& source = model_.couplers[coupler++];
+      BushingElement element;
+      element.F = {joint.parent, joint.X_PJ};
+      element.M = {joint.child, Pose{}};
+      element.law = std::get<joints::Bushing>(source.law).parameters();
+      element.R_FD = turn_z_to(joint.axis_J).R;
+      element.joint_of =
+          joint.kind == JointKind::floating ? kGround : joint.child;
+      mechanism_.bushings.push_back(element);
+    }
+    LIMBER_EXPECT(coupler + robot_.connectors.size() == model_.couplers.size());
+  }
+
+  void add_connectors() {
+    const std::size_t first = model_.couplers.size() - robot_.connectors.size();
+    for (std::size_t i = first; i < model_.couplers.size(); ++i) {
+      add_connector(model_.couplers[i]);
+    }
+  }
+
+  void add_connector(const dynamics::Coupler& coupler) {
+    const MechanismFrame F = find_frame(coupler.frame_F);
+    const MechanismFrame M = find_frame(coupler.frame_M);
+    if (const auto* law = std::get_if<joints::Bushing>(&coupler.law)) {
+      BushingElement element;
+      element.F = F;
+      element.M = M;
+      element.law = law->parameters();
+      mechanism_.bushings.push_back(element);
+      return;
+    }
+    mechanism_.springs.push_back(
+        {F, M, std::get<joints::PointSpring>(coupler.law).parameters()});
+  }
+
+  void add_loads() {
+    std::size_t next = 0;
+    for (const scene::LoadSpec& spec : scene_.scenario.loads) {
+      if (spec.nodal_forces.empty()) add_load(spec, model_.loads.at(next++));
+    }
+    for (const dynamics::BodyLoad& load : model_.body_loads) {
+      mechanism_.histories.push_back(
+          {on_body(load.body, Pose{}), load.history});
+    }
+  }
+
+  void add_load(const scene::LoadSpec& spec, const dynamics::Load& load) {
+    LoadElement element;
+    element.body = scene::find_link(robot_, spec.where.link);
+    element.point = robot_.links[index(element.body)].flexible
+                        ? find_frame(load.where).X_LF.p
+                        : Vector3(spec.where.point.value_or(Vector3::Zero()));
+    element.force = spec.force;
+    element.moment = spec.moment;
+    element.in_world = spec.frame == dynamics::LoadFrame::world;
+    element.function = spec.time;
+    mechanism_.loads.push_back(element);
+  }
+
+  const scene::Scene& scene_;
+  const scene::Robot& robot_;
+  const dynamics::SystemModel& model_;
+  scene::BodyPlans plans_;
+  Mechanism mechanism_;
+};
+
+}  // namespace
+
+Mechanism make_mechanism(const scene::Scene& scene,
+                         const scene::BuiltScene& built) {
+  check_levels(built.model);
+  return Translator(scene, built).run();
+}
+
+}  // namespace limber::reference

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "reference/mechanism.hpp"
+#include "reference/simbody_types.hpp"
+
+/// Force elements that Simbody does not have. Not installed.
+namespace limber::reference {
+
+/// A frame on a mobilized body.
+struct SimbodyFrame {
+  SimTK::MobilizedBody body;
+  SimTK::Transform X_LF;
+};
+
+/// Bushing of docs/joints.md, from its energy and dissipation.
+///
+/// Equation   with the principal axes d_i and values D_i of D = tr(Kr) I/2 - Kr
+///            V = p' Kt p / 2 + sum D_i (1 - d_i . R_FM d_i),
+///            so the moment on M is sum D_i (R_FM d_i) x d_i: a spring between
+///            each axis and its image. Dissipation v' Ct v + w' Cr w.
+class ChordalBushing : public SimTK::Force::Custom::Implementation {
+ public:
+  ChordalBushing(const SimbodyFrame& F, const SimbodyFrame& M,
+                 const joints::Bushing::Parameters& law);
+
+  void calcForce(const SimTK::State& state,
+                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
+                 SimTK::Vector& mobility_forces) const override;
+  [[nodiscard]] SimTK::Real calcPotentialEnergy(
+      const SimTK::State& state) const override;
+
+ private:
+  SimbodyFrame F_;
+  SimbodyFrame M_;
+  SimTK::Mat33 Kt_, Ct_, Cr_;
+  SimTK::Vec3 axes_[3];   ///< d_i
+  SimTK::Vec3 strength_;  ///< D_i [N m]
+};
+
+/// The interval between two jumps that is being integrated. Loads take the
+/// right limit at its begin and the left one at its end.
+struct Interval {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
+
+  [[nodiscard]] dynamics::Side side(double t) const {
+    return t >= end ? dynamics::Side::left : dynamics::Side::right;
+  }
+};
+
+/// A load that stays put on its body. `interval` outlives the element.
+class TimedLoad : public SimTK::Force::Custom::Implementation {
+ public:
+  TimedLoad(const SimTK::MobilizedBody& body, const LoadElement& load,
+            const Interval& interval);
+
+  void calcForce(const SimTK::State& state,
+                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
+                 SimTK::Vector& mobility_forces) const override;
+  [[nodiscard]] SimTK::Real calcPotentialEnergy(
+      const SimTK::State& /*state*/) const override {
+    return 0.0;
+  }
+
+ private:
+  SimTK::MobilizedBody body_;
+  LoadElement load_;
+  const Interval& interval_;
+};
+
+/// A force and moment that hold from time to time, axes of frame B.
+class SteppedLoad : public SimTK::Force::Custom::Implementation {
+ public:
+  SteppedLoad(const SimbodyFrame& B, flexbody::NodalLoad history,
+              const Interval& interval);
+
+  void calcForce(const SimTK::State& state,
+                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
+                 SimTK::Vector& mobility_forces) const override;
+  [[nodiscard]] SimTK::Real calcPotentialEnergy(
+      const SimTK::State& /*state*/) const override {
+    return 0.0;
+  }
+
+ private:
+  SimbodyFrame B_;
+  flexbody::NodalLoad history_;
+  const Interval& interval_;
+};
+
+}  // namespace limber::reference

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "reference/mechanism.hpp"
+#include "reference/simbody_forces.hpp"
+#include "reference/witness.hpp"
+
+/// Not installed.
+namespace limber::reference {
+
+/// A mechanism as a system of Simbody's.
+class SimbodyModel {
+ public:
+  SimbodyModel(const Mechanism& mechanism, JointModel joints);
+  SimbodyModel(const SimbodyModel&) = delete;
+  SimbodyModel& operator=(const SimbodyModel&) = delete;
+
+  [[nodiscard]] const SimTK::MultibodySystem& system() const { return system_; }
+  /// Set before integrating from one jump to the next.
+  [[nodiscard]] Interval& interval() { return interval_; }
+  /// The state at time 0. Poses and velocities of all bodies follow from the
+  /// joints' coordinates by Simbody's own kinematics.
+  [[nodiscard]] SimTK::State make_start() const;
+  [[nodiscard]] Snapshot observe(const SimTK::State& state) const;
+
+ private:
+  [[nodiscard]] const SimTK::MobilizedBody& body(int index) const;
+  [[nodiscard]] SimTK::MobilizedBody& body(int index);
+  [[nodiscard]] SimbodyFrame frame(const MechanismFrame& frame) const;
+  void add_body(const MechanismBody& part, bool is_free);
+  void add_bushing(const BushingElement& element);
+  void add_spring(const SpringElement& element);
+  void add_loads();
+  [[nodiscard]] SimTK::State make_joint_start() const;
+
+  const Mechanism& mechanism_;
+  JointModel joints_;
+  Interval interval_;
+  SimTK::MultibodySystem system_;
+  SimTK::SimbodyMatterSubsystem matter_;
+  SimTK::GeneralForceSubsystem forces_;
+  std::vector<SimTK::MobilizedBody> bodies_;
+  std::vector<SimTK::Force> couplers_;  ///< bushings and springs
+};
+
+}  // namespace limber::reference

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+namespace limber::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kExample = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
+
+#ifdef LIMBER_HAS_REFERENCE
+
+TEST(VerifyCommand, TellsDifferencesByBodyAndTheirOrder) {
+  const Workspace place;
+  const CommandResult result = place.limber(
+      "verify '" + kExample + "' --duration 0.05 --refine 1 --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_THAT(json["witness"].get<std::string>(), HasSubstr("Simbody"));
+  EXPECT_EQ(json["joints"], "bushings");
+  EXPECT_GT(json["motion"]["velocity"].get<double>(), 0.0);
+  ASSERT_EQ(json["runs"].size(), 2U);
+  EXPECT_FALSE(json["runs"][0].contains("order"));
+  EXPECT_TRUE(json["runs"][1].contains("order"));
+  EXPECT_DOUBLE_EQ(json["runs"][1]["step"].get<double>(), 0.5e-4);
+  // A free body under known forces: round-off, most of it that of positions
+  // metres from the world's origin that move by micrometres.
+  EXPECT_LT(json["runs"][0]["relative"]["velocity"].get<double>(), 1e-12);
+  EXPECT_LT(json["runs"][0]["difference"]["beam"]["position"].get<double>(),
+            1e-12);
+}
+
+TEST(VerifyCommand, RefusesUnknownWords) {
+  const Workspace place;
+  for (const char* words : {"--joints welded", "--integrator leapfrog",
+                            "--accuracy 2", "--step -1", "--refine x"}) {
+    const CommandResult result =
+        place.limber("verify '" + kExample + "' " + words);
+    EXPECT_EQ(result.status, 2) << words;
+    EXPECT_THAT(result.errors, HasSubstr("limber: error: ")) << words;
+  }
+}
+
+#else
+
+TEST(VerifyCommand, SaysThatItWasBuiltWithoutSimbody) {
+  const Workspace place;
+  const CommandResult result = place.limber("verify '" + kExample + "'");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("LIMBER_REFERENCE"));
+}
+
+#endif
+
+}  // namespace
+}  // namespace limber::test
