@@ -193,7 +193,9 @@ SimbodyModel::SimbodyModel(const Mechanism& mechanism, JointModel joints)
       joints_(joints),
       matter_(system_),
       forces_(system_) {
-  SimTK::Force::UniformGravity(forces_, matter_, to_simtk(mechanism.gravity_W));
+  // The system keeps an element; what is named here is a handle to it.
+  const SimTK::Force::UniformGravity gravity(forces_, matter_,
+                                             to_simtk(mechanism.gravity_W));
   for (int i = 0; i < std::ssize(mechanism.bodies); ++i) {
     const bool is_free =
         joints != JointModel::ideal && stands_for_joint(mechanism, i);
@@ -251,17 +253,17 @@ void SimbodyModel::add_spring(const SpringElement& element) {
   couplers_.push_back(SimTK::Force::TwoPointLinearSpring(
       forces_, F.body, F.X_LF.p(), M.body, M.X_LF.p(), law.stiffness,
       law.free_length));
-  SimTK::Force::TwoPointLinearDamper(forces_, F.body, F.X_LF.p(), M.body,
-                                     M.X_LF.p(), law.damping);
+  const SimTK::Force::TwoPointLinearDamper damper(
+      forces_, F.body, F.X_LF.p(), M.body, M.X_LF.p(), law.damping);
 }
 
 void SimbodyModel::add_loads() {
   for (const LoadElement& load : mechanism_.loads) {
-    SimTK::Force::Custom(forces_,
-                         new TimedLoad(body(load.body), load, interval_));
+    const SimTK::Force::Custom element(
+        forces_, new TimedLoad(body(load.body), load, interval_));
   }
   for (const HistoryElement& load : mechanism_.histories) {
-    SimTK::Force::Custom(
+    const SimTK::Force::Custom element(
         forces_, new SteppedLoad(frame(load.B), load.history, interval_));
   }
 }

@@ -19,6 +19,8 @@ requires requires(const Index& i) {
 
 }  // namespace SimTK
 
+// A helper that we do not use; its vectors of incomplete types are not C++20.
+#define SimTK_SIMMATH_MULTIBODY_GRAPH_MAKER_H_
 #include <Simbody.h>
 
 #include "common/pose.hpp"

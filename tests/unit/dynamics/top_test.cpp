@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <ostream>
 
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_builder.hpp"
@@ -78,6 +78,10 @@ struct Scheme {
   double step;  ///< [s]
 };
 
+void PrintTo(const Scheme& scheme, std::ostream* out) {
+  *out << integrator_names()[static_cast<std::size_t>(scheme.kind)];
+}
+
 class TopScheme : public ::testing::TestWithParam<Scheme> {};
 
 // Through the flip: Omega_2 turns from 1 to -1 between 0 and 20 s.
@@ -144,6 +148,8 @@ struct Body {
   const char* name;
   Vector3 inertia;
 };
+
+void PrintTo(const Body& body, std::ostream* out) { *out << body.name; }
 
 class ExtremeBody : public ::testing::TestWithParam<std::tuple<Body, Scheme>> {
 };

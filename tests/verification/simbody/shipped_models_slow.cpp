@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "flexbody/reduce.hpp"
 #include "reference/verification.hpp"
@@ -28,6 +29,10 @@ struct Example {
   double duration;  ///< past the strike and its 10 ms [s]
   double step;      ///< ours [s]
 };
+
+void PrintTo(const Example& example, std::ostream* out) {
+  *out << example.file;
+}
 
 class ShippedModel : public ::testing::TestWithParam<Example> {
  protected:
