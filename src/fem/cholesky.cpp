@@ -9,7 +9,7 @@
 
 namespace limber::fem {
 
-std::vector<int> order_dofs(const SparseMatrix& M_s) {
+std::vector<int> order_nodes(const SparseMatrix& M_s) {
   CholmodCommon common;
   const SparseMatrix lower = M_s.triangularView<Eigen::Lower>();
   cholmod_sparse pattern = view_lower(lower);
@@ -17,6 +17,11 @@ std::vector<int> order_dofs(const SparseMatrix& M_s) {
   if (!cholmod_metis(&pattern, nullptr, 0, 1, nodes.data(), common.get()))
     cholmod_amd(&pattern, nullptr, 0, nodes.data(), common.get());
   common.check("ordering");
+  return nodes;
+}
+
+std::vector<int> order_dofs(const SparseMatrix& M_s) {
+  const std::vector<int> nodes = order_nodes(M_s);
   std::vector<int> dofs;
   dofs.reserve(3 * nodes.size());
   for (const int node : nodes)

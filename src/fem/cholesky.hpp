@@ -9,6 +9,9 @@
 
 namespace limber::fem {
 
+/// Fill-reducing order of the nodes: nested dissection of M_s's pattern.
+[[nodiscard]] std::vector<int> order_nodes(const SparseMatrix& M_s);
+
 /// Fill-reducing order of the degrees of freedom: nested dissection of the
 /// nodes (pattern of M_s), the three components of a node kept together.
 [[nodiscard]] std::vector<int> order_dofs(const SparseMatrix& M_s);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "fem/material.hpp"
+
+namespace limber::fem {
+
+/// Isotropic elasticity for large rotation. For small strains both laws are
+/// Hooke's.
+enum class Elasticity {
+  /// W = lambda tr(E)^2/2 + mu E:E, E = (F^T F - I)/2. For moderate strain: in
+  /// compression it softens, and it cannot resist collapse.
+  st_venant_kirchhoff,
+  /// W = mu (tr(C) - 3 - 2 ln J)/2 + lambda (ln J)^2/2, C = F^T F, J = det F.
+  /// Source: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element
+  /// Analysis, 2nd ed., eq. 6.27.
+  neo_hookean,
+};
+
+/// 3 x 3 numbers, or arrays of numbers that are worked on together.
+template <class T>
+using Tensor = std::array<std::array<T, 3>, 3>;
+
+/// Lame's constants [Pa].
+template <class T>
+struct LameConstants {
+  T lambda;
+  T mu;
+};
+[[nodiscard]] LameConstants<double> find_lame_constants(
+    const ElasticMaterial& material);
+
+/// Second Piola-Kirchhoff stress [Pa] and energy density W [J/m^3].
+template <class T>
+struct Stress {
+  Tensor<T> S;
+  T W;
+};
+
+template <class T>
+[[nodiscard]] T determinant(const Tensor<T>& F) {
+  return F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) -
+         F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
+         F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
+}
+
+/// E from the displacement gradient H = F - I, so that no digits are lost at
+/// small strain: E = (H + H^T + H^T H)/2.
+template <class T>
+[[nodiscard]] Tensor<T> calc_green_strain(const Tensor<T>& H) {
+  Tensor<T> E;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      E[i][j] = 0.5 * (H[i][j] + H[j][i] + H[0][i] * H[0][j] +
+                       H[1][i] * H[1][j] + H[2][i] * H[2][j]);
+      E[j][i] = E[i][j];
+    }
+  }
+  return E;
+}
+
+template <class T>
+[[nodiscard]] Stress<T> calc_st_venant_kirchhoff(const LameConstants<T>& lame,
+                                                 const Tensor<T>& H) {
+  Stress<T> stress{calc_green_strain(H), T()};
+  const Tensor<T>& E = stress.S;
+  const T trace = E[0][0] + E[1][1] + E[2][2];
+  stress.W = 0.5 * lame.lambda * trace * trace;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      stress.W += lame.mu * E[i][j] * E[i][j];
+      stress.S[i][j] *= 2.0 * lame.mu;
+    }
+    stress.S[i][i] += lame.lambda * trace;
+  }
+  return stress;
+}
+
+/// det F > 0 is the caller's to check.
+template <class T>
+[[nodiscard]] Stress<T> calc_neo_hookean(const LameConstants<T>& lame,
+                                         const Tensor<T>& H) {
+  using std::log1p;
+  const Tensor<T> E = calc_green_strain(H);
+  const T trace = E[0][0] + E[1][1] + E[2][2];
+  const T minors = E[0][0] * E[1][1] + E[1][1] * E[2][2] + E[2][2] * E[0][0] -
+                   E[0][1] * E[0][1] - E[1][2] * E[1][2] - E[2][0] * E[2][0];
+  // det C - 1, from E as well.
+  const T growth = 2.0 * trace + 4.0 * minors + 8.0 * determinant(E);
+  const T log_J = 0.5 * log1p(growth);
+  Tensor<T> C;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) C[i][j] = 2.0 * E[i][j];
+    C[i][i] += 1.0;
+  }
+  const T share = (lame.lambda * log_J - lame.mu) / (1.0 + growth);
+  Stress<T> stress;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {  // cofactors of C
+      const std::size_t k = (i + 1) % 3, l = (i + 2) % 3;
+      const std::size_t m = (j + 1) % 3, n = (j + 2) % 3;
+      stress.S[i][j] = share * (C[k][m] * C[l][n] - C[k][n] * C[l][m]);
+    }
+    stress.S[i][i] += lame.mu;
+  }
+  stress.W = lame.mu * (trace - log_J) + 0.5 * lame.lambda * log_J * log_J;
+  return stress;
+}
+
+/// @param H displacement gradient du_i/dX_j, with det(I + H) > 0
+template <class T>
+[[nodiscard]] Stress<T> calc_stress(Elasticity law,
+                                    const LameConstants<T>& lame,
+                                    const Tensor<T>& H) {
+  return law == Elasticity::st_venant_kirchhoff
+             ? calc_st_venant_kirchhoff(lame, H)
+             : calc_neo_hookean(lame, H);
+}
+
+}  // namespace limber::fem
