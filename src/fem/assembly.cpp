@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "common/errors.hpp"
@@ -13,9 +14,6 @@
 
 namespace limber::fem {
 namespace {
-
-/// Nodes that share an element with each node, itself included, sorted.
-using Neighbours = std::vector<std::vector<int>>;
 
 Neighbours find_neighbours(const Mesh& mesh) {
   Neighbours neighbours(mesh.node_count());
@@ -95,68 +93,59 @@ SparseMatrix zero_stiffness(const Neighbours& neighbours) {
   return K;
 }
 
+/// What one element adds; an empty matrix adds nothing.
 struct ElementMatrices {
   MatrixX M;
   MatrixX K;
 };
+using ElementFunction =
+    std::function<ElementMatrices(const ElementBlock&, std::size_t element)>;
 
-/// Adds what the elements from `first` on give to the columns of the nodes
-/// in [begin, end). Every thread goes through the elements in one order, so
-/// each entry is the same sum whatever the ranges.
-void add_columns(const ElementBlock& block, std::size_t first,
-                 const std::vector<ElementMatrices>& elements,
+/// Adds element e to the columns of the nodes in [begin, end).
+void add_element(const int* nodes, int count, const ElementMatrices& element,
                  const Neighbours& neighbours, int begin, int end,
                  StructuralMatrices& sum) {
-  const int count = block.element->node_count;
   double* mass = sum.M_s.valuePtr();
   double* stiffness = sum.K.valuePtr();
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const int* nodes = block.element_nodes(first + e);
-    for (int b = 0; b < count; ++b) {
-      const int j = nodes[b];
-      if (j < begin || j >= end) continue;
-      const auto& list = neighbours[static_cast<std::size_t>(j)];
-      const std::size_t before = list.size() - lower_count(list, j);
-      for (int a = 0; a < count; ++a) {
-        const int i = nodes[a];
-        if (i < j) {
-          mass[sum.M_s.outerIndexPtr()[j] +
-               (std::lower_bound(list.begin(), list.end(), i) -
-                list.begin())] += elements[e].M(a, b);
-          continue;
-        }
-        const auto place = static_cast<int>(lower_place(list, j, i));
-        mass[sum.M_s.outerIndexPtr()[j] + static_cast<int>(before) + place] +=
-            elements[e].M(a, b);
-        for (int c = 0; c < 3; ++c)
-          for (int r = i == j ? c : 0; r < 3; ++r)
-            stiffness[sum.K.outerIndexPtr()[3 * j + c] + 3 * place + r - c] +=
-                elements[e].K(3 * a + r, 3 * b + c);
+  for (int b = 0; b < count; ++b) {
+    const int j = nodes[b];
+    if (j < begin || j >= end) continue;
+    const auto& list = neighbours[static_cast<std::size_t>(j)];
+    for (int a = 0; a < count; ++a) {
+      const int i = nodes[a];
+      if (element.M.size() > 0) {
+        const auto place =
+            std::lower_bound(list.begin(), list.end(), i) - list.begin();
+        mass[sum.M_s.outerIndexPtr()[j] + place] += element.M(a, b);
       }
+      if (i < j) continue;
+      const auto place = static_cast<int>(lower_place(list, j, i));
+      for (int c = 0; c < 3; ++c)
+        for (int r = i == j ? c : 0; r < 3; ++r)
+          stiffness[sum.K.outerIndexPtr()[3 * j + c] + 3 * place + r - c] +=
+              element.K(3 * a + r, 3 * b + c);
     }
   }
 }
 
-void assemble_block(const Mesh& mesh, const ElementBlock& block,
-                    const std::vector<ElasticMaterial>& materials,
-                    const Neighbours& neighbours, const Progress& progress,
-                    StructuralMatrices& sum) {
+/// Adds all elements of a block. Every thread goes through the elements in one
+/// order, so each entry is the same sum whatever the ranges.
+void add_block(const ElementBlock& block, const ElementFunction& calc,
+               const Neighbours& neighbours, const Progress& progress,
+               StructuralMatrices& sum) {
   constexpr std::size_t kChunk = 2048;  // bounds the memory of what waits
   std::vector<ElementMatrices> elements;
   for (std::size_t first = 0; first < block.size(); first += kChunk) {
     elements.resize(std::min(kChunk, block.size() - first));
     parallel_ranges(elements.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) {
-        const Matrix3X x = element_positions(mesh, block, first + e);
-        const ElasticMaterial& material =
-            materials[static_cast<std::size_t>(block.regions[first + e])];
-        elements[e].M = calc_element_mass(*block.element, x, material.density);
-        elements[e].K = calc_element_stiffness(*block.element, x, material);
-      }
+      for (std::size_t e = begin; e < end; ++e)
+        elements[e] = calc(block, first + e);
     });
-    parallel_ranges(mesh.node_count(), [&](std::size_t begin, std::size_t end) {
-      add_columns(block, first, elements, neighbours, static_cast<int>(begin),
-                  static_cast<int>(end), sum);
+    parallel_ranges(neighbours.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        add_element(block.element_nodes(first + e), block.element->node_count,
+                    elements[e], neighbours, static_cast<int>(begin),
+                    static_cast<int>(end), sum);
     });
     report(progress, "assembling",
            static_cast<double>(first + elements.size()) /
@@ -173,9 +162,39 @@ StructuralMatrices assemble(const Mesh& mesh,
   const Neighbours neighbours = find_neighbours(mesh);
   check_size(mesh, neighbours);
   StructuralMatrices sum{zero_mass(neighbours), zero_stiffness(neighbours)};
+  const ElementFunction calc = [&](const ElementBlock& block, std::size_t e) {
+    const Matrix3X x = element_positions(mesh, block, e);
+    const ElasticMaterial& material =
+        materials[static_cast<std::size_t>(block.regions[e])];
+    return ElementMatrices{
+        calc_element_mass(*block.element, x, material.density),
+        calc_element_stiffness(*block.element, x, material)};
+  };
   for (const ElementBlock& block : mesh.blocks)
-    assemble_block(mesh, block, materials, neighbours, progress, sum);
+    add_block(block, calc, neighbours, progress, sum);
   return sum;
+}
+
+StiffnessAssembly::StiffnessAssembly(const Mesh& mesh)
+    : mesh_(mesh), neighbours_(find_neighbours(mesh)) {
+  check_size(mesh, neighbours_);
+}
+
+StructuralMatrices StiffnessAssembly::make_zero() const {
+  return {zero_mass(neighbours_), zero_stiffness(neighbours_)};
+}
+
+void StiffnessAssembly::assemble(const ElementStiffness& calc,
+                                 SparseMatrix& K) const {
+  StructuralMatrices sum;
+  sum.K.swap(K);
+  std::fill_n(sum.K.valuePtr(), sum.K.nonZeros(), 0.0);
+  const ElementFunction both = [&](const ElementBlock& block, std::size_t e) {
+    return ElementMatrices{MatrixX(), calc(block, e)};
+  };
+  for (const ElementBlock& block : mesh_.blocks)
+    add_block(block, both, neighbours_, {}, sum);
+  K.swap(sum.K);
 }
 
 }  // namespace limber::fem

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/progress.hpp"
@@ -16,5 +17,27 @@ namespace limber::fem {
 [[nodiscard]] StructuralMatrices assemble(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
     const Progress& progress = {});
+
+/// Nodes that share an element with each node, itself included, sorted.
+using Neighbours = std::vector<std::vector<int>>;
+
+/// Assembles one stiffness after another with the same pattern, the lower
+/// triangle of 3N x 3N. In parallel; the same for any number of threads.
+class StiffnessAssembly {
+ public:
+  /// 3n x 3n stiffness of an element with n nodes [N/m].
+  using ElementStiffness =
+      std::function<MatrixX(const ElementBlock&, std::size_t element)>;
+
+  explicit StiffnessAssembly(const Mesh& mesh);
+  /// The patterns of M_s and K, all zero.
+  [[nodiscard]] StructuralMatrices make_zero() const;
+  /// @param K with the pattern; what was in it is replaced
+  void assemble(const ElementStiffness& calc, SparseMatrix& K) const;
+
+ private:
+  const Mesh& mesh_;
+  Neighbours neighbours_;
+};
 
 }  // namespace limber::fem

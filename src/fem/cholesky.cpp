@@ -33,6 +33,7 @@ struct SparseCholesky::Impl {
   mutable CholmodCommon common;
   cholmod_factor* factor = nullptr;
   double flops = 0.0;
+  std::string what;
 
   Impl() = default;
   Impl(const Impl&) = delete;
@@ -48,14 +49,19 @@ SparseCholesky::SparseCholesky(const SparseMatrix& lower,
   common->supernodal = CHOLMOD_SUPERNODAL;
   impl_->factor = analyze(lower, order, impl_->common);
   impl_->flops = common->fl;
+  impl_->what = what;
+  factor(lower);
+}
+
+void SparseCholesky::factor(const SparseMatrix& lower) {
   cholmod_sparse matrix = view_lower(lower);
-  cholmod_factorize(&matrix, impl_->factor, common);
-  impl_->common.check(what);
+  cholmod_factorize(&matrix, impl_->factor, impl_->common.get());
+  impl_->common.check(impl_->what);
   if (impl_->factor->minor < impl_->factor->n)
     throw NumericalError(fmt::format(
         "{} is not positive definite (pivot {} of {}). A material far stiffer "
         "than its neighbour, or nearly flat elements, make it so.",
-        what, impl_->factor->minor, impl_->factor->n));
+        impl_->what, impl_->factor->minor, impl_->factor->n));
 }
 
 SparseCholesky::~SparseCholesky() = default;

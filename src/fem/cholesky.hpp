@@ -29,6 +29,10 @@ class SparseCholesky {
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
+  /// Takes another matrix with the same pattern; its analysis is reused.
+  /// @throws NumericalError as the constructor does.
+  void factor(const SparseMatrix& lower);
+
   [[nodiscard]] MatrixX solve(const MatrixX& right_hand_side) const;
   [[nodiscard]] double flops() const;
 

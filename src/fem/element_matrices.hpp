@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fem/material.hpp"
+#include "fem/hyperelastic.hpp"
 #include "fem/reference_element.hpp"
 
 namespace limber::fem {
@@ -20,5 +20,18 @@ namespace limber::fem {
 [[nodiscard]] MatrixX calc_element_stiffness(const ReferenceElement& element,
                                              const Matrix3X& x,
                                              const ElasticMaterial& material);
+
+/// Tangent stiffness of one element at displacements u, 3 nodes x 3 nodes.
+///
+/// Equation   K_ab = int (g_a.S g_b) I + lambda p_a p_b^T
+///                   + mu ((g_a.A g_b) F A F^T + p_b p_a^T) dV,
+///            g_a = grad N_a, p_a = F A g_a, with the moduli
+///            C_MJNL = lambda A_MJ A_NL + mu (A_MN A_JL + A_ML A_JN)
+/// Source     Bonet and Wood, Nonlinear Continuum Mechanics, sec. 9.4
+/// @param x, u 3 x nodes [m]
+[[nodiscard]] MatrixX calc_element_tangent(const ReferenceElement& element,
+                                           const Matrix3X& x, const Matrix3X& u,
+                                           const ElasticMaterial& material,
+                                           Elasticity law);
 
 }  // namespace limber::fem

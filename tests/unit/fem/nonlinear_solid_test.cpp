@@ -12,6 +12,7 @@
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "fem/assembly.hpp"
+#include "fem/element_matrices.hpp"
 #include "fem/nodal_mass.hpp"
 #include "fem/parallel.hpp"
 #include "unit/fem/meshes.hpp"
@@ -110,6 +111,29 @@ TEST_P(SolidBox, SmallDisplacementsMeetTheLinearStiffness) {
   }
   EXPECT_NEAR(errors[0] / errors[1], 10.0, 0.5);  // what is left is quadratic
   EXPECT_LT(errors[1], 1e-4);
+}
+
+TEST_P(SolidBox, TangentIsTheGradientOfTheForce) {
+  const Matrix3X u = random_field(2e-3, 8);
+  const Matrix3X direction = random_field(1.0, 9);
+  const StiffnessAssembly assembly(mesh_);
+  StructuralMatrices tangent = assembly.make_zero();
+  assembly.assemble(
+      [&](const ElementBlock& block, std::size_t e) {
+        const int* nodes = block.element_nodes(e);
+        const std::vector<int> own(nodes, nodes + block.element->node_count);
+        return calc_element_tangent(*block.element, mesh_.x(Eigen::all, own),
+                                    u(Eigen::all, own), kSteel,
+                                    std::get<2>(GetParam()));
+      },
+      tangent.K);
+  const MatrixX product = multiply_stiffness(tangent.K, direction.reshaped());
+  constexpr double kStep = 1e-6;
+  calc(u + kStep * direction);
+  const Matrix3X forward = force_;
+  calc(u - kStep * direction);
+  const Matrix3X difference = (forward - force_) / (2.0 * kStep);
+  EXPECT_LT((difference.reshaped() - product).norm(), 1e-6 * product.norm());
 }
 
 // The patch test: a uniform deformation gradient has the law's own energy
