@@ -4,6 +4,7 @@
 #include <array>
 #include <fstream>
 #include <map>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -146,6 +147,54 @@ TEST_F(FullBeam, SpinningSlowlyAgreesWithTheReference) {
 TEST_F(FullBeam, SpinningFastAgreesWithTheReference) {
   spin({30.0, 2.0, 5.0});
   EXPECT_LT(run_against(read_table("full_spin30.csv")), 5e-6);
+}
+
+// --- The longest stable step ------------------------------------------------
+
+bool is_stable(const fem::NonlinearSolid& solid, const fem::NodalMass& mass,
+               double step) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1e-9, 1e-9);
+  const Eigen::Index nodes = solid.node_count();
+  fem::SolidState state{
+      0.0, Matrix3X::NullaryExpr(3, nodes, [&] { return uniform(random); }),
+      Matrix3X::Zero(3, nodes)};
+  fem::ExplicitSolid solver(solid, mass, [](double, Matrix3X&) {});
+  solver.start(state);
+  const double start = solver.strain_energy();
+  for (int i = 1; i <= 3000; ++i) {
+    solver.step(state, step, i * step);
+    if (solver.strain_energy() > 100.0 * start) return false;
+  }
+  return true;
+}
+
+double find_stable_step(const fem::NonlinearSolid& solid,
+                        const fem::NodalMass& mass) {
+  double stable = 1e-6;
+  double unstable = 1e-4;
+  while (unstable - stable > 2e-4 * stable) {
+    const double middle = 0.5 * (stable + unstable);
+    (is_stable(solid, mass, middle) ? stable : unstable) = middle;
+  }
+  return stable;
+}
+
+TEST_F(FullBeam, StableStepIsTwoOverTheHighestFrequencyOfTheReference) {
+  // The other program: omega_max = 1.607e5 rad/s on this mesh.
+  EXPECT_NEAR(fem::estimate_stable_step(matrices_.K, mass_), 2.0 / 1.607e5,
+              1e-3 * 2.0 / 1.607e5);
+}
+
+TEST_F(FullBeam, EstimatedStableStepIsTheOneThatBisectionFinds) {
+  const fem::NodalMass lumped(
+      fem::calc_lumped_mass(mesh_, {{200e9, 0.0, 8000.0}}));
+  for (const fem::NodalMass* mass : {&mass_, &lumped}) {
+    const double estimate = fem::estimate_stable_step(matrices_.K, *mass);
+    // Just above it growth is slow: bisection sees it a little late.
+    EXPECT_NEAR(find_stable_step(solid_, *mass), estimate, 2e-3 * estimate);
+    RecordProperty("stable_step", std::to_string(estimate));
+  }
 }
 
 }  // namespace
