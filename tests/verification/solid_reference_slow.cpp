@@ -189,7 +189,8 @@ TEST_F(FullBeam, StableStepIsTwoOverTheHighestFrequencyOfTheReference) {
 TEST_F(FullBeam, EstimatedStableStepIsTheOneThatBisectionFinds) {
   const fem::NodalMass lumped(
       fem::calc_lumped_mass(mesh_, {{200e9, 0.0, 8000.0}}));
-  for (const fem::NodalMass* mass : {&mass_, &lumped}) {
+  for (const fem::NodalMass* mass :
+       std::array<const fem::NodalMass*, 2>{&mass_, &lumped}) {
     const double estimate = fem::estimate_stable_step(matrices_.K, *mass);
     // Just above it growth is slow: bisection sees it a little late.
     EXPECT_NEAR(find_stable_step(solid_, *mass), estimate, 2e-3 * estimate);
