@@ -11,6 +11,7 @@
 #include "app/run_scene.hpp"
 #include "app/terminal.hpp"
 #include "app/text_file.hpp"
+#include "app/validators.hpp"
 #include "common/errors.hpp"
 #include "flexbody/cache.hpp"
 #include "results/level_picture.hpp"
@@ -170,16 +171,16 @@ void add_advise(CLI::App& app, Action& action) {
       ->add_option("--displacement", options->settings.displacement,
                    "Displacement to neglect [m] (default: 2e-7 of the body's "
                    "longest edge)")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command
       ->add_option("--linear-limit", options->settings.linear_limit,
                    "Deformation at which linear elasticity ends [m] (default: "
                    "1 % of the body's longest edge)")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command
       ->add_option("--force-limit", options->settings.force,
                    "Nodal inertial force to neglect [N] (default: none)")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command->add_option("--fidelity", options->fidelity,
                       "Level to judge, of every flexible link, in place of "
                       "the scenario's");

@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "app/validators.hpp"
 #include "common/errors.hpp"
 
 namespace limber::app {
@@ -52,7 +53,7 @@ void add_mode_options(CLI::App& command, const std::string& names,
   command
       .add_option("--candidates", options.candidates,
                   "With auto: lowest eigenmodes to choose from (60)")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
 }
 
 void apply(const ModeOptions& options, flexbody::BasisOptions& basis) {

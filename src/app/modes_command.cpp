@@ -8,6 +8,7 @@
 #include "app/mode_table.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
+#include "app/validators.hpp"
 #include "scene/nodal_forces.hpp"
 
 namespace limber::app {
@@ -52,7 +53,7 @@ void add_modes(CLI::App& app, Action& action) {
                       "Force file whose columns are load cases; may be given "
                       "again");
   command->add_option("--count", options->count, "Number of elastic modes")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { find_modes(*options); }; });

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
+#include "app/validators.hpp"
 #include "app/verification_report.hpp"
 #include "common/errors.hpp"
 #include "flexbody/cache.hpp"
@@ -92,9 +93,9 @@ void add_verify(CLI::App& app, Action& action) {
                       "What stands for joints in Simbody: bushings (default), "
                       "linear-bushings, ideal");
   command->add_option("--step", options->step, "Our longest step [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command->add_option("--duration", options->duration, "End of both runs [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command->add_option("--integrator", options->integrator,
                       "Ours: generalized-alpha, runge-kutta-4, "
                       "explicit-euler");

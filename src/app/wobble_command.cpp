@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/mode_options.hpp"
 #include "app/run_scene.hpp"
+#include "app/validators.hpp"
 #include "common/errors.hpp"
 #include "scene/akantu_material.hpp"
 
@@ -24,6 +25,7 @@ struct Options {
   double step = 0.0;
   double duration = 0.0;
   std::string solver = "CoupledRB";
+  std::string integrator;
   std::vector<std::string> clamps;
   std::string initial_displacement;
   std::string initial_velocity;
@@ -79,6 +81,10 @@ scene::Scenario make_scenario(const Options& options, const std::string& link) {
   scenario.file = options.force;
   scenario.settings.end_time = options.duration;
   scenario.settings.step = options.step;
+  if (!options.integrator.empty()) {
+    scenario.settings.integrator =
+        dynamics::parse_integrator(options.integrator);
+  }
   scenario.settings.output_times =
       find_output_times(options.step, options.duration);
   scenario.fidelity = find_level(options);
@@ -131,14 +137,17 @@ void add_wobble(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--step", options->step, "Time step [s]")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   command->add_option("--duration", options->duration, "Duration [s]")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(make_positive());
   add_mode_options(*command, "--modes", options->modes);
   command
       ->add_option("--solver", options->solver, "PureMA, SimpleRB, CoupledRB")
       ->check(CLI::IsMember({"PureMA", "SimpleRB", "CoupledRB"}));
+  command->add_option("--integrator", options->integrator,
+                      "generalized-alpha (default), runge-kutta-4, or "
+                      "explicit-euler, the package's own");
   command->add_option("--clamp", options->clamps,
                       "Group that is fixed; may be given again");
   command->add_option("--initial-displacement", options->initial_displacement,

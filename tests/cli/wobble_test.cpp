@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
@@ -61,6 +62,38 @@ TEST_F(Wobble, HoldsAClampedBody) {
   place_.write("force.txt", force_rows(kNodes - 37));
   const CommandResult result = wobble("--solver PureMA --clamp root --json");
   EXPECT_EQ(result.status, 0) << result.errors;
+}
+
+TEST_F(Wobble, NeedsNoStepsForABodyThatIsHeld) {
+  place_.write("force.txt", force_rows(kNodes - 37));
+  const std::string held = "--solver PureMA --clamp root --node 3 --json ";
+  const CommandResult exact = wobble(held);
+  const CommandResult stepped = wobble(held + "--integrator explicit-euler");
+  ASSERT_EQ(exact.status, 0) << exact.errors;
+  ASSERT_EQ(stepped.status, 0) << stepped.errors;
+  const json a = json::parse(exact.out);
+  const json b = json::parse(stepped.out);
+  EXPECT_EQ(a["steps"], 0);
+  EXPECT_EQ(a["modes_exact"], 4);
+  EXPECT_EQ(b["steps"], 50);
+  // The package's scheme is exact for a load that is constant over a step.
+  for (const char* axis : {"x", "y", "z"}) {
+    const std::string name = std::string("node_3.u") + axis;
+    const double peak = a["probes"]["node_3.ux"]["peak"];
+    EXPECT_NEAR(a["probes"][name]["final"].get<double>(),
+                b["probes"][name]["final"].get<double>(),
+                1e-10 * std::abs(peak));
+  }
+}
+
+TEST_F(Wobble, RefusesAStepThatIsNotPositive) {
+  for (const char* step : {"-1", "0", "nan", "soon"}) {
+    const CommandResult result = place_.limber(fmt::format(
+        "wobble --mesh m --material a --force f --duration 1 --step {}", step));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.errors,
+                HasSubstr(fmt::format("is {}; expected a number > 0", step)));
+  }
 }
 
 TEST_F(Wobble, ChoosesModesByItsForces) {
