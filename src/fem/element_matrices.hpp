@@ -27,7 +27,7 @@ namespace limber::fem {
 ///                   + mu ((g_a.A g_b) F A F^T + p_b p_a^T) dV,
 ///            g_a = grad N_a, p_a = F A g_a, with the moduli
 ///            C_MJNL = lambda A_MJ A_NL + mu (A_MN A_JL + A_ML A_JN)
-/// Source     Bonet and Wood, Nonlinear Continuum Mechanics, sec. 9.4
+/// Source     [@bonet2008, sec. 9.4]
 /// @param x, u 3 x nodes [m]
 [[nodiscard]] MatrixX calc_element_tangent(const ReferenceElement& element,
                                            const Matrix3X& x, const Matrix3X& u,

@@ -22,8 +22,8 @@ using NodalForces = std::function<void(double t, Matrix3X& force)>;
 ///
 /// Equation   v+ = v + h/2 a;  u <- u + h v+;  M a = f_ext - f_int(u);
 ///            v <- v+ + h/2 a
-/// Source     Belytschko, Liu, Moran, sec. 6.2. Second order, symplectic:
-///            conserves linear and angular momentum to round-off.
+/// Source     [@belytschko2000, sec. 6.2]. Second order, symplectic: linear and
+///            angular momentum are kept to round-off.
 /// Limits     stable below estimate_stable_step
 class ExplicitSolid {
  public:

@@ -15,8 +15,7 @@ enum class Elasticity {
   /// compression it softens, and it cannot resist collapse.
   st_venant_kirchhoff,
   /// W = mu (tr(C) - 3 - 2 ln J)/2 + lambda (ln J)^2/2, C = F^T F, J = det F.
-  /// Source: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element
-  /// Analysis, 2nd ed., eq. 6.27.
+  /// Source: [@bonet2008, sec. 6.4.3]
   neo_hookean,
 };
 

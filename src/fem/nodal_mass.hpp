@@ -13,9 +13,7 @@ namespace limber::fem {
 /// Positive mass of each node, N [kg], which sums to the mesh's mass.
 ///
 /// Equation   m_a = m_e M_aa / sum_b M_bb, element by element
-/// Source     Hinton, Rock, Zienkiewicz, "A note on mass lumping and related
-///            processes in the finite element method", Earthquake Engineering
-///            and Structural Dynamics 4, 1976, 245-249
+/// Source     [@hinton1976]
 /// Limits     Row sums would be negative at corners of second-order
 ///            tetrahedra. Second order in the element size, not fourth.
 [[nodiscard]] VectorX calc_lumped_mass(

@@ -121,14 +121,15 @@ double NonlinearSolid::calc_force(const Matrix3X& u, Matrix3X& force,
                                   Workspace& workspace) const {
   LIMBER_EXPECT(u.cols() == node_count_ && force.cols() == node_count_);
   LIMBER_EXPECT(workspace.forces.size() == force_count_);
-  parallel_ranges(batches_.size(), [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kBatches = 100;  // worth a thread
+  constexpr std::size_t kNodes = 5000;
+  const auto calc = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       workspace.energies[i] = calc_batch(
           batches_[i], u, workspace.forces.data() + batches_[i].place);
     }
-  });
-  parallel_ranges(static_cast<std::size_t>(node_count_), [&](std::size_t begin,
-                                                             std::size_t end) {
+  };
+  const auto gather = [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Vector3 sum = Vector3::Zero();
       for (std::size_t i = first_link_[n]; i < first_link_[n + 1]; ++i) {
@@ -137,7 +138,9 @@ double NonlinearSolid::calc_force(const Matrix3X& u, Matrix3X& force,
       }
       force.col(static_cast<Eigen::Index>(n)) = sum;
     }
-  });
+  };
+  parallel_ranges(batches_.size(), calc, kBatches);
+  parallel_ranges(static_cast<std::size_t>(node_count_), gather, kNodes);
   return std::accumulate(workspace.energies.begin(), workspace.energies.end(),
                          0.0);
 }

@@ -12,8 +12,7 @@ namespace limber::fem {
 /// Internal forces of a whole mesh in large displacement and rotation.
 ///
 /// Equation   f_a = sum_q w_q F S grad N_a,  F = I + sum_a u_a grad N_a^T
-/// Source     total Lagrangian: Belytschko, Liu, Moran, Nonlinear Finite
-///            Elements for Continua and Structures, sec. 4.9
+/// Source     total Lagrangian, [@belytschko2000, ch. 4]
 /// Limits     the gradients at all quadrature points are kept: 1 kB a
 ///            second-order tetrahedron
 ///

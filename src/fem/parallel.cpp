@@ -20,11 +20,11 @@ unsigned thread_count() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-void parallel_ranges(
-    std::size_t count,
-    const std::function<void(std::size_t, std::size_t)>& work) {
-  const std::size_t parts =
-      std::max<std::size_t>(1, std::min<std::size_t>(thread_count(), count));
+void parallel_ranges(std::size_t count,
+                     const std::function<void(std::size_t, std::size_t)>& work,
+                     std::size_t grain) {
+  const std::size_t parts = std::max<std::size_t>(
+      1, std::min<std::size_t>(thread_count(), count / grain));
   std::vector<std::exception_ptr> failures(parts);
   const auto run = [&](std::size_t part) {
     try {

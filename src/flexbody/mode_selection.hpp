@@ -46,7 +46,7 @@ struct Participation {
 ///
 /// Equation   Gamma_aj = r_a^T M phi_j, m_aj = Gamma_aj^2,
 ///            sum over all modes m_aj = r_a^T M r_a
-/// Source     Wijker, Mechanical Vibrations in Spacecraft Design, 2004, ch. 6;
+/// Source     [@wijker2004, ch. 6];
 ///            the unit generalised mass is that of Phi
 /// Limits     For a free body every factor is zero: its modes are M-orthogonal
 ///            to rigid motion. For a clamped one the sum holds with M_s and x
@@ -127,7 +127,7 @@ struct HarmonicError {
 ///
 /// Equation   u = K^+ F - Phi Lambda^-1 (eta'' + C eta')
 ///              = Phi eta + (K^+ F - Phi Lambda^-1 Phi^T F)
-/// Source     Dickens, Nakagawa and Wittbrodt, Comput. Struct. 62, 1997; the
+/// Source     [@dickens1997]; the
 ///            second form, which needs no rates and holds with modal damping
 /// @param modal_loads Phi^T F, m x T [kg^-1/2 N]
 /// @param static_answers K^+ F on the rows of Phi, rows x T [m]
@@ -143,7 +143,7 @@ struct HarmonicError {
 ///
 /// Equation   x = K^+ F - Phi Lambda^-1 Phi^T F, phi = x / |x|_M,
 ///            lambda = x^T F / x^T M x
-/// Source     Dickens, Nakagawa and Wittbrodt, Comput. Struct. 62, 1997; x is
+/// Source     [@dickens1997]; x is
 ///            orthogonal to Phi in M and in K
 /// Limits     `basis` must hold eigenmodes or residual vectors of the same
 ///            matrices: then K is not needed, because x^T K x = x^T F.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
@@ -12,6 +13,7 @@
 #include "fem/assembly.hpp"
 #include "fem/explicit_solid.hpp"
 #include "fem/mesh_reader.hpp"
+#include "fem/parallel.hpp"
 #include "verification/body_reference.hpp"
 
 /// The whole mesh in large rotation against an explicit fourth-order run of
@@ -147,6 +149,69 @@ TEST_F(FullBeam, SpinningSlowlyAgreesWithTheReference) {
 TEST_F(FullBeam, SpinningFastAgreesWithTheReference) {
   spin({30.0, 2.0, 5.0});
   EXPECT_LT(run_against(read_table("full_spin30.csv")), 5e-6);
+}
+
+// 29 764 nodes: enough for three threads in both halves of the work.
+TEST(SolidThreads, ForcesDoNotDependOnTheNumberOfThreads) {
+  const fem::Mesh mesh = fem::read_mesh(test::beam_file("beam30k_v41.msh"));
+  const fem::NonlinearSolid solid(mesh, {{200e9, 0.3, 8000.0}},
+                                  fem::Elasticity::neo_hookean);
+  fem::NonlinearSolid::Workspace workspace = solid.make_workspace();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1e-3, 1e-3);
+  const Matrix3X u =
+      Matrix3X::NullaryExpr(3, mesh.x.cols(), [&] { return uniform(random); });
+  Matrix3X one(3, mesh.x.cols());
+  Matrix3X three(3, mesh.x.cols());
+  fem::set_thread_count(1);
+  const double energy = solid.calc_force(u, one, workspace);
+  fem::set_thread_count(3);
+  EXPECT_EQ(solid.calc_force(u, three, workspace), energy);
+  EXPECT_EQ(one, three);
+  fem::set_thread_count(0);
+}
+
+// --- Conservation -----------------------------------------------------------
+
+struct Balance {
+  double energy = 0.0;                         ///< [J]
+  Vector3 angular_momentum = Vector3::Zero();  ///< about the origin
+  Vector3 momentum = Vector3::Zero();
+};
+
+TEST_F(FullBeam, KeepsItsMomentaToRoundOffAndItsEnergyToSecondOrder) {
+  const auto balance = [&](const fem::ExplicitSolid& solver) {
+    const Matrix3X p = mass_.multiply(state_.v);
+    Balance now{solver.strain_energy() + solver.kinetic_energy(state_),
+                Vector3::Zero(), p.rowwise().sum()};
+    for (Eigen::Index n = 0; n < p.cols(); ++n) {
+      now.angular_momentum +=
+          Vector3(mesh_.x.col(n) + state_.u.col(n)).cross(Vector3(p.col(n)));
+    }
+    return now;
+  };
+  std::vector<double> errors;
+  for (const double step : {1e-5, 5e-6}) {
+    state_ = {0.0, Matrix3X::Zero(3, mesh_.x.cols()),
+              Matrix3X::Zero(3, mesh_.x.cols())};
+    spin({30.0, 2.0, 5.0});
+    fem::ExplicitSolid solver(solid_, mass_, [](double, Matrix3X&) {});
+    solver.start(state_);
+    const Balance first = balance(solver);
+    double error = 0.0;
+    const long steps = std::lround(0.01 / step);
+    for (long i = 1; i <= steps; ++i) {
+      solver.step(state_, step, static_cast<double>(i) * step);
+      error = std::max(error, std::abs(balance(solver).energy - first.energy));
+    }
+    errors.push_back(error / first.energy);
+    const Balance last = balance(solver);
+    EXPECT_LT((last.angular_momentum - first.angular_momentum).norm(),
+              1e-12 * first.angular_momentum.norm());
+    EXPECT_LT((last.momentum - first.momentum).norm(),
+              1e-12 * 40000.0 * 30.0 * 2.5);
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.2);
 }
 
 // --- The longest stable step ------------------------------------------------

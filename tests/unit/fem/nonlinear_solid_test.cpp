@@ -14,7 +14,6 @@
 #include "fem/assembly.hpp"
 #include "fem/element_matrices.hpp"
 #include "fem/nodal_mass.hpp"
-#include "fem/parallel.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -163,17 +162,6 @@ TEST_P(SolidBox, AUniformDeformationHasTheClosedFormEnergy) {
     }
     EXPECT_LT(force_.col(n).norm(), 1e-12 * kSteel.youngs_modulus * area());
   }
-}
-
-TEST_P(SolidBox, ForcesDoNotDependOnTheNumberOfThreads) {
-  const Matrix3X u = random_field(2e-3, 7);
-  set_thread_count(1);
-  const double energy = calc(u);
-  const Matrix3X one = force_;
-  set_thread_count(3);
-  EXPECT_EQ(calc(u), energy);
-  EXPECT_EQ(force_, one);
-  set_thread_count(0);
 }
 
 TEST_P(SolidBox, AnElementInsideOutEndsWithItsTag) {
