@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/equations.hpp"
 
-#include <algorithm>
-
 #include "dynamics/body_model.hpp"
 
 namespace limber::dynamics {
@@ -156,19 +154,10 @@ void apply_load(const SystemModel& model, const SystemState& state,
   terms.load_power += force_W.dot(motion.v_WF_W) + moment_W.dot(motion.w_WF_W);
 }
 
-// Which column of a history holds at t; -1 before the first.
-Eigen::Index find_column(const std::vector<double>& times, double t,
-                         Side side) {
-  const auto next = side == Side::right
-                        ? std::upper_bound(times.begin(), times.end(), t)
-                        : std::lower_bound(times.begin(), times.end(), t);
-  return static_cast<Eigen::Index>(next - times.begin()) - 1;
-}
-
 void apply_body_load(const SystemModel& model, const SystemState& state,
                      const BodyLoad& load, Side side, SystemTerms& terms) {
   const flexbody::NodalLoad& history = load.history;
-  const Eigen::Index i = find_column(history.times, state.t, side);
+  const Eigen::Index i = find_interval(history.times, state.t, side);
   if (i < 0) return;
   const auto b = static_cast<std::size_t>(load.body);
   const BodyModel& body = model.bodies[b];

@@ -5,19 +5,14 @@
 #include <numbers>
 #include <utility>
 
+#include "common/overloaded.hpp"
+
 namespace limber::dynamics {
 namespace {
 
 using flexbody::ModalLoads;
 using flexbody::SinusoidalLoad;
 using flexbody::StepLoad;
-
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 const BodyModel& get_body(const SystemModel& model, BodyIndex body) {
   return model.bodies[static_cast<std::size_t>(body)];

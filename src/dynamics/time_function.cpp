@@ -8,16 +8,10 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/overloaded.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 // Whether t is at or past `edge`, seen from the given side of a jump.
 bool has_passed(double t, double edge, Side side) {
@@ -26,15 +20,6 @@ bool has_passed(double t, double edge, Side side) {
 
 bool is_on(double t, double from, double until, Side side) {
   return has_passed(t, from, side) && !has_passed(t, until, side);
-}
-
-// Index of the interval of `times` that holds t, -1 before the first.
-std::ptrdiff_t find_interval(const std::vector<double>& times, double t,
-                             Side side) {
-  const auto past = side == Side::right
-                        ? std::upper_bound(times.begin(), times.end(), t)
-                        : std::lower_bound(times.begin(), times.end(), t);
-  return past - times.begin() - 1;
 }
 
 double evaluate_pulse(const Pulse& pulse, double t, Side side) {
@@ -121,6 +106,14 @@ void check_harmonics(const HarmonicSum& sum) {
 }
 
 }  // namespace
+
+std::ptrdiff_t find_interval(const std::vector<double>& times, double t,
+                             Side side) {
+  const auto past = side == Side::right
+                        ? std::upper_bound(times.begin(), times.end(), t)
+                        : std::lower_bound(times.begin(), times.end(), t);
+  return past - times.begin() - 1;
+}
 
 void check(const TimeFunction& function) {
   std::visit(

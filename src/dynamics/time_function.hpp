@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <variant>
 #include <vector>
@@ -56,6 +57,11 @@ using TimeFunction =
 
 /// Which side of a jump is meant when `t` is exactly on it.
 enum class Side { left, right };
+
+/// Index i of the interval [times[i], times[i+1]) that holds t, the last one
+/// open; -1 before the first.
+[[nodiscard]] std::ptrdiff_t find_interval(const std::vector<double>& times,
+                                           double t, Side side);
 
 /// @throws InputError for non-increasing times, sizes that differ, a value
 /// that is not finite, a pulse of no duration.

@@ -23,9 +23,13 @@ constexpr double kPanelPhase = 1.0;
 
 ModalLosses ModalResponse::evaluate_losses(
     const std::vector<double>& times) const {
+  ModalLosses losses{evaluate_step_work(times), make_zeros(times)};
+  const bool is_any_damped = std::any_of(
+      modes_.begin(), modes_.end(),
+      [](const ModalOscillator& mode) { return mode.damping() > 0.0; });
+  if (!is_any_damped && waves_.empty()) return losses;
   const MatrixX start = find_energy({starts_.front()});
   const MatrixX gain = find_energy(times).colwise() - VectorX(start.col(0));
-  ModalLosses losses{evaluate_step_work(times), make_zeros(times)};
   MatrixX integral;
   for (Eigen::Index k = 0; k < modes(); ++k) {
     const bool is_damped = modes_[static_cast<std::size_t>(k)].damping() > 0.0;
