@@ -3,51 +3,63 @@
 
 #include <string>
 
-#include "fem/assembly.hpp"
-#include "fem/explicit_solid.hpp"
-#include "fem/mesh_reader.hpp"
+#include "dynamics/central_differences.hpp"
+#include "dynamics/stable_step.hpp"
+#include "dynamics/system_builder.hpp"
 #include "fem/parallel.hpp"
+#include "flexbody/fem_full_body.hpp"
+#include "flexbody/reduce.hpp"
 
-/// What an explicit step of the whole mesh costs: what reduction saves.
-namespace limber::fem {
+/// What an explicit step at level `full` costs: what reduction saves.
+namespace limber {
 namespace {
 
-const std::vector<ElasticMaterial> kSteel = {{200e9, 0.0, 8000.0}};
+using flexbody::NodalMassKind;
+
+dynamics::SystemModel make_model(const std::string& file, NodalMassKind mass) {
+  flexbody::Recipe recipe;
+  recipe.name = "beam";
+  recipe.mesh.file =
+      std::string(LIMBER_SOURCE_DIR) + "/tests/data/beam/" + file;
+  recipe.materials = {{"", {200e9, 0.0, 8000.0}}};
+  recipe.basis.eigenmodes = 0;
+  recipe.rows = flexbody::parse_rows({"all"});
+  dynamics::SystemBuilder builder;
+  builder.add_full_body(
+      "beam",
+      std::make_shared<const flexbody::ReducedBody>(flexbody::reduce(recipe)),
+      flexbody::make_full_body(recipe, {.mass = mass}), {});
+  return builder.build();
+}
 
 /// Central differences on the report's beam, unloaded, spinning; wall time of
 /// a second of motion at its own longest stable step.
-void step(benchmark::State& state, const std::string& file, bool is_lumped) {
-  set_thread_count(static_cast<unsigned>(state.range(0)));
-  const Mesh mesh =
-      read_mesh(std::string(LIMBER_SOURCE_DIR) + "/tests/data/beam/" + file);
-  const StructuralMatrices matrices = assemble(mesh, kSteel);
-  const NodalMass mass = is_lumped ? NodalMass(calc_lumped_mass(mesh, kSteel))
-                                   : NodalMass(matrices.M_s);
-  const NonlinearSolid solid(mesh, kSteel, Elasticity::st_venant_kirchhoff);
-  ExplicitSolid solver(solid, mass, [](double, Matrix3X&) {});
-  SolidState now{0.0, Matrix3X::Zero(3, mesh.x.cols()),
-                 Matrix3X::Zero(3, mesh.x.cols())};
-  for (Eigen::Index n = 0; n < mesh.x.cols(); ++n) {
-    now.v.col(n) = Vector3::UnitX().cross(Vector3(mesh.x.col(n)));
-  }
-  const double h = 0.9 * estimate_stable_step(matrices.K, mass);
-  solver.start(now);
-  for (auto _ : state) solver.step(now, h, now.t + h);
+void step(benchmark::State& state, const std::string& file,
+          NodalMassKind mass) {
+  const dynamics::SystemModel model = make_model(file, mass);
+  fem::set_thread_count(static_cast<unsigned>(state.range(0)));
+  dynamics::SystemState now = make_state(model);
+  now.bodies[0].w_WB_B = Vector3::UnitX();
+  place_nodes(model, {}, {}, now);
+  const double h = dynamics::kStableShare * find_stable_step(model, now);
+  dynamics::CentralDifferences scheme(model);
+  scheme.start(now);
+  for (auto _ : state) scheme.step(now, h, now.t + h);
   state.counters["step"] = h;
   state.counters["s_per_s"] =
       benchmark::Counter(h, benchmark::Counter::kIsIterationInvariantRate |
                                 benchmark::Counter::kInvert);
-  set_thread_count(0);
+  fem::set_thread_count(0);
 }
 
 void consistent_579(benchmark::State& state) {
-  step(state, "beam579_v41.msh", false);
+  step(state, "beam579_v41.msh", NodalMassKind::consistent);
 }
 void lumped_579(benchmark::State& state) {
-  step(state, "beam579_v41.msh", true);
+  step(state, "beam579_v41.msh", NodalMassKind::lumped);
 }
 void lumped_29764(benchmark::State& state) {
-  step(state, "beam30k_v41.msh", true);
+  step(state, "beam30k_v41.msh", NodalMassKind::lumped);
 }
 
 BENCHMARK(consistent_579)->Arg(1)->UseRealTime();
@@ -55,4 +67,4 @@ BENCHMARK(lumped_579)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(lumped_29764)->Arg(1)->Arg(2)->UseRealTime();
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber

@@ -20,7 +20,8 @@ if(LIMBER_REDUCTION)
   set(without_reduction)
 else()
   set(without_reduction
-    PATTERN reduce.hpp EXCLUDE PATTERN reduce_*.hpp EXCLUDE)
+    PATTERN reduce.hpp EXCLUDE PATTERN reduce_*.hpp EXCLUDE
+    PATTERN fem_*.hpp EXCLUDE)
 endif()
 if(LIMBER_REFERENCE)
   list(APPEND layers reference)

@@ -3,6 +3,7 @@
 
 #include "common/errors.hpp"
 #ifdef LIMBER_HAS_REDUCTION
+#include "flexbody/fem_full_body.hpp"
 #include "flexbody/reduce.hpp"
 #endif
 
@@ -13,6 +14,13 @@ namespace limber::app {
 scene::Reducer make_reducer(const Progress& progress) {
   return [progress](const flexbody::Recipe& recipe) {
     return flexbody::reduce(recipe, progress);
+  };
+}
+
+scene::FullMaker make_full_maker(const Progress& progress) {
+  return [progress](const flexbody::Recipe& recipe,
+                    const flexbody::FullOptions& options) {
+    return flexbody::make_full_body(recipe, options, progress);
   };
 }
 
@@ -39,6 +47,8 @@ scene::Reducer make_reducer(const Progress&) {
     refuse(recipe);
   };
 }
+
+scene::FullMaker make_full_maker(const Progress&) { return {}; }
 
 flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
                                    const Progress&) {

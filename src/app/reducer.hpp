@@ -10,6 +10,9 @@ namespace limber::app {
 /// flexbody::reduce, or a refusal in a build without Gmsh and CHOLMOD.
 [[nodiscard]] scene::Reducer make_reducer(const Progress& progress);
 
+/// flexbody::make_full_body, or nothing in a build without Gmsh and CHOLMOD.
+[[nodiscard]] scene::FullMaker make_full_maker(const Progress& progress);
+
 /// flexbody::study_modes, or the same refusal.
 [[nodiscard]] flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
                                                  const Progress& progress);

@@ -89,7 +89,8 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
   run.scene = scene;
   run.built = scene::build_system(
       scene, make_reducer(progress),
-      cache.empty() ? flexbody::default_cache_folder() : cache);
+      cache.empty() ? flexbody::default_cache_folder() : cache,
+      make_full_maker(progress));
   clear_progress_bar();
   print_warnings(run.built.warnings);
   add_columns(run);

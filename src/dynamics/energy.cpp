@@ -2,6 +2,7 @@
 #include "dynamics/energy.hpp"
 
 #include "dynamics/equations.hpp"
+#include "dynamics/full_energy.hpp"
 
 namespace limber::dynamics {
 
@@ -23,7 +24,7 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
 
     balance.elastic += 0.5 * (body.lambda.array() * eta.array().square()).sum();
     balance.kinetic_modal += 0.5 * etadot.squaredNorm();
-    if (body.clamped) continue;
+    if (!body.has_rigid_motion()) continue;
     const Vector3 h = t.H * etadot;
     const Vector3 spin_B = t.J * rigid.w_WB_B + h;
     balance.kinetic_modal += rigid.w_WB_B.dot(h);
@@ -33,6 +34,7 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
     balance.linear_momentum += momentum;
     balance.angular_momentum += rigid.p_WB.cross(momentum) + t.R_WB * spin_B;
   }
+  add_full_energy(model, state, terms, balance);
   for (const CouplerTerms& coupler : terms.couplers) {
     balance.coupler += coupler.response.energy;
   }

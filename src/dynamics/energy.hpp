@@ -9,8 +9,8 @@ namespace limber::dynamics {
 /// Where the energy is. All [J] but the momenta.
 struct EnergyBalance {
   double kinetic_rigid = 0.0;  ///< m v^2/2 + w' J w/2
-  double kinetic_modal = 0.0;  ///< w' H etadot + etadot^2/2
-  double elastic = 0.0;        ///< eta' diag(lambda) eta / 2
+  double kinetic_modal = 0.0;  ///< w' H etadot + etadot^2/2; `full`: the rest
+  double elastic = 0.0;        ///< eta' diag(lambda) eta / 2; `full`: int W dV
   double coupler = 0.0;        ///< stored in couplers
   double dissipated = 0.0;     ///< since the run began
   double work = 0.0;           ///< of loads and gravity since the run began

@@ -2,6 +2,7 @@
 #include "dynamics/equations.hpp"
 
 #include "dynamics/body_model.hpp"
+#include "dynamics/full_terms.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -71,8 +72,9 @@ void apply_wrench(const BodyModel& body, const Attachment& attachment,
   }
 }
 
-void apply_coupler(const SystemModel& model, const Coupler& coupler,
-                   WrenchSource source, SystemTerms& terms, CouplerTerms& out) {
+void apply_coupler(const SystemModel& model, const SystemState& state,
+                   const Coupler& coupler, WrenchSource source,
+                   SystemTerms& terms, CouplerTerms& out) {
   const auto iF = static_cast<std::size_t>(coupler.frame_F);
   const auto iM = static_cast<std::size_t>(coupler.frame_M);
   const AttachmentMotion& F = terms.attachments[iF];
@@ -100,6 +102,10 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
     const Attachment& a = model.attachments[i];
     if (a.body == kWorld) return;
     const auto b = static_cast<std::size_t>(a.body);
+    if (model.bodies[b].full >= 0) {
+      add_full_wrench(model, a, motion, state, f, t, terms);
+      return;
+    }
     apply_wrench(model.bodies[b], a, motion, f, t, terms.bodies[b]);
   };
   apply(iM, M, force, moment);
@@ -140,7 +146,7 @@ void apply_load(const SystemModel& model, const SystemState& state,
 
   const Vector3 force = factor * load.force;
   const Vector3 moment = factor * load.moment;
-  if (body.fidelity != Fidelity::coupled) {
+  if (body.fidelity < Fidelity::coupled) {
     const Matrix3 R = load.in_world ? Matrix3(t.R_WB.transpose())
                                     : Matrix3(Matrix3::Identity());
     apply_to_undeformed(body, attachment, state, state.bodies[b], R * force,
@@ -148,9 +154,13 @@ void apply_load(const SystemModel& model, const SystemState& state,
     return;
   }
   const AttachmentMotion& motion = terms.attachments[i];
-  const Vector3 force_W = load.in_world ? force : motion.R_WB * force;
-  const Vector3 moment_W = load.in_world ? moment : motion.R_WB * moment;
-  apply_wrench(body, attachment, motion, force_W, moment_W, t);
+  const Vector3 force_W = load.in_world ? force : t.R_WB * force;
+  const Vector3 moment_W = load.in_world ? moment : t.R_WB * moment;
+  if (body.full >= 0) {
+    add_full_wrench(model, attachment, motion, state, force_W, moment_W, terms);
+  } else {
+    apply_wrench(body, attachment, motion, force_W, moment_W, t);
+  }
   terms.load_power += force_W.dot(motion.v_WF_W) + moment_W.dot(motion.w_WF_W);
 }
 
@@ -161,6 +171,10 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
   if (i < 0) return;
   const auto b = static_cast<std::size_t>(load.body);
   const BodyModel& body = model.bodies[b];
+  if (body.full >= 0) {
+    add_full_nodal_load(model, load, i, state, terms);
+    return;
+  }
   const BodyState& rigid = state.bodies[b];
   BodyTerms& t = terms.bodies[b];
   const Vector3 force_W = t.R_WB * history.force.col(i);
@@ -200,19 +214,22 @@ void reset_forces(const SystemModel& model, const SystemState& state,
     const BodyModel& body = model.bodies[b];
     BodyTerms& t = terms.bodies[b];
     t.force_W.setZero();
-    if (!body.clamped) {
+    if (body.has_rigid_motion()) {
       t.force_W = body.mass * model.gravity_W;
       terms.load_power += t.force_W.dot(state.bodies[b].v_WB_W);
     }
     t.moment_B.setZero();
     t.modal_force.setZero();
-    if (body.clamped) add_gravity_on_modes(model, body, state, t, terms);
+    if (body.clamped && body.modes > 0) {
+      add_gravity_on_modes(model, body, state, t, terms);
+    }
     if (body.modes > 0) {
       const ConstModes etadot = modes_of(body, state.etadot);
       terms.dissipated_power +=
           (body.damping.array() * etadot.array().square()).sum();
     }
   }
+  reset_full_forces(model, state, terms);
 }
 
 }  // namespace
@@ -236,6 +253,14 @@ SystemTerms make_terms(const SystemModel& model) {
     t.scratch_b2 = VectorX::Zero(coupled ? 3 * m : 0);
     terms.bodies.push_back(std::move(t));
   }
+  for (const FullModel& full : model.full_bodies) {
+    const Eigen::Index nodes = full.mesh->node_count();
+    FullTerms t;
+    t.solver = full.mesh->make_solver();
+    t.internal = t.force = t.scratch = Matrix3X::Zero(3, nodes);
+    t.modal_rate = VectorX::Zero(full.damping.size());
+    terms.full.push_back(std::move(t));
+  }
   terms.attachments.resize(model.attachments.size());
   terms.couplers.resize(model.couplers.size());
   return terms;
@@ -245,7 +270,7 @@ Accelerations make_accelerations(const SystemModel& model) {
   const std::size_t n = model.bodies.size();
   return {std::vector<Vector3>(n, Vector3::Zero()),
           std::vector<Vector3>(n, Vector3::Zero()),
-          VectorX::Zero(model.modal_count)};
+          VectorX::Zero(model.modal_count), VectorX::Zero(model.nodal_count)};
 }
 
 void calc_inertia_terms(const SystemModel& model, const SystemState& state,
@@ -265,6 +290,7 @@ void calc_inertia_terms(const SystemModel& model, const SystemState& state,
       add_centrifugal_bias(body, w, t);
     }
   }
+  calc_full_terms(model, state, terms);
 }
 
 void calc_forces(const SystemModel& model, const SystemState& state, Side side,
@@ -275,10 +301,18 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
     const Matrix3& R_WB =
         terms.bodies[a.body == kWorld ? 0 : static_cast<std::size_t>(a.body)]
             .R_WB;
-    calc_attachment_motion(model, a, state, R_WB, terms.attachments[i]);
+    AttachmentMotion& motion = terms.attachments[i];
+    if (a.nodal) {
+      const auto f = static_cast<std::size_t>(
+          model.bodies[static_cast<std::size_t>(a.body)].full);
+      calc_nodal_attachment(model, a, state, terms.full[f].frame, motion);
+    } else {
+      calc_attachment_motion(model, a, state, R_WB, motion);
+    }
   }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    apply_coupler(model, model.couplers[c], source, terms, terms.couplers[c]);
+    apply_coupler(model, state, model.couplers[c], source, terms,
+                  terms.couplers[c]);
   }
   for (const Load& load : model.loads) {
     apply_load(model, state, load, side, terms);
@@ -302,7 +336,7 @@ void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
     auto etaddot = accelerations.etaddot.segment(body.offset, body.modes);
     etaddot = t.modal_force - t.bias_e;
     Vector3& dw = accelerations.dw_WB_B[b];
-    if (body.clamped) {
+    if (!body.has_rigid_motion()) {
       accelerations.a_WB_W[b].setZero();
       dw.setZero();
       continue;
@@ -318,6 +352,7 @@ void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
     dw = schur.inverse() * right;
     for (int k = 0; k < body.modes; ++k) etaddot[k] -= t.H.col(k).dot(dw);
   }
+  solve_full_accelerations(model, terms, accelerations.uddot_H);
 }
 
 }  // namespace limber::dynamics

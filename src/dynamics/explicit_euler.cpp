@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/explicit_euler.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/finite_check.hpp"
 
 namespace limber::dynamics {
 
@@ -21,6 +18,7 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
     }
   }
   responses_.resize(oscillators_.size());
+  LIMBER_EXPECT(model.full_bodies.empty());
 }
 
 void ExplicitEuler::set_step(double h) {
@@ -67,16 +65,8 @@ StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
         body.quat_WB * exp_quaternion(h * body.w_WB_B + 0.5 * h * h * dw);
     body.quat_WB.normalize();
     body.w_WB_B += h * dw;
-    const BodyModel& m = model_.bodies[b];
-    const double size = body.p_WB.squaredNorm() + body.w_WB_B.squaredNorm() +
-                        next_.eta.segment(m.offset, m.modes).squaredNorm();
-    if (!std::isfinite(size)) {
-      throw NumericalError(fmt::format(
-          "body '{}' at t = {:.9g} s: its motion is no longer finite; the "
-          "explicit step {:.3g} s is too long",
-          m.name, end, h));
-    }
   }
+  require_finite(model_, next_, h);
   std::swap(state, next_);
   return result;
 }

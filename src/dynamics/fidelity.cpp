@@ -10,7 +10,7 @@ namespace limber::dynamics {
 
 const std::vector<std::string>& fidelity_names() {
   static const std::vector<std::string> names = {"rigid", "uncoupled",
-                                                 "one-way", "coupled"};
+                                                 "one-way", "coupled", "full"};
   return names;
 }
 

@@ -8,9 +8,10 @@
 namespace limber::dynamics {
 
 /// How much of a body's physics is computed (docs/theory/equations.md).
-enum class Fidelity { rigid, uncoupled, one_way, coupled };
+enum class Fidelity { rigid, uncoupled, one_way, coupled, full };
 
-/// "rigid", "uncoupled", "one-way", "coupled".
+/// "rigid", "uncoupled", "one-way", "coupled",
+/// "full".
 [[nodiscard]] std::string_view to_string(Fidelity fidelity);
 [[nodiscard]] const std::vector<std::string>& fidelity_names();
 /// @throws InputError naming the nearest level.

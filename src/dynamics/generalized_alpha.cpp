@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/full_terms.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -23,6 +24,11 @@ constexpr int kMostFreshSteps = 512;
 constexpr double kPoorContraction = 0.3;
 // Round-off of a position, relative to its distance from the world origin.
 constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
+// Forces of a whole mesh are differences of large ones: what round-off makes of
+// them moves its soft modes by this factor more.
+constexpr double kNodalNoise = 100.0;
+// To factor a whole mesh costs some hundred times what a residual does.
+constexpr double kGoodNodalContraction = 0.3;
 
 double radius_of_gyration_squared(const BodyModel& body) {
   return 0.5 * body.J0.trace() / body.mass;
@@ -34,10 +40,16 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
                                    const Settings& settings)
     : model_(model),
       settings_(settings),
-      am_((2.0 * settings.rho_inf - 1.0) / (settings.rho_inf + 1.0)),
-      af_(settings.rho_inf / (settings.rho_inf + 1.0)),
-      gamma_(0.5 + af_ - am_),
-      beta_(0.25 * (0.5 + gamma_) * (0.5 + gamma_)),
+      am_(settings.implicit_euler
+              ? 0.0
+              : (2.0 * settings.rho_inf - 1.0) / (settings.rho_inf + 1.0)),
+      af_(settings.implicit_euler
+              ? 0.0
+              : settings.rho_inf / (settings.rho_inf + 1.0)),
+      gamma_(settings.implicit_euler ? 1.0 : 0.5 + af_ - am_),
+      beta_(settings.implicit_euler ? 1.0
+                                    : 0.25 * (0.5 + gamma_) * (0.5 + gamma_)),
+      lag_(settings.implicit_euler ? 0.0 : 0.5 - beta_),
       matrix_(model),
       next_(make_state(model)),
       terms_(make_terms(model)),
@@ -47,7 +59,8 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
   const std::size_t n = model.bodies.size();
   const Rates zero{std::vector<Vector3>(n, Vector3::Zero()),
                    std::vector<Vector3>(n, Vector3::Zero()),
-                   VectorX::Zero(model.modal_count)};
+                   VectorX::Zero(model.modal_count),
+                   VectorX::Zero(model.nodal_count)};
   a_ = a_next_ = vdot_ = vdot_next_ = inc_ = zero;
 }
 
@@ -68,7 +81,7 @@ void GeneralizedAlpha::calc_residual() {
     translation.setZero();
     rotation.setZero();
     const Vector3& dw = vdot_next_.rotation[b];
-    if (!body.clamped) {
+    if (body.has_rigid_motion()) {
       translation = body.mass * vdot_next_.translation[b] - t.force_W;
       rotation = t.J * dw + t.bias_r - t.moment_B;
     }
@@ -79,6 +92,13 @@ void GeneralizedAlpha::calc_residual() {
           etaddot[k] + t.H.col(k).dot(dw) + t.bias_e[k] - t.modal_force[k];
     }
     if (body.clamped) rotation.setZero();
+  }
+  for (std::size_t f = 0; f < model_.full_bodies.size(); ++f) {
+    const FullModel& full = model_.full_bodies[f];
+    double* rows =
+        residual_.data() + NewtonMatrix::first_node_row(model_) + full.first;
+    calc_full_residual(model_, f, vdot_next_.nodes, terms_,
+                       Nodes(rows, 3, full.mesh->node_count()));
   }
 }
 
@@ -107,6 +127,9 @@ void GeneralizedAlpha::add_quasi_static_accelerations() {
     a_.modes.segment(body.offset, body.modes) += modes;
     vdot_.modes.segment(body.offset, body.modes) += modes;
   }
+  const auto nodes = coefficients_.acceleration * x_.tail(model_.nodal_count);
+  a_.nodes += nodes;
+  vdot_.nodes += nodes;
 }
 
 void GeneralizedAlpha::start(const SystemState& state, double h) {
@@ -115,6 +138,7 @@ void GeneralizedAlpha::start(const SystemState& state, double h) {
     a_.rotation[b].setZero();
   }
   a_.modes.setZero();
+  a_.nodes.setZero();
   vdot_ = vdot_next_ = a_;
   next_ = state;
   set_coefficients(h);
@@ -142,7 +166,7 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
 
 // The step's end that a_next_ implies.
 void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
-  const double inc_n = h * h * (0.5 - beta_);
+  const double inc_n = h * h * lag_;
   const double inc_next = h * h * beta_;
   const double v_n = h * (1.0 - gamma_);
   const double v_next = h * gamma_;
@@ -152,6 +176,7 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyState& old = from.bodies[b];
     BodyState& body = next_.bodies[b];
+    if (model_.bodies[b].full >= 0) continue;  // follows its nodes
     inc_.translation[b] = h * old.v_WB_W + inc_n * a_.translation[b] +
                           inc_next * a_next_.translation[b];
     inc_.rotation[b] = h * old.w_WB_B + inc_n * a_.rotation[b] +
@@ -174,6 +199,13 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   next_.etadot = from.etadot + v_n * a_.modes + v_next * a_next_.modes;
   vdot_next_.modes =
       d_next * a_next_.modes + d_n * a_.modes - d_old * vdot_.modes;
+  if (model_.nodal_count > 0) {
+    inc_.nodes = h * from.udot_H + inc_n * a_.nodes + inc_next * a_next_.nodes;
+    next_.u_H = from.u_H + inc_.nodes;
+    next_.udot_H = from.udot_H + v_n * a_.nodes + v_next * a_next_.nodes;
+    vdot_next_.nodes =
+        d_next * a_next_.nodes + d_n * a_.nodes - d_old * vdot_.nodes;
+  }
   next_.t = end;
 }
 
@@ -182,6 +214,7 @@ void GeneralizedAlpha::apply_increments(double h) {
     terms_.couplers[c].applied += matrix_.wrench_increments()[c];
   }
   const double share = 1.0 / (beta_ * h * h);
+  a_next_.nodes += share * x_.tail(model_.nodal_count);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     if (body.modes > 0) {
@@ -189,12 +222,22 @@ void GeneralizedAlpha::apply_increments(double h) {
           share * x_.segment(6 * static_cast<Eigen::Index>(b) + body.offset + 6,
                              body.modes);
     }
-    if (body.clamped) continue;
+    if (!body.has_rigid_motion()) continue;
     const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
     a_next_.translation[b] += share * Eigen::Map<const Vector3>(x);
     a_next_.rotation[b] += share * (right_jacobian_inverse(inc_.rotation[b]) *
                                     Eigen::Map<const Vector3>(x + 3));
   }
+}
+
+// Of a body's nodes; zero if it is reduced.
+double GeneralizedAlpha::mean_square(
+    const BodyModel& body, const Eigen::Ref<const VectorX>& nodes) const {
+  if (body.full < 0) return 0.0;
+  const FullModel& full =
+      model_.full_bodies[static_cast<std::size_t>(body.full)];
+  return 3.0 * nodes.segment(full.first, full.dofs()).squaredNorm() /
+         static_cast<double>(full.dofs());
 }
 
 // Length [m] of the increments, mass-weighted within a body; largest body.
@@ -207,7 +250,8 @@ GeneralizedAlpha::Size GeneralizedAlpha::measure_increments() const {
         Eigen::Map<const Vector3>(x).squaredNorm() +
         radius_of_gyration_squared(body) *
             Eigen::Map<const Vector3>(x + 3).squaredNorm() +
-        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass;
+        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass +
+        mean_square(body, x_.tail(model_.nodal_count));
     if (!(squared <= largest.value)) {
       largest = {squared, b};
       if (!std::isfinite(squared)) break;
@@ -225,7 +269,8 @@ double GeneralizedAlpha::measure_motion() const {
     const double squared =
         inc_.translation[b].squaredNorm() +
         radius_of_gyration_squared(body) * inc_.rotation[b].squaredNorm() +
-        inc_.modes.segment(body.offset, body.modes).squaredNorm() / body.mass;
+        inc_.modes.segment(body.offset, body.modes).squaredNorm() / body.mass +
+        mean_square(body, inc_.nodes);
     largest = std::max(largest, squared);
   }
   return std::sqrt(largest);
@@ -235,8 +280,15 @@ double GeneralizedAlpha::measure_motion() const {
 double GeneralizedAlpha::measure_roundoff() const {
   double reach = 0.0;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    if (body.full >= 0) {
+      const double noise = kNodalNoise * kNodalNoise;
+      reach = std::max(reach, noise * (mean_square(body, next_.u_H) +
+                                       radius_of_gyration_squared(body)));
+      continue;
+    }
     reach = std::max(reach, next_.bodies[b].p_WB.squaredNorm() +
-                                radius_of_gyration_squared(model_.bodies[b]));
+                                radius_of_gyration_squared(body));
   }
   return kRoundoff * std::sqrt(reach);
 }
@@ -253,7 +305,8 @@ void GeneralizedAlpha::fail(double t, std::size_t body, const char* what,
 void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
   if (!kept) {
     fresh_steps_ = std::max(0, fresh_steps_ - 1);
-  } else if (slowest > kGoodContraction) {
+  } else if (slowest > (model_.full_bodies.empty() ? kGoodContraction
+                                                   : kGoodNodalContraction)) {
     fresh_steps_ = next_fresh_steps_;
     next_fresh_steps_ = std::min(2 * next_fresh_steps_, kMostFreshSteps);
   } else {
@@ -272,6 +325,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
     a_next_.rotation[b] = p_v * vdot_.rotation[b] - p_a * a_.rotation[b];
   }
   a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
+  a_next_.nodes = p_v * vdot_.nodes - p_a * a_.nodes;
 
   StepResult result;
   advance(state, h, end);

@@ -18,6 +18,8 @@ namespace limber::dynamics {
 ///            with the equations of motion met by q, v, vdot at n+1;
 ///            am = (2 rho - 1) / (rho + 1), af = rho / (rho + 1),
 ///            gamma = 1/2 + af - am, beta = (1/2 + gamma)^2 / 4.
+///            Implicit Euler: inc = h v_n+1, v_n+1 = v_n + h a_n+1, am = af = 0
+///            and so beta = gamma = 1 but for the share of a_n in inc.
 /// Source     Bruls and Cardona, "On the use of Lie group time integrators in
 ///            multibody dynamics", J. Comput. Nonlinear Dyn. 5, 2010, eqs.
 ///            17-22; parameters of Chung and Hulbert, J. Appl. Mech. 60, 1993.
@@ -27,6 +29,7 @@ class GeneralizedAlpha {
     double rho_inf = 0.9;      ///< in [0, 1]
     double tolerance = 1e-12;  ///< of a step's motion [-]
     int max_iterations = 20;
+    bool implicit_euler = false;  ///< then rho_inf is not looked at
   };
 
   GeneralizedAlpha(const SystemModel& model, const Settings& settings);
@@ -48,6 +51,7 @@ class GeneralizedAlpha {
     std::vector<Vector3> translation;
     std::vector<Vector3> rotation;
     VectorX modes;
+    VectorX nodes;  // of unreduced bodies
   };
   void set_coefficients(double h);
   void advance(const SystemState& from, double h, double end);
@@ -58,6 +62,8 @@ class GeneralizedAlpha {
     double value = 0.0;
     std::size_t body = 0;
   };
+  [[nodiscard]] double mean_square(
+      const BodyModel& body, const Eigen::Ref<const VectorX>& nodes) const;
   [[nodiscard]] Size measure_increments() const;
   [[nodiscard]] double measure_motion() const;
   [[nodiscard]] double measure_roundoff() const;
@@ -70,6 +76,7 @@ class GeneralizedAlpha {
   const SystemModel& model_;
   Settings settings_;
   double am_, af_, gamma_, beta_;
+  double lag_;  // share of h^2 a_n in a step's motion
   NewtonMatrix matrix_;
   NewtonMatrix::Coefficients coefficients_;
   double factored_step_ = 0.0;  // h of the factors held, 0: none

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "dynamics/mean_frame.hpp"
 #include "dynamics/system_state.hpp"
 
 namespace limber::dynamics {
@@ -28,6 +29,7 @@ struct AttachmentMotion {
   Vector3 p_WF;
   Vector3 v_WF_W;
   Vector3 w_WF_W;
+  NodalFrameMotion nodal;  ///< on an unreduced body
 };
 
 /// Fills `motion`; `R_WB` is the body's rotation matrix (not read for world).
@@ -35,5 +37,12 @@ void calc_attachment_motion(const SystemModel& model,
                             const Attachment& attachment,
                             const SystemState& state, const Matrix3& R_WB,
                             AttachmentMotion& motion);
+
+/// The same of an attachment on an unreduced body, whose mean-axis frame is
+/// `frame` (read only by what does not turn by itself).
+void calc_nodal_attachment(const SystemModel& model,
+                           const Attachment& attachment,
+                           const SystemState& state, const MeanFrame& frame,
+                           AttachmentMotion& motion);
 
 }  // namespace limber::dynamics

@@ -124,6 +124,7 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
           "out, by {}",
           metres(e.uncoupled), limit, metres(e.one_way));
     case Fidelity::coupled:
+    case Fidelity::full:
       break;
   }
   return fmt::format(

@@ -5,6 +5,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/nodal_jacobian.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -35,9 +36,16 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
       const int attachment = is_M ? coupler.frame_M : coupler.frame_F;
       const int b = model.attachments[index(attachment)].body;
       if (b == kWorld) continue;
-      const int n = 6 + model.bodies[index(b)].modes;
+      const BodyModel& body = model.bodies[index(b)];
+      Eigen::Index n = 6 + body.modes;
+      Eigen::Index row = first_row(body, b);
+      if (body.full >= 0) {
+        const FullModel& full = model.full_bodies[index(body.full)];
+        n = full.dofs();
+        row = first_node_row(model) + full.first;
+      }
       ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
-      ends_.push_back({static_cast<int>(c), attachment, b, is_M,
+      ends_.push_back({static_cast<int>(c), attachment, b, is_M, row,
                        Matrix6X::Zero(6, n), Matrix6X::Zero(6, n)});
     }
   }
@@ -62,7 +70,7 @@ void NewtonMatrix::factor_body(const BodyModel& body, const BodyTerms& terms,
   factor.inverse_modes.array() =
       (c.acceleration + c.velocity * body.damping.array() + body.lambda.array())
           .inverse();
-  if (body.clamped) return;  // its rigid blocks stay zero
+  if (!body.has_rigid_motion()) return;  // its rigid blocks stay zero
   factor.inverse_mass = 1.0 / (c.acceleration * body.mass);
   // Rotation increments are of R exp(inc): inc changes by T times them.
   const Matrix3 T = right_jacobian_inverse(rotation_increment);
@@ -102,23 +110,20 @@ void NewtonMatrix::solve_body(const BodyModel& body, const BodyFactor& factor,
 }
 
 void NewtonMatrix::factor_end(const SystemModel& model,
+                              const SystemState& state,
                               const SystemTerms& terms, End& end) const {
   const Attachment& attachment = model.attachments[index(end.attachment)];
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
   const BodyModel& body = model.bodies[index(end.body)];
   const Coupler& coupler = model.couplers[index(end.coupler)];
   const Matrix3& R_WF = terms.attachments[index(coupler.frame_F)].R_WF;
-  const Matrix3 R_FB = R_WF.transpose() * motion.R_WB;
-  const Matrix3 R_FB_twist = R_FB * motion.J_psi;
-
   // Motion of this end's frame, in F: translation over rotation.
-  end.G.leftCols<3>().topRows<3>() = R_WF.transpose();
-  end.G.leftCols<3>().bottomRows<3>().setZero();
-  end.G.middleCols<3>(3).topRows<3>() = -R_FB * skew(motion.arm_B);
-  end.G.middleCols<3>(3).bottomRows<3>() = R_FB;
-  for (int k = 0; k < body.modes; ++k) {
-    end.G.col(6 + k).head<3>() = R_FB * attachment.Phi_B.col(k);
-    end.G.col(6 + k).tail<3>() = R_FB_twist * attachment.Psi_B.col(k);
+  if (attachment.nodal) {
+    const Pose& X_WH = state.X_WH[index(body.full)];
+    calc_nodal_jacobian(*attachment.nodal, motion.nodal,
+                        R_WF.transpose() * X_WH.R, end.G);
+  } else {
+    calc_modal_jacobian(attachment, motion, R_WF.transpose(), end.G);
   }
   if (!end.is_M) {
     // p_FM seen from a frame that moves itself: minus its motion, plus
@@ -130,7 +135,17 @@ void NewtonMatrix::factor_end(const SystemModel& model,
       end.G.col(k).tail<3>() = -turn;
     }
   }
-  // Columns of D^-1 G', a row of G at a time, through D's arrow shape.
+  if (attachment.nodal) {
+    MatrixX columns = end.G.transpose();
+    terms.full[index(body.full)].solver->solve(columns);
+    end.Zt = columns.transpose();
+  } else {
+    solve_end(body, end);
+  }
+}
+
+// Columns of D^-1 G', a row of G at a time, through D's arrow shape.
+void NewtonMatrix::solve_end(const BodyModel& body, End& end) const {
   const BodyFactor& f = bodies_[index(end.body)];
   end.Zt.leftCols<3>() = f.inverse_mass * end.G.leftCols<3>();
   Eigen::Matrix<double, 6, 3> right = end.G.middleCols<3>(3);
@@ -178,14 +193,18 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
 }
 
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
-                          const SystemTerms& terms,
+                          SystemTerms& terms,
                           const std::vector<Vector3>& rotation_increments,
                           const Coefficients& coefficients) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     factor_body(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
                 rotation_increments[b], coefficients, bodies_[b]);
   }
-  for (End& end : ends_) factor_end(model, terms, end);
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    terms.full[f].solver->factor(nodes_of(model.full_bodies[f], state.u_H),
+                                 coefficients.acceleration);
+  }
+  for (End& end : ends_) factor_end(model, state, terms, end);
   assemble(model, terms, coefficients);
   if (!lu_.factor()) {
     throw NumericalError(
@@ -201,10 +220,14 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
     solve_body(body, bodies_[b],
                increments.data() + first_row(body, static_cast<int>(b)));
   }
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    const FullModel& full = model.full_bodies[f];
+    terms.full[f].solver->solve(
+        increments.segment(first_node_row(model) + full.first, full.dofs()));
+  }
   for (Vector6& w : wrenches_) w.setZero();
   for (const End& end : ends_) {
-    const double* x =
-        increments.data() + first_row(model.bodies[index(end.body)], end.body);
+    const double* x = increments.data() + end.row;
     Vector6& w = wrenches_[index(end.coupler)];
     for (Eigen::Index k = 0; k < end.G.cols(); ++k) w += end.G.col(k) * x[k];
   }
@@ -218,8 +241,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   lu_.solve(wrenches_);
   increments = -increments;
   for (const End& end : ends_) {
-    double* x =
-        increments.data() + first_row(model.bodies[index(end.body)], end.body);
+    double* x = increments.data() + end.row;
     const Vector6& w = wrenches_[index(end.coupler)];
     for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {
       x[k] += end.Zt.col(k).dot(w);

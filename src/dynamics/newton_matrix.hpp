@@ -13,7 +13,8 @@ namespace limber::dynamics {
 /// Equation   D_b x_b - sum_c G_cb' dw_c = -r_b          (each body b)
 ///            dw_c = s_c - K_c sum_b G_cb x_b            (each coupler c)
 ///            D_b: inertia, damping and elasticity of one body; its modal
-///            block is diagonal, so D_b^-1 costs O(m). G_cb: the coupler's
+///            block is diagonal, so D_b^-1 costs O(m); of an unreduced body
+///            it is sparse, c M + K(u). G_cb: the coupler's
 ///            relative motion per body increment. K_c: its stiffness plus
 ///            damping. s_c: the law's wrench less the iterate that acts.
 ///            Eliminating x_b leaves six unknowns a coupler,
@@ -28,7 +29,8 @@ namespace limber::dynamics {
 ///
 /// Increments x_b: translation in world axes [m] (so that old factors, too,
 /// pass equal and opposite forces on), rotation in body axes [rad], modal
-/// coordinates; body b starts at 6 b + body.offset.
+/// coordinates; body b starts at 6 b + body.offset. Behind all of them, the
+/// nodes of unreduced bodies, home axes [m].
 class NewtonMatrix {
  public:
   NewtonMatrix() = default;
@@ -44,7 +46,7 @@ class NewtonMatrix {
   /// Factors at the evaluated `terms`; `rotation_increments` are the step's,
   /// one a body [rad]. @throws NumericalError naming the coupler or body.
   void factor(const SystemModel& model, const SystemState& state,
-              const SystemTerms& terms,
+              SystemTerms& terms,
               const std::vector<Vector3>& rotation_increments,
               const Coefficients& coefficients);
 
@@ -59,6 +61,9 @@ class NewtonMatrix {
   }
 
   [[nodiscard]] static Eigen::Index size(const SystemModel& model) {
+    return first_node_row(model) + model.nodal_count;
+  }
+  [[nodiscard]] static Eigen::Index first_node_row(const SystemModel& model) {
     return 6 * static_cast<Eigen::Index>(model.bodies.size()) +
            model.modal_count;
   }
@@ -77,15 +82,17 @@ class NewtonMatrix {
     int attachment = 0;
     int body = 0;
     bool is_M = false;
-    Matrix6X G;   // 6 x (6 + m)
-    Matrix6X Zt;  // (D^-1 G')'
+    Eigen::Index row = 0;  // the body's first
+    Matrix6X G;            // 6 x (6 + m), or 6 x 3N
+    Matrix6X Zt;           // (D^-1 G')'
   };
 
   void factor_body(const BodyModel& body, const BodyTerms& terms,
                    const Vector3& w, const Vector3& rotation_increment,
                    const Coefficients& c, BodyFactor& factor) const;
-  void factor_end(const SystemModel& model, const SystemTerms& terms,
-                  End& end) const;
+  void factor_end(const SystemModel& model, const SystemState& state,
+                  const SystemTerms& terms, End& end) const;
+  void solve_end(const BodyModel& body, End& end) const;
   // x := D^-1 x for one body's 6 + m rows.
   void solve_body(const BodyModel& body, const BodyFactor& factor,
                   double* x) const;

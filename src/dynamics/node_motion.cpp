@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
+#include "dynamics/mean_frame.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -64,12 +65,34 @@ void move_column(const Matrix3& R, const Vector3& p, double* column,
   }
 }
 
+// Positions of an unreduced body's nodes in state j.
+void place_full(const SystemModel& model, const BodyModel& body,
+                const SystemState& state, Eigen::Ref<VectorX> p_WP) {
+  const auto f = static_cast<std::size_t>(body.full);
+  const FullModel& full = model.full_bodies[f];
+  const Matrix3X x = full.mesh->x_B + nodes_of(full, state.u_H);
+  const Pose& X_WH = state.X_WH[f];
+  p_WP.reshaped(3, x.cols()) = (X_WH.R * x).colwise() + X_WH.p;
+}
+
 }  // namespace
 
 void calc_node_deformations(const SystemModel& model, BodyIndex body,
                             std::span<const SystemState> states,
                             Eigen::Ref<MatrixX> u_B) {
   const BodyModel& b = find_body(model, body, states, u_B);
+  if (b.full >= 0) {
+    const FullModel& full = model.full_bodies[static_cast<std::size_t>(b.full)];
+    Matrix3X deformation(3, full.mesh->node_count());
+    for (Eigen::Index j = 0; j < u_B.cols(); ++j) {
+      const SystemState& state = states[static_cast<std::size_t>(j)];
+      MeanFrame frame;
+      calc_mean_frame(model, full, state, frame);
+      calc_deformation(full, frame, nodes_of(full, state.u_H), deformation);
+      u_B.col(j) = deformation.reshaped();
+    }
+    return;
+  }
   if (b.modes == 0) {
     u_B.setZero();
     return;
@@ -81,6 +104,12 @@ void calc_node_positions(const SystemModel& model, BodyIndex body,
                          std::span<const SystemState> states,
                          Eigen::Ref<MatrixX> p_WP) {
   const BodyModel& b = find_body(model, body, states, p_WP);
+  if (b.full >= 0) {
+    for (Eigen::Index j = 0; j < p_WP.cols(); ++j) {
+      place_full(model, b, states[static_cast<std::size_t>(j)], p_WP.col(j));
+    }
+    return;
+  }
   const auto at = static_cast<std::size_t>(body);
   multiply(b, join_shape(b), states, p_WP, [&](Eigen::Index j) {
     const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
@@ -93,8 +122,13 @@ void calc_node_displacements(const SystemModel& model, BodyIndex body,
                              std::span<const SystemState> states,
                              const Pose& X_WB0, Eigen::Ref<MatrixX> u_W) {
   const BodyModel& b = find_body(model, body, states, u_W);
-  const auto at = static_cast<std::size_t>(body);
   const Matrix3X start = (X_WB0.R * b.reduced->rows.x_B).colwise() + X_WB0.p;
+  if (b.full >= 0) {
+    calc_node_positions(model, body, states, u_W);
+    u_W.colwise() -= start.reshaped();
+    return;
+  }
+  const auto at = static_cast<std::size_t>(body);
   multiply(b, join_shape(b), states, u_W, [&](Eigen::Index j) {
     const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
     move_column(now.quat_WB.toRotationMatrix(), now.p_WB, u_W.col(j).data(),

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/runge_kutta.hpp"
 
-#include <fmt/format.h>
-
-#include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/finite_check.hpp"
 
 namespace limber::dynamics {
 
@@ -16,7 +14,8 @@ RungeKutta4::RungeKutta4(const SystemModel& model)
       stage_(make_state(model)) {
   const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
   const VectorX modes = VectorX::Zero(model.modal_count);
-  slopes_.fill({zero, zero, zero, zero, modes, modes});
+  const VectorX nodes = VectorX::Zero(model.nodal_count);
+  slopes_.fill({zero, zero, zero, zero, modes, modes, nodes, nodes});
 }
 
 void RungeKutta4::calc_slope(const SystemState& at,
@@ -32,6 +31,8 @@ void RungeKutta4::calc_slope(const SystemState& at,
   }
   slope.etadot = at.etadot;
   slope.etaddot = accelerations_.etaddot;
+  slope.udot_H = at.udot_H;
+  slope.uddot_H = accelerations_.uddot_H;
 }
 
 void RungeKutta4::displace(const SystemState& from, const Slope& slope,
@@ -48,6 +49,9 @@ void RungeKutta4::displace(const SystemState& from, const Slope& slope,
   }
   stage_.eta = from.eta + h * slope.etadot;
   stage_.etadot = from.etadot + h * slope.etaddot;
+  stage_.X_WH = from.X_WH;
+  stage_.u_H = from.u_H + h * slope.udot_H;
+  stage_.udot_H = from.udot_H + h * slope.uddot_H;
 }
 
 StepResult RungeKutta4::step(SystemState& state, double h, double end) {
@@ -80,25 +84,17 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   mean(&Slope::thetadot);
   mean(&Slope::vdot);
   mean(&Slope::wdot);
-  k[0].etadot += 2.0 * k[1].etadot + 2.0 * k[2].etadot + k[3].etadot;
-  k[0].etadot /= 6.0;
-  k[0].etaddot += 2.0 * k[1].etaddot + 2.0 * k[2].etaddot + k[3].etaddot;
-  k[0].etaddot /= 6.0;
+  for (const auto member :
+       {&Slope::etadot, &Slope::etaddot, &Slope::udot_H, &Slope::uddot_H}) {
+    VectorX& sum = k[0].*member;
+    sum += 2.0 * k[1].*member + 2.0 * k[2].*member + k[3].*member;
+    sum /= 6.0;
+  }
   displace(state, k[0], h, end);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    BodyState& body = stage_.bodies[b];
-    body.quat_WB.normalize();
-    const BodyModel& m = model_.bodies[b];
-    const double size = body.p_WB.squaredNorm() + body.w_WB_B.squaredNorm() +
-                        stage_.eta.segment(m.offset, m.modes).squaredNorm();
-    if (!std::isfinite(size)) {
-      throw NumericalError(fmt::format(
-          "body '{}' at t = {:.9g} s: its motion is no longer finite; the "
-          "explicit step {:.3g} s is too long for its stiffest mode or "
-          "coupler",
-          m.name, stage_.t, h));
-    }
+    stage_.bodies[b].quat_WB.normalize();
   }
+  require_finite(model_, stage_, h);
   std::swap(state, stage_);
   result.load_work = h * work / 6.0;
   result.dissipated = h * loss / 6.0;

@@ -27,6 +27,7 @@ class RungeKutta4 {
   struct Slope {
     std::vector<Vector3> pdot, thetadot, vdot, wdot;
     VectorX etadot, etaddot;
+    VectorX udot_H, uddot_H;  // of unreduced bodies
   };
   void calc_slope(const SystemState& at, const std::vector<Vector3>& theta,
                   Side side, Slope& slope);

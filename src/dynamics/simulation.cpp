@@ -12,6 +12,7 @@
 #include "dynamics/exact_modes.hpp"
 #include "dynamics/landmarks.hpp"
 #include "dynamics/modal_loads.hpp"
+#include "dynamics/stable_step.hpp"
 #include "dynamics/stepper.hpp"
 
 namespace limber::dynamics {
@@ -19,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void check_settings(const SystemState& state,
+void check_settings(const SystemModel& model, const SystemState& state,
                     const SimulationSettings& settings) {
   const auto refuse = [](const std::string& text) { throw InputError(text); };
   if (!(settings.end_time > state.t) || !std::isfinite(settings.end_time)) {
@@ -47,6 +48,14 @@ void check_settings(const SystemState& state,
   }
   if (!(settings.newton_tolerance > 0.0) || settings.newton_iterations < 1) {
     refuse("newton_tolerance and newton_iterations must be > 0");
+  }
+  if (settings.integrator == IntegratorKind::explicit_euler &&
+      !model.full_bodies.empty()) {
+    refuse(fmt::format(
+        "body '{}' is at level full, which explicit-euler does not integrate; "
+        "use central-differences or an implicit integrator",
+        model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)]
+            .name));
   }
 }
 
@@ -94,6 +103,22 @@ std::vector<double> find_visited_times(const Timeline& timeline) {
     if (mark.is_output) times.push_back(mark.time);
   }
   return times;
+}
+
+// Steps no longer than central differences are stable for.
+SimulationSettings limit_step(const SystemModel& model,
+                              const SystemState& state,
+                              const SimulationSettings& asked,
+                              SimulationStatistics& statistics) {
+  if (asked.integrator != IntegratorKind::central_differences) return asked;
+  SimulationSettings settings = asked;
+  statistics.stable_step = find_stable_step(model, state);
+  const double longest = kStableShare * statistics.stable_step;
+  settings.step = std::min(asked.step, longest);
+  for (StepChange& change : settings.step_changes) {
+    change.step = std::min(change.step, longest);
+  }
+  return settings;
 }
 
 // Takes the steps.
@@ -196,7 +221,8 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 
 const std::vector<std::string>& integrator_names() {
   static const std::vector<std::string> names = {
-      "generalized-alpha", "runge-kutta-4", "explicit-euler"};
+      "generalized-alpha", "runge-kutta-4", "explicit-euler",
+      "central-differences", "implicit-euler"};
   return names;
 }
 
@@ -219,22 +245,31 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
 }
 
 void simulate(const SystemModel& model, SystemState& state,
-              const SimulationSettings& settings, const Observer& observer,
+              const SimulationSettings& asked, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics) {
   LIMBER_EXPECT(state.bodies.size() == model.bodies.size());
   LIMBER_EXPECT(state.eta.size() == model.modal_count);
   LIMBER_EXPECT(state.etadot.size() == model.modal_count);
-  check_settings(state, settings);
+  LIMBER_EXPECT(state.u_H.size() == model.nodal_count);
+  check_settings(model, state, asked);
 
   const Stopwatch stopwatch(statistics.seconds);
   SystemTerms terms = make_terms(model);
-  const Visit visit = [&](const SystemState& now, const Losses& losses) {
+  SystemState framed;
+  const Visit visit = [&](const SystemState& at, const Losses& losses) {
     if (!observer) return;
+    if (!model.full_bodies.empty()) {
+      framed = at;
+      update_mean_frames(model, framed);
+    }
+    const SystemState& now = model.full_bodies.empty() ? at : framed;
     EnergyBalance balance = calc_energy(model, now, terms);
     balance.dissipated = losses.dissipated;
     balance.work = losses.work;
     observer(now, balance);
   };
+  const SimulationSettings settings =
+      limit_step(model, state, asked, statistics);
   const Timeline timeline = find_timeline(model, state.t, settings);
   if (has_exact_modes(model, settings)) {
     ExactModes exact(model, state);
@@ -243,6 +278,7 @@ void simulate(const SystemModel& model, SystemState& state,
   } else {
     integrate(model, state, settings, timeline, visit, progress, statistics);
   }
+  update_mean_frames(model, state);
   report(progress, "simulating", 1.0);
 }
 

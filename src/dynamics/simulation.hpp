@@ -13,9 +13,16 @@
 
 namespace limber::dynamics {
 
-enum class IntegratorKind { generalized_alpha, runge_kutta_4, explicit_euler };
+enum class IntegratorKind {
+  generalized_alpha,
+  runge_kutta_4,
+  explicit_euler,
+  central_differences,  ///< divides steps that are too long to be stable
+  implicit_euler,
+};
 
-/// "generalized-alpha", "runge-kutta-4", "explicit-euler".
+/// "generalized-alpha", "runge-kutta-4", "explicit-euler",
+/// "central-differences", "implicit-euler".
 [[nodiscard]] const std::vector<std::string>& integrator_names();
 /// @throws InputError naming the nearest integrator.
 [[nodiscard]] IntegratorKind parse_integrator(std::string_view name);
@@ -44,8 +51,9 @@ struct SimulationStatistics {
   long steps = 0;
   long newton_iterations = 0;
   long factorizations = 0;
-  int exact_modes = 0;   ///< modes answered in closed form
-  double seconds = 0.0;  ///< wall time of the stepping [s]
+  int exact_modes = 0;       ///< modes answered in closed form
+  double stable_step = 0.0;  ///< of central differences, if found [s]
+  double seconds = 0.0;      ///< wall time of the stepping [s]
 };
 
 /// Called at every output time with the state and the balance so far.

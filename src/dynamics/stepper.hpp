@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "dynamics/central_differences.hpp"
 #include "dynamics/explicit_euler.hpp"
 #include "dynamics/generalized_alpha.hpp"
 #include "dynamics/runge_kutta.hpp"
@@ -21,11 +22,17 @@ class Stepper {
     if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
       alpha->start(state, h);
     }
+    if (auto* central = std::get_if<CentralDifferences>(&scheme_)) {
+      central->start(state);
+    }
   }
   /// After a step that ended where a load jumps.
   void cross_jump(const SystemState& state, double h) {
     if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
       alpha->cross_jump(state, h);
+    }
+    if (auto* central = std::get_if<CentralDifferences>(&scheme_)) {
+      central->start(state);
     }
   }
   /// Advances `state` by h, to the time `end` [s].
@@ -35,7 +42,8 @@ class Stepper {
   }
 
  private:
-  using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler>;
+  using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler,
+                              CentralDifferences>;
   static Scheme make(const SystemModel& model,
                      const SimulationSettings& settings) {
     switch (settings.integrator) {
@@ -43,11 +51,16 @@ class Stepper {
         return RungeKutta4(model);
       case IntegratorKind::explicit_euler:
         return ExplicitEuler(model);
+      case IntegratorKind::central_differences:
+        return CentralDifferences(model);
       case IntegratorKind::generalized_alpha:
+      case IntegratorKind::implicit_euler:
         break;
     }
-    return GeneralizedAlpha(model, {settings.rho_inf, settings.newton_tolerance,
-                                    settings.newton_iterations});
+    return GeneralizedAlpha(
+        model, {settings.rho_inf, settings.newton_tolerance,
+                settings.newton_iterations,
+                settings.integrator == IntegratorKind::implicit_euler});
   }
   Scheme scheme_;
 };

@@ -55,6 +55,46 @@ VectorX modal_damping(const std::string& name, const ModalDamping& damping,
   return c;
 }
 
+// Rows of a full body are its nodes, in the mesh's order.
+void check_same_nodes(const std::string& name,
+                      const flexbody::ReducedBody& reduced,
+                      const flexbody::FullBody& full) {
+  constexpr double kSame = 1e-9;  // of the body's size
+  const Matrix3X& x = reduced.rows.x_B;
+  if (x.cols() != full.node_count()) {
+    throw InputError(fmt::format(
+        "body '{}': its reduced body keeps {} of {} nodes; level full needs "
+        "the rows of all",
+        name, x.cols(), full.node_count()));
+  }
+  if ((x - full.x_B).cwiseAbs().maxCoeff() > kSame * reduced.size.norm()) {
+    throw InputError(fmt::format(
+        "body '{}': the mesh's nodes are not those of its reduced body; "
+        "reduce it again",
+        name));
+  }
+}
+
+void require_no_arm(const std::string& name, const flexbody::NodeSet& nodes,
+                    const NodalFrame& frame) {
+  constexpr double kArm = 1e-9;  // [m]
+  if (frame.arm_B.norm() <= kArm) return;
+  throw InputError(fmt::format(
+      "'{}': interface '{}' is a single node, or nodes on one line, which turn "
+      "no frame; put the frame at their mean point, or use a surface",
+      name, nodes.name));
+}
+
+MatrixX multiply_mass(const flexbody::FullBody& full, const MatrixX& columns) {
+  const auto solver = full.make_solver();
+  MatrixX product(columns.rows(), columns.cols());
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    const ConstNodes from(columns.col(k).data(), 3, full.node_count());
+    solver->multiply_mass(from, Nodes(product.col(k).data(), 3, from.cols()));
+  }
+  return product;
+}
+
 }  // namespace
 
 BodyIndex SystemBuilder::add_rigid_body(const std::string& name,
@@ -92,6 +132,57 @@ BodyIndex SystemBuilder::add_flexible_body(
   model_.modal_count += body.modes;
   model_.bodies.push_back(std::move(body));
   return static_cast<BodyIndex>(model_.bodies.size()) - 1;
+}
+
+BodyIndex SystemBuilder::add_full_body(
+    const std::string& name,
+    std::shared_ptr<const flexbody::ReducedBody> reduced,
+    std::shared_ptr<const flexbody::FullBody> full,
+    const ModalDamping& damping) {
+  LIMBER_EXPECT(reduced != nullptr && full != nullptr);
+  check_inertia(name, reduced->mass, reduced->inertia());
+  check_same_nodes(name, *reduced, *full);
+  FullModel more;
+  more.body = static_cast<BodyIndex>(model_.bodies.size());
+  more.first = model_.nodal_count;
+  more.mesh = full;
+  const VectorX rates = modal_damping(name, damping, reduced->lambda);
+  if (rates.size() > 0 && rates.maxCoeff() > 0.0) {
+    more.damping = rates;
+    more.damped_modes = multiply_mass(*full, reduced->rows.Phi_B);
+    more.needs_frame = true;
+  }
+  BodyModel body;
+  body.name = name;
+  body.fidelity = Fidelity::full;
+  body.clamped = reduced->clamped;
+  body.mass = reduced->mass;
+  body.J0 = reduced->inertia();
+  body.offset = model_.modal_count;
+  body.reduced = std::move(reduced);
+  body.full = static_cast<int>(model_.full_bodies.size());
+  model_.nodal_count += more.dofs();
+  model_.full_bodies.push_back(std::move(more));
+  model_.bodies.push_back(std::move(body));
+  return static_cast<BodyIndex>(model_.bodies.size()) - 1;
+}
+
+AttachmentIndex SystemBuilder::attach_nodes(const std::string& name,
+                                            BodyIndex body,
+                                            const flexbody::NodeSet& nodes,
+                                            const Pose& X_BF) {
+  const AttachmentIndex index = attach_frame(name, body, X_BF);
+  const int full = model_.bodies[static_cast<std::size_t>(body)].full;
+  LIMBER_EXPECT(full >= 0);
+  FullModel& more = model_.full_bodies[static_cast<std::size_t>(full)];
+  auto frame =
+      std::make_shared<NodalFrame>(make_nodal_frame(*more.mesh, nodes, X_BF.p));
+  if (!frame->turns) {
+    require_no_arm(name, nodes, *frame);
+    more.needs_frame = true;
+  }
+  model_.attachments.back().nodal = std::move(frame);
+  return index;
 }
 
 AttachmentIndex SystemBuilder::attach_frame(const std::string& name,
@@ -164,13 +255,21 @@ LoadIndex SystemBuilder::add_load(const std::string& name,
     throw InputError(fmt::format("load '{}': not finite", name));
   }
   check(function);
+  const Attachment& attachment =
+      model_.attachments[static_cast<std::size_t>(where)];
+  if (attachment.nodal && frame == LoadFrame::body) {
+    const int full =
+        model_.bodies[static_cast<std::size_t>(attachment.body)].full;
+    model_.full_bodies[static_cast<std::size_t>(full)].needs_frame = true;
+  }
   model_.loads.push_back(
       {name, where, force, moment, frame == LoadFrame::world, function});
   return static_cast<LoadIndex>(model_.loads.size()) - 1;
 }
 
 void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
-                                   const flexbody::NodalLoad& history) {
+                                   const flexbody::NodalLoad& history,
+                                   const MatrixX& nodal) {
   LIMBER_EXPECT(body >= 0 && body < static_cast<int>(model_.bodies.size()));
   const BodyModel& target = model_.bodies[static_cast<std::size_t>(body)];
   const auto count = static_cast<Eigen::Index>(history.times.size());
@@ -180,7 +279,13 @@ void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
                 (history.modal.rows() == target.modes &&
                  history.modal.cols() == count &&
                  history.moment_by_mode.cols() == target.modes * count));
-  model_.body_loads.push_back({name, body, history});
+  if (target.full >= 0) {
+    FullModel& full = model_.full_bodies[static_cast<std::size_t>(target.full)];
+    LIMBER_EXPECT(nodal.rows() == full.dofs() && nodal.cols() == count);
+    full.needs_frame = true;
+  }
+  model_.body_loads.push_back(
+      {name, body, history, target.full >= 0 ? nodal : MatrixX()});
 }
 
 void SystemBuilder::set_gravity(const Vector3& gravity_W) {

@@ -45,6 +45,14 @@ class SystemBuilder {
                               std::shared_ptr<const flexbody::ReducedBody> body,
                               Fidelity fidelity, const ModalDamping& damping);
 
+  /// Body without reduction (Fidelity::full). `body` is the same mesh reduced,
+  /// with the rows of all nodes: for mass, names, damping and pictures.
+  /// @throws InputError if their nodes differ.
+  BodyIndex add_full_body(const std::string& name,
+                          std::shared_ptr<const flexbody::ReducedBody> body,
+                          std::shared_ptr<const flexbody::FullBody> full,
+                          const ModalDamping& damping);
+
   /// A frame fixed to a rigid body's material: pose X_BF.
   AttachmentIndex attach_frame(const std::string& name, BodyIndex body,
                                const Pose& X_BF);
@@ -52,6 +60,10 @@ class SystemBuilder {
   AttachmentIndex attach_interface(const std::string& name, BodyIndex body,
                                    const flexbody::InterfaceTable& interface,
                                    const Pose& X_BF);
+  /// A frame on weighted nodes of an unreduced body; X_BF its undeformed pose.
+  AttachmentIndex attach_nodes(const std::string& name, BodyIndex body,
+                               const flexbody::NodeSet& nodes,
+                               const Pose& X_BF);
   /// A frame fixed in the world.
   AttachmentIndex attach_world(const std::string& name, const Pose& X_WF);
 
@@ -66,8 +78,10 @@ class SystemBuilder {
                      LoadFrame frame, const TimeFunction& function);
 
   /// Nodal forces on a flexible body, which follow it.
+  /// @param nodal 3N x T, of all nodes, for an unreduced body [N]
   void add_nodal_load(const std::string& name, BodyIndex body,
-                      const flexbody::NodalLoad& history);
+                      const flexbody::NodalLoad& history,
+                      const MatrixX& nodal = {});
 
   /// Uniform gravitational acceleration [m/s^2], world frame.
   void set_gravity(const Vector3& gravity_W);

@@ -7,6 +7,7 @@
 
 #include "common/pose.hpp"
 #include "dynamics/fidelity.hpp"
+#include "dynamics/nodal_frame.hpp"
 #include "dynamics/time_function.hpp"
 #include "flexbody/nodal_load.hpp"
 #include "flexbody/reduced_body.hpp"
@@ -39,6 +40,26 @@ struct BodyModel {
   Matrix3X P;    ///< 3 x m, int phi_k dm; no columns unless clamped
   /// What was reduced; null for a rigid body. For probes and pictures.
   std::shared_ptr<const flexbody::ReducedBody> reduced;
+  int full = -1;  ///< index into SystemModel::full_bodies, -1 if reduced
+
+  /// Whether frame B moves by equations of its own: that of a clamped body
+  /// rests, and that of an unreduced one follows its nodes.
+  [[nodiscard]] bool has_rigid_motion() const { return !clamped && full < 0; }
+};
+
+/// What level `full` adds to a BodyModel.
+struct FullModel {
+  BodyIndex body = 0;
+  Eigen::Index first = 0;  ///< of its 3N entries in SystemState::u_H
+  std::shared_ptr<const flexbody::FullBody> mesh;
+  /// Damping acts on the deformation's share in the reduced body's modes.
+  MatrixX damped_modes;  ///< 3N x m, M Phi; no columns if undamped
+  VectorX damping;       ///< m [1/s]
+  /// Whether forces depend on the mean-axis frame: loads that turn with the
+  /// body, or damping.
+  bool needs_frame = false;
+
+  [[nodiscard]] Eigen::Index dofs() const { return 3 * mesh->node_count(); }
 };
 
 /// A frame that follows a body's interface (or the world).
@@ -49,6 +70,7 @@ struct Attachment {
   Matrix3 R_BF = Matrix3::Identity();
   Matrix3X Phi_B;  ///< 3 x m; zero columns if the body is rigid
   Matrix3X Psi_B;  ///< 3 x m
+  std::shared_ptr<const NodalFrame> nodal = nullptr;  ///< of an unreduced body
 };
 
 struct Coupler {
@@ -72,6 +94,7 @@ struct BodyLoad {
   std::string name;
   BodyIndex body = 0;
   flexbody::NodalLoad history;
+  MatrixX nodal;  ///< 3N x T nodal forces of an unreduced body, axes of B [N]
 };
 
 /// Bodies, couplers and loads; immutable once built, shared by threads.
@@ -83,6 +106,8 @@ struct SystemModel {
   std::vector<BodyLoad> body_loads;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
   int modal_count = 0;                  ///< modal coordinates of all bodies
+  std::vector<FullModel> full_bodies;
+  Eigen::Index nodal_count = 0;  ///< 3N of all unreduced bodies together
 };
 
 }  // namespace limber::dynamics

@@ -8,7 +8,8 @@
 
 namespace limber::dynamics {
 
-/// Rigid motion of one body's frame B.
+/// Rigid motion of one body's frame B. Of a body at level `full`, the mean-axis
+/// frame of its nodes at the last output; the nodes are what moves.
 struct BodyState {
   Vector3 p_WB = Vector3::Zero();               ///< centre of mass [m]
   Quaternion quat_WB = Quaternion::Identity();  ///< unit
@@ -22,10 +23,26 @@ struct SystemState {
   std::vector<BodyState> bodies;  ///< one a body
   VectorX eta;     ///< modal coordinates of all bodies [kg^1/2 m]
   VectorX etadot;  ///< [kg^1/2 m/s]
+  /// Unreduced bodies, one after the other. Their home frames H rest in the
+  /// world, by default where B is at the start: node i is at X_WH (x_i + u_i),
+  /// so that no digits are lost on a position.
+  std::vector<Pose> X_WH;
+  VectorX u_H;     ///< nodal displacements [m]
+  VectorX udot_H;  ///< nodal velocities [m/s]
 };
 
 /// A state of the right size: every body at the world origin, at rest.
 [[nodiscard]] SystemState make_state(const SystemModel& model);
+
+/// Puts the nodes of each unreduced body where its BodyState and, in the modes
+/// of the reduced body, `u_B` have them: home frames at X_WB, velocities those
+/// of the rigid motion. For a new state, after the bodies' were set.
+/// @param u_B, udot_B as SystemState::u_H but in body frames; empty: zero
+void place_nodes(const SystemModel& model, const VectorX& u_B,
+                 const VectorX& udot_B, SystemState& state);
+
+/// Refreshes the BodyState of unreduced bodies from their nodes.
+void update_mean_frames(const SystemModel& model, SystemState& state);
 
 /// Pose and velocity of an attachment's frame.
 struct FrameMotion {

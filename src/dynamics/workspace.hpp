@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "dynamics/kinematics.hpp"
+#include "dynamics/mean_frame.hpp"
 #include "dynamics/system_model.hpp"
 #include "joints/motion.hpp"
 
@@ -28,6 +30,19 @@ struct BodyTerms {
   VectorX scratch_b2;   ///< 3m: beta etadot
 };
 
+/// An unreduced body at a state, home axes.
+///
+/// Equation   M u'' = force - internal
+struct FullTerms {
+  std::unique_ptr<flexbody::FullBodySolver> solver;
+  Matrix3X internal;           ///< 3 x N internal forces [N]
+  Matrix3X force;              ///< 3 x N of loads, couplers and damping [N]
+  double strain_energy = 0.0;  ///< [J]
+  MeanFrame frame;             ///< if the model needs it
+  VectorX modal_rate;          ///< m, of the damped modes
+  Matrix3X scratch;            ///< 3 x N
+};
+
 /// One coupler at a state.
 struct CouplerTerms {
   joints::RelativeMotion motion;
@@ -44,6 +59,7 @@ enum class WrenchSource { law, iterate };
 /// refilled without allocation.
 struct SystemTerms {
   std::vector<BodyTerms> bodies;              ///< by calc_inertia_terms
+  std::vector<FullTerms> full;                ///< by both
   std::vector<AttachmentMotion> attachments;  ///< by calc_forces
   std::vector<CouplerTerms> couplers;         ///< by calc_forces
   double load_power = 0.0;        ///< of loads and gravity [W], calc_forces
@@ -55,6 +71,7 @@ struct Accelerations {
   std::vector<Vector3> a_WB_W;   ///< [m/s^2]
   std::vector<Vector3> dw_WB_B;  ///< [rad/s^2]
   VectorX etaddot;
+  VectorX uddot_H;  ///< [m/s^2]
 };
 
 [[nodiscard]] SystemTerms make_terms(const SystemModel& model);

@@ -50,8 +50,6 @@ SparseMatrix shift_stiffness(const StructuralMatrices& matrices, double shift) {
   return shifted;
 }
 
-namespace {
-
 SparseMatrix restrict_matrix(const SparseMatrix& full,
                              const std::vector<int>& kept) {
   std::vector<int> place(static_cast<std::size_t>(full.rows()), -1);
@@ -71,8 +69,6 @@ SparseMatrix restrict_matrix(const SparseMatrix& full,
   part.finalize();
   return part;
 }
-
-}  // namespace
 
 StructuralMatrices restrict_to(const StructuralMatrices& matrices,
                                const std::vector<int>& nodes) {

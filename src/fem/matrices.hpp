@@ -35,6 +35,10 @@ struct StructuralMatrices {
 [[nodiscard]] StructuralMatrices restrict_to(const StructuralMatrices& matrices,
                                              const std::vector<int>& nodes);
 
+/// Rows and columns `kept` (sorted) of a matrix.
+[[nodiscard]] SparseMatrix restrict_matrix(const SparseMatrix& full,
+                                           const std::vector<int>& kept);
+
 /// Mass, centre of mass and second moments of a nodal mass matrix.
 struct MassProperties {
   double mass = 0.0;                 ///< [kg]

@@ -110,6 +110,15 @@ std::size_t find_group(const Mesh& mesh, const std::string& name) {
                   mesh.source, describe_unknown("group", name, known)));
 }
 
+std::vector<int> find_free_nodes(const Mesh& mesh,
+                                 const std::vector<int>& held) {
+  std::vector<int> nodes;
+  for (int n = 0; n < static_cast<int>(mesh.node_count()); ++n) {
+    if (!std::binary_search(held.begin(), held.end(), n)) nodes.push_back(n);
+  }
+  return nodes;
+}
+
 std::vector<int> face_nodes(const Mesh& mesh, const BoundaryFace& face) {
   const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(face.block)];
   const int* nodes = block.element_nodes(face.element);

@@ -63,6 +63,10 @@ struct Mesh {
 /// Index of the group called `name`. @throws InputError, naming the nearest.
 [[nodiscard]] std::size_t find_group(const Mesh& mesh, const std::string& name);
 
+/// Node indices that are not in `held` (sorted).
+[[nodiscard]] std::vector<int> find_free_nodes(const Mesh& mesh,
+                                               const std::vector<int>& held);
+
 /// Node indices of one boundary face, corners first.
 [[nodiscard]] std::vector<int> face_nodes(const Mesh& mesh,
                                           const BoundaryFace& face);

@@ -117,7 +117,8 @@ NonlinearSolid::Workspace NonlinearSolid::make_workspace() const {
           std::vector<double>(batches_.size())};
 }
 
-double NonlinearSolid::calc_force(const Matrix3X& u, Matrix3X& force,
+double NonlinearSolid::calc_force(const Eigen::Ref<const Matrix3X>& u,
+                                  Eigen::Ref<Matrix3X> force,
                                   Workspace& workspace) const {
   LIMBER_EXPECT(u.cols() == node_count_ && force.cols() == node_count_);
   LIMBER_EXPECT(workspace.forces.size() == force_count_);
@@ -145,7 +146,8 @@ double NonlinearSolid::calc_force(const Matrix3X& u, Matrix3X& force,
                          0.0);
 }
 
-double NonlinearSolid::calc_batch(const Batch& batch, const Matrix3X& u,
+double NonlinearSolid::calc_batch(const Batch& batch,
+                                  const Eigen::Ref<const Matrix3X>& u,
                                   double* forces) const {
   constexpr std::size_t kMostNodes = 64;
   std::array<Lane, 3 * kMostNodes> displacement;

@@ -36,8 +36,8 @@ class NonlinearSolid {
   /// Internal force [N] at nodal displacements u [m], both 3 x N in the
   /// mesh's axes. @returns the strain energy [J].
   /// @throws NumericalError naming an element that is turned inside out.
-  double calc_force(const Matrix3X& u, Matrix3X& force,
-                    Workspace& workspace) const;
+  double calc_force(const Eigen::Ref<const Matrix3X>& u,
+                    Eigen::Ref<Matrix3X> force, Workspace& workspace) const;
 
  private:
   static constexpr int kLanes = 4;
@@ -62,7 +62,7 @@ class NonlinearSolid {
                         std::size_t e, const Quadrature& rule, int lane,
                         Batch& batch);
   void link_nodes();
-  double calc_batch(const Batch& batch, const Matrix3X& u,
+  double calc_batch(const Batch& batch, const Eigen::Ref<const Matrix3X>& u,
                     double* forces) const;
   [[noreturn]] void refuse(const Batch& batch, const Lane& J) const;
 

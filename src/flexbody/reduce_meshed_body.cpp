@@ -8,7 +8,11 @@
 #include "fem/mesh_reader.hpp"
 
 namespace limber::flexbody {
-namespace {
+fem::Mesh read_recipe_mesh(const Recipe& recipe, const Progress& progress) {
+  report(progress, "reading the mesh", 0.0);
+  const MeshSource& source = recipe.mesh;
+  return fem::read_mesh(source.file, {source.size, source.order, source.unit});
+}
 
 std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
                                                  const Recipe& recipe) {
@@ -21,10 +25,7 @@ std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
   return fem::assign_materials(mesh, assignments);
 }
 
-fem::Mesh read_mesh(const MeshSource& source, const Progress& progress) {
-  report(progress, "reading the mesh", 0.0);
-  return fem::read_mesh(source.file, {source.size, source.order, source.unit});
-}
+namespace {
 
 void check_basis(const Recipe& recipe) {
   const auto check_count = [&](int count) {
@@ -56,7 +57,7 @@ Support assemble_support(const fem::Mesh& mesh, const Recipe& recipe,
 }  // namespace
 
 MeshedBody::MeshedBody(const Recipe& recipe, const Progress& progress)
-    : mesh(read_mesh(recipe.mesh, progress)),
+    : mesh(read_recipe_mesh(recipe, progress)),
       interfaces(find_interfaces(mesh, recipe)),
       support(assemble_support(mesh, recipe, interfaces, M_s, progress)),
       inverse(support.matrices, support.R,

@@ -5,12 +5,21 @@
 
 #include "common/progress.hpp"
 #include "fem/elastic_inverse.hpp"
+#include "fem/material.hpp"
 #include "fem/mesh.hpp"
 #include "flexbody/recipe.hpp"
 #include "flexbody/reduce_interfaces.hpp"
 #include "flexbody/reduce_support.hpp"
 
 namespace limber::flexbody {
+
+/// The recipe's mesh. @throws InputError naming the file.
+[[nodiscard]] fem::Mesh read_recipe_mesh(const Recipe& recipe,
+                                         const Progress& progress);
+
+/// One material a region of the mesh. @throws InputError naming the group.
+[[nodiscard]] std::vector<fem::ElasticMaterial> find_materials(
+    const fem::Mesh& mesh, const Recipe& recipe);
 
 /// A recipe's body with its matrices, ready to be asked for modes and static
 /// answers. Part of limber_reduction.

@@ -12,9 +12,8 @@ namespace limber::flexbody {
 namespace {
 
 /// @throws InputError if the clamped nodes leave the body a rigid motion.
-void check_clamp(const fem::Mesh& mesh, const std::set<int>& clamped) {
-  const std::vector<int> nodes(clamped.begin(), clamped.end());
-  const Matrix3X x = mesh.x(Eigen::all, nodes);
+void check_clamp(const fem::Mesh& mesh, const std::vector<int>& clamped) {
+  const Matrix3X x = mesh.x(Eigen::all, clamped);
   const Matrix3X d = x.colwise() - Vector3(x.rowwise().mean());
   const Eigen::JacobiSVD<MatrixX> svd(MatrixX(d * d.transpose()));
   constexpr double kLine = 1e-12;  // squared, of the body's size
@@ -27,18 +26,23 @@ void check_clamp(const fem::Mesh& mesh, const std::set<int>& clamped) {
 
 }  // namespace
 
-Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
-                     fem::StructuralMatrices matrices) {
+std::vector<int> find_clamped_nodes(const fem::Mesh& mesh,
+                                    const Recipe& recipe) {
   std::set<int> clamped;
   for (const std::string& name : recipe.clamped_groups) {
     const fem::PhysicalGroup& group = mesh.groups[fem::find_group(mesh, name)];
     clamped.insert(group.nodes.begin(), group.nodes.end());
   }
+  return {clamped.begin(), clamped.end()};
+}
+
+Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
+                     fem::StructuralMatrices matrices) {
+  const std::vector<int> clamped = find_clamped_nodes(mesh, recipe);
   Support support;
   support.is_clamped = !clamped.empty();
   if (support.is_clamped) check_clamp(mesh, clamped);
-  for (int node = 0; node < static_cast<int>(mesh.node_count()); ++node)
-    if (!clamped.contains(node)) support.free_nodes.push_back(node);
+  support.free_nodes = fem::find_free_nodes(mesh, clamped);
   if (!support.is_clamped) {
     support.R = fem::make_rigid_modes(matrices.M_s, mesh.x);
     support.matrices = std::move(matrices);

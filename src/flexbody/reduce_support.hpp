@@ -18,6 +18,11 @@ struct Support {
   MatrixX R;  ///< rigid modes of the free nodes; no columns if clamped
 };
 
+/// Nodes of the recipe's clamped groups, sorted. @throws InputError for a group
+/// that does not exist.
+[[nodiscard]] std::vector<int> find_clamped_nodes(const fem::Mesh& mesh,
+                                                  const Recipe& recipe);
+
 /// @throws InputError if the clamp holds every node, or leaves the body a rigid
 /// motion.
 [[nodiscard]] Support make_support(const fem::Mesh& mesh, const Recipe& recipe,

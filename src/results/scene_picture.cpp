@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "dynamics/node_motion.hpp"
 #include "results/gnuplot.hpp"
 #include "results/pictures.hpp"
 
@@ -30,18 +31,15 @@ struct Bounds {
 };
 
 // Positions of a body's kept rows in the world, 3 x n.
-Matrix3X place_rows(const BodyModel& body, const dynamics::BodyState& rigid,
-                    const VectorX& eta, double exaggeration) {
-  const auto& rows = body.reduced->rows;
-  Matrix3X points = rows.x_B;
-  if (body.modes > 0) {
-    const VectorX u =
-        exaggeration * (rows.Phi_B * eta.segment(body.offset, body.modes));
-    points += u.reshaped(3, points.cols());
-  }
-  points = rigid.quat_WB.toRotationMatrix() * points;
-  points.colwise() += rigid.p_WB;
-  return points;
+Matrix3X place_rows(const SystemModel& model, std::size_t b,
+                    const SystemState& state, double exaggeration) {
+  const Matrix3X& x_B = model.bodies[b].reduced->rows.x_B;
+  MatrixX u_B(x_B.size(), 1);
+  calc_node_deformations(model, static_cast<dynamics::BodyIndex>(b),
+                         {&state, 1}, u_B);
+  const Matrix3X points = x_B + exaggeration * u_B.reshaped(3, x_B.cols());
+  const dynamics::BodyState& rigid = state.bodies[b];
+  return (rigid.quat_WB.toRotationMatrix() * points).colwise() + rigid.p_WB;
 }
 
 std::size_t count_triangles(const SystemModel& model) {
@@ -60,8 +58,7 @@ void add_surfaces(GnuplotScript& script, const std::string& block,
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     if (!body.reduced) continue;
-    const Matrix3X points =
-        place_rows(body, state.bodies[b], state.eta, exaggeration);
+    const Matrix3X points = place_rows(model, b, state, exaggeration);
     const auto& triangles = body.reduced->triangles;
     for (std::size_t t = 0; t < triangles.size(); t += stride) {
       for (const std::size_t corner : triangles[t]) {

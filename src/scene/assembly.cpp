@@ -41,14 +41,14 @@ auto naming(const std::string& who, const Work& work) {
 }
 
 CouplerSide make_side(const BodyPlan& plan, const Pose& X_BF,
-                      const InterfaceTable* table) {
+                      const std::optional<InterfaceTable>& table) {
   CouplerSide side;
   if (!plan.is_world && !(plan.reduced && plan.reduced->clamped)) {
     side.mass = plan.mass;
     side.inertia =
         plan.inertia.trace() / 3.0 + plan.mass * X_BF.p.squaredNorm();
   }
-  if (table != nullptr) side.flexibility = table->flexibility;
+  if (table) side.flexibility = table->flexibility;
   return side;
 }
 
@@ -82,12 +82,6 @@ const BodyPlan& Assembly::plan_of(int link) const {
   return plans_.bodies[index(plans_.body_of_link[index(link)])];
 }
 
-dynamics::Fidelity Assembly::level_of(const std::string& link) const {
-  const auto& levels = scene_.scenario.fidelity_of_link;
-  const auto found = levels.find(link);
-  return found == levels.end() ? scene_.scenario.fidelity : found->second;
-}
-
 void Assembly::add_bodies() {
   for (const BodyPlan& plan : plans_.bodies) add_body(plan);
 }
@@ -103,8 +97,13 @@ void Assembly::add_body(const BodyPlan& plan) {
     return;
   }
   const Link& link = scene_.robot.links[index(plan.links.front())];
-  body_index_.push_back(builder_.add_flexible_body(
-      plan.name, plan.reduced, level_of(plan.name), link.flexible->damping));
+  const dynamics::ModalDamping& damping = link.flexible->damping;
+  const dynamics::Fidelity level = scene_.scenario.level_of(plan.name);
+  body_index_.push_back(
+      plan.full
+          ? builder_.add_full_body(plan.name, plan.reduced, plan.full, damping)
+          : builder_.add_flexible_body(plan.name, plan.reduced, level,
+                                       damping));
   if (link.inertia &&
       std::abs(link.inertia->mass - plan.mass) > kMassShare * plan.mass) {
     warnings_.push_back(fmt::format(
@@ -112,7 +111,7 @@ void Assembly::add_body(const BodyPlan& plan) {
         "mesh's is used",
         link.name, plan.mass, link.inertia->mass));
   }
-  if (level_of(plan.name) == dynamics::Fidelity::rigid &&
+  if (level == dynamics::Fidelity::rigid &&
       find_start(scene_.scenario, link.name) != nullptr) {
     warnings_.push_back(fmt::format(
         "link '{}' is rigid in this run: its initial deformation is left out",
@@ -121,16 +120,18 @@ void Assembly::add_body(const BodyPlan& plan) {
 }
 
 AttachmentIndex Assembly::attach(const std::string& name, int link,
-                                 const Pose& X_LF,
-                                 const InterfaceTable* table) {
+                                 const Pose& X_LF, const Anchor& anchor) {
   const int plan = plans_.body_of_link[index(link)];
   const dynamics::BodyIndex body = body_index_[index(plan)];
   const Pose X_BF = plans_.X_BL[index(link)] * X_LF;
   if (body == dynamics::kWorld) {
     return builder_.attach_world(name, motions_.front().X_WL * X_BF);
   }
-  if (table == nullptr) return builder_.attach_frame(name, body, X_BF);
-  return builder_.attach_interface(name, body, *table, X_BF);
+  if (!anchor.table) return builder_.attach_frame(name, body, X_BF);
+  if (anchor.nodes) {
+    return builder_.attach_nodes(name, body, *anchor.nodes, X_BF);
+  }
+  return builder_.attach_interface(name, body, *anchor.table, X_BF);
 }
 
 void Assembly::add_joints() {
@@ -164,32 +165,32 @@ void Assembly::add_joint(const Joint& joint) {
   struct End {
     int link;
     Pose X_LF;
-    const InterfaceTable* table = nullptr;
+    Anchor anchor;
     Pose X_BF;
   };
-  End ends[2] = {{joint.parent, joint.X_PJ, nullptr, {}},
-                 {joint.child, Pose{}, nullptr, {}}};
+  End ends[2] = {{joint.parent, joint.X_PJ, {}, {}},
+                 {joint.child, Pose{}, {}, {}}};
   for (End& end : ends) {
     const BodyPlan& plan = plan_of(end.link);
     end.X_BF = plans_.X_BL[index(end.link)] * end.X_LF;
     if (!plan.reduced || free) continue;
     const Link& link = scene_.robot.links[index(end.link)];
-    end.table =
+    end.anchor =
         naming("joint '" + joint.name + "' on link '" + link.name + "'", [&] {
-          return &get_table(*plan.reduced,
-                            find_joint_interface(*link.flexible, joint.name));
+          return find_anchor(plan,
+                             find_joint_interface(*link.flexible, joint.name));
         });
-    check_joint_interface(joint, end.link, *end.table, end.X_BF);
+    check_joint_interface(joint, end.link, *end.anchor.table, end.X_BF);
   }
   const auto side = [&](const End& end) {
-    return make_side(plan_of(end.link), end.X_BF, end.table);
+    return make_side(plan_of(end.link), end.X_BF, end.anchor.table);
   };
   const joints::JointParameters parameters =
       find_joint_parameters(joint.coupler, side(ends[0]), side(ends[1]));
   const AttachmentIndex frame_F =
-      attach(joint.name + ".F", ends[0].link, ends[0].X_LF, ends[0].table);
+      attach(joint.name + ".F", ends[0].link, ends[0].X_LF, ends[0].anchor);
   const AttachmentIndex frame_M =
-      attach(joint.name + ".M", ends[1].link, ends[1].X_LF, ends[1].table);
+      attach(joint.name + ".M", ends[1].link, ends[1].X_LF, ends[1].anchor);
   builder_.add_coupler(
       joint.name,
       joints::make_joint_bushing(joint.kind, joint.axis_J, parameters), frame_F,
@@ -217,10 +218,9 @@ AttachmentIndex Assembly::attach_end(const std::string& name,
                                      const Pose& X_WF) {
   if (end.link == "world") return builder_.attach_world(name, X_WF);
   const int link = find_link(scene_.robot, end.link);
-  const ReducedPointer& reduced = plan_of(link).reduced;
-  const InterfaceTable* table =
-      reduced ? &get_table(*reduced, end.interface) : nullptr;
-  return attach(name, link, motions_[index(link)].X_WL.inverse() * X_WF, table);
+  const BodyPlan& plan = plan_of(link);
+  return attach(name, link, motions_[index(link)].X_WL.inverse() * X_WF,
+                plan.reduced ? find_anchor(plan, end.interface) : Anchor{});
 }
 
 void Assembly::add_connectors() {
@@ -266,12 +266,11 @@ void Assembly::add_nodal_load(const LoadSpec& load) {
   const BodyPlan& plan = plan_of(link);
   const FlexibleLink& flexible = *scene_.robot.links[index(link)].flexible;
   const ForceFile file = read_force_file(load.nodal_forces);
+  const MatrixX forces = spread_over_nodes(
+      *plan.reduced, flexible.clamped_groups, file, load.nodal_forces);
   builder_.add_nodal_load(
       load.name, body_index_[index(plans_.body_of_link[index(link)])],
-      flexbody::reduce_nodal_load(
-          *plan.reduced, file.times,
-          spread_over_nodes(*plan.reduced, flexible.clamped_groups, file,
-                            load.nodal_forces)));
+      flexbody::reduce_nodal_load(*plan.reduced, file.times, forces), forces);
 }
 
 void Assembly::add_load(const LoadSpec& load) {
@@ -279,17 +278,16 @@ void Assembly::add_load(const LoadSpec& load) {
   const BodyPlan& plan = plan_of(link);
   if (plan.is_world) throw InputError("it acts on the world, which is fixed");
   Pose X_LF{Matrix3::Identity(), load.where.point.value_or(Vector3::Zero())};
-  InterfaceTable table;
+  Anchor anchor;
   if (plan.reduced) {
-    table = find_table(*plan.reduced, load.where);
-    X_LF.p = plans_.X_BL[index(link)].inverse() * table.p_B;
-    if (table.rotation_rank < 3 && !load.moment.isZero()) {
+    anchor = find_anchor(plan, load.where);
+    X_LF.p = plans_.X_BL[index(link)].inverse() * anchor.table->p_B;
+    if (anchor.table->rotation_rank < 3 && !load.moment.isZero()) {
       throw InputError(
           "its nodes are too few to take a moment; use a surface group");
     }
   }
-  const AttachmentIndex where =
-      attach(load.name, link, X_LF, plan.reduced ? &table : nullptr);
+  const AttachmentIndex where = attach(load.name, link, X_LF, anchor);
   const bool in_body = load.frame == dynamics::LoadFrame::body;
   const Matrix3 R =
       in_body ? plans_.X_BL[index(link)].R : Matrix3(Matrix3::Identity());
@@ -319,21 +317,33 @@ Probe Assembly::make_probe(const ProbeSpec& spec) const {
   probe.R_BL = X_BL.R;
   probe.p_B = X_BL * spec.where.point.value_or(Vector3::Zero());
   if (!plan.reduced) return probe;
-  const InterfaceTable table = find_table(*plan.reduced, spec.where);
-  probe.p_B = table.p_B;
-  probe.Phi_B = table.Phi_B;
-  probe.Psi_B = table.Psi_B;
+  const Anchor anchor = find_anchor(plan, spec.where);
+  probe.p_B = anchor.table->p_B;
+  probe.Phi_B = anchor.table->Phi_B;
+  probe.Psi_B = anchor.table->Psi_B;
+  if (anchor.nodes) {
+    probe.nodal = std::make_shared<const dynamics::NodalFrame>(
+        dynamics::make_nodal_frame(*plan.full, *anchor.nodes, probe.p_B));
+  }
   return probe;
 }
 
 dynamics::SystemModel Assembly::build() const { return builder_.build(); }
 
-void Assembly::deform(const dynamics::BodyModel& body,
-                      dynamics::SystemState& state) const {
+void Assembly::deform(const dynamics::SystemModel& model,
+                      const dynamics::BodyModel& body, VectorX& u_B,
+                      VectorX& udot_B, dynamics::SystemState& state) const {
   const LinkStart* start = find_start(scene_.scenario, body.name);
-  if (start == nullptr || body.modes == 0) return;
+  if (start == nullptr || body.fidelity == dynamics::Fidelity::rigid) return;
   naming("[initial.links." + body.name + "]", [&] {
     const ModalStart modal = find_modal_start(*start, *body.reduced);
+    if (body.full >= 0) {
+      const auto& full = model.full_bodies[index(body.full)];
+      const MatrixX& Phi = body.reduced->rows.Phi_B;
+      u_B.segment(full.first, full.dofs()) = Phi * modal.eta;
+      udot_B.segment(full.first, full.dofs()) = Phi * modal.etadot;
+      return;
+    }
     state.eta.segment(body.offset, body.modes) = modal.eta;
     state.etadot.segment(body.offset, body.modes) = modal.etadot;
   });
@@ -342,6 +352,8 @@ void Assembly::deform(const dynamics::BodyModel& body,
 dynamics::SystemState Assembly::make_initial_state(
     const dynamics::SystemModel& model) const {
   dynamics::SystemState state = dynamics::make_state(model);
+  VectorX u_B = state.u_H;
+  VectorX udot_B = state.udot_H;
   for (std::size_t i = 0; i < plans_.bodies.size(); ++i) {
     if (body_index_[i] == dynamics::kWorld) continue;
     const int link = plans_.bodies[i].links.front();
@@ -352,8 +364,9 @@ dynamics::SystemState Assembly::make_initial_state(
     body.quat_WB = Quaternion(X_WB.R).normalized();
     body.v_WB_W = motion.v_WL_W + motion.w_WL_W.cross(X_WB.p - motion.X_WL.p);
     body.w_WB_B = X_WB.R.transpose() * motion.w_WL_W;
-    deform(model.bodies[index(body_index_[i])], state);
+    deform(model, model.bodies[index(body_index_[i])], u_B, udot_B, state);
   }
+  place_nodes(model, u_B, udot_B, state);
   return state;
 }
 

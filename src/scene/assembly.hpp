@@ -6,6 +6,7 @@
 
 #include "dynamics/system_builder.hpp"
 #include "scene/body_plan.hpp"
+#include "scene/interface_tables.hpp"
 #include "scene/link_motion.hpp"
 #include "scene/probe.hpp"
 #include "scene/scene.hpp"
@@ -34,15 +35,13 @@ class Assembly {
 
  private:
   const BodyPlan& plan_of(int link) const;
-  dynamics::Fidelity level_of(const std::string& link) const;
   void add_body(const BodyPlan& plan);
   void add_joint(const Joint& joint);
   void check_joint_interface(const Joint& joint, int link,
                              const flexbody::InterfaceTable& table,
                              const Pose& X_BF);
   dynamics::AttachmentIndex attach(const std::string& name, int link,
-                                   const Pose& X_LF,
-                                   const flexbody::InterfaceTable* table);
+                                   const Pose& X_LF, const Anchor& anchor);
   Pose pose_of(const ConnectorEnd& end) const;
   dynamics::AttachmentIndex attach_end(const std::string& name,
                                        const ConnectorEnd& end,
@@ -51,7 +50,8 @@ class Assembly {
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   Probe make_probe(const ProbeSpec& spec) const;
-  void deform(const dynamics::BodyModel& body,
+  void deform(const dynamics::SystemModel& model,
+              const dynamics::BodyModel& body, VectorX& u_B, VectorX& udot_B,
               dynamics::SystemState& state) const;
 
   const Scene& scene_;

@@ -7,12 +7,15 @@
 
 #include "common/pose.hpp"
 #include "dynamics/system_builder.hpp"
+#include "flexbody/full_body.hpp"
 #include "flexbody/reduced_body.hpp"
 #include "scene/robot.hpp"
 
 namespace limber::scene {
 
 using ReducedPointer = std::shared_ptr<const flexbody::ReducedBody>;
+
+using FullPointer = std::shared_ptr<const flexbody::FullBody>;
 
 /// One body of the system: a flexible link, or rigid links that fixed joints
 /// hold together.
@@ -21,6 +24,7 @@ struct BodyPlan {
   std::vector<int> links;
   bool is_world = false;   ///< the link called world and what is fixed
   ReducedPointer reduced;  ///< null if rigid
+  FullPointer full;        ///< null unless at level `full`
   double mass = 0.0;       ///< [kg]; 0 for the world
   Matrix3 inertia = Matrix3::Zero();  ///< about B, axes of B [kg m^2]
 };

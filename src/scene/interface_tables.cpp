@@ -37,14 +37,27 @@ const flexbody::InterfaceTable& get_table(const flexbody::ReducedBody& body,
   return body.interfaces[flexbody::find_interface(body, interface)];
 }
 
-flexbody::InterfaceTable find_table(const flexbody::ReducedBody& body,
-                                    const Place& place) {
+Anchor find_anchor(const BodyPlan& plan, const std::string& interface) {
+  Anchor anchor;
+  anchor.table = get_table(*plan.reduced, interface);
+  if (plan.full) anchor.nodes = find_node_set(*plan.full, interface);
+  return anchor;
+}
+
+Anchor find_anchor(const BodyPlan& plan, const Place& place) {
   const std::string name = find_place_interface(place);
-  for (const flexbody::InterfaceTable& table : body.interfaces) {
-    if (table.name == name) return table;
+  for (const flexbody::InterfaceTable& table : plan.reduced->interfaces) {
+    if (table.name == name) return find_anchor(plan, name);
   }
-  const std::optional<std::size_t> row = find_node(body, place);
-  return row ? row_table(body, *row) : get_table(body, name);
+  const std::optional<std::size_t> row = find_node(*plan.reduced, place);
+  if (!row) return find_anchor(plan, name);
+  Anchor anchor;
+  anchor.table = row_table(*plan.reduced, *row);
+  if (plan.full) {
+    // All rows are kept, so a row is a node.
+    anchor.nodes = {name, {static_cast<int>(*row)}, VectorX::Ones(1)};
+  }
+  return anchor;
 }
 
 }  // namespace limber::scene

@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "flexbody/reduced_body.hpp"
+#include "scene/body_plan.hpp"
 #include "scene/scenario.hpp"
 
+/// What couplers, loads and probes on a flexible link hold on to.
 namespace limber::scene {
 
 /// The table of an interface of `body`. @throws InputError naming the nearest.
 [[nodiscard]] const flexbody::InterfaceTable& get_table(
     const flexbody::ReducedBody& body, const std::string& interface);
 
-/// The table for a place: its interface, or one row of the basis for a node.
-[[nodiscard]] flexbody::InterfaceTable find_table(
-    const flexbody::ReducedBody& body, const Place& place);
+/// A place on a link; nothing on a rigid one.
+struct Anchor {
+  std::optional<flexbody::InterfaceTable> table;  ///< of a flexible link
+  std::optional<flexbody::NodeSet> nodes;         ///< if it is unreduced too
+};
+
+/// An interface of a flexible link's body. @throws InputError naming the
+/// nearest.
+[[nodiscard]] Anchor find_anchor(const BodyPlan& plan,
+                                 const std::string& interface);
+
+/// A place's interface, or one row of the basis for a single node.
+[[nodiscard]] Anchor find_anchor(const BodyPlan& plan, const Place& place);
 
 }  // namespace limber::scene

@@ -2,49 +2,71 @@
 #include "scene/probe.hpp"
 
 #include "common/rotation.hpp"
+#include "dynamics/mean_frame.hpp"
 
 namespace limber::scene {
 namespace {
 
-/// What a probe sees of its body.
+/// The motion of the point and of the frame that a probe is on.
 struct Motion {
-  dynamics::BodyState body;
-  Matrix3 R_WB;
-  Vector3 u_B = Vector3::Zero();        ///< Phi_B eta [m]
-  Vector3 udot_B = Vector3::Zero();     ///< [m/s]
-  Vector3 turn_B = Vector3::Zero();     ///< Psi_B eta [rad]
-  Vector3 turndot_B = Vector3::Zero();  ///< [rad/s]
+  Vector3 p_W;                    ///< [m]
+  Vector3 v_W;                    ///< [m/s]
+  Matrix3 R_W;                    ///< of the deformed frame
+  Vector3 w_W;                    ///< [rad/s]
+  Vector3 u_B = Vector3::Zero();  ///< deformation [m]
 };
+
+Motion find_modal_motion(const Probe& probe, const dynamics::BodyModel& body,
+                         const dynamics::BodyState& rigid,
+                         const dynamics::SystemState& state) {
+  Motion motion;
+  Vector3 udot_B = Vector3::Zero();
+  Vector3 turn_B = Vector3::Zero();
+  Vector3 turndot_B = Vector3::Zero();
+  if (body.modes > 0 && probe.Phi_B.cols() == body.modes) {
+    const auto eta = state.eta.segment(body.offset, body.modes);
+    const auto etadot = state.etadot.segment(body.offset, body.modes);
+    motion.u_B = probe.Phi_B * eta;
+    udot_B = probe.Phi_B * etadot;
+    turn_B = probe.Psi_B * eta;
+    turndot_B = probe.Psi_B * etadot;
+  }
+  const Matrix3 R_WB = rigid.quat_WB.toRotationMatrix();
+  const Vector3 b = probe.p_B + motion.u_B;
+  motion.p_W = rigid.p_WB + R_WB * b;
+  motion.v_W = rigid.v_WB_W + R_WB * (rigid.w_WB_B.cross(b) + udot_B);
+  motion.R_W = R_WB * exp_rotation(turn_B);
+  motion.w_W = R_WB * (rigid.w_WB_B + left_jacobian(turn_B) * turndot_B);
+  return motion;
+}
+
+Motion find_nodal_motion(const Probe& probe, const dynamics::SystemModel& model,
+                         std::size_t f, const dynamics::SystemState& state) {
+  const dynamics::FullModel& full = model.full_bodies[f];
+  const Pose& X_WH = state.X_WH[f];
+  dynamics::MeanFrame body;
+  calc_mean_frame(model, full, state, body);
+  dynamics::NodalFrameMotion frame;
+  calc_nodal_frame(*probe.nodal, nodes_of(full, state.u_H),
+                   nodes_of(full, state.udot_H), body.R_HB, body.w_H, frame);
+  Motion motion;
+  motion.p_W = X_WH * frame.p_H;
+  motion.v_W = X_WH.R * frame.v_H;
+  motion.R_W = X_WH.R * frame.R_HB;
+  motion.w_W = X_WH.R * frame.w_H;
+  motion.u_B = body.R_HB.transpose() * (frame.p_H - body.p_HB) - probe.p_B;
+  return motion;
+}
 
 Motion find_motion(const Probe& probe, const dynamics::SystemModel& model,
                    const dynamics::SystemState& state) {
   const auto index = static_cast<std::size_t>(probe.body);
   const dynamics::BodyModel& body = model.bodies.at(index);
-  Motion motion;
-  motion.body = state.bodies.at(index);
-  motion.R_WB = motion.body.quat_WB.toRotationMatrix();
-  if (body.modes == 0 || probe.Phi_B.cols() != body.modes) return motion;
-  const VectorX eta = state.eta.segment(body.offset, body.modes);
-  const VectorX etadot = state.etadot.segment(body.offset, body.modes);
-  motion.u_B = probe.Phi_B * eta;
-  motion.udot_B = probe.Phi_B * etadot;
-  motion.turn_B = probe.Psi_B * eta;
-  motion.turndot_B = probe.Psi_B * etadot;
-  return motion;
-}
-
-Vector3 position(const Probe& probe, const Motion& motion) {
-  return motion.body.p_WB + motion.R_WB * (probe.p_B + motion.u_B);
-}
-
-Vector3 velocity(const Probe& probe, const Motion& motion) {
-  return motion.body.v_WB_W +
-         motion.R_WB *
-             (motion.body.w_WB_B.cross(probe.p_B + motion.u_B) + motion.udot_B);
-}
-
-Matrix3 orientation(const Motion& motion) {
-  return motion.R_WB * exp_rotation(motion.turn_B);
+  if (probe.nodal) {
+    return find_nodal_motion(probe, model, static_cast<std::size_t>(body.full),
+                             state);
+  }
+  return find_modal_motion(probe, body, state.bodies.at(index), state);
 }
 
 }  // namespace
@@ -84,17 +106,15 @@ Vector3 evaluate(const Probe& probe, const dynamics::SystemModel& model,
   const Motion motion = find_motion(probe, model, state);
   switch (probe.quantity) {
     case Quantity::displacement:
-      return position(probe, motion) - probe.p_start_W;
+      return motion.p_W - probe.p_start_W;
     case Quantity::position:
-      return position(probe, motion);
+      return motion.p_W;
     case Quantity::velocity:
-      return velocity(probe, motion);
+      return motion.v_W;
     case Quantity::rotation:
-      return log_rotation(
-          Matrix3(orientation(motion) * probe.R_start.transpose()));
+      return log_rotation(Matrix3(motion.R_W * probe.R_start.transpose()));
     case Quantity::angular_velocity:
-      return motion.R_WB * (motion.body.w_WB_B +
-                            left_jacobian(motion.turn_B) * motion.turndot_B);
+      return motion.w_W;
     case Quantity::deformation:
       return probe.R_BL.transpose() * motion.u_B;
   }
@@ -104,8 +124,8 @@ Vector3 evaluate(const Probe& probe, const dynamics::SystemModel& model,
 void set_start(Probe& probe, const dynamics::SystemModel& model,
                const dynamics::SystemState& state) {
   const Motion motion = find_motion(probe, model, state);
-  probe.p_start_W = position(probe, motion);
-  probe.R_start = orientation(motion);
+  probe.p_start_W = motion.p_W;
+  probe.R_start = motion.R_W;
 }
 
 std::vector<double> evaluate_all(const std::vector<Probe>& probes,

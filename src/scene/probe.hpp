@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,19 @@ namespace limber::scene {
 ///
 /// Equation   p = p_WB + R_WB b, b = p_B + Phi_B eta;
 ///            v = v_WB + R_WB (w_WB x b + Phi_B etadot);
-///            R = R_WB exp(Psi_B eta).
+///            R = R_WB exp(Psi_B eta); of an unreduced body, those of its
+///            NodalFrame.
 struct Probe {
   std::string name;
   Quantity quantity = Quantity::displacement;
   dynamics::BodyIndex body = 0;
-  Vector3 p_B = Vector3::Zero();          ///< undeformed [m]
-  Matrix3X Phi_B;                         ///< 3 x m, no columns at level rigid
-  Matrix3X Psi_B;                         ///< 3 x m
-  Matrix3 R_BL = Matrix3::Identity();     ///< axes of the link
-  Vector3 p_start_W = Vector3::Zero();    ///< [m]
-  Matrix3 R_start = Matrix3::Identity();  ///< of the deformed frame
+  Vector3 p_B = Vector3::Zero();  ///< undeformed [m]
+  Matrix3X Phi_B;                 ///< 3 x m, no columns at level rigid
+  Matrix3X Psi_B;                 ///< 3 x m
+  std::shared_ptr<const dynamics::NodalFrame> nodal;  ///< of an unreduced body
+  Matrix3 R_BL = Matrix3::Identity();                 ///< axes of the link
+  Vector3 p_start_W = Vector3::Zero();                ///< [m]
+  Matrix3 R_start = Matrix3::Identity();              ///< of the deformed frame
 };
 
 /// Name and unit of a probe's three columns: "tip.ux" [m], ...

@@ -145,6 +145,9 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   recipe.interfaces = flexible.interfaces;
   recipe.basis = flexible.basis;
   recipe.rows = flexible.rows;
+  if (scenario.level_of(link.name) == dynamics::Fidelity::full) {
+    recipe.rows = flexbody::parse_rows({"all"});
+  }
   add_connections(recipe, robot, index);
   for (const LoadSpec& load : scenario.loads) {
     if (load.where.link != link.name) continue;

@@ -13,6 +13,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_builder.hpp"
 #include "dynamics/time_function.hpp"
+#include "flexbody/full_body.hpp"
 #include "flexbody/recipe.hpp"
 
 /// What a scenario file asks for. Plain values; docs/formats/scenario.md is
@@ -93,6 +94,7 @@ struct Scenario {
   dynamics::SimulationSettings settings;
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   std::map<std::string, dynamics::Fidelity> fidelity_of_link;
+  flexbody::FullOptions full;  ///< of links at level `full`
   std::vector<LoadSpec> loads;
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
   std::map<std::string, JointStart> joints;
@@ -102,6 +104,11 @@ struct Scenario {
   OutputSpec output;
   std::vector<std::string> warnings;  ///< what was read, but not to the letter
   dynamics::AdviceSettings advice;    ///< what may be neglected
+
+  [[nodiscard]] dynamics::Fidelity level_of(const std::string& link) const {
+    const auto found = fidelity_of_link.find(link);
+    return found == fidelity_of_link.end() ? fidelity : found->second;
+  }
 };
 
 }  // namespace limber::scene

@@ -14,16 +14,29 @@
 namespace limber::scene {
 namespace {
 
-dynamics::Fidelity read_level(TomlTable& table, const std::string& key,
-                              dynamics::Fidelity otherwise) {
+/// The value of `key` as `parse` reads it, or `otherwise` if there is none.
+template <typename Value>
+Value read_name(TomlTable& table, const std::string& key, Value otherwise,
+                Value (*parse)(std::string_view)) {
   const auto name = table.text(key);
   if (!name) return otherwise;
   try {
-    return dynamics::parse_fidelity(*name);
+    return parse(*name);
   } catch (const InputError& error) {
     table.fail(key, error.problems().front());
   }
   return otherwise;
+}
+
+dynamics::Fidelity read_level(TomlTable& table, const std::string& key,
+                              dynamics::Fidelity otherwise) {
+  return read_name(table, key, otherwise, &dynamics::parse_fidelity);
+}
+
+void read_full(TomlTable& table, Scenario& scenario) {
+  flexbody::FullOptions& full = scenario.full;
+  full.law = read_name(table, "law", full.law, &flexbody::parse_material_law);
+  full.mass = read_name(table, "mass", full.mass, &flexbody::parse_nodal_mass);
 }
 
 void read_fidelity(TomlTable& table, Scenario& scenario) {
@@ -265,6 +278,7 @@ void read_root(TomlTable& root, Scenario& scenario) {
   });
   read_section(root, "fidelity",
                [&](TomlTable& t) { read_fidelity(t, scenario); });
+  read_section(root, "full", [&](TomlTable& t) { read_full(t, scenario); });
   read_section(root, "gravity", [&](TomlTable& t) {
     scenario.gravity = t.vector("acceleration").value_or(Vector3::Zero());
     if (!t.has("acceleration")) t.fail("needs 'acceleration'");

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "scene/assembly.hpp"
+#include "scene/full_bodies.hpp"
 #include "scene/link_motion.hpp"
 #include "scene/reductions.hpp"
 #include "scene/robot_reader.hpp"
@@ -26,13 +27,15 @@ Scene load_scene(const std::filesystem::path& file,
 }
 
 BuiltScene build_system(const Scene& scene, const Reducer& reducer,
-                        const std::filesystem::path& cache) {
+                        const std::filesystem::path& cache,
+                        const FullMaker& make_full) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::vector<LinkMotion> motions =
       find_link_motions(scene.robot, scene.scenario);
   const Reductions reductions = find_reductions(scene, reducer, cache);
-  const BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
+  BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
+  add_full_bodies(scene, make_full, plans);
   Assembly assembly(scene, plans, motions);
   assembly.add_bodies();
   assembly.add_joints();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_model.hpp"
 #include "dynamics/system_state.hpp"
+#include "flexbody/full_body.hpp"
 #include "flexbody/recipe.hpp"
 #include "flexbody/reduced_body.hpp"
 #include "scene/probe.hpp"
@@ -37,6 +39,10 @@ struct Overrides {
 /// Makes a reduced body; usually flexbody::reduce.
 using Reducer = std::function<flexbody::ReducedBody(const flexbody::Recipe&)>;
 
+/// Makes a body without reduction; usually flexbody::make_full_body.
+using FullMaker = std::function<std::shared_ptr<const flexbody::FullBody>(
+    const flexbody::Recipe&, const flexbody::FullOptions&)>;
+
 /// A scene, ready to be simulated.
 struct BuiltScene {
   dynamics::SystemModel model;
@@ -53,10 +59,12 @@ struct BuiltScene {
 /// the system together and finds its initial state: body frames where the
 /// joints put the undeformed links, with velocities that agree with the joints'
 /// rates, and flexible links deformed as the scenario says. Couplers rest in
-/// the undeformed configuration.
+/// the undeformed configuration. `make_full` is needed for links at level
+/// `full` alone.
 /// @throws InputError naming the link, joint, load or probe.
 [[nodiscard]] BuiltScene build_system(const Scene& scene,
                                       const Reducer& reducer,
-                                      const std::filesystem::path& cache);
+                                      const std::filesystem::path& cache,
+                                      const FullMaker& make_full = {});
 
 }  // namespace limber::scene

@@ -23,10 +23,7 @@ inline const fem::Mesh& beam() {
 inline std::vector<int> free_nodes(const fem::Mesh& mesh) {
   const std::vector<int>& root =
       mesh.groups[fem::find_group(mesh, "root")].nodes;
-  std::vector<int> nodes;
-  for (int n = 0; n < static_cast<int>(mesh.node_count()); ++n)
-    if (!std::binary_search(root.begin(), root.end(), n)) nodes.push_back(n);
-  return nodes;
+  return fem::find_free_nodes(mesh, root);
 }
 
 /// The report's shear test: 500 N along x on each of the five nodes of the

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/central_differences.hpp"
+
+#include <utility>
+
+#include "common/rotation.hpp"
+#include "dynamics/finite_check.hpp"
+
+namespace limber::dynamics {
+
+CentralDifferences::CentralDifferences(const SystemModel& model)
+    : model_(model),
+      terms_(make_terms(model)),
+      a_(make_accelerations(model)),
+      a_next_(make_accelerations(model)),
+      next_(make_state(model)) {}
+
+void CentralDifferences::start(const SystemState& state) {
+  next_ = state;
+  calc_terms(model_, state, Side::right, terms_);
+  solve_accelerations(model_, terms_, a_);
+  power_load_ = terms_.load_power;
+  power_loss_ = terms_.dissipated_power;
+}
+
+// Motion to the end, and velocities there as unchanged accelerations have
+// them.
+void CentralDifferences::displace(const SystemState& from, double h,
+                                  double end) {
+  const double half = 0.5 * h * h;
+  next_.t = end;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyState& old = from.bodies[b];
+    BodyState& body = next_.bodies[b];
+    body = old;
+    if (!model_.bodies[b].has_rigid_motion()) continue;
+    body.p_WB += h * old.v_WB_W + half * a_.a_WB_W[b];
+    body.quat_WB =
+        old.quat_WB * exp_quaternion(h * old.w_WB_B + half * a_.dw_WB_B[b]);
+    body.quat_WB.normalize();
+    body.v_WB_W += h * a_.a_WB_W[b];
+    body.w_WB_B += h * a_.dw_WB_B[b];
+  }
+  next_.eta = from.eta + h * from.etadot + half * a_.etaddot;
+  next_.etadot = from.etadot + h * a_.etaddot;
+  next_.u_H = from.u_H + h * from.udot_H + half * a_.uddot_H;
+  next_.udot_H = from.udot_H + h * a_.uddot_H;
+}
+
+StepResult CentralDifferences::step(SystemState& state, double h, double end) {
+  displace(state, h, end);
+  require_finite(model_, next_, h);
+  calc_terms(model_, next_, Side::left, terms_);
+  solve_accelerations(model_, terms_, a_next_);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    next_.bodies[b].v_WB_W += 0.5 * h * (a_next_.a_WB_W[b] - a_.a_WB_W[b]);
+    next_.bodies[b].w_WB_B += 0.5 * h * (a_next_.dw_WB_B[b] - a_.dw_WB_B[b]);
+  }
+  next_.etadot += 0.5 * h * (a_next_.etaddot - a_.etaddot);
+  next_.udot_H += 0.5 * h * (a_next_.uddot_H - a_.uddot_H);
+  StepResult result;
+  result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
+  result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power);
+  power_load_ = terms_.load_power;
+  power_loss_ = terms_.dissipated_power;
+  std::swap(a_, a_next_);
+  std::swap(state, next_);
+  return result;
+}
+
+}  // namespace limber::dynamics

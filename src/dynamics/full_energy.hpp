@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/energy.hpp"
+
+namespace limber::dynamics {
+
+/// Adds energies and momenta of unreduced bodies; needs the strain energies of
+/// calc_inertia_terms.
+///
+/// Equation   kinetic_rigid = m v^2/2 + w' J w/2 of the mean-axis frame, J of
+///            the deformed nodes; kinetic_modal = u'' M u' / 2 less that
+void add_full_energy(const SystemModel& model, const SystemState& state,
+                     SystemTerms& terms, EnergyBalance& balance);
+
+}  // namespace limber::dynamics

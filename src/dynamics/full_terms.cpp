@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/full_terms.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Damping of the deformation's share in the reduced modes:
+// f = -R M Phi C (M Phi)^T R^T (v less the rigid motion).
+void add_damping(const FullModel& full, const SystemState& state, FullTerms& t,
+                 SystemTerms& terms) {
+  const ConstNodes u = nodes_of(full, state.u_H);
+  const ConstNodes udot = nodes_of(full, state.udot_H);
+  const Matrix3 R_BH = t.frame.R_HB.transpose();
+  for (Eigen::Index i = 0; i < u.cols(); ++i) {
+    const Vector3 b = full.mesh->x_B.col(i) + u.col(i) - t.frame.p_HB;
+    const Vector3 relative = udot.col(i) - t.frame.v_H - t.frame.w_H.cross(b);
+    t.scratch.col(i) = R_BH * relative;
+  }
+  t.modal_rate.noalias() = full.damped_modes.transpose() * t.scratch.reshaped();
+  terms.dissipated_power +=
+      (full.damping.array() * t.modal_rate.array().square()).sum();
+  t.modal_rate.array() *= full.damping.array();
+  t.scratch.reshaped().noalias() = full.damped_modes * t.modal_rate;
+  for (Eigen::Index i = 0; i < u.cols(); ++i) {
+    t.force.col(i) -= t.frame.R_HB * t.scratch.col(i);
+  }
+}
+
+}  // namespace
+
+void calc_full_terms(const SystemModel& model, const SystemState& state,
+                     SystemTerms& terms) {
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    const FullModel& full = model.full_bodies[f];
+    FullTerms& t = terms.full[f];
+    try {
+      t.strain_energy =
+          t.solver->calc_internal_force(nodes_of(full, state.u_H), t.internal);
+    } catch (const NumericalError& error) {
+      throw NumericalError(fmt::format("body '{}' at t = {:.9g} s: {}",
+                                       model.bodies[index(full.body)].name,
+                                       state.t, error.what()));
+    }
+    if (full.needs_frame) calc_mean_frame(model, full, state, t.frame);
+    terms.bodies[index(full.body)].R_WB = state.X_WH[f].R * t.frame.R_HB;
+  }
+}
+
+void reset_full_forces(const SystemModel& model, const SystemState& state,
+                       SystemTerms& terms) {
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    const FullModel& full = model.full_bodies[f];
+    FullTerms& t = terms.full[f];
+    t.force.setZero();
+    if (full.damping.size() > 0) add_damping(full, state, t, terms);
+    if (model.gravity_W.isZero(0.0)) continue;
+    const Vector3 gravity_H = state.X_WH[f].R.transpose() * model.gravity_W;
+    t.force.noalias() += gravity_H * full.mesh->node_mass.transpose();
+    terms.load_power +=
+        gravity_H.dot(nodes_of(full, state.udot_H) * full.mesh->node_mass);
+  }
+}
+
+void add_full_wrench(const SystemModel& model, const Attachment& attachment,
+                     const AttachmentMotion& motion, const SystemState& state,
+                     const Vector3& force_W, const Vector3& moment_W,
+                     SystemTerms& terms) {
+  const auto f = index(model.bodies[index(attachment.body)].full);
+  const Matrix3 R_HW = state.X_WH[f].R.transpose();
+  add_nodal_wrench(*attachment.nodal, motion.nodal, R_HW * force_W,
+                   R_HW * moment_W, terms.full[f].force);
+}
+
+void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
+                         Eigen::Index i, const SystemState& state,
+                         SystemTerms& terms) {
+  const auto f = index(model.bodies[index(load.body)].full);
+  const FullModel& full = model.full_bodies[f];
+  FullTerms& t = terms.full[f];
+  const ConstNodes udot = nodes_of(full, state.udot_H);
+  const ConstNodes pattern(load.nodal.col(i).data(), 3, udot.cols());
+  for (Eigen::Index n = 0; n < udot.cols(); ++n) {
+    const Vector3 force = t.frame.R_HB * pattern.col(n);
+    t.force.col(n) += force;
+    terms.load_power += force.dot(udot.col(n));
+  }
+}
+
+void solve_full_accelerations(const SystemModel& model,
+                              const SystemTerms& terms, VectorX& uddot_H) {
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    const FullTerms& t = terms.full[f];
+    t.solver->divide_mass(t.force - t.internal,
+                          nodes_of(model.full_bodies[f], uddot_H));
+  }
+}
+
+void calc_full_residual(const SystemModel& model, std::size_t f,
+                        const VectorX& uddot_H, SystemTerms& terms,
+                        Nodes residual) {
+  const FullModel& full = model.full_bodies[f];
+  FullTerms& t = terms.full[f];
+  t.solver->multiply_mass(nodes_of(full, uddot_H), t.scratch);
+  residual = t.scratch + t.internal - t.force;
+  for (Eigen::Index n = 0; n < residual.cols(); ++n) {
+    if (full.mesh->held[static_cast<std::size_t>(n)] != 0) {
+      residual.col(n).setZero();
+    }
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/workspace.hpp"
+
+/// What bodies at level `full` put into the equations of motion; called by
+/// dynamics/equations.
+namespace limber::dynamics {
+
+/// Fills `internal`, the strain energy and, if needed, the mean-axis frame.
+/// @throws NumericalError naming the element, body and time if an element is
+/// turned inside out.
+void calc_full_terms(const SystemModel& model, const SystemState& state,
+                     SystemTerms& terms);
+
+/// Sets `force` to gravity and damping, and adds their powers.
+void reset_full_forces(const SystemModel& model, const SystemState& state,
+                       SystemTerms& terms);
+
+/// Adds a force [N] and a moment [N m] at an attachment, world axes.
+void add_full_wrench(const SystemModel& model, const Attachment& attachment,
+                     const AttachmentMotion& motion, const SystemState& state,
+                     const Vector3& force_W, const Vector3& moment_W,
+                     SystemTerms& terms);
+
+/// Adds column i of nodal forces that turn with the body, and their power.
+void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
+                         Eigen::Index i, const SystemState& state,
+                         SystemTerms& terms);
+
+/// Nodal accelerations from the forces: M^-1 (force - internal).
+void solve_full_accelerations(const SystemModel& model,
+                              const SystemTerms& terms, VectorX& uddot_H);
+
+/// M u'' + internal - force, zero at nodes that are held.
+/// @param residual the rows of full body f
+void calc_full_residual(const SystemModel& model, std::size_t f,
+                        const VectorX& uddot_H, SystemTerms& terms,
+                        Nodes residual);
+
+}  // namespace limber::dynamics

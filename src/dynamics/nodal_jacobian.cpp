@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/nodal_jacobian.hpp"
+
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+
+void calc_modal_jacobian(const Attachment& attachment,
+                         const AttachmentMotion& motion, const Matrix3& R_AW,
+                         Matrix6X& G) {
+  const Matrix3 R_AB = R_AW * motion.R_WB;
+  const Matrix3 R_AB_twist = R_AB * motion.J_psi;
+  G.leftCols<3>().topRows<3>() = R_AW;
+  G.leftCols<3>().bottomRows<3>().setZero();
+  G.middleCols<3>(3).topRows<3>() = -R_AB * skew(motion.arm_B);
+  G.middleCols<3>(3).bottomRows<3>() = R_AB;
+  for (Eigen::Index k = 0; k < attachment.Phi_B.cols(); ++k) {
+    G.col(6 + k).head<3>() = R_AB * attachment.Phi_B.col(k);
+    G.col(6 + k).tail<3>() = R_AB_twist * attachment.Psi_B.col(k);
+  }
+}
+
+void calc_nodal_jacobian(const NodalFrame& frame,
+                         const NodalFrameMotion& motion, const Matrix3& R_AH,
+                         Matrix6X& G) {
+  G.setZero();
+  const Matrix3 arm = skew(motion.arm_H);
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const Vector3 d_H = motion.R_HB * frame.d_B.col(k);
+    const Matrix3 turn = frame.weights[k] * motion.spread * skew(d_H);
+    const Matrix3 move = frame.weights[k] * Matrix3::Identity() - arm * turn;
+    G.block<3, 3>(0, 3 * frame.nodes[i]) = R_AH * move;
+    G.block<3, 3>(3, 3 * frame.nodes[i]) = R_AH * turn;
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/stable_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "common/rotation.hpp"
+#include "dynamics/equations.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// A change of positions or of velocities, or the accelerations it causes.
+using Change = Accelerations;
+
+template <typename Visit>
+void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].has_rigid_motion()) continue;
+    const double mass = std::sqrt(model.bodies[b].mass);
+    const double inertia = std::sqrt(model.bodies[b].J0.trace() / 3.0);
+    visit(x.a_WB_W[b].data(), 3, mass);
+    visit(x.dw_WB_B[b].data(), 3, inertia);
+  }
+  visit(x.etaddot.data(), x.etaddot.size(), 1.0);
+  for (const FullModel& full : model.full_bodies) {
+    const double mass = full.mesh->node_mass.sum();
+    visit(x.uddot_H.data() + full.first, full.dofs(),
+          std::sqrt(3.0 * mass / static_cast<double>(full.dofs())));
+  }
+}
+
+// Root of the sum of squares, weighted by masses as the motion is.
+double measure(const SystemModel& model, Change& x) {
+  double sum = 0.0;
+  for_each_vector(model, x, [&](double* at, Eigen::Index n, double weight) {
+    sum += weight * weight * Eigen::Map<const VectorX>(at, n).squaredNorm();
+  });
+  return std::sqrt(sum);
+}
+
+void scale(const SystemModel& model, Change& x, double factor) {
+  for_each_vector(model, x, [&](double* at, Eigen::Index n, double) {
+    Eigen::Map<VectorX>(at, n) *= factor;
+  });
+}
+
+// Small against every body, large against round-off [kg^1/2 m].
+double find_increment(const SystemModel& model) {
+  constexpr double kShare = 1e-7;
+  double least = std::numeric_limits<double>::infinity();
+  for (const BodyModel& body : model.bodies) {
+    least = std::min(least, std::sqrt(body.J0.trace()));
+  }
+  return kShare * least;
+}
+constexpr double kVelocity = 1e-3;  // [kg^1/2 m/s]
+
+class Iteration {
+ public:
+  Iteration(const SystemModel& model, const SystemState& state)
+      : model_(model),
+        state_(state),
+        displaced_(state),
+        terms_(make_terms(model)),
+        x_(make_accelerations(model)),
+        rest_(make_accelerations(model)),
+        increment_(find_increment(model)) {
+    calc_terms(model_, state_, Side::right, terms_);
+    solve_accelerations(model_, terms_, rest_);
+  }
+
+  // Largest eigenvalue of -d(acceleration)/d(position or velocity).
+  double find_largest(bool of_velocity) {
+    constexpr double kEnough = 1e-5;  // settles to about a thousandth
+    constexpr int kMostIterations = 3000;
+    constexpr int kSettled = 20;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for_each_vector(model_, x_, [&](double* at, Eigen::Index n, double weight) {
+      for (Eigen::Index i = 0; i < n; ++i) at[i] = uniform(random) / weight;
+    });
+    displaced_ = state_;
+    double eigenvalue = 0.0;
+    int settled = 0;
+    for (int i = 0; i < kMostIterations && settled < kSettled; ++i) {
+      const double size = measure(model_, x_);
+      if (!(size > 0.0)) return 0.0;
+      scale(model_, x_, 1.0 / size);
+      apply(of_velocity);
+      const double next = measure(model_, x_);
+      settled = std::abs(next - eigenvalue) <= kEnough * next ? settled + 1 : 0;
+      eigenvalue = next;
+    }
+    return eigenvalue;
+  }
+
+ private:
+  // x <- -(a(state + e x) - a(state)) / e
+  void apply(bool of_velocity) {
+    const double e = of_velocity ? kVelocity : increment_;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyState& from = state_.bodies[b];
+      BodyState& body = displaced_.bodies[b];
+      if (!model_.bodies[b].has_rigid_motion()) continue;
+      if (of_velocity) {
+        body.v_WB_W = from.v_WB_W + e * x_.a_WB_W[b];
+        body.w_WB_B = from.w_WB_B + e * x_.dw_WB_B[b];
+      } else {
+        body.p_WB = from.p_WB + e * x_.a_WB_W[b];
+        body.quat_WB = from.quat_WB * exp_quaternion(e * x_.dw_WB_B[b]);
+      }
+    }
+    if (of_velocity) {
+      displaced_.etadot = state_.etadot + e * x_.etaddot;
+      displaced_.udot_H = state_.udot_H + e * x_.uddot_H;
+    } else {
+      displaced_.eta = state_.eta + e * x_.etaddot;
+      displaced_.u_H = state_.u_H + e * x_.uddot_H;
+    }
+    calc_terms(model_, displaced_, Side::right, terms_);
+    solve_accelerations(model_, terms_, x_);
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      x_.a_WB_W[b] = (rest_.a_WB_W[b] - x_.a_WB_W[b]) / e;
+      x_.dw_WB_B[b] = (rest_.dw_WB_B[b] - x_.dw_WB_B[b]) / e;
+    }
+    x_.etaddot = (rest_.etaddot - x_.etaddot) / e;
+    x_.uddot_H = (rest_.uddot_H - x_.uddot_H) / e;
+  }
+
+  const SystemModel& model_;
+  const SystemState& state_;
+  SystemState displaced_;
+  SystemTerms terms_;
+  Change x_;
+  Change rest_;
+  double increment_;  // of positions, in the norm of measure()
+};
+
+}  // namespace
+
+double find_stable_step(const SystemModel& model, const SystemState& state) {
+  Iteration iteration(model, state);
+  const double omega_squared = iteration.find_largest(false);
+  if (!(omega_squared > 0.0)) return std::numeric_limits<double>::infinity();
+  const double c = iteration.find_largest(true);
+  return (std::sqrt(c * c + 4.0 * omega_squared) - c) / omega_squared;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/fem_full_body.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "fem/assembly.hpp"
+#include "fem/nodal_mass.hpp"
+#include "fem/nonlinear_solid.hpp"
+#include "fem/tangent.hpp"
+#include "flexbody/reduce_interfaces.hpp"
+#include "flexbody/reduce_meshed_body.hpp"
+#include "flexbody/reduce_support.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+fem::Elasticity find_elasticity(MaterialLaw law) {
+  return law == MaterialLaw::neo_hookean ? fem::Elasticity::neo_hookean
+                                         : fem::Elasticity::st_venant_kirchhoff;
+}
+
+fem::SparseMatrix make_diagonal(const VectorX& mass) {
+  fem::SparseMatrix M_s(mass.size(), mass.size());
+  M_s.setIdentity();
+  M_s.diagonal() = mass;
+  return M_s;
+}
+
+/// What all solvers of one body share.
+struct SolidParts {
+  SolidParts(fem::Mesh mesh_, std::vector<fem::ElasticMaterial> materials_,
+             const std::vector<int>& held, const fem::SparseMatrix& consistent,
+             const FullOptions& options)
+      : mesh(std::move(mesh_)),
+        materials(std::move(materials_)),
+        law(find_elasticity(options.law)),
+        free(fem::find_free_nodes(mesh, held)),
+        solid(mesh, materials, law),
+        is_lumped(options.mass == NodalMassKind::lumped) {
+    if (is_lumped) {
+      const VectorX lumped = fem::calc_lumped_mass(mesh, materials);
+      M_s = make_diagonal(lumped);
+      free_mass.emplace(VectorX(lumped(free)));
+    } else {
+      M_s = consistent;
+      free_mass.emplace(fem::restrict_matrix(M_s, free));
+    }
+  }
+
+  fem::Mesh mesh;
+  std::vector<fem::ElasticMaterial> materials;
+  fem::Elasticity law;
+  std::vector<int> free;
+  fem::NonlinearSolid solid;
+  bool is_lumped;
+  fem::SparseMatrix M_s;                    // of all nodes
+  std::optional<fem::NodalMass> free_mass;  // of those that can move
+};
+
+class MeshSolver : public FullBodySolver {
+ public:
+  explicit MeshSolver(std::shared_ptr<const SolidParts> parts)
+      : parts_(std::move(parts)),
+        workspace_(parts_->solid.make_workspace()),
+        free_force_(3, std::ssize(parts_->free)),
+        free_a_(3, std::ssize(parts_->free)) {}
+
+  double calc_internal_force(ConstField u, Field force) override {
+    return parts_->solid.calc_force(u, force, workspace_);
+  }
+
+  void multiply_mass(ConstField a, Field force) const override {
+    force.noalias() = a * parts_->M_s;
+  }
+
+  void divide_mass(ConstField force, Field a) const override {
+    const std::vector<int>& free = parts_->free;
+    for (Eigen::Index i = 0; i < free_force_.cols(); ++i) {
+      free_force_.col(i) = force.col(free[static_cast<std::size_t>(i)]);
+    }
+    parts_->free_mass->divide(free_force_, free_a_);
+    a.setZero();
+    for (Eigen::Index i = 0; i < free_force_.cols(); ++i) {
+      a.col(free[static_cast<std::size_t>(i)]) = free_a_.col(i);
+    }
+  }
+
+  void factor(ConstField u, double c) override {
+    if (!tangent_) {
+      tangent_.emplace(parts_->mesh, parts_->materials, parts_->law,
+                       parts_->M_s, parts_->free);
+    }
+    tangent_->factor(u, c);
+  }
+
+  void solve(Eigen::Ref<MatrixX> x) const override {
+    const std::vector<int>& free = parts_->free;
+    const MatrixX answer = tangent_->solve(take_rows(x, free));
+    x = put_rows(answer, free, x.rows() / 3);
+  }
+
+ private:
+  std::shared_ptr<const SolidParts> parts_;
+  fem::NonlinearSolid::Workspace workspace_;
+  mutable Matrix3X free_force_;
+  mutable Matrix3X free_a_;
+  std::optional<fem::TangentFactor> tangent_;
+};
+
+/// (x - its mean) M_s, 3 x N.
+Matrix3X find_first_moment(const Matrix3X& x, const fem::SparseMatrix& M_s,
+                           const VectorX& node_mass) {
+  const Vector3 mean = x * node_mass / node_mass.sum();
+  const Matrix3X centered = x.colwise() - mean;
+  return centered * M_s;
+}
+
+}  // namespace
+
+std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
+                                               const FullOptions& options,
+                                               const Progress& progress) {
+  fem::Mesh mesh = read_recipe_mesh(recipe, progress);
+  const std::vector<Interface> interfaces = find_interfaces(mesh, recipe);
+  const std::vector<int> held = find_clamped_nodes(mesh, recipe);
+  std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);
+  const fem::SparseMatrix M_s = fem::assemble(mesh, materials, progress).M_s;
+  const Matrix3X x_B =
+      mesh.x.colwise() - fem::calc_mass_properties(M_s, mesh.x).center;
+  const auto parts = std::make_shared<const SolidParts>(
+      std::move(mesh), std::move(materials), held, M_s, options);
+
+  auto body = std::make_shared<FullBody>();
+  body->x_B = x_B;
+  body->node_mass = parts->M_s * VectorX::Ones(x_B.cols());
+  body->first_moment = find_first_moment(x_B, parts->M_s, body->node_mass);
+  body->held.assign(static_cast<std::size_t>(x_B.cols()), 0);
+  for (const int n : held) body->held[static_cast<std::size_t>(n)] = 1;
+  for (const Interface& interface : interfaces) {
+    body->interfaces.push_back({interface.name, interface.selection.nodes,
+                                interface.selection.weights});
+  }
+  body->make_solver = [parts] { return std::make_unique<MeshSolver>(parts); };
+  return body;
+}
+
+}  // namespace limber::flexbody

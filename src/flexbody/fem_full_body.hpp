@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "common/progress.hpp"
+#include "flexbody/full_body.hpp"
+#include "flexbody/recipe.hpp"
+
+namespace limber::flexbody {
+
+/// The body that `recipe` asks for, without reduction: its mesh, materials,
+/// clamps and interfaces; the basis is not looked at. Part of
+/// limber_reduction.
+/// @throws InputError naming the file, group or value.
+[[nodiscard]] std::shared_ptr<const FullBody> make_full_body(
+    const Recipe& recipe, const FullOptions& options,
+    const Progress& progress = {});
+
+}  // namespace limber::flexbody

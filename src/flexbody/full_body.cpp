@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/full_body.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "common/errors.hpp"
+#include "common/names.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names& law_names() {
+  static const Names names = {"st-venant-kirchhoff", "neo-hookean"};
+  return names;
+}
+
+const Names& mass_names() {
+  static const Names names = {"consistent", "lumped"};
+  return names;
+}
+
+std::size_t find_name(const char* what, std::string_view name,
+                      const Names& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw InputError(describe_unknown(what, name, names));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+std::string_view to_string(MaterialLaw law) {
+  return law_names()[static_cast<std::size_t>(law)];
+}
+
+MaterialLaw parse_material_law(std::string_view name) {
+  return static_cast<MaterialLaw>(find_name("material law", name, law_names()));
+}
+
+std::string_view to_string(NodalMassKind kind) {
+  return mass_names()[static_cast<std::size_t>(kind)];
+}
+
+NodalMassKind parse_nodal_mass(std::string_view name) {
+  return static_cast<NodalMassKind>(
+      find_name("nodal mass", name, mass_names()));
+}
+
+const NodeSet& find_node_set(const FullBody& body, const std::string& name) {
+  Names names;
+  for (const NodeSet& set : body.interfaces) {
+    if (set.name == name) return set;
+    names.push_back(set.name);
+  }
+  throw InputError(describe_unknown("interface", name, names));
+}
+
+}  // namespace limber::flexbody
