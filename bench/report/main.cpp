@@ -30,6 +30,7 @@ std::vector<Section> list_sections() {
           {"effective-masses", write_effective_masses},
           {"step-approximation", alone(write_step_approximation)},
           {"truncation", write_truncation},
+          {"static-modes", write_static_modes},
           {"decision-boundary", write_decision_boundary},
           {"energy", write_energy},
           {"time-steps", write_time_steps},

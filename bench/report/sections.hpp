@@ -29,6 +29,7 @@ void write_mesh_statistics(Page& page);                    // Table 1
 void write_effective_masses(Page& page, Shared& shared);   // Table 2
 void write_step_approximation(Page& page);                 // Figure 7
 void write_truncation(Page& page, Shared& shared);         // Figure 8
+void write_static_modes(Page& page, Shared& shared);       // beyond the report
 void write_decision_boundary(Page& page, Shared& shared);  // Figure 9
 void write_energy(Page& page, Shared& shared);             // Figures 10, 11
 void write_time_steps(Page& page, Shared& shared);         // Figures 12, 13

@@ -9,6 +9,7 @@
 #include "app/mode_options.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
+#include "app/validators.hpp"
 #include "common/errors.hpp"
 #include "flexbody/body_file.hpp"
 #include "scene/link_start.hpp"
@@ -24,6 +25,7 @@ struct Options {
   std::vector<std::string> interfaces;
   ModeOptions modes;
   std::vector<std::string> forces;
+  int terms = 1;
   std::string initial_displacement;
   std::string initial_velocity;
   std::vector<std::string> rows = {"boundary"};
@@ -37,8 +39,12 @@ flexbody::Recipe make_recipe(const Options& options) {
   for (const std::string& file : options.forces) {
     recipe.nodal_forces.push_back(scene::read_load_cases(file));
   }
-  if (!recipe.nodal_forces.empty() && !recipe.basis.automatic) {
-    throw InputError("--force gives load cases for --modes auto; add it");
+  recipe.basis.terms = options.terms;
+  if (options.terms > 1 && options.forces.empty() &&
+      options.interfaces.empty()) {
+    throw InputError(
+        "--terms counts those of static-deformation modes; name what they "
+        "come from by --force or --interface");
   }
   scene::LinkStart start;
   start.displacement = options.initial_displacement;
@@ -56,6 +62,8 @@ flexbody::Recipe make_recipe(const Options& options) {
 
 void warn(const flexbody::ReducedBody& body) {
   if (body.selection) print_warnings(describe_shortfalls(*body.selection));
+  for (const flexbody::LoadModesRecord& record : body.load_modes)
+    if (const auto text = describe_left_out(record)) print_warnings({*text});
   if (const auto& field = body.initial.displacement)
     print_warnings(describe_losses(*field, "initial displacement"));
   if (const auto& field = body.initial.velocity)
@@ -105,8 +113,13 @@ void add_reduce(CLI::App& app, Action& action) {
                       "Group that is fixed; may be given again");
   add_mode_options(*command, "--modes,--eigenmodes", options->modes);
   command->add_option("--force", options->forces,
-                      "With --modes auto: force file whose columns are load "
-                      "cases; may be given again. Without: the interfaces");
+                      "Force file: the static answers to the span of its "
+                      "columns enter the basis, and with --modes auto they "
+                      "are the load cases; may be given again");
+  command
+      ->add_option("--terms", options->terms,
+                   "Terms x, K^+ M x, ... of each static-deformation mode (1)")
+      ->check(make_positive());
   command->add_option("--initial-displacement", options->initial_displacement,
                       "Nodal field that the body starts with: a row for each "
                       "free degree of freedom [m]");

@@ -170,6 +170,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_groups(out, body);
   write_interfaces(out, body);
   write_selection(out, body.selection);
+  write_load_modes(out, body.load_modes);
   write_field(out, "initial/displacement/", body.initial.displacement,
               "kg^1/2 m");
   write_field(out, "initial/velocity/", body.initial.velocity, "kg^1/2 m/s");
@@ -326,6 +327,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
   read_groups(reader, counts[0], body);
   read_interfaces(reader, counts[1], body);
   body.selection = read_selection(reader);
+  body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);
   body.initial.velocity = read_field(reader, "initial/velocity/", m);
   return body;

@@ -63,6 +63,25 @@ void write_selection(Hdf5File& out,
   out.write("selection/case_modes", asked, "1", "these, case by case, from 0");
 }
 
+void write_load_modes(Hdf5File& out,
+                      const std::vector<LoadModesRecord>& records) {
+  std::string names;
+  std::vector<std::int64_t> counts;
+  MatrixX left_out(std::ssize(records), 1);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const LoadModesRecord& record = records[i];
+    names += record.name + '\n';
+    counts.insert(counts.end(),
+                  {record.directions, record.is_whole ? 1 : 0, record.taken});
+    left_out(static_cast<Eigen::Index>(i), 0) = record.left_out;
+  }
+  out.write("load_modes/names", names, "files of nodal forces, one a line");
+  out.write("load_modes/counts", counts, "1",
+            "three a file: directions found, 1 if that is all, modes taken");
+  out.write("load_modes/left_out", left_out, "1",
+            "share of the static answers that is in no mode");
+}
+
 void write_field(Hdf5File& out, const std::string& at,
                  const std::optional<ProjectedField>& projected,
                  const std::string& unit) {
@@ -103,6 +122,22 @@ std::optional<SelectionRecord> read_selection(const BodyFileReader& reader) {
     record.cases.push_back(std::move(item));
   }
   return record;
+}
+
+std::vector<LoadModesRecord> read_load_modes(const BodyFileReader& reader) {
+  const std::vector<std::string> names =
+      split_lines(reader.in().read_text("load_modes/names"));
+  const auto count = static_cast<std::int64_t>(names.size());
+  const auto counts = reader.sizes("load_modes/counts", 3 * count);
+  const MatrixX left_out = reader.matrix("load_modes/left_out", count, 1);
+  std::vector<LoadModesRecord> records;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    records.push_back({names[i], static_cast<int>(counts[3 * i]),
+                       counts[3 * i + 1] == 1,
+                       static_cast<int>(counts[3 * i + 2]),
+                       left_out(static_cast<Eigen::Index>(i), 0)});
+  }
+  return records;
 }
 
 std::optional<ProjectedField> read_field(const BodyFileReader& reader,

@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "flexbody/body_file_reader.hpp"
 #include "flexbody/initial_deformation.hpp"
+#include "flexbody/load_modes_record.hpp"
 #include "flexbody/selection_record.hpp"
 
 /// What a body's file holds beside the body: how its modes were chosen, and
@@ -15,6 +17,11 @@ namespace limber::flexbody {
 void write_selection(Hdf5File& out,
                      const std::optional<SelectionRecord>& selection);
 [[nodiscard]] std::optional<SelectionRecord> read_selection(
+    const BodyFileReader& reader);
+
+void write_load_modes(Hdf5File& out,
+                      const std::vector<LoadModesRecord>& records);
+[[nodiscard]] std::vector<LoadModesRecord> read_load_modes(
     const BodyFileReader& reader);
 
 /// @param at group, with its slash; @param unit of the coordinates

@@ -21,7 +21,7 @@ namespace limber::flexbody {
 namespace {
 
 // Raise when the reduction itself changes: it makes old entries unknown.
-constexpr int kReductionVersion = 1;
+constexpr int kReductionVersion = 2;
 
 // Feeds values to the hash so that no two different recipes look alike: every
 // text and list is preceded by its length.
@@ -194,6 +194,7 @@ std::string content_key(const Recipe& recipe) {
   }
   digest.add(recipe.basis.interface_modes);
   digest.add(recipe.basis.load_modes);
+  digest.add(recipe.basis.terms);
   digest.add(recipe.basis.drop_tolerance);
   digest.add(recipe.rows.extent);
   digest.add(recipe.rows.groups.size());

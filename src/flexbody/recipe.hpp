@@ -85,9 +85,9 @@ struct LoadPattern {
   bool static_mode = true;           ///< false: a load case alone
 };
 
-/// Forces on every node, load cases of automatic modes; only their directions
-/// matter. Rows: x, y, z of each node that is not clamped, in the order of the
-/// mesh's tags.
+/// Forces on every node: the static answers to their span enter the basis, and
+/// their columns are load cases of automatic modes. Rows: x, y, z of each node
+/// that is not clamped, in the order of the mesh's tags.
 struct NodalForces {
   std::string name;           ///< for messages
   std::vector<double> times;  ///< one a column, from which it holds [s]
@@ -123,8 +123,9 @@ struct AutomaticModes {
 struct BasisOptions {
   int eigenmodes = 10;                      ///< lowest elastic eigenmodes
   std::optional<AutomaticModes> automatic;  ///< in place of `eigenmodes`
-  bool interface_modes = true;   ///< static-deformation modes: interfaces
-  bool load_modes = true;        ///< static-deformation modes: loads
+  bool interface_modes = true;  ///< static-deformation modes: interfaces
+  bool load_modes = true;       ///< static-deformation modes: loads
+  int terms = 1;  ///< of each of these; above 1 Krylov terms (K^+ M)^n x_0
   double drop_tolerance = 1e-8;  ///< relative M-norm below which a vector
                                  ///< counts as dependent
 };
@@ -150,7 +151,7 @@ struct Recipe {
       clamped_groups;  ///< fixed to the world; may be empty
   std::vector<InterfaceRequest> interfaces;
   std::vector<LoadPattern> load_patterns;
-  std::vector<NodalForces> nodal_forces;  ///< used by automatic modes alone
+  std::vector<NodalForces> nodal_forces;
   NodalField initial_displacement;  ///< projected before rows are dropped [m]
   NodalField initial_velocity;      ///< [m/s]
   BasisOptions basis;

@@ -6,55 +6,12 @@
 #include "flexbody/reduce_meshed_body.hpp"
 #include "flexbody/reduce_rows.hpp"
 #include "flexbody/reduce_selection.hpp"
+#include "flexbody/reduce_static_modes.hpp"
 #include "flexbody/reduced_basis.hpp"
 #include "flexbody/shape_integrals.hpp"
 
 namespace limber::flexbody {
 namespace {
-
-/// Static answers to unit loads, on the whole mesh.
-struct StaticModes {
-  MatrixX vectors;                   ///< those that enter the basis
-  std::vector<Matrix6> flexibility;  ///< per interface
-};
-
-/// Columns of the patterns whose static answers enter the basis.
-MatrixX find_mode_loads(const MeshedBody& body, const Recipe& recipe) {
-  if (!recipe.basis.load_modes) return MatrixX(3 * body.mesh.x.cols(), 0);
-  std::vector<Eigen::Index> columns;
-  for (std::size_t i = 0; i < recipe.load_patterns.size(); ++i)
-    if (recipe.load_patterns[i].static_mode)
-      columns.push_back(static_cast<Eigen::Index>(i));
-  return find_pattern_loads(body.mesh, recipe, body.interfaces)(Eigen::all,
-                                                                columns);
-}
-
-StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
-  const std::vector<int>& free_nodes = body.support.free_nodes;
-  const auto solve = [&](const MatrixX& loads) {
-    return put_rows(body.inverse.solve(take_rows(loads, free_nodes)),
-                    free_nodes, body.mesh.x.cols());
-  };
-  StaticModes modes;
-  modes.vectors.resize(3 * body.mesh.x.cols(), 0);
-  const auto append = [&](const MatrixX& answers) {
-    MatrixX joined(answers.rows(), modes.vectors.cols() + answers.cols());
-    joined << modes.vectors, answers;
-    modes.vectors = std::move(joined);
-  };
-  for (const Interface& interface : body.interfaces) {
-    const Matrix6X wrenches = unit_wrenches(interface.motion);
-    const MatrixX answers = solve(interface.motion.spread(wrenches));
-    const Matrix6 flexibility =
-        interface.motion.apply(answers) * wrenches.transpose();
-    modes.flexibility.emplace_back(0.5 *
-                                   (flexibility + flexibility.transpose()));
-    if (recipe.basis.interface_modes && interface.static_modes) append(answers);
-  }
-  const MatrixX loads = find_mode_loads(body, recipe);
-  if (loads.cols() > 0) append(solve(loads));
-  return modes;
-}
 
 void add_tables(const std::vector<Interface>& interfaces,
                 const StaticModes& modes, const MatrixX& Phi,
@@ -74,7 +31,7 @@ ReducedBasis find_basis(const Recipe& recipe, const Support& support,
                         const StaticModes& modes) {
   MatrixX vectors(support.matrices.dof_count(),
                   eigenmodes.Phi.cols() + modes.vectors.cols());
-  vectors << eigenmodes.Phi, take_rows(modes.vectors, support.free_nodes);
+  vectors << eigenmodes.Phi, modes.vectors;
   return make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
                             support.R, recipe.basis.drop_tolerance);
 }
@@ -105,6 +62,7 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
       calc_shape_integrals(meshed.M_s, mesh.x.colwise() - inertia.center, Phi);
   body.lambda = basis.lambda;
   body.selection = finish_record(chosen, basis);
+  body.load_modes = modes.loads;
   body.initial = project_initial_fields(meshed, recipe, basis);
   if (!body.clamped) {
     body.levers = calc_inertial_levers(

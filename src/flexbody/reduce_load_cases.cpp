@@ -79,12 +79,7 @@ void add_patterns(const MeshedBody& body, const Recipe& recipe,
 
 void add_nodal_forces(const NodalForces& nodal, const Support& support,
                       Collection& cases) {
-  const Eigen::Index rows = support.matrices.dof_count();
-  if (nodal.forces.rows() != rows)
-    throw InputError(fmt::format(
-        "{}: {} rows of forces; expected {}, three for each of the {} nodes "
-        "that are not clamped",
-        nodal.name, nodal.forces.rows(), rows, rows / 3));
+  check_rows(nodal, support);
   LIMBER_EXPECT(static_cast<Eigen::Index>(nodal.times.size()) ==
                 nodal.forces.cols());
   const std::string file =
@@ -143,6 +138,15 @@ void find_compliance(const fem::ElasticInverse& inverse, LoadCases& cases) {
 }
 
 }  // namespace
+
+void check_rows(const NodalForces& nodal, const Support& support) {
+  const Eigen::Index rows = support.matrices.dof_count();
+  if (nodal.forces.rows() != rows)
+    throw InputError(fmt::format(
+        "{}: {} rows of forces; expected {}, three for each of the {} nodes "
+        "that are not clamped",
+        nodal.name, nodal.forces.rows(), rows, rows / 3));
+}
 
 LoadCases find_load_cases(const MeshedBody& body, const Recipe& recipe,
                           ModeMeasure measure) {

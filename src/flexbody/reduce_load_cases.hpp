@@ -18,6 +18,9 @@ struct LoadCases {
   [[nodiscard]] Eigen::Index count() const { return loads.cols(); }
 };
 
+/// @throws InputError unless there are three rows for each node that moves.
+void check_rows(const NodalForces& nodal, const Support& support);
+
 /// The load cases of a recipe for a measure (AutomaticModes), without those
 /// that are multiples of others or zero, with their compliance. With `mass`
 /// the inertia forces M r of a base that moves in x, y or z.

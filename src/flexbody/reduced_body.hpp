@@ -9,6 +9,7 @@
 
 #include "common/types.hpp"
 #include "flexbody/initial_deformation.hpp"
+#include "flexbody/load_modes_record.hpp"
 #include "flexbody/selection_record.hpp"
 
 namespace limber::flexbody {
@@ -94,6 +95,7 @@ struct ReducedBody {
   std::size_t mesh_elements = 0;
   std::size_t mesh_boundary_nodes = 0;
   std::optional<SelectionRecord> selection;  ///< of automatic modes
+  std::vector<LoadModesRecord> load_modes;   ///< of nodal forces
   InitialDeformation initial;  ///< projections of the recipe's fields
   std::string content_key;     ///< hash of all that went in
 

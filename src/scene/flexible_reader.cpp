@@ -116,6 +116,13 @@ void read_basis(XmlElement& element, FlexibleLink& link) {
   link.basis.interface_modes =
       element.boolean("interface_modes").value_or(true);
   link.basis.load_modes = element.boolean("load_modes").value_or(true);
+  link.basis.terms = element.integer("terms", 1, 100).value_or(1);
+  if (link.basis.terms > 1 && !link.basis.interface_modes &&
+      !link.basis.load_modes) {
+    element.fail(
+        "'terms' counts those of static-deformation modes; leave "
+        "interface_modes or load_modes on");
+  }
   link.rows = read_rows(element);
 }
 

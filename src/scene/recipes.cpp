@@ -92,10 +92,11 @@ void add_patterns(Recipe& recipe, const FlexibleLink& link,
   }
 }
 
-/// Nodal forces need every row; they are load cases of automatic modes.
+/// Nodal forces need every row. Their span brings static-deformation modes,
+/// their columns are load cases of automatic modes.
 void add_nodal_forces(Recipe& recipe, const std::filesystem::path& file) {
   recipe.rows = flexbody::parse_rows({"all"});
-  if (!recipe.basis.automatic) return;
+  if (!recipe.basis.automatic && !recipe.basis.load_modes) return;
   recipe.nodal_forces.push_back(read_load_cases(file));
 }
 

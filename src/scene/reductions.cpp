@@ -64,6 +64,9 @@ class Reduction {
       }
     };
     if (body->selection) add(flexbody::describe_shortfalls(*body->selection));
+    for (const flexbody::LoadModesRecord& record : body->load_modes) {
+      if (const auto text = describe_left_out(record)) add({*text});
+    }
     if (const LinkStart* start = find_start(scene_.scenario, link)) {
       add(describe_losses(*start, *body));
     }

@@ -52,6 +52,23 @@ TEST_F(Reduce, ProjectsAnInitialDisplacementAndKeepsIt) {
   EXPECT_FALSE(kept.contains("initial_velocity"));
 }
 
+// Three columns in two directions, on the first nodes of the mesh.
+TEST_F(Reduce, AnswersNodalForcesByAModeForEachDirectionAndTerm) {
+  std::string forces = "0 1 2\n1 0 2\n0 1 3\n";
+  for (int row = 2; row < 3 * 579; ++row) forces += "0 0 0\n";
+  place_.write("f.txt", forces);
+  const auto count = [&](const std::string& more) {
+    const CommandResult result = reduce("--modes 4 --force f.txt " + more);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.out)["modes"].get<int>();
+  };
+  EXPECT_EQ(count(""), 4 + 2);
+  EXPECT_EQ(count("--terms 3"), 4 + 3 * 2);
+  const CommandResult alone = reduce("--terms 2");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.errors, HasSubstr("--force or --interface"));
+}
+
 TEST_F(Reduce, RefusesToChooseByNothing) {
   const CommandResult result = reduce("--modes auto");
   EXPECT_EQ(result.status, 2);

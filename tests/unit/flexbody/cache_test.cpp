@@ -110,6 +110,7 @@ Changes list_load_and_basis_changes() {
       {"eigenmodes", [](Recipe& r) { r.basis.eigenmodes = 11; }},
       {"interface modes", [](Recipe& r) { r.basis.interface_modes = false; }},
       {"load modes", [](Recipe& r) { r.basis.load_modes = false; }},
+      {"terms", [](Recipe& r) { r.basis.terms = 2; }},
       {"tolerance", [](Recipe& r) { r.basis.drop_tolerance = 1e-9; }},
       {"all rows", [](Recipe& r) { r.rows = parse_rows({"all"}); }},
       {"few rows", [](Recipe& r) { r.rows = parse_rows({"interfaces"}); }},

@@ -127,6 +127,16 @@ void add_selection(const ReducedBody& body, FieldList& fields) {
   }
 }
 
+void add_load_modes(const ReducedBody& body, FieldList& fields) {
+  fields.add("load modes", body.load_modes.size());
+  for (const LoadModesRecord& record : body.load_modes) {
+    fields.add("forces name", record.name);
+    fields.add("forces counts", to_sizes({record.directions, record.taken}));
+    fields.add("forces is_whole", record.is_whole);
+    fields.add("forces left_out", record.left_out);
+  }
+}
+
 void add_field(const std::optional<ProjectedField>& field,
                const std::string& name, FieldList& fields) {
   fields.add(name, field.has_value());
@@ -185,6 +195,8 @@ ReducedBody make_small_body(unsigned seed) {
       {{"tip, force (1, 0, 0) N", {0, 9}, numbers.next(), numbers.next(), 0.5},
        {"nothing", {}, 1.0, 0.0, 0.0},
        {"file.txt from 0.1 s", {3}, 0.25, 0.125, numbers.next()}}};
+  body.load_modes = {{"forces.txt", 30, true, 12, numbers.next()},
+                     {"other.txt", 90, false, 3, 0.25}};
   body.initial.displacement =
       ProjectedField{numbers.matrix(m, 1), 0.25, numbers.next(), "a key"};
   if (seed % 2 == 0) body.initial.velocity = body.initial.displacement;
@@ -216,6 +228,7 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   fields.add("content_key", body.content_key);
   add_lists(body, fields);
   add_selection(body, fields);
+  add_load_modes(body, fields);
   add_field(body.initial.displacement, "initial displacement", fields);
   add_field(body.initial.velocity, "initial velocity", fields);
   return fields.get();

@@ -52,19 +52,24 @@ TEST(Recipes, OfAutomaticModesHoldThemAsLoadCasesAlone) {
   EXPECT_EQ(world.size(), 3U);  // it turns through the body
 }
 
-TEST(Recipes, OfAutomaticModesHoldNodalForces) {
+TEST(Recipes, HoldNodalForcesAsLoadCasesAndForStaticModes) {
   const TemporaryFile file("forces.txt", "0 0.5\n1 2\n3 4\n5 6\n");
   Scenario scenario;
   LoadSpec load;
   load.where.link = "arm";
   load.nodal_forces = file.path();
   scenario.loads = {load};
-  EXPECT_TRUE(make_recipe(make_robot(false), 0, scenario).nodal_forces.empty());
-  const auto recipe = make_recipe(make_robot(true), 0, scenario);
-  ASSERT_EQ(recipe.nodal_forces.size(), 1U);
-  EXPECT_EQ(recipe.nodal_forces[0].times, (std::vector<double>{0.0, 0.5}));
-  EXPECT_EQ(recipe.nodal_forces[0].forces.col(1), Vector3(2.0, 4.0, 6.0));
-  EXPECT_EQ(recipe.rows, flexbody::parse_rows({"all"}));
+  for (const bool automatic : {false, true}) {
+    Robot robot = make_robot(automatic);
+    const auto recipe = make_recipe(robot, 0, scenario);
+    ASSERT_EQ(recipe.nodal_forces.size(), 1U);
+    EXPECT_EQ(recipe.nodal_forces[0].times, (std::vector<double>{0.0, 0.5}));
+    EXPECT_EQ(recipe.nodal_forces[0].forces.col(1), Vector3(2.0, 4.0, 6.0));
+    EXPECT_EQ(recipe.rows, flexbody::parse_rows({"all"}));
+    robot.links[0].flexible->basis.load_modes = false;
+    EXPECT_EQ(make_recipe(robot, 0, scenario).nodal_forces.size(),
+              automatic ? 1U : 0U);
+  }
 }
 
 }  // namespace

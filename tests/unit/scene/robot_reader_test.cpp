@@ -88,6 +88,22 @@ TEST(RobotReader, ReadsTheExtension) {
   EXPECT_EQ(robot.connectors.at(0).to.point, Vector3(0, 0, 9));
 }
 
+TEST(RobotReader, ReadsTermsOfStaticDeformationModes) {
+  const auto basis = [](const std::string& attributes) {
+    return links("a") + "<flexible link='a'>" + kMesh + "<basis " + attributes +
+           "/></flexible>";
+  };
+  const auto terms = [&](const std::string& attributes) {
+    return read(basis(attributes)).links[0].flexible->basis.terms;
+  };
+  EXPECT_EQ(terms(""), 1);
+  EXPECT_EQ(terms("terms='3' load_modes='false'"), 3);
+  EXPECT_THAT(error_of(basis("terms='0'")), HasSubstr("terms"));
+  EXPECT_THAT(
+      error_of(basis("terms='2' interface_modes='false' load_modes='false'")),
+      HasSubstr("leave interface_modes or load_modes on"));
+}
+
 TEST(RobotReader, ReadsAutomaticModes) {
   const auto basis = [](const std::string& attributes) {
     return links("a") + "<flexible link='a'>" + kMesh + "<basis " + attributes +

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/load_modes_record.hpp"
+
+#include <fmt/format.h>
+
+namespace limber::flexbody {
+
+std::optional<std::string> describe_left_out(const LoadModesRecord& record) {
+  if (record.is_whole && record.taken == record.directions) return {};
+  return fmt::format(
+      "nodal forces '{}' deform the body in {}{} independent ways; "
+      "static-deformation modes are taken of the {} largest. The others have "
+      "{:.3g} % of the static answers (norm of elastic energy){}; modes of a "
+      "load that moves over the body are better made by interfaces along its "
+      "path.",
+      record.name, record.is_whole ? "" : "more than ", record.directions,
+      record.taken, 100.0 * record.left_out,
+      record.is_whole ? "" : ", and those not looked at come on top");
+}
+
+}  // namespace limber::flexbody

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_static_modes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "flexbody/force_directions.hpp"
+#include "flexbody/multiply_mass.hpp"
+#include "flexbody/reduce_load_cases.hpp"
+#include "flexbody/reduced_basis.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+void append(const MatrixX& columns, MatrixX& to) {
+  MatrixX joined(columns.rows(), to.cols() + columns.cols());
+  joined << to, columns;
+  to = std::move(joined);
+}
+
+/// Columns of the patterns whose static answers enter the basis, on all nodes.
+MatrixX find_pattern_columns(const MeshedBody& body, const Recipe& recipe) {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t i = 0; i < recipe.load_patterns.size(); ++i)
+    if (recipe.load_patterns[i].static_mode)
+      columns.push_back(static_cast<Eigen::Index>(i));
+  return find_pattern_loads(body.mesh, recipe, body.interfaces)(Eigen::all,
+                                                                columns);
+}
+
+/// Forces that deform the body: without those that only move it, of which
+/// roundoff would remain.
+MatrixX find_deforming(const fem::ElasticInverse& inverse, const MatrixX& F) {
+  constexpr double kRoundoff = 1e-11;
+  MatrixX elastic = inverse.project_load(F);
+  for (Eigen::Index i = 0; i < F.cols(); ++i)
+    if (elastic.col(i).norm() <= kRoundoff * F.col(i).norm())
+      elastic.col(i).setZero();
+  return elastic;
+}
+
+/// Static answers of a history, the most elastic energy first. With F = Q R,
+/// X = K^+ Q and Q^T X = A^T A, the answers X R have the energy Gram matrix
+/// (A R)^T (A R); A R R^T A^T = U diag(energy) U^T gives their principal
+/// directions X R R^T A^T U.
+MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
+                         LoadModesRecord& record) {
+  check_rows(nodal, body.support);
+  const ForceDirections found =
+      find_force_directions(find_deforming(body.inverse, nodal.forces),
+                            kForceTolerance, kMostForceDirections);
+  record.name = nodal.name;
+  record.is_whole = found.is_whole;
+  if (found.Q.cols() == 0) return MatrixX(nodal.forces.rows(), 0);
+  const MatrixX X = body.inverse.solve(found.Q);
+  const MatrixX S = found.Q.transpose() * X;
+  const Eigen::SelfAdjointEigenSolver<MatrixX> compliance(0.5 *
+                                                          (S + S.transpose()));
+  const MatrixX A_T =
+      compliance.eigenvectors() *
+      compliance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const MatrixX weight = found.R * found.R.transpose() * A_T;
+  const Eigen::SelfAdjointEigenSolver<MatrixX> principal(A_T.transpose() *
+                                                         weight);
+  const VectorX energy = principal.eigenvalues().reverse().cwiseMax(0.0);
+  const double least = kForceTolerance * kForceTolerance * energy[0];
+  const Eigen::Index directions = (energy.array() > least).count();
+  const Eigen::Index taken = std::min(directions, kMostForceModes);
+  record.directions = static_cast<int>(directions);
+  record.taken = static_cast<int>(taken);
+  if (taken < directions)
+    record.left_out =
+        std::sqrt(energy.tail(energy.size() - taken).sum() / energy.sum());
+  return X * (weight *
+              principal.eigenvectors().rowwise().reverse().leftCols(taken));
+}
+
+/// `first` and the blocks K^+ M of it, K^+ M of that, ...
+MatrixX extend(const MeshedBody& body, const MatrixX& first,
+               const BasisOptions& options) {
+  if (options.terms <= 1 || first.cols() == 0) return first;
+  const Support& support = body.support;
+  const auto make_orthonormal = [&](const MatrixX& vectors) {
+    return orthonormalise(vectors, support.matrices.M_s, support.R,
+                          options.drop_tolerance);
+  };
+  MatrixX all = make_orthonormal(first);
+  MatrixX block = all;
+  for (int n = 1; n < options.terms && block.cols() > 0; ++n) {
+    MatrixX joined = all;
+    append(body.inverse.solve(multiply_mass(support.matrices.M_s, block)),
+           joined);
+    joined = make_orthonormal(joined);
+    block = joined.rightCols(joined.cols() - all.cols());
+    all = std::move(joined);
+  }
+  return all;
+}
+
+}  // namespace
+
+StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
+  const auto solve = [&](const MatrixX& loads) {
+    return body.inverse.solve(take_rows(loads, body.support.free_nodes));
+  };
+  StaticModes modes;
+  modes.vectors.resize(body.support.matrices.dof_count(), 0);
+  for (const Interface& interface : body.interfaces) {
+    const Matrix6X wrenches = unit_wrenches(interface.motion);
+    const MatrixX answers = solve(interface.motion.spread(wrenches));
+    const Matrix6 flexibility =
+        interface.motion.apply(
+            put_rows(answers, body.support.free_nodes, body.mesh.x.cols())) *
+        wrenches.transpose();
+    modes.flexibility.emplace_back(0.5 *
+                                   (flexibility + flexibility.transpose()));
+    if (recipe.basis.interface_modes && interface.static_modes)
+      append(answers, modes.vectors);
+  }
+  if (recipe.basis.load_modes) {
+    const MatrixX patterns = find_pattern_columns(body, recipe);
+    if (patterns.cols() > 0) append(solve(patterns), modes.vectors);
+    for (const NodalForces& nodal : recipe.nodal_forces)
+      append(find_force_modes(body, nodal, modes.loads.emplace_back()),
+             modes.vectors);
+  }
+  modes.vectors = extend(body, modes.vectors, recipe.basis);
+  return modes;
+}
+
+}  // namespace limber::flexbody
