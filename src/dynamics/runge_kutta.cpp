@@ -1,17 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/runge_kutta.hpp"
 
+#include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "dynamics/finite_check.hpp"
 
 namespace limber::dynamics {
+namespace {
+
+/// to = from + increment; what the sum loses goes to `carry`, what the last one
+/// lost is added, if `from` still is what it `left`. Exact whichever is larger.
+template <typename From, typename Left, typename Increment, typename Carry,
+          typename To>
+void add(const From& from, const Left& left, const Increment& increment,
+         Carry&& carry, To&& to) {
+  for (Eigen::Index i = 0; i < from.size(); ++i) {
+    const double old = from[i];
+    const double step = increment[i] + (old == left[i] ? carry[i] : 0.0);
+    const double sum = old + step;
+    const double added = sum - old;
+    carry[i] = (old - (sum - added)) + (step - added);
+    to[i] = sum;
+  }
+}
+
+/// q exp(theta) - q, and what brings q back to the unit sphere.
+Eigen::Vector4d find_turn(const Quaternion& q, const Vector3& theta) {
+  Quaternion less_one = exp_quaternion(theta);
+  less_one.w() = -less_one.vec().squaredNorm() / (1.0 + less_one.w());
+  return (q * less_one).coeffs() + (1.0 / q.norm() - 1.0) * q.coeffs();
+}
+
+/// All numbers zero: nothing lost yet.
+void clear(SystemState& carry) {
+  for (BodyState& body : carry.bodies) {
+    body = BodyState{};
+    body.quat_WB.coeffs().setZero();
+  }
+  carry.eta.setZero();
+  carry.etadot.setZero();
+  carry.u_H.setZero();
+  carry.udot_H.setZero();
+}
+
+}  // namespace
 
 RungeKutta4::RungeKutta4(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
       accelerations_(make_accelerations(model)),
       theta_(model.bodies.size(), Vector3::Zero()),
-      stage_(make_state(model)) {
+      stage_(make_state(model)),
+      left_(make_state(model)),
+      carry_(make_state(model)) {
+  clear(carry_);
   const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
   const VectorX modes = VectorX::Zero(model.modal_count);
   const VectorX nodes = VectorX::Zero(model.nodal_count);
@@ -54,6 +96,32 @@ void RungeKutta4::displace(const SystemState& from, const Slope& slope,
   stage_.udot_H = from.udot_H + h * slope.uddot_H;
 }
 
+void RungeKutta4::advance(const SystemState& from, const Slope& slope, double h,
+                          double t) {
+  stage_.t = t;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyState& old = from.bodies[b];
+    const BodyState& left = left_.bodies[b];
+    BodyState& carry = carry_.bodies[b];
+    BodyState& body = stage_.bodies[b];
+    add(old.p_WB, left.p_WB, Vector3(h * slope.pdot[b]), carry.p_WB, body.p_WB);
+    add(old.quat_WB.coeffs(), left.quat_WB.coeffs(),
+        find_turn(old.quat_WB, h * slope.thetadot[b]), carry.quat_WB.coeffs(),
+        body.quat_WB.coeffs());
+    add(old.v_WB_W, left.v_WB_W, Vector3(h * slope.vdot[b]), carry.v_WB_W,
+        body.v_WB_W);
+    add(old.w_WB_B, left.w_WB_B, Vector3(h * slope.wdot[b]), carry.w_WB_B,
+        body.w_WB_B);
+  }
+  add(from.eta, left_.eta, h * slope.etadot, carry_.eta, stage_.eta);
+  add(from.etadot, left_.etadot, h * slope.etaddot, carry_.etadot,
+      stage_.etadot);
+  stage_.X_WH = from.X_WH;
+  add(from.u_H, left_.u_H, h * slope.udot_H, carry_.u_H, stage_.u_H);
+  add(from.udot_H, left_.udot_H, h * slope.uddot_H, carry_.udot_H,
+      stage_.udot_H);
+}
+
 StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   for (Vector3& theta : theta_) theta.setZero();
   calc_slope(state, theta_, Side::right, slopes_[0]);
@@ -90,11 +158,14 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
     sum += 2.0 * k[1].*member + 2.0 * k[2].*member + k[3].*member;
     sum /= 6.0;
   }
-  displace(state, k[0], h, end);
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    stage_.bodies[b].quat_WB.normalize();
+  advance(state, k[0], h, end);
+  try {
+    require_finite(model_, stage_, h);
+  } catch (const NumericalError&) {
+    clear(carry_);
+    throw;
   }
-  require_finite(model_, stage_, h);
+  left_ = stage_;
   std::swap(state, stage_);
   result.load_work = h * work / 6.0;
   result.dissipated = h * loss / 6.0;

@@ -10,9 +10,12 @@
 namespace limber::dynamics {
 
 /// Explicit fourth-order Runge-Kutta on the group (Munthe-Kaas): the classic
-/// tableau in the rotation vector of each step.
+/// tableau in the rotation vector of each step. Steps are added with their
+/// round-off carried on to the next, so that short steps are as good as their
+/// order says.
 ///
-/// Source     Munthe-Kaas, "Runge-Kutta methods on Lie groups", BIT 38, 1998.
+/// Source     Munthe-Kaas, "Runge-Kutta methods on Lie groups", BIT 38, 1998;
+///            compensated summation: Knuth's two-sum.
 /// Limits     stable only for h below about 2.8 / the highest frequency.
 class RungeKutta4 {
  public:
@@ -33,6 +36,7 @@ class RungeKutta4 {
                   Side side, Slope& slope);
   void displace(const SystemState& from, const Slope& slope, double h,
                 double t);
+  void advance(const SystemState& from, const Slope& slope, double h, double t);
 
   const SystemModel& model_;
   SystemTerms terms_;
@@ -40,6 +44,10 @@ class RungeKutta4 {
   std::array<Slope, 4> slopes_;
   std::vector<Vector3> theta_;  // rotation since the step's start
   SystemState stage_;
+  // The state that the last step left, and what was lost in its sums. The
+  // carry of a number that the caller has changed since is dropped.
+  SystemState left_;
+  SystemState carry_;
 };
 
 }  // namespace limber::dynamics
