@@ -81,6 +81,15 @@ struct BaseStart {
   Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
 };
 
+/// What takes the place of a link's <basis>; what is not given stays as it is.
+struct BasisChoice {
+  std::optional<int> eigenmodes;   ///< lowest; also in place of "auto"
+  std::optional<bool> interfaces;  ///< their static-deformation modes
+  std::optional<bool> loads;       ///< their static-deformation modes
+
+  bool operator==(const BasisChoice&) const = default;
+};
+
 struct OutputSpec {
   std::filesystem::path folder;  ///< empty: out/<scenario name>
   bool xdmf = false;
@@ -95,6 +104,8 @@ struct Scenario {
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   std::map<std::string, dynamics::Fidelity> fidelity_of_link;
   flexbody::FullOptions full;  ///< of links at level `full`
+  BasisChoice basis;                                 ///< of every flexible link
+  std::map<std::string, BasisChoice> basis_of_link;  ///< over `basis`
   std::vector<LoadSpec> loads;
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
   std::map<std::string, JointStart> joints;

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "scene/basis_reader.hpp"
 #include "scene/time_function_reader.hpp"
 #include "scene/time_settings_reader.hpp"
+#include "scene/toml_file.hpp"
 #include "scene/toml_table.hpp"
 
 namespace limber::scene {
@@ -279,6 +279,7 @@ void read_root(TomlTable& root, Scenario& scenario) {
   read_section(root, "fidelity",
                [&](TomlTable& t) { read_fidelity(t, scenario); });
   read_section(root, "full", [&](TomlTable& t) { read_full(t, scenario); });
+  read_section(root, "basis", [&](TomlTable& t) { read_basis(t, scenario); });
   read_section(root, "gravity", [&](TomlTable& t) {
     scenario.gravity = t.vector("acceleration").value_or(Vector3::Zero());
     if (!t.has("acceleration")) t.fail("needs 'acceleration'");
@@ -296,26 +297,10 @@ void read_root(TomlTable& root, Scenario& scenario) {
   root.finish();
 }
 
-toml::table parse_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
-    throw InputError(
-        fmt::format("{}: cannot read this scenario file", file.string()));
-  }
-  try {
-    return toml::parse(text.str());
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", file.string(),
-                                 error.source().begin.line,
-                                 error.description()));
-  }
-}
-
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file) {
-  const toml::table table = parse_file(file);
+  const toml::table table = parse_toml_file(file);
   Problems problems(file.string());
   Scenario scenario;
   scenario.file = file;

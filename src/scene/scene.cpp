@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "scene/assembly.hpp"
+#include "scene/basis_choice.hpp"
 #include "scene/full_bodies.hpp"
 #include "scene/link_motion.hpp"
 #include "scene/reductions.hpp"
@@ -13,16 +14,33 @@
 
 namespace limber::scene {
 
+namespace {
+
+void apply(const Overrides& overrides, Scene& scene) {
+  if (overrides.fidelity) {
+    scene.scenario.fidelity = *overrides.fidelity;
+    scene.scenario.fidelity_of_link.clear();
+  }
+  if (overrides.step) {
+    scene.scenario.settings.step = *overrides.step;
+    scene.scenario.settings.step_changes.clear();
+  }
+  if (!overrides.rows) return;
+  for (Link& link : scene.robot.links) {
+    if (link.flexible) link.flexible->rows = *overrides.rows;
+  }
+}
+
+}  // namespace
+
 Scene load_scene(const std::filesystem::path& file,
                  const Overrides& overrides) {
   Scene scene;
   scene.scenario = read_scenario(file);
   scene.robot = read_robot(scene.scenario.robot);
   check_scenario(scene.scenario, scene.robot);
-  if (overrides.fidelity) {
-    scene.scenario.fidelity = *overrides.fidelity;
-    scene.scenario.fidelity_of_link.clear();
-  }
+  choose_bases(scene.scenario, overrides.basis, scene.robot);
+  apply(overrides, scene);
   return scene;
 }
 

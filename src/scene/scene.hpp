@@ -20,7 +20,8 @@
 
 namespace limber::scene {
 
-/// A scenario and the robot that it names.
+/// A scenario and the robot that it names. The scenario's choice of bases is
+/// in the robot's links.
 struct Scene {
   Scenario scenario;
   Robot robot;
@@ -29,6 +30,12 @@ struct Scene {
 /// What the command line puts in place of the file's word.
 struct Overrides {
   std::optional<dynamics::Fidelity> fidelity;  ///< for every flexible link
+  /// Over the file's [basis] for every flexible link, key by key.
+  BasisChoice basis;
+  /// Longest step, from the start to the end [s]. Output times stay those that
+  /// the file asks for.
+  std::optional<double> step;
+  std::optional<flexbody::KeptRows> rows;  ///< of every link with a mesh
 };
 
 /// Reads the scenario and its robot, and checks one against the other.

@@ -21,7 +21,10 @@ class Checker {
 
   void run() {
     for (const auto& [link, level] : scenario_.fidelity_of_link) {
-      check_level(link);
+      check_flexible("[fidelity.links]", link);
+    }
+    for (const auto& [link, basis] : scenario_.basis_of_link) {
+      check_flexible("[basis.links]", link);
     }
     for (const auto& [link, start] : scenario_.link_starts) {
       check_flexible("[initial.links]", link);
@@ -44,13 +47,6 @@ class Checker {
       if (link.name == name) return &link;
     }
     return nullptr;
-  }
-
-  void check_level(const std::string& name) {
-    const Link* link = find(name);
-    if (link != nullptr && link->flexible) return;
-    problems_.add(0, "[fidelity.links] " +
-                         describe_unknown("flexible link", name, flexible_));
   }
 
   void check_flexible(const std::string& who, const std::string& name) {

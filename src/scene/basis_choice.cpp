@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/basis_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/problems.hpp"
+
+namespace limber::scene {
+namespace {
+
+/// `over` where it says something, else `base`.
+BasisChoice merge(const BasisChoice& base, const BasisChoice& over) {
+  BasisChoice choice = base;
+  if (over.eigenmodes) choice.eigenmodes = over.eigenmodes;
+  if (over.interfaces) choice.interfaces = over.interfaces;
+  if (over.loads) choice.loads = over.loads;
+  return choice;
+}
+
+void apply(const BasisChoice& choice, flexbody::BasisOptions& basis) {
+  if (choice.eigenmodes) {
+    basis.eigenmodes = *choice.eigenmodes;
+    basis.automatic.reset();
+  }
+  basis.interface_modes = choice.interfaces.value_or(basis.interface_modes);
+  basis.load_modes = choice.loads.value_or(basis.load_modes);
+}
+
+}  // namespace
+
+void choose_bases(const Scenario& scenario, const BasisChoice& over,
+                  Robot& robot) {
+  Problems problems(scenario.file.string());
+  for (Link& link : robot.links) {
+    if (!link.flexible) continue;
+    BasisChoice choice = scenario.basis;
+    const auto own = scenario.basis_of_link.find(link.name);
+    if (own != scenario.basis_of_link.end())
+      choice = merge(choice, own->second);
+    choice = merge(choice, over);
+    if (choice == BasisChoice{}) continue;
+    if (link.flexible->reduced_file.empty()) {
+      apply(choice, link.flexible->basis);
+      continue;
+    }
+    problems.add(
+        0, fmt::format("link '{}' comes from the saved body '{}', whose basis "
+                       "is made; choose bases by [basis.links.NAME] for links "
+                       "with a mesh",
+                       link.name, link.flexible->reduced_file.string()));
+  }
+  problems.raise();
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scenario_writer.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "scene/toml_file.hpp"
+
+namespace limber::scene {
+namespace {
+
+/// The table called `key`, made if there is none.
+toml::table& get_table(toml::table& parent, const std::string& key) {
+  if (parent.get_as<toml::table>(key) == nullptr) {
+    parent.insert_or_assign(key, toml::table{});
+  }
+  return *parent.get_as<toml::table>(key);
+}
+
+/// Turns paths that lead from one folder into paths that lead from another.
+class Mover {
+ public:
+  Mover(const std::filesystem::path& from, const std::filesystem::path& to)
+      : from_(
+            std::filesystem::weakly_canonical(std::filesystem::absolute(from))),
+        to_(std::filesystem::weakly_canonical(std::filesystem::absolute(to))) {}
+
+  void move(toml::table& table, const std::string& key) const {
+    const auto path = table[key].value<std::string>();
+    if (!path || std::filesystem::path(*path).is_absolute()) return;
+    table.insert_or_assign(key, (from_ / *path)
+                                    .lexically_normal()
+                                    .lexically_relative(to_)
+                                    .generic_string());
+  }
+
+ private:
+  std::filesystem::path from_;
+  std::filesystem::path to_;
+};
+
+/// Every key of docs/formats/scenario.md that names a file.
+void move_paths(toml::table& root, const Mover& mover) {
+  mover.move(root, "robot");
+  if (toml::array* loads = root.get_as<toml::array>("load")) {
+    for (toml::node& item : *loads) {
+      toml::table& load = *item.as_table();
+      mover.move(load, "nodal_forces");
+      toml::table* time = load.get_as<toml::table>("time");
+      if (time != nullptr) mover.move(*time, "file");
+    }
+  }
+  toml::table* links = root["initial"]["links"].as_table();
+  if (links == nullptr) return;
+  for (auto&& [name, item] : *links) {
+    toml::table* start = item.as_table();
+    if (start == nullptr) continue;
+    mover.move(*start, "displacement");
+    mover.move(*start, "velocity");
+  }
+}
+
+/// Sets a key of [basis] and takes it out of every [basis.links.NAME]. The
+/// words of static_deformation are a table of their own there.
+template <typename Value>
+void set_basis(toml::table& basis, const std::string& table,
+               const std::string& key, const std::optional<Value>& value) {
+  if (!value) return;
+  const auto find = [&](toml::table& at) {
+    return table.empty() ? &at : at.get_as<toml::table>(table);
+  };
+  (table.empty() ? basis : get_table(basis, table))
+      .insert_or_assign(key, *value);
+  toml::table* links = basis.get_as<toml::table>("links");
+  if (links == nullptr) return;
+  for (auto&& [name, item] : *links) {
+    toml::table* own = item.is_table() ? find(*item.as_table()) : nullptr;
+    if (own != nullptr) own->erase(key);
+  }
+}
+
+void set_basis(toml::table& root, const BasisChoice& choice) {
+  if (choice == BasisChoice{}) return;
+  toml::table& basis = get_table(root, "basis");
+  set_basis(basis, "", "eigenmodes", choice.eigenmodes);
+  set_basis(basis, "static_deformation", "interfaces", choice.interfaces);
+  set_basis(basis, "static_deformation", "loads", choice.loads);
+}
+
+void set_step(toml::table& root, double step) {
+  toml::table& time = get_table(root, "time");
+  const auto interval = time["output_interval"].value<double>();
+  const auto old_step = time["step"].value<double>();
+  if (!time.contains("output_times") && (interval || old_step)) {
+    const double old = interval ? *interval : *old_step;
+    time.insert_or_assign("output_interval", std::max(old, step));
+  }
+  time.erase("steps");
+  time.insert_or_assign("step", step);
+}
+
+}  // namespace
+
+std::string rewrite_scenario(const std::filesystem::path& file,
+                             const Overrides& overrides,
+                             const std::filesystem::path& folder) {
+  toml::table root = parse_toml_file(file);
+  move_paths(root, Mover(file.parent_path(), folder));
+  if (overrides.fidelity) {
+    const std::string level(dynamics::to_string(*overrides.fidelity));
+    root.insert_or_assign("fidelity", toml::table{{"default", level}});
+  }
+  set_basis(root, overrides.basis);
+  if (overrides.step) set_step(root, *overrides.step);
+  std::ostringstream text;
+  text << root << '\n';
+  return text.str();
+}
+
+}  // namespace limber::scene
