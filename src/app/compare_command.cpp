@@ -1,80 +1,209 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 #include "app/commands.hpp"
 #include "app/comparison.hpp"
+#include "app/comparison_report.hpp"
+#include "app/comparison_selection.hpp"
+#include "app/text_file.hpp"
+#include "app/validators.hpp"
 #include "common/errors.hpp"
-#include "dynamics/fidelity.hpp"
+#include "scene/scenario_writer.hpp"
 
 namespace limber::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   std::string scenario;
-  std::vector<std::string> fidelity;
+  std::vector<std::string> levels;
+  Axes axes;  ///< without levels
+  std::string reference;
+  ReferenceWish wish;  ///< without a level
+  std::string tolerance;
+  std::string measure = "both";
+  int repeats = 0;
+  bool keep = false;
   std::string out;
   std::string cache;
   bool json = false;
 };
 
-std::vector<dynamics::Fidelity> parse_levels(
-    const std::vector<std::string>& names) {
-  if (names.size() < 2) {
-    throw InputError(
-        "--fidelity: compare needs at least two levels, as in "
-        "--fidelity rigid,coupled");
+Axes make_axes(const Options& options) {
+  Axes axes = options.axes;
+  for (const std::string& name : options.levels) {
+    axes.levels.push_back(dynamics::parse_fidelity(name));
   }
-  std::vector<dynamics::Fidelity> levels;
-  levels.reserve(names.size());
-  for (const std::string& name : names) {
-    levels.push_back(dynamics::parse_fidelity(name));
-  }
-  return levels;
+  return axes;
 }
 
-Comparison compute(const Options& options,
-                   const std::filesystem::path& folder) {
-  Comparison comparison;
-  comparison.levels = options.fidelity;
-  for (const dynamics::Fidelity level : parse_levels(options.fidelity)) {
-    scene::Overrides overrides;
-    overrides.fidelity = level;
-    const scene::Scene scene = scene::load_scene(options.scenario, overrides);
-    const std::filesystem::path own =
-        folder / std::string(dynamics::to_string(level));
-    check_output_folder(own);
-    comparison.runs.push_back(run_scene(scene, options.cache));
-    write_run(comparison.runs.back(), own, scene.scenario.output.xdmf);
-    if (comparison.runs.back().failure) {
-      std::rethrow_exception(comparison.runs.back().failure);
-    }
+ReferenceWish make_wish(const Options& options) {
+  ReferenceWish wish = options.wish;
+  if (!options.reference.empty()) {
+    wish.level = dynamics::parse_fidelity(options.reference);
   }
-  return comparison;
+  return wish;
+}
+
+std::optional<Demand> make_demand(const Options& options) {
+  const ErrorMeasure measure = parse_error_measure(options.measure);
+  if (options.tolerance.empty()) return std::nullopt;
+  return Demand{parse_tolerance(options.tolerance), measure};
+}
+
+ComparisonSettings make_settings(const Options& options) {
+  ComparisonSettings settings;
+  settings.scenario = options.scenario;
+  settings.folder =
+      options.out.empty()
+          ? fs::path("out") /
+                (fs::path(options.scenario).stem().string() + "-compare")
+          : fs::path(options.out);
+  settings.cache = options.cache;
+  settings.repeats = options.repeats;
+  // Levels alone are few; other axes multiply.
+  settings.keep_runs = options.keep || (options.axes.eigenmodes.empty() &&
+                                        options.axes.sources.empty() &&
+                                        options.axes.steps.empty());
+  return settings;
+}
+
+fs::path write_chosen(const ComparedRun& run, const Demand& demand,
+                      const ComparisonSettings& settings) {
+  fs::path file = settings.folder / "chosen.toml";
+  const auto error = find_error(run.error->error, demand.measure);
+  write_text(
+      file,
+      fmt::format(
+          "# {}: the cheapest choice within {} that limber compare found,\n"
+          "#   {}\n"
+          "# with an error of {}. The original's comments are lost.\n\n{}",
+          settings.scenario.filename().string(), to_percent(demand.tolerance),
+          describe(run.choice), to_percent(error),
+          scene::rewrite_scenario(settings.scenario, to_overrides(run.choice),
+                                  settings.folder)));
+  return file;
+}
+
+Json chosen_to_json(const Demand& demand, const ComparedRun* chosen,
+                    const fs::path& file) {
+  Json json{{"tolerance", demand.tolerance},
+            {"measure", to_string(demand.measure)},
+            {"run", nullptr}};
+  if (chosen == nullptr) return json;
+  json["run"] = describe(chosen->choice);
+  json["error"] = *find_error(chosen->error->error, demand.measure);
+  json["scenario"] = file.string();
+  return json;
+}
+
+std::string describe_chosen(const Demand& demand, const ComparedRun& chosen,
+                            const Comparison& comparison,
+                            const fs::path& file) {
+  return fmt::format(
+      "Cheapest within {}: '{}', error {}, {:.3g} times cheaper than the "
+      "reference; {}\n",
+      to_percent(demand.tolerance), describe(chosen.choice),
+      to_percent(find_error(chosen.error->error, demand.measure)),
+      comparison.reference.cost.online / chosen.cost.online, file.string());
+}
+
+void report(const Comparison& comparison, const std::optional<Demand>& demand,
+            const ComparisonSettings& settings, bool as_json) {
+  const ComparedRun* chosen =
+      demand ? find_cheapest(comparison, *demand) : nullptr;
+  // What an earlier comparison chose would pass for this one's.
+  fs::remove(settings.folder / "chosen.toml");
+  fs::path file;
+  if (chosen != nullptr) file = write_chosen(*chosen, *demand, settings);
+  Json json = to_json(comparison);
+  if (demand) json["chosen"] = chosen_to_json(*demand, chosen, file);
+  write_text(settings.folder / "comparison.json", to_text(json));
+  if (as_json) {
+    json["folder"] = settings.folder.string();
+    fmt::print("{}\n", to_text(json));
+    return;
+  }
+  fmt::print("{}", to_text(comparison));
+  if (chosen != nullptr) {
+    fmt::print("{}", describe_chosen(*demand, *chosen, comparison, file));
+  }
+  fmt::print("results in {}\n", settings.folder.string());
 }
 
 void compare(const Options& options) {
-  (void)parse_levels(options.fidelity);
-  const std::filesystem::path folder =
-      options.out.empty()
-          ? std::filesystem::path("out") /
-                (std::filesystem::path(options.scenario).stem().string() +
-                 "-compare")
-          : std::filesystem::path(options.out);
-  // The scenario first: its errors tell more than those of the folder.
-  (void)scene::load_scene(options.scenario);
-  check_output_folder(folder);
-  const Comparison comparison = compute(options, folder);
-  write_comparison(comparison, folder);
-  if (options.json) {
-    Json json = to_json(comparison);
-    json["folder"] = folder.string();
-    fmt::print("{}\n", to_text(json));
-  } else {
-    fmt::print("{}results in {}\n", to_text(comparison), folder.string());
+  const Axes axes = make_axes(options);
+  const ReferenceWish wish = make_wish(options);
+  const std::optional<Demand> demand = make_demand(options);
+  const ComparisonSettings settings = make_settings(options);
+  const scene::Scene scene = scene::load_scene(options.scenario);
+  const ComparisonPlan plan = make_plan(axes, wish, scene);
+  // What a scene refuses, it refuses before anything is written.
+  for (const Choice& choice : plan.runs) {
+    (void)scene::load_scene(options.scenario, to_overrides(choice));
   }
+  check_output_folder(settings.folder);
+  const Comparison comparison = run_comparison(plan, settings);
+  if (scene.scenario.output.pictures) {
+    draw_comparison(comparison, settings.folder,
+                    demand ? std::optional(demand->tolerance) : std::nullopt);
+  }
+  report(comparison, demand, settings, options.json);
+  if (demand && find_cheapest(comparison, *demand) == nullptr) {
+    refuse(comparison, *demand);
+  }
+}
+
+void add_axes(CLI::App& command, Options& options) {
+  command
+      .add_option("--fidelity", options.levels,
+                  "Levels, as in rigid,coupled (default: all that need no mesh "
+                  "online)")
+      ->delimiter(',');
+  command
+      .add_option("--modes", options.axes.eigenmodes,
+                  "Numbers of eigenmodes of every flexible link, as in 4,10,20 "
+                  "(default: the scenario's)")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 100000));
+  command
+      .add_option("--sources", options.axes.sources,
+                  "What the bases are made of: eigenmodes alone, or with the "
+                  "static-deformation modes of interfaces, loads, or all "
+                  "(default: the scenario's)")
+      ->delimiter(',');
+  command
+      .add_option("--step", options.axes.steps,
+                  "Longest steps [s], as in 1e-3,5e-4 (default: the "
+                  "scenario's)")
+      ->delimiter(',')
+      ->check(make_positive());
+}
+
+void add_reference(CLI::App& command, Options& options) {
+  command.add_option("--reference", options.reference,
+                     "Level of the reference (default: the highest)");
+  command
+      .add_option("--reference-modes", options.wish.eigenmodes,
+                  "Its eigenmodes (default: the most that are compared)")
+      ->check(CLI::Range(0, 100000));
+  command
+      .add_option("--reference-step", options.wish.step,
+                  "Its step [s] (default: half of the shortest that is "
+                  "compared)")
+      ->check(make_positive());
+}
+
+void add_demand(CLI::App& command, Options& options) {
+  command.add_option("--tolerance", options.tolerance,
+                     "Largest error, as in 1% or 0.01: choose the cheapest run "
+                     "that meets it and write it as chosen.toml");
+  command.add_option("--measure", options.measure,
+                     "Error that the tolerance holds: displacement, "
+                     "deformation, or both (default): the larger one");
 }
 
 }  // namespace
@@ -82,14 +211,22 @@ void compare(const Options& options) {
 void add_compare(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Simulate a scenario at several levels of fidelity");
+      "compare",
+      "Simulate a scenario at several levels, bases and steps; measure what "
+      "each costs and gives up");
   command->add_option("scenario", options->scenario, "Scenario file (TOML)")
       ->required();
+  add_axes(*command, *options);
+  add_reference(*command, *options);
+  add_demand(*command, *options);
   command
-      ->add_option("--fidelity", options->fidelity,
-                   "Levels, separated by commas; the last is the reference")
-      ->delimiter(',')
-      ->required();
+      ->add_option("--repeat", options->repeats,
+                   "Runs of which the fastest counts (default: as many as last "
+                   "0.2 s)")
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--keep", options->keep,
+                    "Keep the results of every run (default: where levels are "
+                    "the only axis)");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>-compare)");
   command->add_option("--cache", options->cache, "Folder of reduced bodies");

@@ -4,72 +4,245 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <set>
+
+#include "app/reducer.hpp"
+#include "app/terminal.hpp"
+#include "common/errors.hpp"
+#include "flexbody/cache.hpp"
 
 namespace limber::app {
+namespace {
 
-Difference find_difference(const results::History& history,
-                           const results::History& reference,
-                           std::size_t column) {
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostRepeats = 1000;
+
+std::string text_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+}
+
+std::map<std::string, ProbeDifference> find_probe_differences(
+    const results::History& history, const results::History& reference) {
+  std::map<std::string, ProbeDifference> differences;
   const std::size_t count =
       std::min(history.probe_rows.size(), reference.probe_rows.size());
-  Difference difference;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double d =
-        history.probe_rows[i][column] - reference.probe_rows[i][column];
-    difference.rms += d * d;
-    difference.max = std::max(difference.max, std::abs(d));
-  }
-  if (count > 0) {
-    difference.rms = std::sqrt(difference.rms / static_cast<double>(count));
-  }
-  return difference;
-}
-
-Json to_json(const Comparison& comparison) {
-  const results::History& reference = comparison.runs.back().history;
-  Json levels = Json::array();
-  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    const Run& run = comparison.runs[i];
-    Json probes = Json::object();
-    for (std::size_t c = 0; c < reference.columns.size(); ++c) {
-      const Difference d = find_difference(run.history, reference, c);
-      probes[reference.columns[c].name] = Json{
-          {"rms", d.rms}, {"max", d.max}, {"unit", reference.columns[c].unit}};
-    }
-    levels.push_back(
-        Json{{"fidelity", comparison.levels[i]},
-             {"steps", run.statistics.steps},
-             {"newton_iterations", run.statistics.newton_iterations},
-             {"seconds_offline", run.built.seconds_offline},
-             {"seconds_online", run.statistics.seconds},
-             {"difference", probes}});
-  }
-  return Json{{"scenario", comparison.runs.back().scene.scenario.file.string()},
-              {"reference", comparison.levels.back()},
-              {"levels", levels}};
-}
-
-std::string to_text(const Comparison& comparison) {
-  const results::History& reference = comparison.runs.back().history;
-  std::string text = fmt::format("{:<28}", "RMS (max) difference");
-  for (const std::string& level : comparison.levels) {
-    text += fmt::format(" {:>22}", level);
-  }
   for (std::size_t c = 0; c < reference.columns.size(); ++c) {
-    text += fmt::format("\n{:<28}", reference.columns[c].name + " [" +
-                                        reference.columns[c].unit + "]");
-    for (const Run& run : comparison.runs) {
-      const Difference d = find_difference(run.history, reference, c);
-      text +=
-          fmt::format(" {:>22}", fmt::format("{:.3g} ({:.3g})", d.rms, d.max));
+    ProbeDifference found;
+    found.unit = reference.columns[c].unit;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double d = history.probe_rows[i][c] - reference.probe_rows[i][c];
+      found.rms += d * d / static_cast<double>(count);
+      found.max = std::max(found.max, std::abs(d));
+    }
+    found.rms = std::sqrt(found.rms);
+    differences[reference.columns[c].name] = found;
+  }
+  return differences;
+}
+
+/// Runs scenes one after another, on one set of output times.
+class Runner {
+ public:
+  Runner(const ComparisonPlan& plan, const ComparisonSettings& settings)
+      : plan_(plan), settings_(settings), bar_(make_progress_bar()) {
+    double longest = 0.0;
+    for (const Choice& choice : plan.runs) {
+      longest = std::max(longest, choice.step.value_or(0.0));
+    }
+    times_ = thin_times(
+        scene::load_scene(settings.scenario).scenario.settings.output_times,
+        longest);
+  }
+
+  Comparison run() {
+    Comparison comparison;
+    comparison.scenario = settings_.scenario;
+    const Run reference = simulate(plan_.reference);
+    keep(plan_.reference, reference);
+    if (reference.failure) std::rethrow_exception(reference.failure);
+    comparison.reference = assess(plan_.reference, reference, reference);
+    for (const Choice& choice : plan_.runs) {
+      comparison.runs.push_back(compare(choice, reference));
+    }
+    clear_progress_bar();
+    return comparison;
+  }
+
+ private:
+  ComparedRun compare(const Choice& choice, const Run& reference) {
+    try {
+      const Run run = simulate(choice);
+      keep(choice, run);
+      return assess(choice, run, reference);
+    } catch (const NumericalError& error) {
+      // Not even a start: its reduction, or its initial state.
+      clear_progress_bar();
+      ComparedRun none;
+      none.choice = choice;
+      none.stopped = fmt::format("stopped before the start: {}", error.what());
+      return none;
     }
   }
-  text += fmt::format("\n{:<28}", "online [s]");
-  for (const Run& run : comparison.runs) {
-    text += fmt::format(" {:>22.3g}", run.statistics.seconds);
+
+  Run simulate(const Choice& choice) {
+    scene::Overrides overrides = to_overrides(choice);
+    overrides.rows = flexbody::KeptRows{flexbody::KeptRows::Extent::all, {}};
+    scene::Scene scene = scene::load_scene(settings_.scenario, overrides);
+    scene.scenario.settings.output_times = times_;
+    ++started_;
+    const Progress progress = [this](std::string_view what, double fraction) {
+      report(bar_,
+             fmt::format("run {} of {}, {}", started_, plan_.runs.size() + 1,
+                         what),
+             fraction);
+    };
+    Run run = simulate_scene(scene, make_timed_reducer(progress),
+                             settings_.cache, progress);
+    clear_progress_bar();
+    warn(run.built.warnings);
+    return run;
   }
-  return text + "\n";
+
+  /// Notes how long each reduction takes.
+  scene::Reducer make_timed_reducer(const Progress& progress) {
+    return [this, progress](const flexbody::Recipe& recipe) {
+      const Clock::time_point start = Clock::now();
+      flexbody::ReducedBody body = make_reducer(progress)(recipe);
+      reduction_seconds_[flexbody::content_key(recipe)] =
+          std::chrono::duration<double>(Clock::now() - start).count();
+      return body;
+    };
+  }
+
+  void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& text : warnings) {
+      if (warned_.insert(text).second) print_warnings({text});
+    }
+  }
+
+  void keep(const Choice& choice, const Run& run) const {
+    if (!settings_.keep_runs) return;
+    const std::string name = make_folder_name(choice);
+    const bool is_reference = choice == plan_.reference;
+    const std::filesystem::path folder =
+        settings_.folder / (is_reference ? "reference" : name);
+    check_output_folder(folder);
+    Run judged = run;
+    judged.levels =
+        judge_run(run.scene, run.built, run.history, settings_.cache);
+    write_run(judged, folder, run.scene.scenario.output.xdmf);
+  }
+
+  ComparedRun assess(const Choice& choice, const Run& run,
+                     const Run& reference) const {
+    ComparedRun result;
+    result.choice = choice;
+    result.cost = find_cost(run);
+    result.energy_drift = find_energy_drift(run.history);
+    result.history.columns = run.history.columns;
+    result.history.times = run.history.times;
+    result.history.probe_rows = run.history.probe_rows;
+    if (run.failure) {
+      result.stopped = fmt::format("stopped: {}", text_of(run.failure));
+      return result;
+    }
+    result.probes = find_probe_differences(run.history, reference.history);
+    result.error = results::calc_motion_error(
+        {run.built.model, run.history.states},
+        {reference.built.model, reference.history.states});
+    return result;
+  }
+
+  Cost find_cost(const Run& run) const {
+    Cost cost;
+    cost.steps = run.statistics.steps;
+    cost.newton_iterations = run.statistics.newton_iterations;
+    cost.modes = run.built.model.modal_count;
+    cost.offline = find_offline(run);
+    double least = run.statistics.seconds;
+    double total = least;
+    cost.repeats = 1;
+    const auto is_enough = [&] {
+      if (settings_.repeats > 0) return cost.repeats >= settings_.repeats;
+      return total >= kEnough || cost.repeats >= kMostRepeats;
+    };
+    while (!run.failure && !is_enough()) {
+      const double seconds = time_again(run);
+      least = std::min(least, seconds);
+      total += seconds;
+      ++cost.repeats;
+    }
+    cost.online = least / run.scene.scenario.settings.end_time;
+    return cost;
+  }
+
+  /// Of each different body once.
+  std::optional<double> find_offline(const Run& run) const {
+    std::set<std::string> keys;
+    for (const dynamics::BodyModel& body : run.built.model.bodies) {
+      if (body.reduced) keys.insert(body.reduced->content_key);
+    }
+    double seconds = 0.0;
+    for (const std::string& key : keys) {
+      const auto found = reduction_seconds_.find(key);
+      if (found == reduction_seconds_.end()) return std::nullopt;
+      seconds += found->second;
+    }
+    return seconds;
+  }
+
+  const ComparisonPlan& plan_;
+  const ComparisonSettings& settings_;
+  Progress bar_;
+  std::vector<double> times_;
+  std::size_t started_ = 0;
+  std::map<std::string, double> reduction_seconds_;  ///< by content key
+  std::set<std::string> warned_;
+};
+
+}  // namespace
+
+Comparison run_comparison(const ComparisonPlan& plan,
+                          const ComparisonSettings& settings) {
+  return Runner(plan, settings).run();
+}
+
+std::optional<double> find_energy_drift(const results::History& history) {
+  if (history.energies.empty()) return std::nullopt;
+  const auto balance = [](const dynamics::EnergyBalance& e) {
+    return e.total() + e.dissipated - e.work;
+  };
+  const double start = balance(history.energies.front());
+  double drift = 0.0;
+  double passed = 0.0;
+  for (const dynamics::EnergyBalance& e : history.energies) {
+    drift = std::max(drift, std::abs(balance(e) - start));
+    passed = std::max({passed, std::abs(e.total()), std::abs(e.work)});
+  }
+  if (!(passed > 0.0)) return std::nullopt;
+  return drift / passed;
+}
+
+std::vector<double> thin_times(const std::vector<double>& times,
+                               double longest) {
+  if (times.empty()) return times;
+  constexpr double kRoundoff = 1e-9;
+  std::vector<double> thinned = {times.front()};
+  for (const double t : times) {
+    if (t - thinned.back() >= longest * (1.0 - kRoundoff) &&
+        t > thinned.back()) {
+      thinned.push_back(t);
+    }
+  }
+  if (thinned.back() < times.back()) thinned.push_back(times.back());
+  return thinned;
 }
 
 }  // namespace limber::app

@@ -17,14 +17,25 @@
 namespace limber::app {
 namespace {
 
-void observe(Run& run, const dynamics::SystemState& state,
-             const dynamics::EnergyBalance& energy) {
-  results::History& history = run.history;
+void observe(const scene::BuiltScene& built, const dynamics::SystemState& state,
+             const dynamics::EnergyBalance& energy, results::History& history) {
   history.times.push_back(state.t);
   history.probe_rows.push_back(
-      scene::evaluate_all(run.built.probes, run.built.model, state));
+      scene::evaluate_all(built.probes, built.model, state));
   history.states.push_back(state);
   history.energies.push_back(energy);
+}
+
+void simulate(const scene::BuiltScene& built, const Progress& progress,
+              results::History& history,
+              dynamics::SimulationStatistics& statistics) {
+  dynamics::SystemState state = built.initial;
+  const auto observer = [&](const dynamics::SystemState& now,
+                            const dynamics::EnergyBalance& energy) {
+    observe(built, now, energy, history);
+  };
+  dynamics::simulate(built.model, state, built.settings, observer, progress,
+                     statistics);
 }
 
 void add_columns(Run& run) {
@@ -83,29 +94,35 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 
 }  // namespace
 
-Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
-  const Progress progress = make_progress_bar();
+Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
+                   const std::filesystem::path& cache,
+                   const Progress& progress) {
   Run run;
   run.scene = scene;
   run.built = scene::build_system(
-      scene, make_reducer(progress),
-      cache.empty() ? flexbody::default_cache_folder() : cache,
+      scene, reducer, cache.empty() ? flexbody::default_cache_folder() : cache,
       make_full_maker(progress));
-  clear_progress_bar();
-  print_warnings(run.built.warnings);
   add_columns(run);
-  dynamics::SystemState state = run.built.initial;
-  const auto observer = [&](const dynamics::SystemState& now,
-                            const dynamics::EnergyBalance& energy) {
-    observe(run, now, energy);
-  };
   try {
-    dynamics::simulate(run.built.model, state, run.built.settings, observer,
-                       progress, run.statistics);
+    simulate(run.built, progress, run.history, run.statistics);
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
+  return run;
+}
+
+double time_again(const Run& run) {
+  results::History history;
+  dynamics::SimulationStatistics statistics;
+  simulate(run.built, {}, history, statistics);
+  return statistics.seconds;
+}
+
+Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
+  const Progress progress = make_progress_bar();
+  Run run = simulate_scene(scene, make_reducer(progress), cache, progress);
   clear_progress_bar();
+  print_warnings(run.built.warnings);
   run.levels = judge_run(scene, run.built, run.history, cache);
   return run;
 }

@@ -6,6 +6,7 @@
 
 #include "app/json.hpp"
 #include "app/levels.hpp"
+#include "common/progress.hpp"
 #include "dynamics/simulation.hpp"
 #include "results/history.hpp"
 #include "scene/scene.hpp"
@@ -22,10 +23,20 @@ struct Run {
   std::exception_ptr failure;     ///< the NumericalError that ended it early
 };
 
-/// Builds and simulates a scene. On NumericalError the run holds what was
-/// computed until then, and `failure`.
+/// Builds and simulates a scene, without a word and without judging levels. On
+/// NumericalError the run holds what was computed until then, and `failure`.
+/// @param cache empty for the default one
+[[nodiscard]] Run simulate_scene(const scene::Scene& scene,
+                                 const scene::Reducer& reducer,
+                                 const std::filesystem::path& cache,
+                                 const Progress& progress);
+
+/// The same with a progress bar, warnings and the judgement of levels.
 [[nodiscard]] Run run_scene(const scene::Scene& scene,
                             const std::filesystem::path& cache);
+
+/// Wall time that simulating the run once more takes, outputs included [s].
+[[nodiscard]] double time_again(const Run& run);
 
 /// Makes `folder` and checks that it can be written, before a long run.
 /// @throws InputError if not.

@@ -21,9 +21,7 @@ toml::table& get_table(toml::table& parent, const std::string& key) {
 class Mover {
  public:
   Mover(const std::filesystem::path& from, const std::filesystem::path& to)
-      : from_(
-            std::filesystem::weakly_canonical(std::filesystem::absolute(from))),
-        to_(std::filesystem::weakly_canonical(std::filesystem::absolute(to))) {}
+      : from_(resolve(from)), to_(resolve(to)) {}
 
   void move(toml::table& table, const std::string& key) const {
     const auto path = table[key].value<std::string>();
@@ -35,6 +33,12 @@ class Mover {
   }
 
  private:
+  /// An empty path is where the program runs.
+  static std::filesystem::path resolve(const std::filesystem::path& folder) {
+    return std::filesystem::weakly_canonical(std::filesystem::current_path() /
+                                             folder);
+  }
+
   std::filesystem::path from_;
   std::filesystem::path to_;
 };

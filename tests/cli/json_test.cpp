@@ -67,19 +67,29 @@ TEST(Json, OfRunHasThePromisedKeysAndLeavesResults) {
   EXPECT_EQ(kept["probes"], run["probes"]);
 }
 
-TEST(Json, OfCompareTabulatesDifferences) {
+TEST(Json, OfCompareTabulatesErrorsAndCosts) {
   const Workspace place;
-  const json compare =
-      parse(place.limber("compare '" + kExample +
-                         "' --fidelity rigid,coupled --out results --json"));
-  EXPECT_EQ(compare["reference"], "coupled");
-  ASSERT_EQ(compare["levels"].size(), 2U);
-  const json& rigid = compare["levels"][0];
-  expect_keys(rigid, {"fidelity", "steps", "seconds_online", "difference"});
+  const json compare = parse(
+      place.limber("compare '" + kExample +
+                   "' --fidelity rigid,coupled --reference coupled --step 1e-3 "
+                   "--repeat 1 --out results --json"));
+  expect_keys(compare["reference"], {"name", "step", "online", "energy_drift"});
+  EXPECT_EQ(compare["reference"]["fidelity"], "coupled");
+  EXPECT_EQ(compare["reference"]["step"], 5e-4);
+  EXPECT_EQ(compare["reference"]["difference"]["B.ux"]["rms"], 0.0);
+  ASSERT_EQ(compare["runs"].size(), 2U);
+  const json& rigid = compare["runs"][0];
+  expect_keys(rigid, {"name", "fidelity", "completed", "modes", "steps",
+                      "online", "times_cheaper", "seconds_offline",
+                      "energy_drift", "error", "bodies", "difference"});
+  EXPECT_EQ(rigid["steps"], 500);
+  EXPECT_EQ(rigid["repeats"], 1);
   EXPECT_GT(rigid["difference"]["B.ux"]["rms"].get<double>(), 0.0);
-  const json& itself = compare["levels"][1]["difference"]["B.ux"];
-  EXPECT_EQ(itself["rms"], 0.0);
-  EXPECT_EQ(itself["max"], 0.0);
+  // Nothing deforms: all of the reference's deformation is missing.
+  EXPECT_NEAR(rigid["error"]["deformation"]["relative"].get<double>(), 1.0,
+              1e-12);
+  expect_keys(rigid["bodies"]["beam"],
+              {"displacement", "rigid", "deformation"});
 }
 
 TEST(Json, OfInfoTellsTheKind) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "app/comparison_report.hpp"
+#include "app/comparison_selection.hpp"
+#include "app/probe_pictures.hpp"
+#include "app/terminal.hpp"
+#include "results/trade_picture.hpp"
+
+namespace limber::app {
+namespace {
+
+std::optional<double> error_of(const ComparedRun& run) {
+  if (!run.error) return std::nullopt;
+  return find_error(run.error->error, ErrorMeasure::both);
+}
+
+/// Of each level the completed run with the smallest error.
+std::vector<const ComparedRun*> find_best(const Comparison& comparison) {
+  std::vector<const ComparedRun*> best;
+  for (const ComparedRun& run : comparison.runs) {
+    if (!run.error) continue;
+    const auto same =
+        std::find_if(best.begin(), best.end(), [&](const ComparedRun* other) {
+          return other->choice.level == run.choice.level;
+        });
+    if (same == best.end()) {
+      best.push_back(&run);
+    } else if (error_of(run) < error_of(**same)) {
+      *same = &run;
+    }
+  }
+  return best;
+}
+
+std::vector<results::TradePoint> list_points(const Comparison& comparison) {
+  std::vector<results::TradePoint> points;
+  for (const ComparedRun& run : comparison.runs) {
+    if (!run.error) continue;
+    const results::MotionError& error = run.error->error;
+    // Rigid links alone: what there is stands for the whole.
+    const auto total = error.displacement.relative();
+    points.push_back({std::string(to_string(run.choice.level)),
+                      make_label(run.choice), run.cost.online,
+                      total ? total : error.rigid.relative(),
+                      error.deformation.relative()});
+  }
+  return points;
+}
+
+}  // namespace
+
+void draw_comparison(const Comparison& comparison,
+                     const std::filesystem::path& folder,
+                     std::optional<double> tolerance) {
+  const std::string why = results::draw_trade(
+      folder / "trade.png", comparison.scenario.stem().string(),
+      list_points(comparison), comparison.reference.cost.online, tolerance);
+  if (!why.empty()) {
+    print_warnings({why});
+    return;  // the next would fail alike
+  }
+  std::vector<NamedHistory> lines;
+  for (const ComparedRun* run : find_best(comparison)) {
+    lines.push_back({std::string(to_string(run->choice.level)), &run->history});
+  }
+  lines.push_back({"reference", &comparison.reference.history});
+  draw_probes(lines, folder);
+}
+
+}  // namespace limber::app

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/comparison_plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "common/names.hpp"
+
+namespace limber::app {
+namespace {
+
+using dynamics::Fidelity;
+using scene::BasisChoice;
+
+bool has_flexible_link(const scene::Scene& scene) {
+  return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
+                     [](const scene::Link& link) { return link.flexible; });
+}
+
+bool has_saved_body(const scene::Scene& scene) {
+  return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
+                     [](const scene::Link& link) {
+                       return link.flexible &&
+                              !link.flexible->reduced_file.empty();
+                     });
+}
+
+/// Whether a level moves its bodies by a reduced basis.
+bool has_basis(Fidelity level) {
+  return level != Fidelity::rigid && level <= Fidelity::coupled;
+}
+
+/// Levels above `coupled` need the mesh, which a saved body has no more.
+Fidelity find_highest_level(const scene::Scene& scene) {
+  const auto last =
+      static_cast<Fidelity>(dynamics::fidelity_names().size() - 1);
+  return has_saved_body(scene) ? std::min(last, Fidelity::coupled) : last;
+}
+
+std::vector<Fidelity> find_levels(const Axes& axes, Fidelity reference) {
+  if (!axes.levels.empty()) return axes.levels;
+  std::vector<Fidelity> levels;
+  const Fidelity last = std::min(reference, Fidelity::coupled);
+  for (int i = 0; i <= static_cast<int>(last); ++i) {
+    levels.push_back(static_cast<Fidelity>(i));
+  }
+  return levels;
+}
+
+void set_sources(const std::string& name, BasisChoice& basis) {
+  const auto& names = source_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InputError("--sources: " + describe_unknown("source", name, names));
+  }
+  basis.interfaces = name == "interfaces" || name == "all";
+  basis.loads = name == "loads" || name == "all";
+}
+
+std::vector<BasisChoice> combine_bases(const Axes& axes) {
+  std::vector<BasisChoice> bases;
+  const std::size_t counts = std::max<std::size_t>(axes.eigenmodes.size(), 1);
+  const std::size_t kinds = std::max<std::size_t>(axes.sources.size(), 1);
+  for (std::size_t i = 0; i < counts; ++i) {
+    for (std::size_t j = 0; j < kinds; ++j) {
+      BasisChoice basis;
+      if (!axes.eigenmodes.empty()) basis.eigenmodes = axes.eigenmodes[i];
+      if (!axes.sources.empty()) set_sources(axes.sources[j], basis);
+      const bool is_empty = basis.eigenmodes == 0 &&
+                            basis.interfaces == false && basis.loads == false;
+      if (!is_empty) bases.push_back(basis);
+    }
+  }
+  return bases;
+}
+
+std::vector<std::optional<double>> find_steps(const Axes& axes) {
+  if (axes.steps.empty()) return {std::nullopt};
+  return {axes.steps.begin(), axes.steps.end()};
+}
+
+double find_shortest_step(const Axes& axes, const scene::Scene& scene) {
+  if (!axes.steps.empty()) {
+    return *std::min_element(axes.steps.begin(), axes.steps.end());
+  }
+  double shortest = scene.scenario.settings.step;
+  for (const auto& change : scene.scenario.settings.step_changes) {
+    shortest = std::min(shortest, change.step);
+  }
+  return shortest;
+}
+
+BasisChoice find_largest_basis(const Axes& axes, const ReferenceWish& wish) {
+  BasisChoice largest;
+  for (const BasisChoice& basis : combine_bases(axes)) {
+    largest.eigenmodes = std::max(largest.eigenmodes, basis.eigenmodes);
+    largest.interfaces = std::max(largest.interfaces, basis.interfaces);
+    largest.loads = std::max(largest.loads, basis.loads);
+  }
+  if (wish.eigenmodes) largest.eigenmodes = wish.eigenmodes;
+  return largest;
+}
+
+Choice find_reference(const Axes& axes, const ReferenceWish& wish,
+                      const scene::Scene& scene) {
+  Choice reference;
+  reference.level = wish.level.value_or(find_highest_level(scene));
+  if (has_basis(reference.level) && has_flexible_link(scene)) {
+    reference.basis = find_largest_basis(axes, wish);
+  }
+  reference.step = wish.step.value_or(0.5 * find_shortest_step(axes, scene));
+  return reference;
+}
+
+void check_reference(const ComparisonPlan& plan, const Axes& axes,
+                     const ReferenceWish& wish, const scene::Scene& scene) {
+  const Choice& reference = plan.reference;
+  std::vector<std::string> problems;
+  for (const Fidelity level : axes.levels) {
+    if (level <= reference.level) continue;
+    problems.push_back(fmt::format(
+        "--fidelity: '{}' computes more than the reference, '{}'; choose it by "
+        "--reference",
+        to_string(level), to_string(reference.level)));
+  }
+  const double shortest = find_shortest_step(axes, scene);
+  if (*reference.step > shortest) {
+    problems.push_back(fmt::format(
+        "--reference-step: {:g} s is longer than a compared step, {:g} s",
+        *reference.step, shortest));
+  }
+  for (const int count : axes.eigenmodes) {
+    if (!reference.basis.eigenmodes || count <= *reference.basis.eigenmodes) {
+      continue;
+    }
+    problems.push_back(
+        fmt::format("--reference-modes: {} are fewer than a compared {}",
+                    *reference.basis.eigenmodes, count));
+  }
+  if (wish.eigenmodes && !reference.basis.eigenmodes) {
+    problems.push_back(fmt::format(
+        "--reference-modes: the reference, '{}', has no reduced basis here",
+        to_string(reference.level)));
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+/// What was asked for in vain.
+void check_runs(const ComparisonPlan& plan, const Axes& axes) {
+  if (plan.runs.empty()) {
+    throw InputError("nothing to compare: the only run is the reference");
+  }
+  const bool is_reduced =
+      std::any_of(plan.runs.begin(), plan.runs.end(),
+                  [](const Choice& run) { return has_basis(run.level); });
+  if (!is_reduced && !(axes.eigenmodes.empty() && axes.sources.empty())) {
+    throw InputError(
+        "--modes and --sources choose reduced bases; no level that is compared "
+        "has one");
+  }
+}
+
+std::vector<std::string> list_details(const Choice& choice) {
+  std::vector<std::string> details;
+  const std::string sources = find_source_name(choice.basis);
+  if (choice.basis.eigenmodes) {
+    details.push_back(fmt::format("{}", *choice.basis.eigenmodes));
+  }
+  if (!sources.empty()) details.push_back(sources);
+  if (choice.step) details.push_back(fmt::format("{:g} s", *choice.step));
+  return details;
+}
+
+std::string describe_details(const Choice& choice) {
+  std::vector<std::string> parts;
+  const std::string sources = find_source_name(choice.basis);
+  if (choice.basis.eigenmodes) {
+    parts.push_back(fmt::format("{} eigenmodes", *choice.basis.eigenmodes));
+    if (!sources.empty() && sources != "eigenmodes") {
+      parts.back() += " + " + sources;
+    }
+  } else if (!sources.empty()) {
+    parts.push_back(sources);
+  }
+  if (choice.step) parts.push_back(fmt::format("{:g} s", *choice.step));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+scene::Overrides to_overrides(const Choice& choice) {
+  scene::Overrides overrides;
+  overrides.fidelity = choice.level;
+  overrides.basis = choice.basis;
+  overrides.step = choice.step;
+  return overrides;
+}
+
+const std::vector<std::string>& source_names() {
+  static const std::vector<std::string> names = {"eigenmodes", "interfaces",
+                                                 "loads", "all"};
+  return names;
+}
+
+std::string find_source_name(const BasisChoice& basis) {
+  if (!basis.interfaces || !basis.loads) return "";
+  if (*basis.interfaces) return *basis.loads ? "all" : "interfaces";
+  return *basis.loads ? "loads" : "eigenmodes";
+}
+
+ComparisonPlan make_plan(const Axes& axes, const ReferenceWish& wish,
+                         const scene::Scene& scene) {
+  ComparisonPlan plan;
+  plan.reference = find_reference(axes, wish, scene);
+  check_reference(plan, axes, wish, scene);
+  const bool is_flexible = has_flexible_link(scene);
+  for (Fidelity level : find_levels(axes, plan.reference.level)) {
+    if (!is_flexible) level = plan.reference.level;
+    const bool is_reduced = is_flexible && has_basis(level);
+    for (const BasisChoice& basis :
+         is_reduced ? combine_bases(axes) : std::vector<BasisChoice>(1)) {
+      for (const auto& step : find_steps(axes)) {
+        const Choice choice{level, basis, step};
+        const bool is_known =
+            choice == plan.reference ||
+            std::count(plan.runs.begin(), plan.runs.end(), choice) > 0;
+        if (!is_known) plan.runs.push_back(choice);
+      }
+    }
+  }
+  check_runs(plan, axes);
+  return plan;
+}
+
+std::string describe(const Choice& choice) {
+  const std::string details = describe_details(choice);
+  const std::string level(to_string(choice.level));
+  return details.empty() ? level : level + ", " + details;
+}
+
+std::string make_label(const Choice& choice) {
+  std::vector<std::string> parts;
+  std::string sources = find_source_name(choice.basis);
+  if (choice.basis.eigenmodes) {
+    parts.push_back(fmt::format("{}", *choice.basis.eigenmodes));
+    if (sources.empty() || sources == "eigenmodes") {
+      sources = "modes";
+    } else {
+      parts.back() += " +";
+    }
+  }
+  if (!sources.empty()) parts.push_back(sources);
+  if (choice.step) parts.push_back(fmt::format("{:g} s", *choice.step));
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string make_folder_name(const Choice& choice) {
+  std::string name(to_string(choice.level));
+  for (const std::string& part : list_details(choice)) name += "-" + part;
+  std::erase(name, ' ');
+  return name;
+}
+
+}  // namespace limber::app

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/comparison_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/comparison_report.hpp"
+#include "common/errors.hpp"
+#include "common/names.hpp"
+
+namespace limber::app {
+namespace {
+
+const std::vector<std::string>& measure_names() {
+  static const std::vector<std::string> names = {"displacement", "deformation",
+                                                 "both"};
+  return names;
+}
+
+std::optional<double> error_of(const ComparedRun& run, ErrorMeasure measure) {
+  if (!run.error) return std::nullopt;
+  const auto error = find_error(run.error->error, measure);
+  return error && std::isfinite(*error) ? error : std::nullopt;
+}
+
+}  // namespace
+
+ErrorMeasure parse_error_measure(const std::string& name) {
+  const auto& names = measure_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw InputError("--measure: " + describe_unknown("measure", name, names));
+  }
+  return static_cast<ErrorMeasure>(found - names.begin());
+}
+
+std::string to_string(ErrorMeasure measure) {
+  return measure_names()[static_cast<std::size_t>(measure)];
+}
+
+double parse_tolerance(const std::string& text) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format(
+        "--tolerance: '{}' {}; expected a share between 0 and 1, as in 1% or "
+        "0.01",
+        text, why));
+  };
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    refuse("is no number");
+  }
+  std::string unit = text.substr(used);
+  std::erase(unit, ' ');
+  if (unit != "" && unit != "%") refuse("is no number");
+  if (unit == "%") value /= 100.0;
+  if (!std::isfinite(value) || !(value > 0.0) || !(value < 1.0)) {
+    refuse(std::isfinite(value) ? fmt::format("is {:g} %", 100.0 * value)
+                                : "is not finite");
+  }
+  return value;
+}
+
+std::optional<double> find_error(const results::MotionError& error,
+                                 ErrorMeasure measure) {
+  const auto displacement = error.displacement.relative();
+  const auto deformation = error.deformation.relative();
+  if (measure == ErrorMeasure::displacement && displacement) {
+    return displacement;
+  }
+  if (measure == ErrorMeasure::deformation && deformation) return deformation;
+  // None is less than any number.
+  const auto worse = std::max(displacement, deformation);
+  return worse ? worse : error.rigid.relative();
+}
+
+const ComparedRun* find_cheapest(const Comparison& comparison,
+                                 const Demand& demand) {
+  const ComparedRun* cheapest = nullptr;
+  for (const ComparedRun& run : comparison.runs) {
+    const auto error = error_of(run, demand.measure);
+    if (!error || *error > demand.tolerance) continue;
+    if (cheapest == nullptr || run.cost.online < cheapest->cost.online) {
+      cheapest = &run;
+    }
+  }
+  return cheapest;
+}
+
+void refuse(const Comparison& comparison, const Demand& demand) {
+  const ComparedRun* closest = nullptr;
+  double least = 0.0;
+  for (const ComparedRun& run : comparison.runs) {
+    const auto error = error_of(run, demand.measure);
+    if (!error || (closest != nullptr && *error >= least)) continue;
+    closest = &run;
+    least = *error;
+  }
+  const std::string what = demand.measure == ErrorMeasure::both
+                               ? "an error"
+                               : "a " + to_string(demand.measure) + " error";
+  if (closest == nullptr) {
+    throw NumericalError(
+        fmt::format("no run has an error to hold against the tolerance of {}",
+                    to_percent(demand.tolerance)));
+  }
+  throw NumericalError(fmt::format(
+      "nothing meets the tolerance of {}; '{}' comes closest with {} "
+      "of {}. More modes, other sources or a shorter step may mend it",
+      to_percent(demand.tolerance), describe(closest->choice), what,
+      to_percent(least)));
+}
+
+}  // namespace limber::app

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "results/history.hpp"
+
+namespace limber::app {
+
+/// A line in a picture: its name and what it follows.
+struct NamedHistory {
+  std::string name;
+  const results::History* history;
+};
+
+/// A picture a probe, "probe_NAME.png": its three columns, a line a history.
+/// All have the columns of the first. What cannot be drawn is a warning.
+void draw_probes(const std::vector<NamedHistory>& lines,
+                 const std::filesystem::path& folder);
+
+}  // namespace limber::app
