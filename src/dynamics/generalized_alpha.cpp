@@ -27,8 +27,6 @@ constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
 // Forces of a whole mesh are differences of large ones: what round-off makes of
 // them moves its soft modes by this factor more.
 constexpr double kNodalNoise = 100.0;
-// To factor a whole mesh costs some hundred times what a residual does.
-constexpr double kGoodNodalContraction = 0.3;
 
 double radius_of_gyration_squared(const BodyModel& body) {
   return 0.5 * body.J0.trace() / body.mass;
@@ -102,8 +100,9 @@ void GeneralizedAlpha::calc_residual() {
   }
 }
 
-void GeneralizedAlpha::refactor() {
-  matrix_.factor(model_, next_, terms_, inc_.rotation, coefficients_);
+void GeneralizedAlpha::refactor(bool renews_full) {
+  matrix_.factor(model_, next_, terms_, inc_.rotation, coefficients_,
+                 renews_full);
 }
 
 // Accelerations that the residual calls for: M^-1 of it for motion that the
@@ -305,8 +304,7 @@ void GeneralizedAlpha::fail(double t, std::size_t body, const char* what,
 void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
   if (!kept) {
     fresh_steps_ = std::max(0, fresh_steps_ - 1);
-  } else if (slowest > (model_.full_bodies.empty() ? kGoodContraction
-                                                   : kGoodNodalContraction)) {
+  } else if (slowest > kGoodContraction) {
     fresh_steps_ = next_fresh_steps_;
     next_fresh_steps_ = std::min(2 * next_fresh_steps_, kMostFreshSteps);
   } else {
@@ -339,7 +337,8 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
     calc_terms(model_, next_, Side::left, terms_, WrenchSource::iterate);
     calc_residual();
     if (needs_factors) {
-      refactor();
+      // What new frames do not mend, new stiffnesses may.
+      refactor(result.factorizations > 0);
       ++result.factorizations;
       factored_step_ = h;
       needs_factors = false;

@@ -67,7 +67,7 @@ class GeneralizedAlpha {
   [[nodiscard]] Size measure_increments() const;
   [[nodiscard]] double measure_motion() const;
   [[nodiscard]] double measure_roundoff() const;
-  void refactor();
+  void refactor(bool renews_full = false);
   // Decides from a step's slowest contraction whether the next keep factors.
   void plan_factors(bool kept, double slowest);
   [[noreturn]] void fail(double t, std::size_t body, const char* what,

@@ -16,10 +16,33 @@ Eigen::Index first_row(const BodyModel& body, int b) {
   return 6 * b + body.offset;
 }
 
+// Rows of the motion of M in F, from those of the motion of F: p_FM seen from a
+// frame that moves itself is minus its motion, plus p x rotation.
+void reflect(const Vector3& p, Matrix6X& rows) {
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    const Vector3 turn = rows.col(k).tail<3>();
+    rows.col(k).head<3>() = p.cross(turn) - rows.col(k).head<3>();
+    rows.col(k).tail<3>() = -turn;
+  }
+}
+
+// The motion of an end's frame per node, both in body axes: 3N x 6.
+MatrixX make_body_columns(const Attachment& attachment,
+                          const AttachmentMotion& motion, const Matrix3& R_HB,
+                          Eigen::Index dofs) {
+  Matrix6X G(6, dofs);
+  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_HB.transpose(), G);
+  for (Eigen::Index i = 0; i < dofs; i += 3) {
+    G.middleCols<3>(i) = (G.middleCols<3>(i) * R_HB).eval();
+  }
+  return G.transpose();
+}
+
 }  // namespace
 
 NewtonMatrix::NewtonMatrix(const SystemModel& model)
     : bodies_(model.bodies.size()),
+      full_(model.full_bodies.size()),
       ends_of_body_(model.bodies.size()),
       scaled_stiffness_(model.couplers.size()),
       scale_(model.couplers.size()),
@@ -45,8 +68,14 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
         row = first_node_row(model) + full.first;
       }
       ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
-      ends_.push_back({static_cast<int>(c), attachment, b, is_M, row,
-                       Matrix6X::Zero(6, n), Matrix6X::Zero(6, n)});
+      ends_.push_back({static_cast<int>(c),
+                       attachment,
+                       b,
+                       is_M,
+                       row,
+                       Matrix6X::Zero(6, n),
+                       Matrix6X::Zero(6, n),
+                       {}});
     }
   }
   std::vector<std::pair<int, int>> edges;
@@ -125,23 +154,21 @@ void NewtonMatrix::factor_end(const SystemModel& model,
   } else {
     calc_modal_jacobian(attachment, motion, R_WF.transpose(), end.G);
   }
-  if (!end.is_M) {
-    // p_FM seen from a frame that moves itself: minus its motion, plus
-    // p x rotation.
-    const Vector3& p = terms.couplers[index(end.coupler)].motion.p_FM_F;
-    for (Eigen::Index k = 0; k < end.G.cols(); ++k) {
-      const Vector3 turn = end.G.col(k).tail<3>();
-      end.G.col(k).head<3>() = p.cross(turn) - end.G.col(k).head<3>();
-      end.G.col(k).tail<3>() = -turn;
-    }
-  }
-  if (attachment.nodal) {
-    MatrixX columns = end.G.transpose();
-    terms.full[index(body.full)].solver->solve(columns);
-    end.Zt = columns.transpose();
-  } else {
+  const Vector3& p = terms.couplers[index(end.coupler)].motion.p_FM_F;
+  if (!end.is_M) reflect(p, end.G);
+  if (!attachment.nodal) {
     solve_end(body, end);
+    return;
   }
+  const Matrix3& R_HB = full_[index(body.full)].R_HB();
+  const Matrix3 R_FB = R_WF.transpose() * state.X_WH[index(body.full)].R * R_HB;
+  for (Eigen::Index i = 0; i < end.Zt.cols(); i += 3) {
+    end.Zt.block<3, 3>(0, i) =
+        R_FB * end.Zt_B.block<3, 3>(0, i) * R_HB.transpose();
+    end.Zt.block<3, 3>(3, i) =
+        R_FB * end.Zt_B.block<3, 3>(3, i) * R_HB.transpose();
+  }
+  if (!end.is_M) reflect(p, end.Zt);
 }
 
 // Columns of D^-1 G', a row of G at a time, through D's arrow shape.
@@ -192,18 +219,34 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
   }
 }
 
+// Sparse factors in body axes, and what they answer to each end's wrenches.
+void NewtonMatrix::factor_full(const SystemModel& model,
+                               const SystemState& state, SystemTerms& terms,
+                               const Coefficients& c, bool renews) {
+  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
+    if (!full_[f].update(model, f, state, terms, c, renews)) continue;
+    const FullModel& full = model.full_bodies[f];
+    for (End& end : ends_) {
+      if (end.body != full.body) continue;
+      const auto i = index(end.attachment);
+      MatrixX columns =
+          make_body_columns(model.attachments[i], terms.attachments[i],
+                            full_[f].R_HB(), full.dofs());
+      full_[f].solve_columns(full, *terms.full[f].solver, columns);
+      end.Zt_B = columns.transpose();
+    }
+  }
+}
+
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           SystemTerms& terms,
                           const std::vector<Vector3>& rotation_increments,
-                          const Coefficients& coefficients) {
+                          const Coefficients& coefficients, bool renews_full) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     factor_body(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
                 rotation_increments[b], coefficients, bodies_[b]);
   }
-  for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
-    terms.full[f].solver->factor(nodes_of(model.full_bodies[f], state.u_H),
-                                 coefficients.acceleration);
-  }
+  factor_full(model, state, terms, coefficients, renews_full);
   for (End& end : ends_) factor_end(model, state, terms, end);
   assemble(model, terms, coefficients);
   if (!lu_.factor()) {
@@ -222,7 +265,8 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullModel& full = model.full_bodies[f];
-    terms.full[f].solver->solve(
+    full_[f].solve(
+        full, *terms.full[f].solver,
         increments.segment(first_node_row(model) + full.first, full.dofs()));
   }
   for (Vector6& w : wrenches_) w.setZero();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/block_lu.hpp"
+#include "dynamics/full_factor.hpp"
 #include "dynamics/workspace.hpp"
 
 namespace limber::dynamics {
@@ -14,7 +15,9 @@ namespace limber::dynamics {
 ///            dw_c = s_c - K_c sum_b G_cb x_b            (each coupler c)
 ///            D_b: inertia, damping and elasticity of one body; its modal
 ///            block is diagonal, so D_b^-1 costs O(m); of an unreduced body
-///            it is sparse, c M + K(u). G_cb: the coupler's
+///            it is Q (c M + K(u)) Q', sparse, with the Q that turns its
+///            nodes with the body, so that its factors outlast large
+///            rotation. G_cb: the coupler's
 ///            relative motion per body increment. K_c: its stiffness plus
 ///            damping. s_c: the law's wrench less the iterate that acts.
 ///            Eliminating x_b leaves six unknowns a coupler,
@@ -38,17 +41,16 @@ class NewtonMatrix {
 
   /// Derivatives of a step's end: acceleration [1/s^2] and velocity [1/s] per
   /// increment.
-  struct Coefficients {
-    double acceleration = 0.0;
-    double velocity = 0.0;
-  };
+  using Coefficients = FullFactor::Coefficients;
 
   /// Factors at the evaluated `terms`; `rotation_increments` are the step's,
-  /// one a body [rad]. @throws NumericalError naming the coupler or body.
+  /// one a body [rad]. Unreduced bodies keep their sparse factors, in body
+  /// axes, until the acceleration coefficient changes or `renews_full` asks for
+  /// new ones. @throws NumericalError naming the coupler or body.
   void factor(const SystemModel& model, const SystemState& state,
               SystemTerms& terms,
               const std::vector<Vector3>& rotation_increments,
-              const Coefficients& coefficients);
+              const Coefficients& coefficients, bool renews_full = false);
 
   /// Increments for a residual: solves with -r (sizes 6 bodies + modes) and
   /// the couplers' s. The wrench increments are then in wrench_increments().
@@ -85,11 +87,14 @@ class NewtonMatrix {
     Eigen::Index row = 0;  // the body's first
     Matrix6X G;            // 6 x (6 + m), or 6 x 3N
     Matrix6X Zt;           // (D^-1 G')'
+    Matrix6X Zt_B;         // of an unreduced body, both in body axes
   };
 
   void factor_body(const BodyModel& body, const BodyTerms& terms,
                    const Vector3& w, const Vector3& rotation_increment,
                    const Coefficients& c, BodyFactor& factor) const;
+  void factor_full(const SystemModel& model, const SystemState& state,
+                   SystemTerms& terms, const Coefficients& c, bool renews);
   void factor_end(const SystemModel& model, const SystemState& state,
                   const SystemTerms& terms, End& end) const;
   void solve_end(const BodyModel& body, End& end) const;
@@ -100,6 +105,7 @@ class NewtonMatrix {
                 const Coefficients& c);
 
   std::vector<BodyFactor> bodies_;
+  std::vector<FullFactor> full_;
   std::vector<End> ends_;
   std::vector<std::vector<int>> ends_of_body_;
   std::vector<Matrix6> scaled_stiffness_;  // diag(s) K per coupler

@@ -34,6 +34,8 @@ class SparseCholesky {
   void factor(const SparseMatrix& lower);
 
   [[nodiscard]] MatrixX solve(const MatrixX& right_hand_side) const;
+  /// The same in place. Not for two threads at once.
+  void solve_in_place(Eigen::Ref<MatrixX> x) const;
   [[nodiscard]] double flops() const;
 
  private:

@@ -27,6 +27,9 @@ class TangentFactor {
   [[nodiscard]] MatrixX solve(const MatrixX& right_hand_side) const {
     return factor_->solve(right_hand_side);
   }
+  void solve_in_place(Eigen::Ref<MatrixX> x) const {
+    factor_->solve_in_place(x);
+  }
   [[nodiscard]] const std::vector<int>& free_nodes() const { return free_; }
 
  private:

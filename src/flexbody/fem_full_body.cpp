@@ -96,6 +96,10 @@ class MeshSolver : public FullBodySolver {
 
   void solve(Eigen::Ref<MatrixX> x) const override {
     const std::vector<int>& free = parts_->free;
+    if (3 * std::ssize(free) == x.rows()) {
+      tangent_->solve_in_place(x);
+      return;
+    }
     const MatrixX answer = tangent_->solve(take_rows(x, free));
     x = put_rows(answer, free, x.rows() / 3);
   }
