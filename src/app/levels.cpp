@@ -55,6 +55,12 @@ scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
                                  const SystemModel& model,
                                  const std::filesystem::path& cache) {
   scene::Scene same = scene;
+  // The rows that level full had them keep: so nothing is reduced again.
+  for (scene::Link& link : same.robot.links) {
+    if (link.flexible && scene.scenario.level_of(link.name) == Fidelity::full) {
+      link.flexible->rows = flexbody::parse_rows({"all"});
+    }
+  }
   same.scenario.fidelity = level;
   same.scenario.fidelity_of_link.clear();
   return scene::build_system(
