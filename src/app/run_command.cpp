@@ -48,7 +48,7 @@ void add_run(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--fidelity", options->fidelity,
                       "Level of every flexible link: rigid, uncoupled, "
-                      "one-way, coupled");
+                      "one-way, coupled, full");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>)");
   command->add_option("--cache", options->cache, "Folder of reduced bodies");

@@ -152,6 +152,11 @@ Json summarize(const Run& run) {
   json["modes_exact"] = run.statistics.exact_modes;
   json["steps"] = run.statistics.steps;
   json["newton_iterations"] = run.statistics.newton_iterations;
+  // 0: not looked for; infinite: nothing vibrates.
+  const double stable_step = run.statistics.stable_step;
+  if (stable_step > 0.0 && std::isfinite(stable_step)) {
+    json["stable_step"] = stable_step;
+  }
   json["seconds_offline"] = run.built.seconds_offline;
   json["seconds_online"] = run.statistics.seconds;
   json["bodies_reduced"] = run.built.bodies_reduced;

@@ -303,9 +303,7 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
             .R_WB;
     AttachmentMotion& motion = terms.attachments[i];
     if (a.nodal) {
-      const auto f = static_cast<std::size_t>(
-          model.bodies[static_cast<std::size_t>(a.body)].full);
-      calc_nodal_attachment(model, a, state, terms.full[f].frame, motion);
+      calc_nodal_attachment(model, a, state, motion);
     } else {
       calc_attachment_motion(model, a, state, R_WB, motion);
     }

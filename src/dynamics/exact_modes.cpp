@@ -54,9 +54,10 @@ ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
 }
 
 bool ExactModes::has_motion_left() const {
-  return std::any_of(
-      rest_.bodies.begin(), rest_.bodies.end(),
-      [](const BodyModel& body) { return !body.clamped || body.modes > 0; });
+  return std::any_of(rest_.bodies.begin(), rest_.bodies.end(),
+                     [](const BodyModel& body) {
+                       return !body.clamped || body.modes > 0 || body.full >= 0;
+                     });
 }
 
 SystemState ExactModes::take_rest(const SystemState& whole) const {
@@ -87,6 +88,9 @@ void ExactModes::join(const SystemState& rest, std::size_t i,
                       SystemState& whole) const {
   whole.t = rest.t;
   whole.bodies = rest.bodies;
+  whole.X_WH = rest.X_WH;
+  whole.u_H = rest.u_H;
+  whole.udot_H = rest.udot_H;
   for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
     const BodyModel& left = rest_.bodies[b];
     const int to = model_.bodies[b].offset;

@@ -10,10 +10,12 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// Damping of the deformation's share in the reduced modes:
-// f = -R M Phi C (M Phi)^T R^T (v less the rigid motion).
-void add_damping(const FullModel& full, const SystemState& state, FullTerms& t,
-                 SystemTerms& terms) {
+// Damping of the deformation's share in the reduced modes: the rate of that
+// share is (M Phi)^T R^T (v less the rigid motion), linear in v, and C times it
+// goes back through the transpose. So nothing pushes or turns the whole body,
+// whatever its deformation, and the power is the rate's.
+void add_damping(const SystemModel& model, const FullModel& full,
+                 const SystemState& state, FullTerms& t, SystemTerms& terms) {
   const ConstNodes u = nodes_of(full, state.u_H);
   const ConstNodes udot = nodes_of(full, state.udot_H);
   const Matrix3 R_BH = t.frame.R_HB.transpose();
@@ -27,8 +29,17 @@ void add_damping(const FullModel& full, const SystemState& state, FullTerms& t,
       (full.damping.array() * t.modal_rate.array().square()).sum();
   t.modal_rate.array() *= full.damping.array();
   t.scratch.reshaped().noalias() = full.damped_modes * t.modal_rate;
+  Vector3 force = Vector3::Zero();
+  Vector3 moment = Vector3::Zero();
   for (Eigen::Index i = 0; i < u.cols(); ++i) {
-    t.force.col(i) -= t.frame.R_HB * t.scratch.col(i);
+    const Vector3 f = t.frame.R_HB * t.scratch.col(i);
+    const Vector3 arm = full.mesh->x_B.col(i) + u.col(i) - t.frame.center_H;
+    t.force.col(i) -= f;
+    force += f;
+    moment += arm.cross(f);
+  }
+  if (!model.bodies[index(full.body)].clamped) {
+    add_mean_wrench(*full.mesh, t.frame, force, moment, t.force);
   }
 }
 
@@ -58,7 +69,7 @@ void reset_full_forces(const SystemModel& model, const SystemState& state,
     const FullModel& full = model.full_bodies[f];
     FullTerms& t = terms.full[f];
     t.force.setZero();
-    if (full.damping.size() > 0) add_damping(full, state, t, terms);
+    if (full.damping.size() > 0) add_damping(model, full, state, t, terms);
     if (model.gravity_W.isZero(0.0)) continue;
     const Vector3 gravity_H = state.X_WH[f].R.transpose() * model.gravity_W;
     t.force.noalias() += gravity_H * full.mesh->node_mass.transpose();

@@ -53,16 +53,14 @@ void calc_attachment_motion(const SystemModel& model,
 
 void calc_nodal_attachment(const SystemModel& model,
                            const Attachment& attachment,
-                           const SystemState& state, const MeanFrame& frame,
-                           AttachmentMotion& motion) {
+                           const SystemState& state, AttachmentMotion& motion) {
   const auto b = static_cast<std::size_t>(attachment.body);
   const auto f = static_cast<std::size_t>(model.bodies[b].full);
   const FullModel& full = model.full_bodies[f];
   calc_nodal_frame(*attachment.nodal, nodes_of(full, state.u_H),
-                   nodes_of(full, state.udot_H), frame.R_HB, frame.w_H,
-                   motion.nodal);
+                   nodes_of(full, state.udot_H), motion.nodal);
   const Pose& X_WH = state.X_WH[f];
-  motion.R_WB = X_WH.R * frame.R_HB;
+  motion.R_WB = X_WH.R * motion.nodal.R_HB;
   motion.R_WF = X_WH.R * motion.nodal.R_HB * attachment.R_BF;
   motion.arm_B.setZero();
   motion.J_psi.setIdentity();
@@ -89,13 +87,8 @@ FrameMotion find_frame_motion(const SystemModel& model,
                 attachment < static_cast<int>(model.attachments.size()));
   const Attachment& a = model.attachments[static_cast<std::size_t>(attachment)];
   if (a.nodal) {
-    const BodyModel& body = model.bodies[static_cast<std::size_t>(a.body)];
-    MeanFrame frame;
-    calc_mean_frame(model,
-                    model.full_bodies[static_cast<std::size_t>(body.full)],
-                    state, frame);
     AttachmentMotion motion;
-    calc_nodal_attachment(model, a, state, frame, motion);
+    calc_nodal_attachment(model, a, state, motion);
     return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
   }
   Matrix3 R_WB = Matrix3::Identity();

@@ -38,11 +38,9 @@ void calc_attachment_motion(const SystemModel& model,
                             const SystemState& state, const Matrix3& R_WB,
                             AttachmentMotion& motion);
 
-/// The same of an attachment on an unreduced body, whose mean-axis frame is
-/// `frame` (read only by what does not turn by itself).
+/// The same of an attachment on an unreduced body.
 void calc_nodal_attachment(const SystemModel& model,
                            const Attachment& attachment,
-                           const SystemState& state, const MeanFrame& frame,
-                           AttachmentMotion& motion);
+                           const SystemState& state, AttachmentMotion& motion);
 
 }  // namespace limber::dynamics

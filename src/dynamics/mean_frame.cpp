@@ -38,12 +38,25 @@ void calc_mean_frame(const SystemModel& model, const FullModel& full,
     mean_u += mesh.node_mass[i] * u.col(i);
     mean_v += mesh.node_mass[i] * v;
   }
-  frame.w_H = (S.trace() * Matrix3::Identity() - S).inverse() * spin;
+  frame.spread = (S.trace() * Matrix3::Identity() - S).inverse();
+  frame.w_H = frame.spread * spin;
   mean_x /= mass;
   // The mean of a lumped mass need not be at Bo.
   const Vector3 offset = frame.R_HB * mean_x;
-  frame.p_HB = mean_x + mean_u / mass - offset;
+  frame.center_H = mean_x + mean_u / mass;
+  frame.p_HB = frame.center_H - offset;
   frame.v_H = mean_v / mass - frame.w_H.cross(offset);
+}
+
+void add_mean_wrench(const flexbody::FullBody& mesh, const MeanFrame& frame,
+                     const Vector3& force_H, const Vector3& moment_H,
+                     Eigen::Ref<Matrix3X> nodal) {
+  const Vector3 share = force_H / mesh.node_mass.sum();
+  const Vector3 turn_B = frame.R_HB.transpose() * (frame.spread * moment_H);
+  for (Eigen::Index i = 0; i < nodal.cols(); ++i) {
+    const Vector3 y = mesh.first_moment.col(i);
+    nodal.col(i) += mesh.node_mass[i] * share + frame.R_HB * turn_B.cross(y);
+  }
 }
 
 void calc_deformation(const FullModel& full, const MeanFrame& frame,

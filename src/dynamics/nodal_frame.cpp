@@ -3,6 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <cmath>
+#include <numeric>
 
 #include "common/errors.hpp"
 
@@ -45,13 +47,24 @@ NodalFrame make_nodal_frame(const flexbody::FullBody& body,
   const double size =
       (body.x_B.rowwise().maxCoeff() - body.x_B.rowwise().minCoeff())
           .maxCoeff();
-  frame.turns = spans_a_plane(frame.d_B, frame.weights, size);
+  if (spans_a_plane(frame.d_B, frame.weights, size)) {
+    frame.turns = true;
+    frame.turning = frame.nodes;
+    frame.y_B = frame.d_B * frame.weights.asDiagonal();
+    return frame;
+  }
+  frame.turns = !body.is_clamped();
+  if (frame.turns) {
+    frame.turning.resize(static_cast<std::size_t>(body.node_count()));
+    std::iota(frame.turning.begin(), frame.turning.end(), 0);
+    frame.d_B = body.x_B.colwise() - frame.mean_B;
+    frame.y_B = body.first_moment;
+  }
   return frame;
 }
 
 void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
-                      const ConstNodes& udot_H, const Matrix3& R_HB,
-                      const Vector3& w_H, NodalFrameMotion& motion) {
+                      const ConstNodes& udot_H, NodalFrameMotion& motion) {
   Vector3 u = Vector3::Zero();
   Vector3 v = Vector3::Zero();
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
@@ -59,26 +72,26 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
     u += weight * u_H.col(frame.nodes[i]);
     v += weight * udot_H.col(frame.nodes[i]);
   }
-  motion.R_HB = R_HB;
-  motion.w_H = w_H;
+  motion.R_HB.setIdentity();
+  motion.w_H.setZero();
   motion.spread.setZero();
   if (frame.turns) {
-    // sum w (p_i - p) d_i^T, with p_i - p = d_i + u_i - u
+    // sum (p_i - p) y_i^T, with p_i - p = d_i + u_i - u
     Matrix3 A = Matrix3::Zero();
-    for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < frame.turning.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      const Vector3 d = frame.d_B.col(k);
-      A += frame.weights[k] * (d + u_H.col(frame.nodes[i]) - u) * d.transpose();
+      const Vector3 arm = frame.d_B.col(k) + u_H.col(frame.turning[i]) - u;
+      A += arm * frame.y_B.col(k).transpose();
     }
     motion.R_HB = find_polar_rotation(A);
     const Matrix3 S = motion.R_HB * A.transpose();
     motion.spread = (S.trace() * Matrix3::Identity() - S).inverse();
     Vector3 moment = Vector3::Zero();
-    for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const Vector3 d_H = motion.R_HB * frame.d_B.col(k);
-      const Vector3 velocity = udot_H.col(frame.nodes[i]);
-      moment += frame.weights[k] * d_H.cross(velocity);
+    for (std::size_t i = 0; i < frame.turning.size(); ++i) {
+      const Vector3 y_H =
+          motion.R_HB * frame.y_B.col(static_cast<Eigen::Index>(i));
+      const Vector3 velocity = udot_H.col(frame.turning[i]);
+      moment += y_H.cross(velocity);
     }
     motion.w_H = motion.spread * moment;
   }
@@ -90,13 +103,15 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
 void add_nodal_wrench(const NodalFrame& frame, const NodalFrameMotion& motion,
                       const Vector3& force_H, const Vector3& moment_H,
                       Eigen::Ref<Matrix3X> force) {
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    force.col(frame.nodes[i]) +=
+        frame.weights[static_cast<Eigen::Index>(i)] * force_H;
+  }
   const Vector3 turn = motion.spread * (moment_H + motion.arm_H.cross(force_H));
   const Vector3 turn_B = motion.R_HB.transpose() * turn;
-  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const Vector3 d = frame.d_B.col(k);
-    force.col(frame.nodes[i]) +=
-        frame.weights[k] * (force_H + motion.R_HB * turn_B.cross(d));
+  for (std::size_t i = 0; i < frame.turning.size(); ++i) {
+    const Vector3 y = frame.y_B.col(static_cast<Eigen::Index>(i));
+    force.col(frame.turning[i]) += motion.R_HB * turn_B.cross(y);
   }
 }
 

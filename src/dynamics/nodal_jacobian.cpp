@@ -24,14 +24,17 @@ void calc_nodal_jacobian(const NodalFrame& frame,
                          const NodalFrameMotion& motion, const Matrix3& R_AH,
                          Matrix6X& G) {
   G.setZero();
-  const Matrix3 arm = skew(motion.arm_H);
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const Vector3 d_H = motion.R_HB * frame.d_B.col(k);
-    const Matrix3 turn = frame.weights[k] * motion.spread * skew(d_H);
-    const Matrix3 move = frame.weights[k] * Matrix3::Identity() - arm * turn;
-    G.block<3, 3>(0, 3 * frame.nodes[i]) = R_AH * move;
-    G.block<3, 3>(3, 3 * frame.nodes[i]) = R_AH * turn;
+    G.block<3, 3>(0, 3 * frame.nodes[i]) =
+        frame.weights[static_cast<Eigen::Index>(i)] * R_AH;
+  }
+  const Matrix3 R_arm = R_AH * skew(motion.arm_H);
+  for (std::size_t i = 0; i < frame.turning.size(); ++i) {
+    const Vector3 y_H =
+        motion.R_HB * frame.y_B.col(static_cast<Eigen::Index>(i));
+    const Matrix3 turn = motion.spread * skew(y_H);
+    G.block<3, 3>(0, 3 * frame.turning[i]) -= R_arm * turn;
+    G.block<3, 3>(3, 3 * frame.turning[i]) = R_AH * turn;
   }
 }
 

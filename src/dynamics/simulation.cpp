@@ -271,12 +271,17 @@ void simulate(const SystemModel& model, SystemState& state,
   const SimulationSettings settings =
       limit_step(model, state, asked, statistics);
   const Timeline timeline = find_timeline(model, state.t, settings);
-  if (has_exact_modes(model, settings)) {
-    ExactModes exact(model, state);
-    integrate_with_exact_modes(exact, state, settings, timeline, visit,
-                               progress, statistics);
-  } else {
-    integrate(model, state, settings, timeline, visit, progress, statistics);
+  try {
+    if (has_exact_modes(model, settings)) {
+      ExactModes exact(model, state);
+      integrate_with_exact_modes(exact, state, settings, timeline, visit,
+                                 progress, statistics);
+    } else {
+      integrate(model, state, settings, timeline, visit, progress, statistics);
+    }
+  } catch (const NumericalError&) {
+    update_mean_frames(model, state);
+    throw;
   }
   update_mean_frames(model, state);
   report(progress, "simulating", 1.0);

@@ -144,9 +144,9 @@ class Iteration {
 double find_stable_step(const SystemModel& model, const SystemState& state) {
   Iteration iteration(model, state);
   const double omega_squared = iteration.find_largest(false);
-  if (!(omega_squared > 0.0)) return std::numeric_limits<double>::infinity();
   const double c = iteration.find_largest(true);
-  return (std::sqrt(c * c + 4.0 * omega_squared) - c) / omega_squared;
+  const double rate = c + std::sqrt(c * c + omega_squared);
+  return rate > 0.0 ? 2.0 / rate : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace limber::dynamics

@@ -7,11 +7,13 @@ namespace limber::dynamics {
 
 /// Longest step with which central differences are stable about `state` [s].
 ///
-/// Equation   h = (sqrt(c^2 + 4 omega^2) - c) / omega^2: 2 / omega without
-///            damping; omega^2 and c the largest eigenvalues of the change of
-///            accelerations with positions and with velocities, by power
+/// Equation   omega^2 h^2 + 4 c h = 4: 2 / omega without damping, 1 / c without
+///            stiffness; omega^2 and c the largest eigenvalues of the change
+///            of accelerations with positions and with velocities, by power
 ///            iteration on differences of the equations of motion
-/// Source     [@belytschko2000, eq. 6.2.19], with c = 2 xi omega
+/// Source     the amplification matrix of q'' = -omega^2 q - c q' has the
+///            eigenvalue -1 there. Damping counts twice as in
+///            [@belytschko2000, eq. 6.2.19]: it takes v + h a, not v + h a / 2.
 /// Limits     a thousandth long at most, by when the iteration ends; motion
 ///            that stiffens the system later is not foreseen. Infinite if
 ///            nothing vibrates.

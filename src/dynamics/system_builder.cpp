@@ -75,16 +75,6 @@ void check_same_nodes(const std::string& name,
   }
 }
 
-void require_no_arm(const std::string& name, const flexbody::NodeSet& nodes,
-                    const NodalFrame& frame) {
-  constexpr double kArm = 1e-9;  // [m]
-  if (frame.arm_B.norm() <= kArm) return;
-  throw InputError(fmt::format(
-      "'{}': interface '{}' is a single node, or nodes on one line, which turn "
-      "no frame; put the frame at their mean point, or use a surface",
-      name, nodes.name));
-}
-
 MatrixX multiply_mass(const flexbody::FullBody& full, const MatrixX& columns) {
   const auto solver = full.make_solver();
   MatrixX product(columns.rows(), columns.cols());
@@ -174,14 +164,9 @@ AttachmentIndex SystemBuilder::attach_nodes(const std::string& name,
   const AttachmentIndex index = attach_frame(name, body, X_BF);
   const int full = model_.bodies[static_cast<std::size_t>(body)].full;
   LIMBER_EXPECT(full >= 0);
-  FullModel& more = model_.full_bodies[static_cast<std::size_t>(full)];
-  auto frame =
-      std::make_shared<NodalFrame>(make_nodal_frame(*more.mesh, nodes, X_BF.p));
-  if (!frame->turns) {
-    require_no_arm(name, nodes, *frame);
-    more.needs_frame = true;
-  }
-  model_.attachments.back().nodal = std::move(frame);
+  model_.attachments.back().nodal = std::make_shared<const NodalFrame>(
+      make_nodal_frame(*model_.full_bodies[static_cast<std::size_t>(full)].mesh,
+                       nodes, X_BF.p));
   return index;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -87,6 +88,9 @@ struct FullBody {
   std::function<std::unique_ptr<FullBodySolver>()> make_solver;
 
   [[nodiscard]] Eigen::Index node_count() const { return x_B.cols(); }
+  [[nodiscard]] bool is_clamped() const {
+    return std::find(held.begin(), held.end(), 1) != held.end();
+  }
 };
 
 /// @throws InputError naming the nearest interface.

@@ -48,7 +48,7 @@ Motion find_nodal_motion(const Probe& probe, const dynamics::SystemModel& model,
   calc_mean_frame(model, full, state, body);
   dynamics::NodalFrameMotion frame;
   calc_nodal_frame(*probe.nodal, nodes_of(full, state.u_H),
-                   nodes_of(full, state.udot_H), body.R_HB, body.w_H, frame);
+                   nodes_of(full, state.udot_H), frame);
   Motion motion;
   motion.p_W = X_WH * frame.p_H;
   motion.v_W = X_WH.R * frame.v_H;
