@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -38,6 +39,18 @@ inline Table read_table(const std::string& name) {
         table[names[i]].push_back(std::stod(cell));
       }
     }
+  }
+  return table;
+}
+
+/// Its rows up to the time `end` [s].
+inline Table until(Table table, double end) {
+  constexpr double kSame = 1e-9;
+  const std::vector<double>& t = table.at("t");
+  const auto rows =
+      std::upper_bound(t.begin(), t.end(), end + kSame) - t.begin();
+  for (auto& [name, values] : table) {
+    values.resize(static_cast<std::size_t>(rows));
   }
   return table;
 }
