@@ -164,6 +164,21 @@ TEST(FullMotion, DampedKeepsAngularMomentumToRoundOff) {
             1e-12 * before.linear_momentum.norm());
 }
 
+// Newton's matrix has the damping of the modes: strong damping costs no more.
+TEST(FullMotion, ImplicitStepsConvergeUnderStrongDamping) {
+  for (const double ratio : {0.3, 1.0, 2.0}) {
+    const Lattice lattice({.is_clamped = true}, {.ratios = {ratio}});
+    const SystemModel model = lattice.builder.build();
+    for (const double step : {1e-4, 1e-3, 1e-2}) {
+      OneMode one(model, 0);
+      place_nodes(model, 1e4 * one.phi, {}, one.state);
+      const SimulationStatistics statistics = simulate(
+          model, one.state, {.end_time = 20.0 * step, .step = step}, {});
+      EXPECT_LT(statistics.newton_iterations, 20 * 12);
+    }
+  }
+}
+
 // --- Orders of the integrators ----------------------------------------------
 
 struct SchemeOrder {
