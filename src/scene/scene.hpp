@@ -29,13 +29,13 @@ struct Scene {
 
 /// What the command line puts in place of the file's word.
 struct Overrides {
-  std::optional<dynamics::Fidelity> fidelity;  ///< for every flexible link
+  std::optional<dynamics::Fidelity> fidelity = {};  ///< for every flexible link
   /// Over the file's [basis] for every flexible link, key by key.
-  BasisChoice basis;
+  BasisChoice basis = {};
   /// Longest step, from the start to the end [s]. Output times stay those that
   /// the file asks for.
-  std::optional<double> step;
-  std::optional<flexbody::KeptRows> rows;  ///< of every link with a mesh
+  std::optional<double> step = {};
+  std::optional<flexbody::KeptRows> rows = {};  ///< of every link with a mesh
 };
 
 /// Reads the scenario and its robot, and checks one against the other.
