@@ -213,6 +213,7 @@ std::string find_source_name(const BasisChoice& basis) {
 ComparisonPlan make_plan(const Axes& axes, const ReferenceWish& wish,
                          const scene::Scene& scene) {
   ComparisonPlan plan;
+  (void)combine_bases(axes);  // names are right, whoever takes them
   plan.reference = find_reference(axes, wish, scene);
   check_reference(plan, axes, wish, scene);
   const bool is_flexible = has_flexible_link(scene);
