@@ -22,7 +22,8 @@ struct Options {
   std::vector<std::string> levels;
   Axes axes;  ///< without levels
   std::string reference;
-  ReferenceWish wish;  ///< without a level
+  std::string reference_integrator;
+  ReferenceWish wish;  ///< without a level and an integrator
   std::string tolerance;
   std::string measure = "both";
   int repeats = 0;
@@ -44,6 +45,9 @@ ReferenceWish make_wish(const Options& options) {
   ReferenceWish wish = options.wish;
   if (!options.reference.empty()) {
     wish.level = dynamics::parse_fidelity(options.reference);
+  }
+  if (!options.reference_integrator.empty()) {
+    wish.integrator = dynamics::parse_integrator(options.reference_integrator);
   }
   return wish;
 }
@@ -195,6 +199,9 @@ void add_reference(CLI::App& command, Options& options) {
                   "Its step [s] (default: half of the shortest that is "
                   "compared)")
       ->check(make_positive());
+  command.add_option("--reference-integrator", options.reference_integrator,
+                     "Its integrator, as in central-differences for level full "
+                     "(default: the scenario's)");
 }
 
 void add_demand(CLI::App& command, Options& options) {

@@ -110,6 +110,7 @@ Choice find_reference(const Axes& axes, const ReferenceWish& wish,
   if (has_basis(reference.level) && has_flexible_link(scene)) {
     reference.basis = find_largest_basis(axes, wish);
   }
+  reference.integrator = wish.integrator;
   reference.step = wish.step.value_or(0.5 * find_shortest_step(axes, scene));
   return reference;
 }
@@ -173,6 +174,10 @@ std::vector<std::string> list_details(const Choice& choice) {
   return details;
 }
 
+const std::string& name_of(dynamics::IntegratorKind kind) {
+  return dynamics::integrator_names()[static_cast<std::size_t>(kind)];
+}
+
 std::string describe_details(const Choice& choice) {
   std::vector<std::string> parts;
   const std::string sources = find_source_name(choice.basis);
@@ -184,6 +189,7 @@ std::string describe_details(const Choice& choice) {
   } else if (!sources.empty()) {
     parts.push_back(sources);
   }
+  if (choice.integrator) parts.push_back(name_of(*choice.integrator));
   if (choice.step) parts.push_back(fmt::format("{:g} s", *choice.step));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -195,6 +201,7 @@ scene::Overrides to_overrides(const Choice& choice) {
   overrides.fidelity = choice.level;
   overrides.basis = choice.basis;
   overrides.step = choice.step;
+  overrides.integrator = choice.integrator;
   return overrides;
 }
 

@@ -15,6 +15,7 @@ struct Choice {
   dynamics::Fidelity level = dynamics::Fidelity::coupled;
   scene::BasisChoice basis;
   std::optional<double> step;  ///< [s]
+  std::optional<dynamics::IntegratorKind> integrator = {};
 
   bool operator==(const Choice&) const = default;
 };
@@ -35,6 +36,7 @@ struct ReferenceWish {
   std::optional<dynamics::Fidelity> level;
   std::optional<int> eigenmodes;
   std::optional<double> step;  ///< [s]
+  std::optional<dynamics::IntegratorKind> integrator = {};
 };
 
 struct ComparisonPlan {

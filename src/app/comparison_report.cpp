@@ -14,6 +14,12 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+/// Null: the scenario's.
+Json to_json(const std::optional<dynamics::IntegratorKind>& kind) {
+  if (!kind) return nullptr;
+  return dynamics::integrator_names()[static_cast<std::size_t>(*kind)];
+}
+
 Json to_json(const results::FieldError& error) {
   return Json{{"relative", or_null(error.relative())},
               {"relative_max", or_null(error.relative_max())},
@@ -119,6 +125,7 @@ Json to_json(const ComparedRun& run) {
             {"fidelity", std::string(to_string(run.choice.level))},
             {"basis", to_json(run.choice.basis)},
             {"step", or_null(run.choice.step)},
+            {"integrator", to_json(run.choice.integrator)},
             {"completed", run.stopped.empty()}};
   if (!run.stopped.empty()) json["stopped"] = run.stopped;
   json["modes"] = run.cost.modes;

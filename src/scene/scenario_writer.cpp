@@ -116,6 +116,11 @@ std::string rewrite_scenario(const std::filesystem::path& file,
   }
   set_basis(root, overrides.basis);
   if (overrides.step) set_step(root, *overrides.step);
+  if (overrides.integrator) {
+    const auto kind = static_cast<std::size_t>(*overrides.integrator);
+    get_table(root, "time")
+        .insert_or_assign("integrator", dynamics::integrator_names()[kind]);
+  }
   std::ostringstream text;
   text << root << '\n';
   return text.str();

@@ -25,6 +25,9 @@ void apply(const Overrides& overrides, Scene& scene) {
     scene.scenario.settings.step = *overrides.step;
     scene.scenario.settings.step_changes.clear();
   }
+  if (overrides.integrator) {
+    scene.scenario.settings.integrator = *overrides.integrator;
+  }
   if (!overrides.rows) return;
   for (Link& link : scene.robot.links) {
     if (link.flexible) link.flexible->rows = *overrides.rows;

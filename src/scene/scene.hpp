@@ -35,6 +35,7 @@ struct Overrides {
   /// Longest step, from the start to the end [s]. Output times stay those that
   /// the file asks for.
   std::optional<double> step = {};
+  std::optional<dynamics::IntegratorKind> integrator = {};
   std::optional<flexbody::KeptRows> rows = {};  ///< of every link with a mesh
 };
 

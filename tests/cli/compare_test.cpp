@@ -77,6 +77,18 @@ TEST(Compare, ErrorsOfTheStepFallWithItsSquare) {
   EXPECT_NEAR(order, 2.0, 0.1);
 }
 
+TEST(Compare, StepsTheReferenceExplicitlyWhereAsked) {
+  const Workspace place;
+  write_push(place);
+  const json found = compare(place,
+                             "--fidelity coupled --modes 2 --reference coupled "
+                             "--reference-integrator runge-kutta-4");
+  EXPECT_EQ(found["reference"]["integrator"], "runge-kutta-4");
+  EXPECT_EQ(found["reference"]["newton_iterations"], 0);
+  EXPECT_EQ(found["runs"][0]["integrator"], nullptr);
+  EXPECT_GT(found["runs"][0]["newton_iterations"], 0);
+}
+
 TEST(Compare, WritesTheCheapestChoiceAsAScenarioThatRuns) {
   const Workspace place;
   write_push(place);
@@ -183,6 +195,7 @@ TEST(Compare, RefusesBadAxesWithOneLine) {
   expect_refused("--tolerance 1% --measure displaced", "measure");
   expect_refused("--repeat 0", "--repeat");
   expect_refused("--reference coupled --reference-step 1", "--reference-step");
+  expect_refused("--reference-integrator runge-kuta-4", "did you mean");
   expect_refused("--fidelity rigid --modes 3", "no level");
 }
 

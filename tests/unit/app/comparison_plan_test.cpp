@@ -81,6 +81,15 @@ TEST(ComparisonPlan, HasTheLargestBasisAndHalfTheShortestStepAsReference) {
   EXPECT_EQ(reference.step, 1e-4);
 }
 
+TEST(ComparisonPlan, GivesTheReferenceAloneAnIntegratorOfItsOwn) {
+  ReferenceWish wish;
+  wish.integrator = dynamics::IntegratorKind::central_differences;
+  const ComparisonPlan plan = make_plan({}, wish, make_scene());
+  EXPECT_EQ(plan.reference.integrator, wish.integrator);
+  for (const Choice& run : plan.runs) EXPECT_FALSE(run.integrator);
+  EXPECT_THAT(describe(plan.reference), HasSubstr("central-differences"));
+}
+
 TEST(ComparisonPlan, TakesHalfTheShortestStepOfASchedule) {
   scene::Scene scene = make_scene();
   scene.scenario.settings.step_changes = {{0.1, 4e-4}, {0.2, 1e-2}};
@@ -147,11 +156,13 @@ TEST(Choice, HasAFolderNameOfItsOwnWithoutBlanks) {
 }
 
 TEST(Choice, TakesThePlaceOfTheScenariosWords) {
-  const Choice choice{Fidelity::one_way, {7, {}, true}, 0.1};
+  const auto kind = dynamics::IntegratorKind::runge_kutta_4;
+  const Choice choice{Fidelity::one_way, {7, {}, true}, 0.1, kind};
   const scene::Overrides overrides = to_overrides(choice);
   EXPECT_EQ(overrides.fidelity, Fidelity::one_way);
   EXPECT_EQ(overrides.basis, choice.basis);
   EXPECT_EQ(overrides.step, 0.1);
+  EXPECT_EQ(overrides.integrator, kind);
 }
 
 }  // namespace

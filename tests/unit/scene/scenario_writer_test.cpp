@@ -59,6 +59,15 @@ TEST(ScenarioWriter, PutsAChoiceIntoAScenarioThatReadsBack) {
             original.scenario.joints.at("elbow_3").position);
 }
 
+TEST(ScenarioWriter, PutsAnIntegratorInPlaceOfTheFiles) {
+  Overrides overrides;
+  overrides.integrator = dynamics::IntegratorKind::implicit_euler;
+  const Scene chosen =
+      rewrite(LIMBER_SOURCE_DIR "/examples/struck_finger.toml", overrides);
+  EXPECT_EQ(chosen.scenario.settings.integrator,
+            dynamics::IntegratorKind::implicit_euler);
+}
+
 TEST(ScenarioWriter, WithoutAChoiceChangesNothingButThePaths) {
   const fs::path example = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
   const Scene same = rewrite(example, {});
