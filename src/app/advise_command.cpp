@@ -28,28 +28,6 @@ struct Options {
   bool json = false;
 };
 
-/// More instants than this tell nothing new.
-constexpr double kMostInstants = 1e6;
-
-/// Every step and every jump of a load.
-std::vector<double> find_instants(const dynamics::SystemModel& model,
-                                  const dynamics::SimulationSettings& time) {
-  std::vector<double> instants;
-  const double step = std::max(time.step, time.end_time / kMostInstants);
-  for (double i = 0.0; i * step < time.end_time; ++i) {
-    instants.push_back(i * step);
-  }
-  instants.push_back(time.end_time);
-  for (const dynamics::Load& load : model.loads) {
-    for (const double t : break_times(load.function)) {
-      if (t > 0.0 && t < time.end_time) instants.push_back(t);
-    }
-  }
-  std::sort(instants.begin(), instants.end());
-  instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
-  return instants;
-}
-
 scene::Scene load(const Options& options) {
   scene::Overrides overrides;
   if (!options.fidelity.empty()) {
@@ -70,48 +48,6 @@ scene::Scene load(const Options& options) {
   throw InputError(
       fmt::format("{}: no link is flexible; there is no level to choose",
                   scene.robot.file.string()));
-}
-
-/// The levels that the scenario asks for, one a body.
-std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
-                                           const dynamics::SystemModel& model) {
-  std::vector<dynamics::Fidelity> asked;
-  for (const dynamics::BodyModel& body : model.bodies) {
-    const auto found = scenario.fidelity_of_link.find(body.name);
-    asked.push_back(found == scenario.fidelity_of_link.end() ? scenario.fidelity
-                                                             : found->second);
-  }
-  return asked;
-}
-
-std::vector<BodyLevel> find_levels(const scene::Scene& scene,
-                                   const std::filesystem::path& cache) {
-  const Progress progress = make_progress_bar();
-  scene::Scene flexible_scene = scene;
-  flexible_scene.scenario.fidelity = dynamics::Fidelity::uncoupled;
-  flexible_scene.scenario.fidelity_of_link.clear();
-  const scene::BuiltScene flexible = scene::build_system(
-      flexible_scene, make_reducer(progress),
-      cache.empty() ? flexbody::default_cache_folder() : cache);
-  const scene::BuiltScene rigid =
-      build_at_level(scene, dynamics::Fidelity::rigid, flexible.model, cache);
-  clear_progress_bar();
-  print_warnings(flexible.warnings);
-  dynamics::LevelSurvey survey(flexible.model);
-  dynamics::SimulationSettings settings = rigid.settings;
-  settings.output_times = find_instants(rigid.model, settings);
-  dynamics::SystemState state = rigid.initial;
-  const auto observer = [&](const dynamics::SystemState& now,
-                            const dynamics::EnergyBalance&) {
-    survey.include(rigid.model, now);
-  };
-  dynamics::simulate(rigid.model, state, settings, observer, progress);
-  clear_progress_bar();
-  std::vector<BodyLevel> levels = judge_levels(
-      flexible.model, survey, find_asked(scene.scenario, flexible.model),
-      scene.scenario.advice);
-  find_bounds(levels);
-  return levels;
 }
 
 void write_picture(const std::filesystem::path& file, const std::string& title,
@@ -145,7 +81,7 @@ void advise(const Options& options) {
           ? std::filesystem::path("out") / (scene.scenario.name + "-advise")
           : std::filesystem::path(options.out);
   check_output_folder(folder);
-  const std::vector<BodyLevel> levels = find_levels(scene, options.cache);
+  const std::vector<BodyLevel> levels = advise_scene(scene, options.cache);
   const Json json = summarize(scene, levels, folder);
   write_text(folder / "advice.json", to_text(json));
   if (scene.scenario.output.pictures) {

@@ -50,6 +50,12 @@ struct BodyLevel {
     const scene::Scene& scene, dynamics::Fidelity level,
     const dynamics::SystemModel& model, const std::filesystem::path& cache);
 
+/// What `limber advise` says: runs the scene with every link rigid and judges
+/// the levels that it asks for.
+/// @param cache empty for the default one
+[[nodiscard]] std::vector<BodyLevel> advise_scene(
+    const scene::Scene& scene, const std::filesystem::path& cache);
+
 /// Gives free bodies their `bound`.
 void find_bounds(std::vector<BodyLevel>& levels);
 
