@@ -23,7 +23,7 @@ constexpr std::array<int, 6> kMarkers = {7, 5, 9, 13, 11, 15};
 constexpr int kWidth = 1500;
 constexpr int kHeight = 720;
 // What the margins below leave to a panel [pixels].
-constexpr double kPanelWidth = 0.415 * kWidth;
+constexpr double kPanelWidth = 0.405 * kWidth;
 constexpr double kPanelHeight = 0.66 * kHeight;
 // More labels than this hide each other: then only the front's are written.
 constexpr std::size_t kMostLabels = 16;
@@ -241,7 +241,7 @@ std::string draw_trade(const std::filesystem::path& file,
   GnuplotScript script(file, kWidth, kHeight);
   script.add("set multiplot layout 1,2 title " +
              quote(title + ": error over cost") +
-             " font 'sans,18' margins 0.07,0.98,0.20,0.86 spacing 0.08,0");
+             " font 'sans,18' margins 0.085,0.985,0.20,0.86 spacing 0.09,0");
   script.add("set logscale xy");
   script.add("set format xy '%g'");
   script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
