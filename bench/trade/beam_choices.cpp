@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "beam_choices.hpp"
+
+#include <fmt/format.h>
+
+namespace limber::bench::trade {
+
+Choice make_reference() {
+  return {.name = "full, Runge-Kutta 1.7e-5 s",
+          .level = Fidelity::full,
+          .integrator = IntegratorKind::runge_kutta_4,
+          .step = kFullStep,
+          .repeats = 1};
+}
+
+Choice make_explicit(flexbody::NodalMassKind mass, int repeats) {
+  const std::string name(to_string(mass));
+  return {.name = "full, " + name + " mass, central differences",
+          .label = name,
+          .level = Fidelity::full,
+          .integrator = IntegratorKind::central_differences,
+          .step = 5e-3,  // divided
+          .full = {.mass = mass},
+          .repeats = repeats};
+}
+
+scene::BasisChoice make_basis(int eigenmodes, bool has_loads) {
+  return {.eigenmodes = eigenmodes, .interfaces = false, .loads = has_loads};
+}
+
+Choice make_exact(const std::string& name, scene::BasisChoice basis,
+                  double step) {
+  return {.name = "uncoupled, " + name + ", closed form",
+          .label = name + " exact",
+          .level = Fidelity::uncoupled,
+          .basis = basis,
+          .integrator = IntegratorKind::runge_kutta_4,
+          .step = step};
+}
+
+Choice make_stepped(const std::string& name, Fidelity level,
+                    scene::BasisChoice basis, IntegratorKind integrator,
+                    double step) {
+  const bool is_explicit = integrator == IntegratorKind::runge_kutta_4;
+  return {.name = fmt::format("{}, {}, {} {:g} s", to_string(level), name,
+                              is_explicit ? "Runge-Kutta" : "generalized-alpha",
+                              step),
+          .label = fmt::format("{} {} {:g} s", name, is_explicit ? "RK" : "GA",
+                               step),
+          .level = level,
+          .basis = basis,
+          .integrator = integrator,
+          .step = step,
+          .exact_modes = false};
+}
+
+}  // namespace limber::bench::trade
