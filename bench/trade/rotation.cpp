@@ -20,7 +20,7 @@ void add_runs(Study& study) {
   study.add(make_explicit(NodalMassKind::lumped, 2));
   const auto ten = make_basis(10, false);
   const auto mixed = make_basis(10, true);
-  study.add(make_stepped("none", Fidelity::rigid, ten, rk, 5e-3));
+  study.add(make_stepped("no modes", Fidelity::rigid, ten, rk, 5e-3));
   study.add(make_stepped("10 modes", Fidelity::uncoupled, ten, ga, 1e-3));
   study.add(make_stepped("10 modes", Fidelity::uncoupled, ten, rk, 1e-4));
   study.add(make_stepped("10 modes", Fidelity::one_way, ten, rk, 1e-4));
@@ -64,7 +64,7 @@ Writer study_rotation(Context& context) {
   const Verdict verdict = judge_advice(
       *study, make_stepped("advice", Fidelity::coupled, make_basis(10, false),
                            IntegratorKind::runge_kutta_4, 5e-5));
-  add_verdict_claim(context, "scene 1 (rotation)", verdict);
+  add_verdict_claim(context, "Scene 1: accelerating rotation", verdict);
   return [study, verdict, &context](Page& page) {
     write(page, context, *study, verdict);
   };

@@ -162,7 +162,7 @@ void add_runs(Study& study) {
   study.add(make_explicit(NodalMassKind::consistent, 1));
   study.add(make_explicit(NodalMassKind::lumped, 2));
   study.add(make_neo_hookean());
-  study.add(make_stepped("none", Fidelity::rigid, make_basis(10, false),
+  study.add(make_stepped("no modes", Fidelity::rigid, make_basis(10, false),
                          kScheme, 5e-4));
   study.add(make_level(Fidelity::uncoupled, 10));
   study.add(make_level(Fidelity::one_way, 10));
@@ -221,12 +221,11 @@ void claim_warning(Context& context, const std::vector<Point>& points) {
   }
   context.claims.push_back(
       {warned > 0.0 && warned <= wrong,
-       fmt::format(
-           "scene 5 (spin): `limber advise` warns that no reduced level "
-           "is right where `coupled` is off by more than 10 % in "
-           "deformation: it warns from {:g} rad/s on, the error is "
-           "there from {:g} on.",
-           warned, wrong),
+       fmt::format("Scene 5: spin: `limber advise` warns that no reduced level "
+                   "is right where `coupled` is off by more than 10 % in "
+                   "deformation: it warns from {:g} rad/s on, the error is "
+                   "there from {:g} on.",
+                   warned, wrong),
        "its limit is the size of the deformation (1 % of the longest edge); "
        "the stiffening by spin shifts the phase of a swing long before."});
 }
@@ -241,7 +240,7 @@ Writer study_spin(Context& context) {
   std::vector<Point> points;
   points.reserve(kRates.size());
   for (const double rate : kRates) points.push_back(study_rate(rate, context));
-  add_verdict_claim(context, "scene 5 (spin)", verdict);
+  add_verdict_claim(context, "Scene 5: spin", verdict);
   claim_warning(context, points);
   return [study, verdict, points, &context](Page& page) {
     write(page, context, *study, verdict, points);
