@@ -104,7 +104,7 @@ struct Scenario {
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   std::map<std::string, dynamics::Fidelity> fidelity_of_link;
   flexbody::FullOptions full;  ///< of links at level `full`
-  BasisChoice basis;                                 ///< of every flexible link
+  BasisChoice basis;           ///< of every flexible link
   std::map<std::string, BasisChoice> basis_of_link;  ///< over `basis`
   std::vector<LoadSpec> loads;
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
