@@ -38,15 +38,33 @@ Choice make_exact(const std::string& name, scene::BasisChoice basis,
           .step = step};
 }
 
+namespace {
+
+struct SchemeName {
+  const char* name;
+  const char* label;
+};
+
+SchemeName find_scheme_name(IntegratorKind integrator) {
+  switch (integrator) {
+    case IntegratorKind::runge_kutta_4:
+      return {"Runge-Kutta", "RK"};
+    case IntegratorKind::explicit_euler:
+      return {"the report's scheme", "report"};
+    default:
+      return {"generalized-alpha", "GA"};
+  }
+}
+
+}  // namespace
+
 Choice make_stepped(const std::string& name, Fidelity level,
                     scene::BasisChoice basis, IntegratorKind integrator,
                     double step) {
-  const bool is_explicit = integrator == IntegratorKind::runge_kutta_4;
+  const SchemeName scheme = find_scheme_name(integrator);
   return {.name = fmt::format("{}, {}, {} {:g} s", to_string(level), name,
-                              is_explicit ? "Runge-Kutta" : "generalized-alpha",
-                              step),
-          .label = fmt::format("{} {} {:g} s", name, is_explicit ? "RK" : "GA",
-                               step),
+                              scheme.name, step),
+          .label = fmt::format("{} {} {:g} s", name, scheme.label, step),
           .level = level,
           .basis = basis,
           .integrator = integrator,

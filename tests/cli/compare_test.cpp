@@ -89,13 +89,14 @@ TEST(Compare, StepsTheReferenceExplicitlyWhereAsked) {
   EXPECT_GT(found["runs"][0]["newton_iterations"], 0);
 }
 
-TEST(Compare, WritesTheCheapestChoiceAsAScenarioThatRuns) {
+// One run alone meets the tolerance: which is cheaper is not for a test to say.
+TEST(Compare, WritesTheChoiceAsAScenarioThatRuns) {
   const Workspace place;
   write_push(place);
   const json found = compare(
       place,
-      "--fidelity rigid,coupled --modes 2,10 --step 1e-4 --reference coupled "
-      "--tolerance 30%");
+      "--fidelity rigid,coupled --modes 2 --step 1e-4 --reference coupled "
+      "--reference-modes 10 --tolerance 30%");
   const std::string name = found["chosen"]["run"];
   EXPECT_EQ(name, "coupled, 2 eigenmodes, 0.0001 s");
   EXPECT_LE(found["chosen"]["error"].get<double>(), 0.3);
