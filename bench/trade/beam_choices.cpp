@@ -24,6 +24,16 @@ Choice make_explicit(flexbody::NodalMassKind mass, int repeats) {
           .repeats = repeats};
 }
 
+void add_whole_meshes(Study& study) {
+  study.add_reference(make_reference());
+  study.add(make_explicit(flexbody::NodalMassKind::consistent, 1));
+  study.add(make_explicit(flexbody::NodalMassKind::lumped, 2));
+}
+
+const Outcome& find_lumped(const Study& study) {
+  return study.find(make_explicit(flexbody::NodalMassKind::lumped, 1).name);
+}
+
 scene::BasisChoice make_basis(int eigenmodes, bool has_loads) {
   return {.eigenmodes = eigenmodes, .interfaces = false, .loads = has_loads};
 }

@@ -16,6 +16,10 @@ inline constexpr double kFullStep = 1.7e-5;
 [[nodiscard]] Choice make_reference();
 /// Central differences at their stable step; `lumped` is the yardstick of cost.
 [[nodiscard]] Choice make_explicit(flexbody::NodalMassKind mass, int repeats);
+/// Adds them all: the reference, and explicit steps with both masses.
+void add_whole_meshes(Study& study);
+/// The yardstick of cost among the runs of add_whole_meshes.
+[[nodiscard]] const Outcome& find_lumped(const Study& study);
 /// A basis of so many eigenmodes, with or without the static-deformation modes
 /// of the loads.
 [[nodiscard]] scene::BasisChoice make_basis(int eigenmodes, bool has_loads);

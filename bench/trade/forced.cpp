@@ -53,9 +53,6 @@ Choice make_exact_of(const Forced& scene, int vectors, bool has_loads) {
       5e-3);
 }
 
-const Outcome& find_lumped(const Study& study) {
-  return study.find(make_explicit(NodalMassKind::lumped, 1).name);
-}
 const Outcome& find_consistent(const Study& study) {
   return study.find(make_explicit(NodalMassKind::consistent, 1).name);
 }
@@ -63,9 +60,7 @@ const Outcome& find_consistent(const Study& study) {
 void add_runs(Study& study, const Forced& scene) {
   const IntegratorKind rk = IntegratorKind::runge_kutta_4;
   const IntegratorKind ga = IntegratorKind::generalized_alpha;
-  study.add_reference(make_reference());
-  study.add(make_explicit(NodalMassKind::consistent, 1));
-  study.add(make_explicit(NodalMassKind::lumped, 2));
+  add_whole_meshes(study);
   const auto ten = make_basis(10, false);
   const auto sixteen = make_basis(16, false);
   study.add(make_stepped("no modes", Fidelity::rigid, ten, rk, 5e-3));

@@ -10,14 +10,10 @@
 namespace limber::bench::trade {
 namespace {
 
-using flexbody::NodalMassKind;
-
 void add_runs(Study& study) {
   const IntegratorKind rk = IntegratorKind::runge_kutta_4;
   const IntegratorKind ga = IntegratorKind::generalized_alpha;
-  study.add_reference(make_reference());
-  study.add(make_explicit(NodalMassKind::consistent, 1));
-  study.add(make_explicit(NodalMassKind::lumped, 2));
+  add_whole_meshes(study);
   const auto ten = make_basis(10, false);
   const auto mixed = make_basis(10, true);
   study.add(make_stepped("no modes", Fidelity::rigid, ten, rk, 5e-3));
@@ -37,8 +33,7 @@ void write(Page& page, const Context& context, const Study& study,
   const std::string fast = "uncoupled, 10 modes, generalized-alpha 0.001 s";
   const Outcome& cheap = study.find(fast);
   const Outcome& fine = study.find("coupled, 10 modes, Runge-Kutta 0.0001 s");
-  const Outcome& lumped =
-      study.find(make_explicit(NodalMassKind::lumped, 1).name);
+  const Outcome& lumped = find_lumped(study);
   page.heading("Scene 1: accelerating rotation");
   page.text(fmt::format(
       "Where the beam goes, every level knows to {} %: `rigid` is enough for "

@@ -15,7 +15,6 @@ namespace limber::bench::trade {
 namespace {
 
 using flexbody::MaterialLaw;
-using flexbody::NodalMassKind;
 
 const std::vector<double> kRates = {3,   10,  30,  60,
                                     100, 200, 300, 400};  // [rad/s]
@@ -158,9 +157,7 @@ void write_sweep(Page& page, const std::vector<Point>& points) {
 }
 
 void add_runs(Study& study) {
-  study.add_reference(make_reference());
-  study.add(make_explicit(NodalMassKind::consistent, 1));
-  study.add(make_explicit(NodalMassKind::lumped, 2));
+  add_whole_meshes(study);
   study.add(make_neo_hookean());
   study.add(make_stepped("no modes", Fidelity::rigid, make_basis(10, false),
                          kScheme, 5e-4));
@@ -191,7 +188,7 @@ void write(Page& page, const Context& context, const Study& study,
       fast.rate, fast.frequencies[1], slow.frequencies[1], fast.rate));
   page.text("The choices at 100 rad/s:");
   write_choices(page, context.folder, "spin", "fast spin, 100 rad/s", study,
-                study.find(make_explicit(NodalMassKind::lumped, 1).name));
+                find_lumped(study));
   write_verdict(page, verdict);
   page.text(
       "Over the spin rate, 40 eigenmodes in steps of 0.05 ms against the "

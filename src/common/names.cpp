@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/errors.hpp"
+
 namespace limber {
 namespace {
 
@@ -50,6 +52,15 @@ std::string describe_unknown(std::string_view kind, std::string_view name,
   return fmt::format(
       "unknown {} '{}'{} (known: {})", kind, name, hint,
       known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
+}
+
+std::size_t find_name(std::string_view kind, std::string_view name,
+                      const std::vector<std::string>& known) {
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found == known.end()) {
+    throw InputError(describe_unknown(kind, name, known));
+  }
+  return static_cast<std::size_t>(found - known.begin());
 }
 
 }  // namespace limber

@@ -17,4 +17,9 @@ namespace limber {
     std::string_view kind, std::string_view name,
     const std::vector<std::string>& known);
 
+/// Index of `name` in `known`. @throws InputError as describe_unknown words it.
+[[nodiscard]] std::size_t find_name(std::string_view kind,
+                                    std::string_view name,
+                                    const std::vector<std::string>& known);
+
 }  // namespace limber

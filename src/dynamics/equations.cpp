@@ -72,9 +72,8 @@ void apply_wrench(const BodyModel& body, const Attachment& attachment,
   }
 }
 
-void apply_coupler(const SystemModel& model, const SystemState& state,
-                   const Coupler& coupler, WrenchSource source,
-                   SystemTerms& terms, CouplerTerms& out) {
+void apply_coupler(const SystemModel& model, const Coupler& coupler,
+                   WrenchSource source, SystemTerms& terms, CouplerTerms& out) {
   const auto iF = static_cast<std::size_t>(coupler.frame_F);
   const auto iM = static_cast<std::size_t>(coupler.frame_M);
   const AttachmentMotion& F = terms.attachments[iF];
@@ -103,7 +102,7 @@ void apply_coupler(const SystemModel& model, const SystemState& state,
     if (a.body == kWorld) return;
     const auto b = static_cast<std::size_t>(a.body);
     if (model.bodies[b].full >= 0) {
-      add_full_wrench(model, a, motion, state, f, t, terms);
+      add_full_wrench(model, a, motion, f, t, terms);
       return;
     }
     apply_wrench(model.bodies[b], a, motion, f, t, terms.bodies[b]);
@@ -157,7 +156,7 @@ void apply_load(const SystemModel& model, const SystemState& state,
   const Vector3 force_W = load.in_world ? force : t.R_WB * force;
   const Vector3 moment_W = load.in_world ? moment : t.R_WB * moment;
   if (body.full >= 0) {
-    add_full_wrench(model, attachment, motion, state, force_W, moment_W, terms);
+    add_full_wrench(model, attachment, motion, force_W, moment_W, terms);
   } else {
     apply_wrench(body, attachment, motion, force_W, moment_W, t);
   }
@@ -309,8 +308,7 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
     }
   }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    apply_coupler(model, state, model.couplers[c], source, terms,
-                  terms.couplers[c]);
+    apply_coupler(model, model.couplers[c], source, terms, terms.couplers[c]);
   }
   for (const Load& load : model.loads) {
     apply_load(model, state, load, side, terms);

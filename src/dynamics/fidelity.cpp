@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/fidelity.hpp"
 
-#include <algorithm>
-
-#include "common/errors.hpp"
 #include "common/names.hpp"
 
 namespace limber::dynamics {
@@ -19,12 +16,7 @@ std::string_view to_string(Fidelity fidelity) {
 }
 
 Fidelity parse_fidelity(std::string_view name) {
-  const auto& names = fidelity_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw InputError(describe_unknown("fidelity", name, names));
-  }
-  return static_cast<Fidelity>(found - names.begin());
+  return static_cast<Fidelity>(find_name("fidelity", name, fidelity_names()));
 }
 
 }  // namespace limber::dynamics

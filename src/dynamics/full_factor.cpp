@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/full_factor.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "dynamics/full_terms.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -32,17 +30,11 @@ bool FullFactor::update(const SystemModel& model, std::size_t f,
   const double change = std::abs(c.acceleration - acceleration_);
   if (!renews && change <= kSame * c.acceleration) return false;
   acceleration_ = 0.0;
-  u_B_.resize(3, full.mesh->node_count());
-  calc_deformation(full, frame, nodes_of(full, state.u_H), u_B_);
+  Matrix3X u_B(3, full.mesh->node_count());
+  calc_deformation(full, frame, nodes_of(full, state.u_H), u_B);
   flexbody::FullBodySolver& solver = *terms.full[f].solver;
-  try {
-    solver.factor(u_B_, c.acceleration);
-  } catch (const NumericalError& error) {
-    throw NumericalError(
-        fmt::format("body '{}' at t = {:.9g} s: {}",
-                    model.bodies[static_cast<std::size_t>(full.body)].name,
-                    state.t, error.what()));
-  }
+  name_failures(model, full, state.t,
+                [&] { solver.factor(u_B, c.acceleration); });
   acceleration_ = c.acceleration;
   add_damping(full, solver, c.velocity);
   return true;

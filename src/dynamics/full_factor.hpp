@@ -42,7 +42,6 @@ class FullFactor {
 
   double acceleration_ = 0.0;           // of the sparse factors, 0: none
   Matrix3 R_HB_ = Matrix3::Identity();  // at the last update
-  Matrix3X u_B_;                        // 3 x N, where K was taken
   MatrixX V_;  // 3N x m: V (1 + C U' V)^-1 C; no columns if undamped
 };
 

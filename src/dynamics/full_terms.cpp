@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/full_terms.hpp"
 
-#include <fmt/format.h>
-
-#include "common/errors.hpp"
-
 namespace limber::dynamics {
 namespace {
 
@@ -50,14 +46,10 @@ void calc_full_terms(const SystemModel& model, const SystemState& state,
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullModel& full = model.full_bodies[f];
     FullTerms& t = terms.full[f];
-    try {
-      t.strain_energy =
-          t.solver->calc_internal_force(nodes_of(full, state.u_H), t.internal);
-    } catch (const NumericalError& error) {
-      throw NumericalError(fmt::format("body '{}' at t = {:.9g} s: {}",
-                                       model.bodies[index(full.body)].name,
-                                       state.t, error.what()));
-    }
+    t.strain_energy = name_failures(model, full, state.t, [&] {
+      return t.solver->calc_internal_force(nodes_of(full, state.u_H),
+                                           t.internal);
+    });
     if (full.needs_frame) calc_mean_frame(model, full, state, t.frame);
     terms.bodies[index(full.body)].R_WB = state.X_WH[f].R * t.frame.R_HB;
   }
@@ -79,11 +71,10 @@ void reset_full_forces(const SystemModel& model, const SystemState& state,
 }
 
 void add_full_wrench(const SystemModel& model, const Attachment& attachment,
-                     const AttachmentMotion& motion, const SystemState& state,
-                     const Vector3& force_W, const Vector3& moment_W,
-                     SystemTerms& terms) {
+                     const AttachmentMotion& motion, const Vector3& force_W,
+                     const Vector3& moment_W, SystemTerms& terms) {
   const auto f = index(model.bodies[index(attachment.body)].full);
-  const Matrix3 R_HW = state.X_WH[f].R.transpose();
+  const Matrix3 R_HW = motion.nodal.R_HB * motion.R_WB.transpose();
   add_nodal_wrench(*attachment.nodal, motion.nodal, R_HW * force_W,
                    R_HW * moment_W, terms.full[f].force);
 }

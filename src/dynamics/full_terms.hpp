@@ -1,11 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
 #include "dynamics/workspace.hpp"
 
 /// What bodies at level `full` put into the equations of motion; called by
 /// dynamics/equations.
 namespace limber::dynamics {
+
+/// Runs `work`; a NumericalError of the mesh is told with the body's name and
+/// the time [s] in front.
+template <typename Work>
+auto name_failures(const SystemModel& model, const FullModel& full, double t,
+                   const Work& work) {
+  try {
+    return work();
+  } catch (const NumericalError& error) {
+    throw NumericalError(
+        fmt::format("body '{}' at t = {:.9g} s: {}",
+                    model.bodies[static_cast<std::size_t>(full.body)].name, t,
+                    error.what()));
+  }
+}
 
 /// Fills `internal`, the strain energy and, if needed, the mean-axis frame.
 /// @throws NumericalError naming the element, body and time if an element is
@@ -19,9 +37,8 @@ void reset_full_forces(const SystemModel& model, const SystemState& state,
 
 /// Adds a force [N] and a moment [N m] at an attachment, world axes.
 void add_full_wrench(const SystemModel& model, const Attachment& attachment,
-                     const AttachmentMotion& motion, const SystemState& state,
-                     const Vector3& force_W, const Vector3& moment_W,
-                     SystemTerms& terms);
+                     const AttachmentMotion& motion, const Vector3& force_W,
+                     const Vector3& moment_W, SystemTerms& terms);
 
 /// Adds column i of nodal forces that turn with the body, and their power.
 void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,

@@ -227,12 +227,8 @@ const std::vector<std::string>& integrator_names() {
 }
 
 IntegratorKind parse_integrator(std::string_view name) {
-  const auto& names = integrator_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw InputError(describe_unknown("integrator", name, names));
-  }
-  return static_cast<IntegratorKind>(found - names.begin());
+  return static_cast<IntegratorKind>(
+      find_name("integrator", name, integrator_names()));
 }
 
 SimulationStatistics simulate(const SystemModel& model, SystemState& state,

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/full_body.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "common/errors.hpp"
 #include "common/names.hpp"
 
@@ -20,15 +17,6 @@ const Names& law_names() {
 const Names& mass_names() {
   static const Names names = {"consistent", "lumped"};
   return names;
-}
-
-std::size_t find_name(const char* what, std::string_view name,
-                      const Names& names) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw InputError(describe_unknown(what, name, names));
-  }
-  return static_cast<std::size_t>(found - names.begin());
 }
 
 }  // namespace

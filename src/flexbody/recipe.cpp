@@ -23,11 +23,7 @@ std::string_view to_string(ModeMeasure measure) {
 }
 
 ModeMeasure parse_measure(std::string_view name) {
-  const auto& names = measure_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw InputError(describe_unknown("measure", name, names));
-  return static_cast<ModeMeasure>(found - names.begin());
+  return static_cast<ModeMeasure>(find_name("measure", name, measure_names()));
 }
 
 KeptRows parse_rows(const std::vector<std::string>& words) {

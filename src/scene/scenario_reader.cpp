@@ -14,20 +14,6 @@
 namespace limber::scene {
 namespace {
 
-/// The value of `key` as `parse` reads it, or `otherwise` if there is none.
-template <typename Value>
-Value read_name(TomlTable& table, const std::string& key, Value otherwise,
-                Value (*parse)(std::string_view)) {
-  const auto name = table.text(key);
-  if (!name) return otherwise;
-  try {
-    return parse(*name);
-  } catch (const InputError& error) {
-    table.fail(key, error.problems().front());
-  }
-  return otherwise;
-}
-
 dynamics::Fidelity read_level(TomlTable& table, const std::string& key,
                               dynamics::Fidelity otherwise) {
   return read_name(table, key, otherwise, &dynamics::parse_fidelity);

@@ -86,17 +86,6 @@ std::vector<double> read_output_times(
   return *times;
 }
 
-dynamics::IntegratorKind read_integrator(TomlTable& table) {
-  const auto name = table.text("integrator");
-  if (!name) return dynamics::IntegratorKind::generalized_alpha;
-  try {
-    return dynamics::parse_integrator(*name);
-  } catch (const InputError& error) {
-    table.fail("integrator", error.problems().front());
-  }
-  return dynamics::IntegratorKind::generalized_alpha;
-}
-
 /// One `step`, or `steps = { from = [...], size = [...] }`: from each time on
 /// the step of that size, the first from the start.
 void read_steps(TomlTable& table, dynamics::SimulationSettings& settings) {
@@ -133,7 +122,8 @@ dynamics::SimulationSettings read_time_settings(TomlTable& table) {
   dynamics::SimulationSettings settings;
   settings.end_time = table.required_number("duration", kPositive);
   read_steps(table, settings);
-  settings.integrator = read_integrator(table);
+  settings.integrator = read_name(table, "integrator", settings.integrator,
+                                  &dynamics::parse_integrator);
   settings.rho_inf = table.number("rho_inf", {0.0, 1.0, false, false})
                          .value_or(settings.rho_inf);
   settings.newton_tolerance =

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/errors.hpp"
 #include "common/names.hpp"
 #include "common/types.hpp"
 #include "scene/problems.hpp"
@@ -77,6 +78,20 @@ Value read_choice(TomlTable& table, const std::string& key,
     known.push_back(text);
   }
   table.fail(key, describe_unknown(key, *name, known));
+  return otherwise;
+}
+
+/// The value of `key` as `parse` reads it, or `otherwise` if there is none.
+template <typename Value>
+Value read_name(TomlTable& table, const std::string& key, Value otherwise,
+                Value (*parse)(std::string_view)) {
+  const auto name = table.text(key);
+  if (!name) return otherwise;
+  try {
+    return parse(*name);
+  } catch (const InputError& error) {
+    table.fail(key, error.problems().front());
+  }
   return otherwise;
 }
 

@@ -9,48 +9,18 @@
 #include "common/rotation.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_builder.hpp"
-#include "support/spring_network.hpp"
+#include "support/full_lattice.hpp"
 
 /// Motion of one body at level `full`, a network of springs.
 namespace limber::dynamics {
 namespace {
 
+using testing::Lattice;
 using testing::make_full;
 using testing::make_lattice;
 using testing::make_reduced;
 using testing::SpringNetwork;
-
-VectorX make_field(Eigen::Index size, double scale, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  return VectorX::NullaryExpr(size, [&] { return uniform(random); });
-}
-
-struct Lattice {
-  explicit Lattice(const testing::LatticeOptions& options = {},
-                   const ModalDamping& damping = {}, int modes = 12)
-      : network(make_lattice(options)),
-        full(make_full(network)),
-        reduced(make_reduced(network, modes)) {
-    builder.add_full_body("lattice", reduced, full, damping);
-  }
-  SpringNetwork network;
-  std::shared_ptr<const flexbody::FullBody> full;
-  std::shared_ptr<const flexbody::ReducedBody> reduced;
-  SystemBuilder builder;
-};
-
-/// Deformed by 2 cm of 10, turned and moving in every way.
-SystemState stir(const SystemModel& model) {
-  SystemState state = make_state(model);
-  state.bodies[0].p_WB = Vector3(1, 2, 3);
-  state.bodies[0].quat_WB = exp_quaternion(Vector3(2.0, -1.0, 0.5));
-  state.bodies[0].v_WB_W = Vector3(0.5, -1.0, 0.3);
-  state.bodies[0].w_WB_B = Vector3(3.0, 1.0, -2.0);
-  place_nodes(model, make_field(model.nodal_count, 0.02, 1),
-              make_field(model.nodal_count, 1.0, 2), state);
-  return state;
-}
+using testing::stir;
 
 EnergyBalance run(const SystemModel& model, SystemState& state,
                   const SimulationSettings& settings) {

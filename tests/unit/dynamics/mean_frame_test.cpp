@@ -9,11 +9,12 @@
 #include "common/rotation.hpp"
 #include "dynamics/node_motion.hpp"
 #include "dynamics/system_builder.hpp"
-#include "support/spring_network.hpp"
+#include "support/full_lattice.hpp"
 
 namespace limber::dynamics {
 namespace {
 
+using testing::make_field;
 using testing::make_full;
 using testing::make_lattice;
 using testing::make_reduced;
@@ -33,12 +34,6 @@ SystemModel make_model(const SpringNetwork& network,
   SystemBuilder builder;
   builder.add_full_body("lattice", reduced, make_full(moved), {});
   return builder.build();
-}
-
-VectorX make_field(Eigen::Index size, double scale, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  return VectorX::NullaryExpr(size, [&] { return uniform(random); });
 }
 
 MeanFrame find_frame(const SystemModel& model, const SystemState& state) {

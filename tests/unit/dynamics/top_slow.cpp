@@ -7,19 +7,16 @@
 
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_builder.hpp"
+#include "support/top_drift.hpp"
 
 /// Free tops over ten million steps.
 namespace limber::dynamics {
 namespace {
 
+using testing::Drift;
+
 constexpr double kSteps = 1e7;
 constexpr double kTurn = 0.01;  // a step [rad]
-
-struct Drift {
-  double energy = 0.0;          ///< relative
-  double momentum = 0.0;        ///< of the vector, relative
-  double orthonormality = 0.0;  ///< |R^T R - I|
-};
 
 Drift find_drift(const Vector3& inertia, IntegratorKind kind, double rate) {
   SystemBuilder builder;
@@ -32,24 +29,7 @@ Drift find_drift(const Vector3& inertia, IntegratorKind kind, double rate) {
   settings.step = kTurn / rate;
   settings.end_time = kSteps * settings.step;
   settings.rho_inf = 1.0;
-  for (int i = 0; i <= 1000; ++i)
-    settings.output_times.push_back(settings.end_time * i / 1000);
-  const EnergyBalance start = calc_energy(model, state);
-  Drift drift;
-  simulate(model, state, settings,
-           [&](const SystemState& now, const EnergyBalance& energy) {
-             const Matrix3 R = now.bodies[0].quat_WB.toRotationMatrix();
-             drift.energy = std::max(
-                 drift.energy, std::abs(energy.total() / start.total() - 1.0));
-             drift.momentum = std::max(
-                 drift.momentum,
-                 (energy.angular_momentum - start.angular_momentum).norm() /
-                     start.angular_momentum.norm());
-             drift.orthonormality =
-                 std::max(drift.orthonormality,
-                          (R.transpose() * R - Matrix3::Identity()).norm());
-           });
-  return drift;
+  return testing::find_drift(model, state, settings, 1000);
 }
 
 // Of a motion at rate w Runge-Kutta keeps |R(i w h)|^2 = 1 - (w h)^6 / 72 a

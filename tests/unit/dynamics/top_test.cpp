@@ -9,6 +9,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_builder.hpp"
 #include "support/free_top.hpp"
+#include "support/top_drift.hpp"
 
 /// Free rigid bodies: closed forms, conservation, orthonormality.
 namespace limber::dynamics {
@@ -145,38 +146,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 // --- Extreme inertias and rates ----------------------------------------------
 
-struct Drift {
-  double energy = 0.0;    ///< relative
-  double momentum = 0.0;  ///< of the angular momentum vector, relative
-  double orthonormality = 0.0;
-};
+using testing::Drift;
 
 /// Largest drifts over 2000 steps, each a turn by `angle`.
 Drift find_drift(const Vector3& inertia, IntegratorKind kind, double rate,
                  double angle) {
   const SystemModel model = make_body(inertia);
-  SystemState state =
+  const SystemState state =
       make_spinning(model, rate * Vector3(0.6, 0.64, 0.48).normalized());
-  SimulationSettings settings = with(kind, 2000.0 * angle / rate, angle / rate);
-  for (int i = 0; i <= 100; ++i) {
-    settings.output_times.push_back(settings.end_time * i / 100);
-  }
-  const EnergyBalance start = calc_energy(model, state);
-  Drift drift;
-  simulate(model, state, settings,
-           [&](const SystemState& now, const EnergyBalance& energy) {
-             const Matrix3 R = now.bodies[0].quat_WB.toRotationMatrix();
-             drift.energy = std::max(
-                 drift.energy, std::abs(energy.total() / start.total() - 1.0));
-             drift.momentum = std::max(
-                 drift.momentum,
-                 (energy.angular_momentum - start.angular_momentum).norm() /
-                     start.angular_momentum.norm());
-             drift.orthonormality =
-                 std::max(drift.orthonormality,
-                          (R.transpose() * R - Matrix3::Identity()).norm());
-           });
-  return drift;
+  return testing::find_drift(
+      model, state, with(kind, 2000.0 * angle / rate, angle / rate), 100);
 }
 
 constexpr double kSteps = 2000.0;
