@@ -156,7 +156,8 @@ inline SpringNetwork make_lattice(const LatticeOptions& options = {}) {
   const int n = 4 * options.layers;
   network.x_B.resize(3, n);
   for (int i = 0; i < n; ++i) {
-    network.x_B.col(i) = options.edge * Vector3(i % 2, (i / 2) % 2, i / 4);
+    const int layer = i / 4;
+    network.x_B.col(i) = options.edge * Vector3(i % 2, (i / 2) % 2, layer);
   }
   network.M_s = MatrixX::Zero(n, n);
   for (int i = 0; i < n; ++i) {
