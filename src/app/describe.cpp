@@ -17,24 +17,6 @@
 namespace limber::app {
 namespace {
 
-std::string kind_name(joints::JointKind kind) {
-  switch (kind) {
-    case joints::JointKind::fixed:
-      return "fixed";
-    case joints::JointKind::revolute:
-      return "revolute";
-    case joints::JointKind::continuous:
-      return "continuous";
-    case joints::JointKind::prismatic:
-      return "prismatic";
-    case joints::JointKind::planar:
-      return "planar";
-    case joints::JointKind::floating:
-      return "floating";
-  }
-  return "";
-}
-
 Json describe_link(const scene::Link& link) {
   Json json = Json::object();
   json["name"] = link.name;
@@ -126,7 +108,7 @@ Json describe_robot(const std::filesystem::path& file) {
       return robot.links[static_cast<std::size_t>(link)].name;
     };
     joints.push_back(Json{{"name", joint.name},
-                          {"type", kind_name(joint.kind)},
+                          {"type", std::string(joints::to_string(joint.kind))},
                           {"parent", name(joint.parent)},
                           {"child", name(joint.child)}});
   }

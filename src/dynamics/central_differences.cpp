@@ -48,6 +48,7 @@ void CentralDifferences::displace(const SystemState& from, double h,
 }
 
 StepResult CentralDifferences::step(SystemState& state, double h, double end) {
+  next_.memory = state.memory;
   displace(state, h, end);
   require_finite(model_, next_, h);
   calc_terms(model_, next_, Side::left, terms_);

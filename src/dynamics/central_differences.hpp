@@ -29,6 +29,9 @@ class CentralDifferences {
   /// then unchanged.
   StepResult step(SystemState& state, double h, double end);
 
+  /// At the last evaluation of the last step.
+  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+
  private:
   void displace(const SystemState& from, double h, double end);
 

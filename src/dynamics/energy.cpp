@@ -38,6 +38,9 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
   for (const CouplerTerms& coupler : terms.couplers) {
     balance.coupler += coupler.response.energy;
   }
+  for (const TransmissionTerms& transmission : terms.transmissions) {
+    balance.coupler += transmission.response.energy;
+  }
   return balance;
 }
 

@@ -13,7 +13,7 @@ struct EnergyBalance {
   double elastic = 0.0;        ///< eta' diag(lambda) eta / 2; `full`: int W dV
   double coupler = 0.0;        ///< stored in couplers
   double dissipated = 0.0;     ///< since the run began
-  double work = 0.0;           ///< of loads and gravity since the run began
+  double work = 0.0;  ///< of loads, gravity and drives since the run began
   Vector3 linear_momentum = Vector3::Zero();   ///< world [kg m/s]
   Vector3 angular_momentum = Vector3::Zero();  ///< about Wo [kg m^2/s]
 

@@ -2,7 +2,9 @@
 #include "dynamics/equations.hpp"
 
 #include "dynamics/body_model.hpp"
+#include "dynamics/coupler_forces.hpp"
 #include "dynamics/full_terms.hpp"
+#include "dynamics/transmission.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -57,60 +59,6 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
   terms.bias_r = unpack_symmetric(Jdot) * w + w.cross(terms.J * w + h);
 }
 
-void apply_wrench(const BodyModel& body, const Attachment& attachment,
-                  const AttachmentMotion& motion, const Vector3& force_W,
-                  const Vector3& moment_W, BodyTerms& terms) {
-  const Vector3 force_B = motion.R_WB.transpose() * force_W;
-  const Vector3 moment_B = motion.R_WB.transpose() * moment_W;
-  terms.force_W += force_W;
-  terms.moment_B += motion.arm_B.cross(force_B) + moment_B;
-  if (body.modes == 0) return;
-  const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
-  for (int k = 0; k < body.modes; ++k) {
-    terms.modal_force[k] += attachment.Phi_B.col(k).dot(force_B) +
-                            attachment.Psi_B.col(k).dot(twist_B);
-  }
-}
-
-void apply_coupler(const SystemModel& model, const Coupler& coupler,
-                   WrenchSource source, SystemTerms& terms, CouplerTerms& out) {
-  const auto iF = static_cast<std::size_t>(coupler.frame_F);
-  const auto iM = static_cast<std::size_t>(coupler.frame_M);
-  const AttachmentMotion& F = terms.attachments[iF];
-  const AttachmentMotion& M = terms.attachments[iM];
-
-  joints::RelativeMotion& relative = out.motion;
-  const Vector3 w_F = F.R_WF.transpose() * F.w_WF_W;
-  relative.R_FM = F.R_WF.transpose() * M.R_WF;
-  relative.p_FM_F = F.R_WF.transpose() * (M.p_WF - F.p_WF);
-  relative.v_FM_F =
-      F.R_WF.transpose() * (M.v_WF_W - F.v_WF_W) - w_F.cross(relative.p_FM_F);
-  relative.w_FM_F = F.R_WF.transpose() * M.w_WF_W - w_F;
-  out.response = joints::evaluate(coupler.law, relative);
-  terms.dissipated_power += out.response.dissipation;
-
-  if (source == WrenchSource::law) out.applied = out.response.wrench;
-
-  const Vector3 force_F = out.applied.head<3>();
-  const Vector3 force = F.R_WF * force_F;
-  const Vector3 moment = F.R_WF * out.applied.tail<3>();
-  // The reaction acts on F along the same line: shifted from Mo to Fo.
-  const Vector3 shift = F.R_WF * relative.p_FM_F.cross(force_F);
-  const auto apply = [&](std::size_t i, const AttachmentMotion& motion,
-                         const Vector3& f, const Vector3& t) {
-    const Attachment& a = model.attachments[i];
-    if (a.body == kWorld) return;
-    const auto b = static_cast<std::size_t>(a.body);
-    if (model.bodies[b].full >= 0) {
-      add_full_wrench(model, a, motion, f, t, terms);
-      return;
-    }
-    apply_wrench(model.bodies[b], a, motion, f, t, terms.bodies[b]);
-  };
-  apply(iM, M, force, moment);
-  apply(iF, F, -force, -moment - shift);
-}
-
 // A load on the undeformed body: what a level without feedback sees. Linear
 // in the modes, so that it can also be answered in closed form.
 void apply_to_undeformed(const BodyModel& body, const Attachment& attachment,
@@ -155,11 +103,7 @@ void apply_load(const SystemModel& model, const SystemState& state,
   const AttachmentMotion& motion = terms.attachments[i];
   const Vector3 force_W = load.in_world ? force : t.R_WB * force;
   const Vector3 moment_W = load.in_world ? moment : t.R_WB * moment;
-  if (body.full >= 0) {
-    add_full_wrench(model, attachment, motion, force_W, moment_W, terms);
-  } else {
-    apply_wrench(body, attachment, motion, force_W, moment_W, t);
-  }
+  add_wrench(model, load.where, force_W, moment_W, terms);
   terms.load_power += force_W.dot(motion.v_WF_W) + moment_W.dot(motion.w_WF_W);
 }
 
@@ -262,6 +206,7 @@ SystemTerms make_terms(const SystemModel& model) {
   }
   terms.attachments.resize(model.attachments.size());
   terms.couplers.resize(model.couplers.size());
+  terms.transmissions = make_transmission_terms(model);
   return terms;
 }
 
@@ -307,9 +252,7 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
       calc_attachment_motion(model, a, state, R_WB, motion);
     }
   }
-  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    apply_coupler(model, model.couplers[c], source, terms, terms.couplers[c]);
-  }
+  apply_couplers(model, state, {state.t, side}, source, terms);
   for (const Load& load : model.loads) {
     apply_load(model, state, load, side, terms);
   }

@@ -91,6 +91,7 @@ void ExactModes::join(const SystemState& rest, std::size_t i,
   whole.X_WH = rest.X_WH;
   whole.u_H = rest.u_H;
   whole.udot_H = rest.udot_H;
+  whole.memory = rest.memory;
   for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
     const BodyModel& left = rest_.bodies[b];
     const int to = model_.bodies[b].offset;

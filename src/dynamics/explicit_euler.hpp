@@ -26,6 +26,9 @@ class ExplicitEuler {
   /// @throws NumericalError if the motion is no longer finite.
   StepResult step(SystemState& state, double h, double end);
 
+  /// At the last evaluation of the last step.
+  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+
  private:
   void set_step(double h);
   void move_modes(SystemState& state) const;

@@ -212,6 +212,10 @@ void GeneralizedAlpha::apply_increments(double h) {
   for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
     terms_.couplers[c].applied += matrix_.wrench_increments()[c];
   }
+  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
+    terms_.transmissions[i].applied +=
+        matrix_.wrench_increments()[model_.couplers.size() + i][0];
+  }
   const double share = 1.0 / (beta_ * h * h);
   a_next_.nodes += share * x_.tail(model_.nodal_count);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -326,6 +330,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   a_next_.nodes = p_v * vdot_.nodes - p_a * a_.nodes;
 
   StepResult result;
+  next_.memory = state.memory;
   advance(state, h, end);
   double last = 0.0;
   double slowest = 0.0;  // contraction with the factors held
@@ -375,12 +380,21 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   plan_factors(keeps, slowest);
   result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
   result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power);
+  last_power_load_ = power_load_;
+  last_power_loss_ = power_loss_;
   power_load_ = terms_.load_power;
   power_loss_ = terms_.dissipated_power;
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
   std::swap(state, next_);
   return result;
+}
+
+void GeneralizedAlpha::undo() {
+  std::swap(a_, a_next_);
+  std::swap(vdot_, vdot_next_);
+  power_load_ = last_power_load_;
+  power_loss_ = last_power_loss_;
 }
 
 }  // namespace limber::dynamics

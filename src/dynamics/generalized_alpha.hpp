@@ -46,6 +46,13 @@ class GeneralizedAlpha {
   /// naming the body, the time and the residual; `state` is then unchanged.
   StepResult step(SystemState& state, double h, double end);
 
+  /// Takes the last step back: the next one is from the state before it, which
+  /// the caller has kept.
+  void undo();
+
+  /// At the last evaluation of the last step.
+  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+
  private:
   struct Rates {  // a value for each velocity component
     std::vector<Vector3> translation;
@@ -84,6 +91,8 @@ class GeneralizedAlpha {
   int next_fresh_steps_ = 0;    // after keeping factors fails again
   double power_load_ = 0.0;     // at the last state, for the audit
   double power_loss_ = 0.0;
+  double last_power_load_ = 0.0;  // at the state before
+  double last_power_loss_ = 0.0;
 
   SystemState next_;
   SystemTerms terms_;

@@ -69,6 +69,17 @@ void calc_nodal_attachment(const SystemModel& model,
   motion.w_WF_W = X_WH.R * motion.nodal.w_H;
 }
 
+joints::RelativeMotion relate(const FrameMotion& F, const FrameMotion& M) {
+  const Matrix3 R_FW = F.X_WF.R.transpose();
+  const Vector3 w_F = R_FW * F.w_WF_W;
+  joints::RelativeMotion relative;
+  relative.R_FM = R_FW * M.X_WF.R;
+  relative.p_FM_F = R_FW * (M.X_WF.p - F.X_WF.p);
+  relative.v_FM_F = R_FW * (M.v_WF_W - F.v_WF_W) - w_F.cross(relative.p_FM_F);
+  relative.w_FM_F = R_FW * M.w_WF_W - w_F;
+  return relative;
+}
+
 SystemState make_state(const SystemModel& model) {
   SystemState state;
   state.bodies.resize(model.bodies.size());
@@ -77,6 +88,7 @@ SystemState make_state(const SystemModel& model) {
   state.X_WH.resize(model.full_bodies.size());
   state.u_H = VectorX::Zero(model.nodal_count);
   state.udot_H = VectorX::Zero(model.nodal_count);
+  state.memory.resize(model.couplers.size() + model.transmissions.size());
   return state;
 }
 
@@ -99,6 +111,16 @@ FrameMotion find_frame_motion(const SystemModel& model,
   AttachmentMotion motion;
   calc_attachment_motion(model, a, state, R_WB, motion);
   return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
+}
+
+joints::RelativeMotion find_relative_motion(const SystemModel& model,
+                                            const SystemState& state,
+                                            CouplerIndex coupler) {
+  LIMBER_EXPECT(coupler >= 0 &&
+                coupler < static_cast<int>(model.couplers.size()));
+  const Coupler& c = model.couplers[static_cast<std::size_t>(coupler)];
+  return relate(find_frame_motion(model, state, c.frame_F),
+                find_frame_motion(model, state, c.frame_M));
 }
 
 }  // namespace limber::dynamics

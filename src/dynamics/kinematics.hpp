@@ -43,4 +43,8 @@ void calc_nodal_attachment(const SystemModel& model,
                            const Attachment& attachment,
                            const SystemState& state, AttachmentMotion& motion);
 
+/// Motion of frame M in frame F, from that of both in the world.
+[[nodiscard]] joints::RelativeMotion relate(const FrameMotion& F,
+                                            const FrameMotion& M);
+
 }  // namespace limber::dynamics

@@ -22,6 +22,14 @@ std::vector<Landmark> gather(const SystemModel& model, double start,
   for (const Load& load : model.loads) {
     for (const double t : break_times(load.function)) add(t, true);
   }
+  for (const Coupler& coupler : model.couplers) {
+    for (const double t : joints::break_times(coupler.law)) add(t, true);
+  }
+  for (const Transmission& transmission : model.transmissions) {
+    for (const joints::ScalarLaw& law : transmission.laws) {
+      for (const double t : joints::break_times(law)) add(t, true);
+    }
+  }
   for (const BodyLoad& load : model.body_loads) {
     for (const double t : load.history.times) add(t, true);
   }

@@ -140,10 +140,18 @@ bool has_closed_modal_loads(const SystemModel& model, BodyIndex index) {
   const auto is_here = [&](AttachmentIndex i) {
     return get_attachment(model, i).body == index;
   };
-  const bool is_coupled = std::any_of(
-      model.couplers.begin(), model.couplers.end(), [&](const Coupler& c) {
-        return is_here(c.frame_F) || is_here(c.frame_M);
-      });
+  const bool is_coupled =
+      std::any_of(model.couplers.begin(), model.couplers.end(),
+                  [&](const Coupler& c) {
+                    return is_here(c.frame_F) || is_here(c.frame_M);
+                  }) ||
+      std::any_of(
+          model.transmissions.begin(), model.transmissions.end(),
+          [&](const Transmission& t) {
+            const auto* path = std::get_if<PathCoordinate>(&t.coordinate);
+            return path != nullptr && std::any_of(path->points.begin(),
+                                                  path->points.end(), is_here);
+          });
   // Components fixed in the world turn through a body that turns.
   return !is_coupled && std::all_of(model.loads.begin(), model.loads.end(),
                                     [&](const Load& load) {

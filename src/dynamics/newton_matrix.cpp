@@ -26,6 +26,43 @@ void reflect(const Vector3& p, Matrix6X& rows) {
   }
 }
 
+// The motion of a coordinate, in the first row, from that of a frame.
+void contract(const Vector6& gradient, Matrix6X& rows) {
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    const double along = gradient.dot(rows.col(k));
+    rows.col(k).setZero();
+    rows(0, k) = along;
+  }
+}
+
+// Stiffness and damping per increment of a coupler or, after them all, of a
+// transmission.
+Matrix6 find_stiffness(const SystemTerms& terms, std::size_t link,
+                       double velocity) {
+  if (link < terms.couplers.size()) {
+    const joints::CouplerResponse& r = terms.couplers[link].response;
+    return r.stiffness + velocity * r.damping;
+  }
+  const joints::ScalarResponse& r =
+      terms.transmissions[link - terms.couplers.size()].response;
+  Matrix6 K = Matrix6::Zero();
+  K(0, 0) = r.stiffness + velocity * r.damping;
+  return K;
+}
+
+// The law's wrench less the one that acts.
+Vector6 find_gap(const SystemTerms& terms, std::size_t link) {
+  if (link < terms.couplers.size()) {
+    const CouplerTerms& coupler = terms.couplers[link];
+    return coupler.response.wrench - coupler.applied;
+  }
+  const TransmissionTerms& t =
+      terms.transmissions[link - terms.couplers.size()];
+  Vector6 gap = Vector6::Zero();
+  gap[0] = t.response.force - t.applied;
+  return gap;
+}
+
 // The motion of an end's frame per node, both in body axes: 3N x 6.
 MatrixX make_body_columns(const Attachment& attachment,
                           const AttachmentMotion& motion, const Matrix3& R_HB,
@@ -44,51 +81,74 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
     : bodies_(model.bodies.size()),
       full_(model.full_bodies.size()),
       ends_of_body_(model.bodies.size()),
-      scaled_stiffness_(model.couplers.size()),
-      scale_(model.couplers.size()),
-      wrenches_(model.couplers.size()) {
+      couplers_(model.couplers.size()) {
+  const std::size_t links = couplers_ + model.transmissions.size();
+  scaled_stiffness_.resize(links);
+  scale_.resize(links);
+  wrenches_.resize(links);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const int m = model.bodies[b].modes;
     bodies_[b].coupling = Matrix3X::Zero(3, m);
     bodies_[b].back_coupling = Matrix3X::Zero(3, m);
     bodies_[b].inverse_modes = VectorX::Zero(m);
   }
-  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    for (const bool is_M : {false, true}) {
-      const Coupler& coupler = model.couplers[c];
-      const int attachment = is_M ? coupler.frame_M : coupler.frame_F;
-      const int b = model.attachments[index(attachment)].body;
-      if (b == kWorld) continue;
-      const BodyModel& body = model.bodies[index(b)];
-      Eigen::Index n = 6 + body.modes;
-      Eigen::Index row = first_row(body, b);
-      if (body.full >= 0) {
-        const FullModel& full = model.full_bodies[index(body.full)];
-        n = full.dofs();
-        row = first_node_row(model) + full.first;
+  const auto add_pair = [&](int link, int coupler, int term) {
+    const Coupler& c = model.couplers[index(coupler)];
+    add_end(model, link, coupler, term, c.frame_F, false);
+    add_end(model, link, coupler, term, c.frame_M, true);
+  };
+  int link = 0;
+  for (; link < static_cast<int>(couplers_); ++link) add_pair(link, link, -1);
+  for (const Transmission& transmission : model.transmissions) {
+    int term = 0;
+    if (const auto* sum = std::get_if<JointSum>(&transmission.coordinate)) {
+      for (const JointSum::Term& t : sum->terms) {
+        add_pair(link, t.coupler, term++);
       }
-      ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
-      ends_.push_back({static_cast<int>(c),
-                       attachment,
-                       b,
-                       is_M,
-                       row,
-                       Matrix6X::Zero(6, n),
-                       Matrix6X::Zero(6, n),
-                       {}});
+    } else {
+      for (const AttachmentIndex point :
+           std::get<PathCoordinate>(transmission.coordinate).points) {
+        add_end(model, link, -1, term++, point, true);
+      }
     }
+    ++link;
   }
   std::vector<std::pair<int, int>> edges;
   for (const auto& ends : ends_of_body_) {
     for (const int i : ends) {
       for (const int j : ends) {
-        const int ci = ends_[index(i)].coupler;
-        const int cj = ends_[index(j)].coupler;
+        const int ci = ends_[index(i)].link;
+        const int cj = ends_[index(j)].link;
         if (ci < cj) edges.emplace_back(ci, cj);
       }
     }
   }
-  lu_ = BlockLu(static_cast<int>(model.couplers.size()), edges);
+  lu_ = BlockLu(link, edges);
+}
+
+void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
+                           int term, int attachment, bool is_M) {
+  const int b = model.attachments[index(attachment)].body;
+  if (b == kWorld) return;
+  const BodyModel& body = model.bodies[index(b)];
+  End end{.link = link,
+          .coupler = coupler,
+          .term = term,
+          .attachment = attachment,
+          .body = b,
+          .is_M = is_M,
+          .row = first_row(body, b),
+          .G = Matrix6X::Zero(6, 6 + body.modes),
+          .Zt = {},
+          .Zt_B = {}};
+  if (body.full >= 0) {
+    const FullModel& full = model.full_bodies[index(body.full)];
+    end.row = first_node_row(model) + full.first;
+    end.G = Matrix6X::Zero(6, full.dofs());
+  }
+  end.Zt = end.G;
+  ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
+  ends_.push_back(std::move(end));
 }
 
 void NewtonMatrix::factor_body(const BodyModel& body, const BodyTerms& terms,
@@ -144,31 +204,39 @@ void NewtonMatrix::factor_end(const SystemModel& model,
   const Attachment& attachment = model.attachments[index(end.attachment)];
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
   const BodyModel& body = model.bodies[index(end.body)];
-  const Coupler& coupler = model.couplers[index(end.coupler)];
-  const Matrix3& R_WF = terms.attachments[index(coupler.frame_F)].R_WF;
-  // Motion of this end's frame, in F: translation over rotation.
-  if (attachment.nodal) {
-    const Pose& X_WH = state.X_WH[index(body.full)];
-    calc_nodal_jacobian(*attachment.nodal, motion.nodal,
-                        R_WF.transpose() * X_WH.R, end.G);
-  } else {
-    calc_modal_jacobian(attachment, motion, R_WF.transpose(), end.G);
+  Matrix3 R_FW = Matrix3::Identity();
+  Vector3 p = Vector3::Zero();
+  if (end.coupler >= 0) {
+    const Coupler& coupler = model.couplers[index(end.coupler)];
+    R_FW = terms.attachments[index(coupler.frame_F)].R_WF.transpose();
+    p = terms.couplers[index(end.coupler)].motion.p_FM_F;
   }
-  const Vector3& p = terms.couplers[index(end.coupler)].motion.p_FM_F;
-  if (!end.is_M) reflect(p, end.G);
+  // Of a transmission one row is left, in place of six.
+  const auto finish = [&](Matrix6X& rows) {
+    if (!end.is_M) reflect(p, rows);
+    if (end.term < 0) return;
+    const auto& transmission = terms.transmissions[index(end.link) - couplers_];
+    contract(transmission.gradients[index(end.term)], rows);
+  };
+  // Motion of this end's frame, in F: translation over rotation.
   if (!attachment.nodal) {
+    calc_modal_jacobian(attachment, motion, R_FW, end.G);
+    finish(end.G);
     solve_end(body, end);
     return;
   }
+  const Pose& X_WH = state.X_WH[index(body.full)];
+  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_FW * X_WH.R, end.G);
+  finish(end.G);
   const Matrix3& R_HB = full_[index(body.full)].R_HB();
-  const Matrix3 R_FB = R_WF.transpose() * state.X_WH[index(body.full)].R * R_HB;
+  const Matrix3 R_FB = R_FW * X_WH.R * R_HB;
   for (Eigen::Index i = 0; i < end.Zt.cols(); i += 3) {
     end.Zt.block<3, 3>(0, i) =
         R_FB * end.Zt_B.block<3, 3>(0, i) * R_HB.transpose();
     end.Zt.block<3, 3>(3, i) =
         R_FB * end.Zt_B.block<3, 3>(3, i) * R_HB.transpose();
   }
-  if (!end.is_M) reflect(p, end.Zt);
+  finish(end.Zt);
 }
 
 // Columns of D^-1 G', a row of G at a time, through D's arrow shape.
@@ -188,15 +256,14 @@ void NewtonMatrix::solve_end(const BodyModel& body, End& end) const {
   }
 }
 
-void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
-                            const Coefficients& c) {
+void NewtonMatrix::assemble(const SystemTerms& terms, const Coefficients& c) {
   lu_.set_zero();
   for (const auto& ends : ends_of_body_) {
     for (const int i : ends) {
       for (const int j : ends) {
         const End& row = ends_[index(i)];
         const End& column = ends_[index(j)];
-        Matrix6& block = lu_.block(row.coupler, column.coupler);
+        Matrix6& block = lu_.block(row.link, column.link);
         for (Eigen::Index k = 0; k < row.G.cols(); ++k) {
           block.noalias() += row.G.col(k) * column.Zt.col(k).transpose();
         }
@@ -205,17 +272,17 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
   }
   // Rows become I + K A, each scaled to the size of its own diagonal entry.
   std::vector<Vector6>& scale = scale_;
-  for (std::size_t i = 0; i < model.couplers.size(); ++i) {
-    const joints::CouplerResponse& r = terms.couplers[i].response;
-    const Matrix6 K = r.stiffness + c.velocity * r.damping;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    const Matrix6 K = find_stiffness(terms, i, c.velocity);
     const Matrix6& A = lu_.block(static_cast<int>(i), static_cast<int>(i));
     scale[i] = (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
                    .cwiseInverse();
     scaled_stiffness_[i] = scale[i].asDiagonal() * K;
   }
-  for (int i = 0; i < static_cast<int>(model.couplers.size()); ++i) {
-    lu_.scale_row(i, scaled_stiffness_[index(i)]);
-    lu_.block(i, i).diagonal() += scale[index(i)];
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    const int row = static_cast<int>(i);
+    lu_.scale_row(row, scaled_stiffness_[i]);
+    lu_.block(row, row).diagonal() += scale[i];
   }
 }
 
@@ -248,7 +315,7 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
   }
   factor_full(model, state, terms, coefficients, renews_full);
   for (End& end : ends_) factor_end(model, state, terms, end);
-  assemble(model, terms, coefficients);
+  assemble(terms, coefficients);
   if (!lu_.factor()) {
     throw NumericalError(
         "the couplers' flexibility matrix is singular or not finite");
@@ -272,21 +339,19 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   for (Vector6& w : wrenches_) w.setZero();
   for (const End& end : ends_) {
     const double* x = increments.data() + end.row;
-    Vector6& w = wrenches_[index(end.coupler)];
+    Vector6& w = wrenches_[index(end.link)];
     for (Eigen::Index k = 0; k < end.G.cols(); ++k) w += end.G.col(k) * x[k];
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    const CouplerTerms& coupler = terms.couplers[i];
-    const Vector6 right =
-        scaled_stiffness_[i] * wrenches_[i] +
-        scale_[i].cwiseProduct(coupler.response.wrench - coupler.applied);
+    const Vector6 right = scaled_stiffness_[i] * wrenches_[i] +
+                          scale_[i].cwiseProduct(find_gap(terms, i));
     wrenches_[i] = right;
   }
   lu_.solve(wrenches_);
   increments = -increments;
   for (const End& end : ends_) {
     double* x = increments.data() + end.row;
-    const Vector6& w = wrenches_[index(end.coupler)];
+    const Vector6& w = wrenches_[index(end.link)];
     for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {
       x[k] += end.Zt.col(k).dot(w);
     }

@@ -25,6 +25,8 @@ namespace limber::dynamics {
 ///            pattern. As K grows this tends to the constrained system with
 ///            its multipliers, so no stiffness is too stiff: the huge wrench
 ///            of a law at a configuration that has not converged never acts.
+///            A transmission is a coupler of any number of ends and one
+///            unknown, the first of six; its other five rows are the identity.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
 /// Limits     leaves out geometric stiffness of couplers and velocity
 ///            derivatives of the modal inertial forces: they cost iterations,
@@ -57,7 +59,8 @@ class NewtonMatrix {
   void solve(const SystemModel& model, const SystemTerms& terms,
              const VectorX& residual, VectorX& increments);
 
-  /// Of the last solve, one a coupler [N, N m].
+  /// Of the last solve, one a coupler [N, N m], then one a transmission, whose
+  /// force is the first entry.
   [[nodiscard]] const std::vector<Vector6>& wrench_increments() const {
     return wrenches_;
   }
@@ -78,18 +81,22 @@ class NewtonMatrix {
     Matrix3X back_coupling;                      // (D_er)' = T' H acceleration
     VectorX inverse_modes;                       // of D's diagonal modal block
   };
-  // One end of a coupler on a body that moves.
+  // One end of a coupler or transmission on a body that moves.
   struct End {
-    int coupler = 0;
+    int link = 0;      // of a coupler; transmissions count on
+    int coupler = -1;  // in whose axes F it is told, -1: the world's
+    int term = -1;     // of a transmission's coordinate
     int attachment = 0;
     int body = 0;
-    bool is_M = false;
+    bool is_M = true;
     Eigen::Index row = 0;  // the body's first
     Matrix6X G;            // 6 x (6 + m), or 6 x 3N
     Matrix6X Zt;           // (D^-1 G')'
     Matrix6X Zt_B;         // of an unreduced body, both in body axes
   };
 
+  void add_end(const SystemModel& model, int link, int coupler, int term,
+               int attachment, bool is_M);
   void factor_body(const BodyModel& body, const BodyTerms& terms,
                    const Vector3& w, const Vector3& rotation_increment,
                    const Coefficients& c, BodyFactor& factor) const;
@@ -101,14 +108,14 @@ class NewtonMatrix {
   // x := D^-1 x for one body's 6 + m rows.
   void solve_body(const BodyModel& body, const BodyFactor& factor,
                   double* x) const;
-  void assemble(const SystemModel& model, const SystemTerms& terms,
-                const Coefficients& c);
+  void assemble(const SystemTerms& terms, const Coefficients& c);
 
   std::vector<BodyFactor> bodies_;
   std::vector<FullFactor> full_;
   std::vector<End> ends_;
   std::vector<std::vector<int>> ends_of_body_;
-  std::vector<Matrix6> scaled_stiffness_;  // diag(s) K per coupler
+  std::size_t couplers_ = 0;
+  std::vector<Matrix6> scaled_stiffness_;  // diag(s) K per link
   std::vector<Vector6> scale_;
   std::vector<Vector6> wrenches_;
   BlockLu lu_;

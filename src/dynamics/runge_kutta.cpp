@@ -124,6 +124,7 @@ void RungeKutta4::advance(const SystemState& from, const Slope& slope, double h,
 
 StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   for (Vector3& theta : theta_) theta.setZero();
+  stage_.memory = state.memory;
   calc_slope(state, theta_, Side::right, slopes_[0]);
   StepResult result;
   double work = terms_.load_power;

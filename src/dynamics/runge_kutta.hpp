@@ -26,6 +26,9 @@ class RungeKutta4 {
   /// @throws NumericalError if the motion is no longer finite.
   StepResult step(SystemState& state, double h, double end);
 
+  /// At the last evaluation of the last step.
+  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+
  private:
   struct Slope {
     std::vector<Vector3> pdot, thetadot, vdot, wdot;

@@ -11,9 +11,9 @@
 #include "common/names.hpp"
 #include "dynamics/exact_modes.hpp"
 #include "dynamics/landmarks.hpp"
+#include "dynamics/marcher.hpp"
 #include "dynamics/modal_loads.hpp"
 #include "dynamics/stable_step.hpp"
-#include "dynamics/stepper.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -126,10 +126,17 @@ void integrate(const SystemModel& model, SystemState& state,
                const SimulationSettings& settings, const Timeline& timeline,
                const Visit& visit, const Progress& progress,
                SimulationStatistics& statistics) {
+  Marcher marcher(model, settings, statistics.events);
   const double start = timeline.start;
-  Losses losses;
-  if (timeline.starts_with_output) visit(state, losses);
-  Stepper stepper(model, settings);
+  const auto losses = [&] {
+    return Losses{marcher.totals().load_work, marcher.totals().dissipated};
+  };
+  const auto count_costs = [&](const StepResult& since) {
+    const StepResult& now = marcher.totals();
+    statistics.newton_iterations += now.iterations - since.iterations;
+    statistics.factorizations += now.factorizations - since.factorizations;
+  };
+  if (timeline.starts_with_output) visit(state, losses());
   bool started = false;
   bool at_jump = false;
   for (const Landmark& mark : timeline.marks) {
@@ -139,24 +146,22 @@ void integrate(const SystemModel& model, SystemState& state,
     const auto count =
         static_cast<long>(std::ceil(span / longest * (1.0 - 1e-12)));
     const double h = span / static_cast<double>(std::max(count, 1L));
-    if (!started) stepper.start(state, h);
-    if (at_jump) stepper.cross_jump(state, h);
+    if (!started) marcher.start(state, h);
+    if (at_jump) marcher.cross_jump(state, h);
     started = true;
     for (long i = 1; i <= count; ++i) {
       // Times come from the landmark, not from a sum of steps.
       const double end =
           i == count ? mark.time : origin + static_cast<double>(i) * h;
-      const StepResult result = stepper.step(state, h, end);
-      statistics.newton_iterations += result.iterations;
-      statistics.factorizations += result.factorizations;
-      losses.dissipated += result.dissipated;
-      losses.work += result.load_work;
+      const StepResult before = marcher.totals();
+      marcher.step(state, h, end);
+      count_costs(before);
       if (++statistics.steps % 64 == 0 && progress) {
         progress("simulating", (state.t - start) / (settings.end_time - start));
       }
     }
     at_jump = mark.is_jump;
-    if (mark.is_output) visit(state, losses);
+    if (mark.is_output) visit(state, losses());
   }
 }
 
@@ -267,6 +272,11 @@ void simulate(const SystemModel& model, SystemState& state,
   const SimulationSettings settings =
       limit_step(model, state, asked, statistics);
   const Timeline timeline = find_timeline(model, state.t, settings);
+  const double start = state.t;
+  const auto finish = [&] {
+    update_mean_frames(model, state);
+    add_load_edges(model, start, state.t, statistics.events);
+  };
   try {
     if (has_exact_modes(model, settings)) {
       ExactModes exact(model, state);
@@ -276,10 +286,10 @@ void simulate(const SystemModel& model, SystemState& state,
       integrate(model, state, settings, timeline, visit, progress, statistics);
     }
   } catch (const NumericalError&) {
-    update_mean_frames(model, state);
+    finish();
     throw;
   }
-  update_mean_frames(model, state);
+  finish();
   report(progress, "simulating", 1.0);
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/progress.hpp"
 #include "dynamics/energy.hpp"
+#include "dynamics/event.hpp"
 #include "dynamics/system_model.hpp"
 #include "dynamics/system_state.hpp"
 
@@ -51,16 +52,18 @@ struct SimulationStatistics {
   long steps = 0;
   long newton_iterations = 0;
   long factorizations = 0;
-  int exact_modes = 0;       ///< modes answered in closed form
-  double stable_step = 0.0;  ///< of central differences, if found [s]
-  double seconds = 0.0;      ///< wall time of the stepping [s]
+  int exact_modes = 0;        ///< modes answered in closed form
+  double stable_step = 0.0;   ///< of central differences, if found [s]
+  double seconds = 0.0;       ///< wall time of the stepping [s]
+  std::vector<Event> events;  ///< in the order of time
 };
 
 /// Called at every output time with the state and the balance so far.
 using Observer = std::function<void(const SystemState&, const EnergyBalance&)>;
 
 /// Carries `state` to the end time. Steps land on output times and on every
-/// load discontinuity exactly. What needs no steps takes none. On
+/// load discontinuity exactly, and on what happens at couplers to the order of
+/// the integrator. What needs no steps takes none. On
 /// NumericalError `state` holds the last good step, and everything up to there
 /// was observed.
 /// @throws InputError for settings outside their range; NumericalError naming

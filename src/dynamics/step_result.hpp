@@ -7,7 +7,7 @@ namespace limber::dynamics {
 struct StepResult {
   int iterations = 0;  ///< Newton's, 0 for explicit schemes
   int factorizations = 0;
-  double load_work = 0.0;   ///< of loads and gravity over the step [J]
+  double load_work = 0.0;   ///< of loads, gravity and drives [J]
   double dissipated = 0.0;  ///< by couplers and modes over the step [J]
 };
 

@@ -35,6 +35,18 @@ class Stepper {
       central->start(state);
     }
   }
+  /// Takes the last step back, to the state before it.
+  void undo(const SystemState& before) {
+    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) alpha->undo();
+    if (auto* central = std::get_if<CentralDifferences>(&scheme_)) {
+      central->start(before);
+    }
+  }
+  /// At about the last step's end.
+  [[nodiscard]] const SystemTerms& terms() const {
+    return std::visit(
+        [](const auto& s) -> const SystemTerms& { return s.terms(); }, scheme_);
+  }
   /// Advances `state` by h, to the time `end` [s].
   /// @throws NumericalError naming the body and the time.
   StepResult step(SystemState& state, double h, double end) {

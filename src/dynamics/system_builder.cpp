@@ -230,6 +230,48 @@ CouplerIndex SystemBuilder::add_coupler(const std::string& name,
   return static_cast<CouplerIndex>(model_.couplers.size()) - 1;
 }
 
+TransmissionIndex SystemBuilder::add_path(
+    const std::string& name, const std::vector<AttachmentIndex>& points,
+    const std::vector<joints::ScalarLaw>& laws) {
+  const auto count = static_cast<int>(model_.attachments.size());
+  bool is_moved = false;
+  for (const AttachmentIndex point : points) {
+    LIMBER_EXPECT(point >= 0 && point < count);
+    const auto i = static_cast<std::size_t>(point);
+    is_moved |= model_.attachments[i].body !=
+                model_.attachments[static_cast<std::size_t>(points[0])].body;
+  }
+  if (points.size() < 2 || !is_moved) {
+    throw InputError(fmt::format(
+        "tendon '{}': it runs through {} point{} of one body; expected two or "
+        "more, not all on the same body",
+        name, points.size(), points.size() == 1 ? "" : "s"));
+  }
+  model_.transmissions.push_back({name, PathCoordinate{points}, laws});
+  return static_cast<TransmissionIndex>(model_.transmissions.size()) - 1;
+}
+
+TransmissionIndex SystemBuilder::add_joint_sum(
+    const std::string& name, const JointSum& sum,
+    const std::vector<joints::ScalarLaw>& laws) {
+  LIMBER_EXPECT(!sum.terms.empty());
+  for (const JointSum::Term& term : sum.terms) {
+    LIMBER_EXPECT(term.coupler >= 0 &&
+                  term.coupler < static_cast<int>(model_.couplers.size()));
+    const auto& coordinates = joints::coordinates_of(
+        model_.couplers[static_cast<std::size_t>(term.coupler)].law);
+    LIMBER_EXPECT(term.coordinate >= 0 &&
+                  term.coordinate < std::ssize(coordinates));
+    if (term.factor == 0.0 || !std::isfinite(term.factor)) {
+      throw InputError(fmt::format(
+          "transmission '{}': a factor is {:g}; expected a number other than 0",
+          name, term.factor));
+    }
+  }
+  model_.transmissions.push_back({name, sum, laws});
+  return static_cast<TransmissionIndex>(model_.transmissions.size()) - 1;
+}
+
 LoadIndex SystemBuilder::add_load(const std::string& name,
                                   AttachmentIndex where, const Vector3& force,
                                   const Vector3& moment, LoadFrame frame,

@@ -71,6 +71,15 @@ class SystemBuilder {
                            const joints::CouplerLaw& law,
                            AttachmentIndex frame_F, AttachmentIndex frame_M);
 
+  /// Laws along the length of a path through `points`, in order.
+  TransmissionIndex add_path(const std::string& name,
+                             const std::vector<AttachmentIndex>& points,
+                             const std::vector<joints::ScalarLaw>& laws);
+
+  /// Laws along a sum of joints' coordinates.
+  TransmissionIndex add_joint_sum(const std::string& name, const JointSum& sum,
+                                  const std::vector<joints::ScalarLaw>& laws);
+
   /// Force and moment at an attachment, constant components in the body frame
   /// B or the world frame, times `function`.
   LoadIndex add_load(const std::string& name, AttachmentIndex where,

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "common/pose.hpp"
@@ -18,6 +19,7 @@ namespace limber::dynamics {
 using BodyIndex = int;
 using AttachmentIndex = int;
 using CouplerIndex = int;
+using TransmissionIndex = int;
 using LoadIndex = int;
 inline constexpr BodyIndex kWorld = -1;
 
@@ -80,6 +82,30 @@ struct Coupler {
   AttachmentIndex frame_M = 0;
 };
 
+/// The length of a path through the origins of attachments, which may follow
+/// different bodies: z = sum_i |p_i+1 - p_i| [m].
+struct PathCoordinate {
+  std::vector<AttachmentIndex> points;  ///< two or more
+};
+/// A sum of joints' coordinates: z = sum_i factor_i q_i - offset.
+struct JointSum {
+  struct Term {
+    CouplerIndex coupler = 0;  ///< a joint
+    int coordinate = 0;        ///< of it
+    double factor = 1.0;       ///< [unit of z / unit of q]
+  };
+  std::vector<Term> terms;
+  double offset = 0.0;
+};
+
+/// What couples more than two frames: laws along one coordinate of them all. A
+/// tendon, a pair of gears, a joint that mimics another.
+struct Transmission {
+  std::string name;
+  std::variant<PathCoordinate, JointSum> coordinate;
+  std::vector<joints::ScalarLaw> laws;
+};
+
 struct Load {
   std::string name;
   AttachmentIndex where = 0;
@@ -102,6 +128,7 @@ struct SystemModel {
   std::vector<BodyModel> bodies;
   std::vector<Attachment> attachments;
   std::vector<Coupler> couplers;
+  std::vector<Transmission> transmissions;
   std::vector<Load> loads;
   std::vector<BodyLoad> body_loads;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]

@@ -5,6 +5,8 @@
 
 #include "common/pose.hpp"
 #include "dynamics/system_model.hpp"
+#include "joints/coupler_memory.hpp"
+#include "joints/motion.hpp"
 
 namespace limber::dynamics {
 
@@ -29,9 +31,13 @@ struct SystemState {
   std::vector<Pose> X_WH;
   VectorX u_H;     ///< nodal displacements [m]
   VectorX udot_H;  ///< nodal velocities [m/s]
+  /// What couplers and then transmissions remember, one each; changes between
+  /// steps alone.
+  std::vector<joints::CouplerMemory> memory;
 };
 
-/// A state of the right size: every body at the world origin, at rest.
+/// A state of the right size: every body at the world origin, at rest; joints'
+/// angles without whole turns.
 [[nodiscard]] SystemState make_state(const SystemModel& model);
 
 /// Puts the nodes of each unreduced body where its BodyState and, in the modes
@@ -53,5 +59,9 @@ struct FrameMotion {
 [[nodiscard]] FrameMotion find_frame_motion(const SystemModel& model,
                                             const SystemState& state,
                                             AttachmentIndex attachment);
+
+/// Motion of a coupler's frame M in its frame F.
+[[nodiscard]] joints::RelativeMotion find_relative_motion(
+    const SystemModel& model, const SystemState& state, CouplerIndex coupler);
 
 }  // namespace limber::dynamics

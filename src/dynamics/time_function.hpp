@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "common/instant.hpp"
+
 namespace limber::dynamics {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -54,9 +56,6 @@ struct Table {
 
 using TimeFunction =
     std::variant<Constant, StepSequence, Pulse, Sinusoid, HarmonicSum, Table>;
-
-/// Which side of a jump is meant when `t` is exactly on it.
-enum class Side { left, right };
 
 /// Index i of the interval [times[i], times[i+1]) that holds t, the last one
 /// open; -1 before the first.

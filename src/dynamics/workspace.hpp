@@ -8,6 +8,7 @@
 #include "dynamics/mean_frame.hpp"
 #include "dynamics/system_model.hpp"
 #include "joints/motion.hpp"
+#include "joints/scalar_motion.hpp"
 
 namespace limber::dynamics {
 
@@ -52,17 +53,28 @@ struct CouplerTerms {
   Vector6 applied = Vector6::Zero();
 };
 
+/// One transmission at a state.
+struct TransmissionTerms {
+  joints::ScalarMotion motion;
+  joints::ScalarResponse response;  ///< of all its laws
+  double applied = 0.0;             ///< the force that acts, like response's
+  /// Derivatives of the coordinate: of a path by each point, world axes over
+  /// zeros; of a sum by the increments of CouplerResponse of each coupler.
+  std::vector<Vector6> gradients;
+};
+
 /// Which wrench couplers exert on their bodies.
 enum class WrenchSource { law, iterate };
 
 /// Everything that is computed at one state. Sized once, by make_terms;
 /// refilled without allocation.
 struct SystemTerms {
-  std::vector<BodyTerms> bodies;              ///< by calc_inertia_terms
-  std::vector<FullTerms> full;                ///< by both
-  std::vector<AttachmentMotion> attachments;  ///< by calc_forces
-  std::vector<CouplerTerms> couplers;         ///< by calc_forces
-  double load_power = 0.0;        ///< of loads and gravity [W], calc_forces
+  std::vector<BodyTerms> bodies;                 ///< by calc_inertia_terms
+  std::vector<FullTerms> full;                   ///< by both
+  std::vector<AttachmentMotion> attachments;     ///< by calc_forces
+  std::vector<CouplerTerms> couplers;            ///< by calc_forces
+  std::vector<TransmissionTerms> transmissions;  ///< by calc_forces
+  double load_power = 0.0;  ///< of loads, gravity, drives [W], calc_forces
   double dissipated_power = 0.0;  ///< couplers and modes [W], calc_forces
 };
 

@@ -4,16 +4,26 @@
 #include <variant>
 
 #include "joints/bushing.hpp"
+#include "joints/joint.hpp"
+#include "joints/latch.hpp"
 #include "joints/point_spring.hpp"
 
 namespace limber::joints {
 
-/// Any coupler law. A new law joins here and in docs/joints.md.
-using CouplerLaw = std::variant<Bushing, PointSpring>;
+/// Any law of two frames. A new law joins here, in docs/joints.md and in the
+/// contract of coupler laws.
+using CouplerLaw = std::variant<Bushing, PointSpring, Joint, Latch>;
 
-[[nodiscard]] inline CouplerResponse evaluate(const CouplerLaw& law,
-                                              const RelativeMotion& motion) {
-  return std::visit([&](const auto& l) { return l.evaluate(motion); }, law);
-}
+[[nodiscard]] CouplerResponse evaluate(const CouplerLaw& law,
+                                       const RelativeMotion& motion,
+                                       const CouplerMemory& memory,
+                                       const Instant& now);
+
+/// Its coordinates; none unless it is a joint.
+[[nodiscard]] const std::vector<AxisCoordinate>& coordinates_of(
+    const CouplerLaw& law);
+
+/// Times at which a drive's command jumps, increasing for each drive [s].
+[[nodiscard]] std::vector<double> break_times(const CouplerLaw& law);
 
 }  // namespace limber::joints

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "joints/bushing.hpp"
+#include <string_view>
+#include <vector>
+
+#include "joints/joint.hpp"
 
 namespace limber::joints {
 
-/// URDF's joint kinds, each a bushing with some directions left free.
+/// URDF's joint kinds and two more, each with some directions left free.
 enum class JointKind {
   fixed,       ///< nothing free
-  revolute,    ///< rotation about the axis
+  revolute,    ///< a hinge: rotation about the axis
   continuous,  ///< the same, without limits
-  prismatic,   ///< translation along the axis
+  prismatic,   ///< a slider: translation along the axis
   planar,      ///< translation normal to the axis, rotation about it
   floating,    ///< everything free
+  universal,   ///< rotations about the axis and a second one, normal to it
+  ball,        ///< every rotation
 };
+
+/// "fixed", "revolute", ...
+[[nodiscard]] std::string_view to_string(JointKind kind);
+
+/// Whether the kind's free directions follow from an axis.
+[[nodiscard]] bool needs_axis(JointKind kind);
 
 /// Stiffness and damping of the directions that a joint holds, and damping of
 /// those that it leaves free.
@@ -26,8 +37,32 @@ struct JointParameters {
                                          ///< [N s/m or N m s/rad]
 };
 
-/// Bushing of a joint with unit axis `axis_F`.
-/// @throws InputError if the axis has no direction or a value is negative.
+/// Two directions that make a right-handed triad with the unit vector `axis`: x
+/// and y themselves if it is z. Along them a planar joint slides.
+struct PlaneAxes {
+  Vector3 x;
+  Vector3 y;
+};
+[[nodiscard]] PlaneAxes find_plane_axes(const Vector3& axis);
+
+/// What a joint leaves free: revolute, continuous: an angle about the axis;
+/// prismatic: a distance along it; planar: distances along x and y of
+/// find_plane_axes, then an angle about the axis; universal: angles about the
+/// axis and the second axis; ball: angles about x, y, z; else none.
+[[nodiscard]] std::vector<AxisCoordinate> find_coordinates(
+    JointKind kind, const Vector3& axis_F, const Vector3& second_F);
+
+/// A joint with unit axes (those that its kind does not need are not looked
+/// at) and what acts along its coordinates.
+/// @throws InputError if an axis has no direction, the axes of a universal
+/// joint are not normal to each other, or a value is negative.
+[[nodiscard]] Joint make_joint(JointKind kind, const Vector3& axis_F,
+                               const Vector3& second_F,
+                               const JointParameters& parameters,
+                               std::vector<JointElement> elements = {});
+
+/// The hold of any joint but a universal one: a bushing with the free
+/// directions left out. @throws InputError like make_joint.
 [[nodiscard]] Bushing make_joint_bushing(JointKind kind, const Vector3& axis_F,
                                          const JointParameters& parameters);
 

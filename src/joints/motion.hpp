@@ -22,6 +22,7 @@ struct CouplerResponse {
   Vector6 wrench = Vector6::Zero();     ///< [N, N m]
   double energy = 0.0;                  ///< [J]
   double dissipation = 0.0;             ///< power turned to heat, >= 0 [W]
+  double supplied = 0.0;                ///< power that drives put in [W]
   Matrix6 stiffness = Matrix6::Zero();  ///< -d wrench / d increment
   Matrix6 damping = Matrix6::Zero();    ///< -d wrench / d velocity
 };

@@ -10,64 +10,90 @@
 namespace limber::joints {
 namespace {
 
-void check_not_negative(double value, const char* what, const char* unit) {
-  if (!(value >= 0.0) || !std::isfinite(value)) {
-    throw InputError(fmt::format("point spring: {} is {:g} {}; expected >= 0",
-                                 what, value, unit));
-  }
-}
+// The length as a coordinate: a line turns about its far end.
+struct LineMotion {
+  Vector3 e;
+  ScalarMotion scalar;
+};
 
-// Spring without free length: k p' p / 2, damper on all of v.
-CouplerResponse evaluate_without_length(const PointSpring::Parameters& p,
-                                        const RelativeMotion& motion) {
-  CouplerResponse response;
-  response.wrench.head<3>() =
-      -p.stiffness * motion.p_FM_F - p.damping * motion.v_FM_F;
-  response.energy = 0.5 * p.stiffness * motion.p_FM_F.squaredNorm();
-  response.dissipation = p.damping * motion.v_FM_F.squaredNorm();
-  response.stiffness.topLeftCorner<3, 3>().diagonal().setConstant(p.stiffness);
-  response.damping.topLeftCorner<3, 3>().diagonal().setConstant(p.damping);
-  return response;
+LineMotion find_line(const RelativeMotion& motion, double shortest) {
+  const double length = motion.p_FM_F.norm();
+  if (!(length > shortest)) {
+    throw NumericalError(fmt::format(
+        "point spring: its ends coincide, so its direction has no meaning; "
+        "use a free length of 0 or a bushing (length {:g} m)",
+        length));
+  }
+  const Vector3 e = motion.p_FM_F / length;
+  return {e, {length, e.dot(motion.v_FM_F)}};
 }
 
 }  // namespace
 
 PointSpring::PointSpring(const Parameters& parameters)
-    : parameters_(parameters) {
-  check_not_negative(parameters.stiffness, "stiffness", "N/m");
-  check_not_negative(parameters.damping, "damping", "N s/m");
-  check_not_negative(parameters.free_length, "free length", "m");
+    : parameters_(parameters),
+      line_({.curve = SpringCurve({parameters.stiffness, parameters.quadratic,
+                                   parameters.extensions, parameters.forces}),
+             .damping = parameters.damping,
+             .rest = parameters.free_length,
+             .tension_only = parameters.tension_only}),
+      has_no_length_(parameters.free_length == 0.0 &&
+                     parameters.forces.empty()) {
+  if (!(parameters.free_length >= 0.0)) {
+    throw InputError(
+        fmt::format("point spring: free length is {:g} m; expected >= 0",
+                    parameters.free_length));
+  }
 }
 
-CouplerResponse PointSpring::evaluate(const RelativeMotion& motion) const {
+CouplerResponse PointSpring::evaluate_without_length(
+    const RelativeMotion& motion) const {
   const Parameters& p = parameters_;
-  if (p.free_length == 0.0) return evaluate_without_length(p, motion);
-
-  const double length = motion.p_FM_F.norm();
-  if (!(length > kMinLengthRatio * p.free_length)) {
-    throw NumericalError(fmt::format(
-        "point spring: its ends coincide, so its direction has no meaning; "
-        "use a free length of 0 or a bushing (free length {:g} m)",
-        p.free_length));
+  const Vector3& r = motion.p_FM_F;
+  const double length = r.norm();
+  const double k = p.stiffness + p.quadratic * length;
+  CouplerResponse response;
+  response.wrench.head<3>() = -k * r - p.damping * motion.v_FM_F;
+  response.energy =
+      (0.5 * p.stiffness + p.quadratic * length / 3.0) * length * length;
+  response.dissipation = p.damping * motion.v_FM_F.squaredNorm();
+  response.stiffness.topLeftCorner<3, 3>().diagonal().setConstant(k);
+  if (p.quadratic > 0.0 && length > 0.0) {
+    response.stiffness.topLeftCorner<3, 3>() +=
+        p.quadratic * r * (r / length).transpose();
   }
-  const Vector3 e = motion.p_FM_F / length;
-  const Matrix3 along = e * e.transpose();
+  response.damping.topLeftCorner<3, 3>().diagonal().setConstant(p.damping);
+  return response;
+}
+
+CouplerResponse PointSpring::evaluate(const RelativeMotion& motion,
+                                      SwitchMode mode) const {
+  if (has_no_length_) return evaluate_without_length(motion);
+  const LineMotion line =
+      find_line(motion, kMinLengthRatio * parameters_.free_length);
+  const ScalarResponse scalar = line_.evaluate(line.scalar, {mode, {}});
+  const double length = line.scalar.z;
+  const Matrix3 along = line.e * line.e.transpose();
   const Matrix3 across = Matrix3::Identity() - along;
-  const double rate = e.dot(motion.v_FM_F);
-  const double stretch = length - p.free_length;
-  const double tension = p.stiffness * stretch + p.damping * rate;
 
   CouplerResponse response;
-  response.wrench.head<3>() = -tension * e;
-  response.energy = 0.5 * p.stiffness * stretch * stretch;
-  response.dissipation = p.damping * rate * rate;
+  response.wrench.head<3>() = scalar.force * line.e;
+  response.energy = scalar.energy;
+  response.dissipation = scalar.dissipation;
   // d rate / d p = (across v)' / length.
   const Vector3 drift = across * motion.v_FM_F / length;
-  response.stiffness.topLeftCorner<3, 3>() = p.stiffness * along +
-                                             (tension / length) * across +
-                                             p.damping * e * drift.transpose();
-  response.damping.topLeftCorner<3, 3>() = p.damping * along;
+  response.stiffness.topLeftCorner<3, 3>() =
+      scalar.stiffness * along - (scalar.force / length) * across +
+      scalar.damping * line.e * drift.transpose();
+  response.damping.topLeftCorner<3, 3>() = scalar.damping * along;
   return response;
+}
+
+SwitchValue PointSpring::find_switch(const RelativeMotion& motion) const {
+  const double length = motion.p_FM_F.norm();
+  const double rate =
+      length > 0.0 ? motion.p_FM_F.dot(motion.v_FM_F) / length : 0.0;
+  return line_.find_switch(0, {length, rate});
 }
 
 }  // namespace limber::joints

@@ -33,8 +33,23 @@ Mobilizer find_mobilizer(JointKind kind) {
       return Mobilizer::free;
     case JointKind::fixed:
       break;
+    case JointKind::ball:
+      return Mobilizer::ball;
+    case JointKind::universal:
+      throw InputError("a universal joint is not compared");
   }
   return Mobilizer::weld;
+}
+
+/// What the joint holds. @throws InputError if more acts in it.
+joints::Bushing::Parameters find_hold(const dynamics::Coupler& coupler) {
+  const auto& joint = std::get<joints::Joint>(coupler.law);
+  const auto* bushing = std::get_if<joints::Bushing>(&joint.hold());
+  if (bushing == nullptr || !joint.elements().empty()) {
+    throw InputError(fmt::format("joint '{}': what acts in it is not compared",
+                                 coupler.name));
+  }
+  return bushing->parameters();
 }
 
 std::vector<double> join(const Vector3& a, const Vector3& b) {
@@ -184,7 +199,7 @@ class Translator {
       BushingElement element;
       element.F = {joint.parent, joint.X_PJ};
       element.M = {joint.child, Pose{}};
-      element.law = std::get<joints::Bushing>(source.law).parameters();
+      element.law = find_hold(source);
       element.R_FD = turn_z_to(joint.axis_J).R;
       element.joint_of =
           joint.kind == JointKind::floating ? kGround : joint.child;

@@ -111,7 +111,7 @@ void SteppedLoad::calcForce(const State& state,
                             SimTK::Vector_<Vec3>& /*particle_forces*/,
                             SimTK::Vector& /*mobility_forces*/) const {
   const double t = state.getTime();
-  const bool left = interval_.side(t) == dynamics::Side::left;
+  const bool left = interval_.side(t) == Side::left;
   Eigen::Index column = -1;
   for (const double start : history_.times) {
     if (start < t || (start == t && !left)) ++column;

@@ -45,8 +45,8 @@ struct Interval {
   double begin = 0.0;  ///< [s]
   double end = 0.0;    ///< [s]
 
-  [[nodiscard]] dynamics::Side side(double t) const {
-    return t >= end ? dynamics::Side::left : dynamics::Side::right;
+  [[nodiscard]] Side side(double t) const {
+    return t >= end ? Side::left : Side::right;
   }
 };
 

@@ -193,8 +193,8 @@ void Assembly::add_joint(const Joint& joint) {
       attach(joint.name + ".M", ends[1].link, ends[1].X_LF, ends[1].anchor);
   builder_.add_coupler(
       joint.name,
-      joints::make_joint_bushing(joint.kind, joint.axis_J, parameters), frame_F,
-      frame_M);
+      joints::make_joint(joint.kind, joint.axis_J, joint.second_J, parameters),
+      frame_F, frame_M);
 }
 
 Pose Assembly::pose_of(const ConnectorEnd& end) const {
@@ -349,6 +349,20 @@ void Assembly::deform(const dynamics::SystemModel& model,
   });
 }
 
+// Joints that start beyond half a turn count on from there.
+void Assembly::remember_turns(const dynamics::SystemModel& model,
+                              dynamics::SystemState& state) const {
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const auto start = scene_.scenario.joints.find(model.couplers[c].name);
+    if (start == scene_.scenario.joints.end()) continue;
+    const std::vector<double>& q = start->second.position;
+    const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
+    for (std::size_t i = 0; i < coordinates.size() && i < q.size(); ++i) {
+      state.memory[c].near[i] = q[i];
+    }
+  }
+}
+
 dynamics::SystemState Assembly::make_initial_state(
     const dynamics::SystemModel& model) const {
   dynamics::SystemState state = dynamics::make_state(model);
@@ -367,6 +381,7 @@ dynamics::SystemState Assembly::make_initial_state(
     deform(model, model.bodies[index(body_index_[i])], u_B, udot_B, state);
   }
   place_nodes(model, u_B, udot_B, state);
+  remember_turns(model, state);
   return state;
 }
 

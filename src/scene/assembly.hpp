@@ -53,6 +53,8 @@ class Assembly {
   void deform(const dynamics::SystemModel& model,
               const dynamics::BodyModel& body, VectorX& u_B, VectorX& udot_B,
               dynamics::SystemState& state) const;
+  void remember_turns(const dynamics::SystemModel& model,
+                      dynamics::SystemState& state) const;
 
   const Scene& scene_;
   const BodyPlans& plans_;

@@ -22,17 +22,9 @@ std::vector<double> padded(std::vector<double> values, std::size_t count) {
   return values;
 }
 
-/// Two directions that make a right-handed triad with `axis`; x and y
-/// themselves if the axis is z.
-std::pair<Vector3, Vector3> plane_of(const Vector3& axis) {
-  const Matrix3 R =
-      Quaternion::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
-  return {R.col(0), R.col(1)};
-}
-
 JointMotion planar_motion(const Vector3& axis, const std::vector<double>& q,
                           const std::vector<double>& u) {
-  const auto [x, y] = plane_of(axis);
+  const auto [x, y] = joints::find_plane_axes(axis);
   JointMotion motion;
   motion.X_JC.p = q[0] * x + q[1] * y;
   motion.X_JC.R = exp_rotation(q[2] * axis);
@@ -65,6 +57,16 @@ JointMotion find_joint_motion(const Joint& joint, const JointStart& start) {
       motion.X_JC.R = rotation_rpy(Vector3(q[3], q[4], q[5]));
       motion.v_JC_J = Vector3(u[0], u[1], u[2]);
       motion.w_JC_J = Vector3(u[3], u[4], u[5]);
+      break;
+    case joints::JointKind::universal:
+      motion.X_JC.R = exp_rotation(q[0] * joint.axis_J);
+      motion.w_JC_J =
+          u[0] * joint.axis_J + u[1] * (motion.X_JC.R * joint.second_J);
+      motion.X_JC.R = motion.X_JC.R * exp_rotation(q[1] * joint.second_J);
+      break;
+    case joints::JointKind::ball:
+      motion.X_JC.R = rotation_rpy(Vector3(q[0], q[1], q[2]));
+      motion.w_JC_J = Vector3(u[0], u[1], u[2]);
       break;
   }
   return motion;
@@ -136,7 +138,10 @@ std::size_t coordinate_count(joints::JointKind kind) {
   switch (kind) {
     case joints::JointKind::fixed:
       return 0;
+    case joints::JointKind::universal:
+      return 2;
     case joints::JointKind::planar:
+    case joints::JointKind::ball:
       return 3;
     case joints::JointKind::floating:
       return 6;

@@ -59,7 +59,8 @@ struct Joint {
   int parent = 0;  ///< link index
   int child = 0;   ///< link index
   Pose X_PJ;       ///< joint frame in the parent link's frame
-  Vector3 axis_J = Vector3::UnitX();  ///< unit
+  Vector3 axis_J = Vector3::UnitX();    ///< unit
+  Vector3 second_J = Vector3::UnitY();  ///< unit, of a universal joint
   CouplerOptions coupler;
 };
 

@@ -68,11 +68,6 @@ joints::JointKind to_kind(int type) {
   }
 }
 
-bool needs_axis(joints::JointKind kind) {
-  return kind != joints::JointKind::fixed &&
-         kind != joints::JointKind::floating;
-}
-
 Joint to_joint(const urdf::Joint& source, int parent, int child,
                Problems& problems) {
   Joint joint;
@@ -81,7 +76,7 @@ Joint to_joint(const urdf::Joint& source, int parent, int child,
   joint.parent = parent;
   joint.child = child;
   joint.X_PJ = to_pose(source.parent_to_joint_origin_transform);
-  if (needs_axis(joint.kind)) {
+  if (joints::needs_axis(joint.kind)) {
     joint.axis_J = to_vector(source.axis);
     if (!(joint.axis_J.norm() > 0.0)) {
       problems.add(

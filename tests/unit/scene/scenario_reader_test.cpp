@@ -144,10 +144,10 @@ TEST(ScenarioReader, ReadsASumOfSinusoids) {
   const double pi = std::numbers::pi;
   const double t = 0.37;
   EXPECT_NEAR(
-      dynamics::evaluate(function, t, dynamics::Side::right),
+      dynamics::evaluate(function, t, Side::right),
       2.0 + 0.5 * std::sin(2.0 * pi * t) + 0.25 * std::sin(6.0 * pi * t + 0.3),
       1e-14);
-  EXPECT_EQ(dynamics::evaluate(function, 9.5, dynamics::Side::right), 0.0);
+  EXPECT_EQ(dynamics::evaluate(function, 9.5, Side::right), 0.0);
   EXPECT_THAT(error_of(with_load_time(
                   "kind='sinusoids',frequencies=[1.0],amplitudes=[1,2]")),
               HasSubstr("as many of each"));
@@ -162,7 +162,7 @@ TEST(ScenarioReader, FitsAFourierSeriesToAMeasuredLoad) {
       "file='" +
       file.path().string() + "'");
   for (const double t : {0.1, 0.6, 2.3}) {
-    EXPECT_NEAR(dynamics::evaluate(function, t, dynamics::Side::right),
+    EXPECT_NEAR(dynamics::evaluate(function, t, Side::right),
                 1.0 + std::sin(2.0 * std::numbers::pi * t), 1e-14);
   }
 }

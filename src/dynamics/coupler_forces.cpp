@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/coupler_forces.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "dynamics/full_terms.hpp"
+#include "dynamics/transmission.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+void add_reduced_wrench(const BodyModel& body, const Attachment& attachment,
+                        const AttachmentMotion& motion, const Vector3& force_W,
+                        const Vector3& moment_W, BodyTerms& terms) {
+  const Vector3 force_B = motion.R_WB.transpose() * force_W;
+  const Vector3 moment_B = motion.R_WB.transpose() * moment_W;
+  terms.force_W += force_W;
+  terms.moment_B += motion.arm_B.cross(force_B) + moment_B;
+  if (body.modes == 0) return;
+  const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
+  for (int k = 0; k < body.modes; ++k) {
+    terms.modal_force[k] += attachment.Phi_B.col(k).dot(force_B) +
+                            attachment.Psi_B.col(k).dot(twist_B);
+  }
+}
+
+FrameMotion frame_motion(const AttachmentMotion& motion) {
+  return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
+}
+
+// Adds a wrench on M at Mo, axes of F, and its reaction on F along the same
+// line: shifted from Mo to Fo.
+void add_pair(const SystemModel& model, const Coupler& coupler,
+              const Vector6& wrench_F, const Vector3& p_FM_F,
+              SystemTerms& terms) {
+  const Matrix3& R_WF = terms.attachments[index(coupler.frame_F)].R_WF;
+  const Vector3 force_F = wrench_F.head<3>();
+  const Vector3 force = R_WF * force_F;
+  const Vector3 moment = R_WF * wrench_F.tail<3>();
+  const Vector3 shift = R_WF * p_FM_F.cross(force_F);
+  add_wrench(model, coupler.frame_M, force, moment, terms);
+  add_wrench(model, coupler.frame_F, -force, -moment - shift, terms);
+}
+
+void apply_coupler(const SystemModel& model, const Coupler& coupler,
+                   const joints::CouplerMemory& memory, const Instant& now,
+                   WrenchSource source, SystemTerms& terms, CouplerTerms& out) {
+  out.motion = relate(frame_motion(terms.attachments[index(coupler.frame_F)]),
+                      frame_motion(terms.attachments[index(coupler.frame_M)]));
+  out.response = joints::evaluate(coupler.law, out.motion, memory, now);
+  terms.dissipated_power += out.response.dissipation;
+  terms.load_power += out.response.supplied;
+  if (source == WrenchSource::law) out.applied = out.response.wrench;
+  add_pair(model, coupler, out.applied, out.motion.p_FM_F, terms);
+}
+
+void apply_transmission(const SystemModel& model, const SystemState& state,
+                        const Transmission& transmission,
+                        const joints::CouplerMemory& memory, const Instant& now,
+                        WrenchSource source, SystemTerms& terms,
+                        TransmissionTerms& out) {
+  calc_coordinate(model, state, transmission, terms, out);
+  out.response = {};
+  std::size_t first = 0;  // of a law's switches
+  for (const joints::ScalarLaw& law : transmission.laws) {
+    out.response +=
+        joints::evaluate(law, out.motion, now,
+                         {memory.switches[first], memory.switches[first + 1]});
+    first += static_cast<std::size_t>(joints::switch_count(law));
+  }
+  terms.dissipated_power += out.response.dissipation;
+  terms.load_power += out.response.supplied;
+  if (source == WrenchSource::law) out.applied = out.response.force;
+  if (const auto* path =
+          std::get_if<PathCoordinate>(&transmission.coordinate)) {
+    for (std::size_t i = 0; i < path->points.size(); ++i) {
+      add_wrench(model, path->points[i],
+                 out.applied * out.gradients[i].head<3>(), Vector3::Zero(),
+                 terms);
+    }
+    return;
+  }
+  const auto& sum = std::get<JointSum>(transmission.coordinate);
+  for (std::size_t i = 0; i < sum.terms.size(); ++i) {
+    const auto c = index(sum.terms[i].coupler);
+    add_pair(model, model.couplers[c], out.applied * out.gradients[i],
+             terms.couplers[c].motion.p_FM_F, terms);
+  }
+}
+
+// Runs `work`; a NumericalError is told with the coupler's name and the time.
+template <typename Work>
+void name_coupler(const std::string& name, double t, const Work& work) {
+  try {
+    work();
+  } catch (const NumericalError& error) {
+    throw NumericalError(
+        fmt::format("coupler '{}' at t = {:.9g} s: {}", name, t, error.what()));
+  }
+}
+
+}  // namespace
+
+void add_wrench(const SystemModel& model, AttachmentIndex attachment,
+                const Vector3& force_W, const Vector3& moment_W,
+                SystemTerms& terms) {
+  const Attachment& a = model.attachments[index(attachment)];
+  if (a.body == kWorld) return;
+  const AttachmentMotion& motion = terms.attachments[index(attachment)];
+  const BodyModel& body = model.bodies[index(a.body)];
+  if (body.full >= 0) {
+    add_full_wrench(model, a, motion, force_W, moment_W, terms);
+    return;
+  }
+  add_reduced_wrench(body, a, motion, force_W, moment_W,
+                     terms.bodies[index(a.body)]);
+}
+
+void apply_couplers(const SystemModel& model, const SystemState& state,
+                    const Instant& now, WrenchSource source,
+                    SystemTerms& terms) {
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    name_coupler(model.couplers[c].name, now.t, [&] {
+      apply_coupler(model, model.couplers[c], state.memory[c], now, source,
+                    terms, terms.couplers[c]);
+    });
+  }
+  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
+    name_coupler(model.transmissions[i].name, now.t, [&] {
+      apply_transmission(model, state, model.transmissions[i],
+                         state.memory[model.couplers.size() + i], now, source,
+                         terms, terms.transmissions[i]);
+    });
+  }
+}
+
+}  // namespace limber::dynamics

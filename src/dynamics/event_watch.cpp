@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/event_watch.hpp"
+
+#include "dynamics/transmission.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Where the cubic through two values and rates (per step) has the sign of its
+// end, first; in [0, 1].
+double find_root(const joints::SwitchValue& a, const joints::SwitchValue& b,
+                 double h, bool rises) {
+  const auto value = [&](double s) {
+    const double left = 1.0 - s;
+    return left * left * ((1.0 + 2.0 * s) * a.value + s * h * a.rate) +
+           s * s * ((1.0 + 2.0 * left) * b.value - left * h * b.rate);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const bool is_past = (value(middle) >= 0.0) == rises;
+    (is_past ? high : low) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+EventWatch::EventWatch(const SystemModel& model) : model_(model) {
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const int count = joints::switch_count(model.couplers[c].law);
+    for (int i = 0; i < count; ++i) {
+      Switch s;
+      s.coupler = static_cast<int>(c);
+      s.index = i;
+      s.memory = c;
+      s.place = index(i);
+      switches_.push_back(s);
+    }
+  }
+  for (std::size_t t = 0; t < model.transmissions.size(); ++t) {
+    const auto& laws = model.transmissions[t].laws;
+    std::size_t place = 0;
+    for (std::size_t law = 0; law < laws.size(); ++law) {
+      for (int i = 0; i < joints::switch_count(laws[law]); ++i) {
+        Switch s;
+        s.transmission = static_cast<int>(t);
+        s.law = law;
+        s.index = i;
+        s.memory = model.couplers.size() + t;
+        s.place = place++;
+        switches_.push_back(s);
+      }
+    }
+  }
+}
+
+joints::SwitchValue EventWatch::evaluate(const Switch& s,
+                                         const SystemState& state) const {
+  if (s.coupler >= 0) {
+    return joints::find_switch(model_.couplers[index(s.coupler)].law, s.index,
+                               find_relative_motion(model_, state, s.coupler),
+                               state.memory[index(s.coupler)], state.t);
+  }
+  const Transmission& transmission =
+      model_.transmissions[index(s.transmission)];
+  return joints::find_switch(transmission.laws[s.law], s.index,
+                             find_motion(model_, state, transmission));
+}
+
+bool EventWatch::start(SystemState& state, std::vector<Event>& events) {
+  bool has_jump = false;
+  for (std::size_t i = 0; i < switches_.size(); ++i) {
+    Switch& s = switches_[i];
+    set(s, evaluate(s, state).value >= 0.0, state);
+    if (!s.is_up || !is_latch(s)) continue;
+    s.is_up = false;
+    has_jump |= pass(i, state, events).has_jump;
+  }
+  accept(state);
+  return has_jump;
+}
+
+std::optional<EventWatch::Crossing> EventWatch::find_first(
+    const SystemState& after, double h) {
+  std::optional<Crossing> first;
+  for (std::size_t i = 0; i < switches_.size(); ++i) {
+    Switch& s = switches_[i];
+    s.now = evaluate(s, after);
+    const bool is_up = s.now.value >= 0.0;
+    if (is_up == s.is_up) continue;
+    const double share = find_root(s.last, s.now, h, is_up);
+    if (!first || share < first->share) first = Crossing{i, share};
+  }
+  return first;
+}
+
+void EventWatch::set(Switch& s, bool is_up, SystemState& state) const {
+  s.is_up = is_up;
+  if (is_latch(s)) return;  // remembers its status instead
+  state.memory[s.memory].switches[s.place] =
+      is_up ? joints::SwitchMode::on : joints::SwitchMode::off;
+}
+
+bool EventWatch::is_latch(const Switch& s) const {
+  return s.coupler >= 0 && std::holds_alternative<joints::Latch>(
+                               model_.couplers[index(s.coupler)].law);
+}
+
+EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
+                                    std::vector<Event>& events) {
+  Switch& s = switches_[i];
+  const bool rises = !s.is_up;
+  const double rate = evaluate(s, state).rate;
+  Change change;
+  set(s, rises, state);
+  if (s.transmission >= 0) {
+    const Transmission& transmission =
+        model_.transmissions[index(s.transmission)];
+    const joints::EventKind kind =
+        joints::find_event(transmission.laws[s.law], rises);
+    events.push_back({state.t, transmission.name,
+                      std::string(joints::to_string(kind)), rate});
+    change.has_jump =
+        kind == joints::EventKind::taut || kind == joints::EventKind::slack;
+    return change;
+  }
+  const Coupler& coupler = model_.couplers[index(s.coupler)];
+  joints::CouplerMemory& memory = state.memory[index(s.coupler)];
+  const auto kind = joints::find_event(coupler.law, s.index, rises, memory);
+  if (!kind) return change;
+  events.push_back(
+      {state.t, coupler.name, std::string(joints::to_string(*kind)), rate});
+  change.has_jump = *kind != joints::EventKind::stop_reached &&
+                    *kind != joints::EventKind::stop_left;
+  const joints::RelativeMotion motion =
+      find_relative_motion(model_, state, s.coupler);
+  const Instant now{state.t, Side::right};
+  change.energy_lost =
+      joints::evaluate(coupler.law, motion, memory, now).energy;
+  joints::update_memory(coupler.law, s.index, motion, memory);
+  change.energy_lost -=
+      joints::evaluate(coupler.law, motion, memory, now).energy;
+  return change;
+}
+
+void EventWatch::accept() {
+  for (Switch& s : switches_) s.last = s.now;
+}
+
+void EventWatch::accept(const SystemState& state) {
+  for (Switch& s : switches_) {
+    s.last = evaluate(s, state);
+    // What a latch does next is another switch in the same place.
+    if (is_latch(s)) s.is_up = s.last.value >= 0.0;
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+
+#include "joints/scalar_motion.hpp"
+
+namespace limber::joints {
+
+/// One-sided stops at one or both ends of a coordinate's range.
+///
+/// Equation   beyond a bound by d > 0: k d max(0, 1 + b d') back into the
+///            range; energy k d^2 / 2
+/// Source     [@hunt1975], exponent 1: no force at first touch, none that pulls
+class EndStop {
+ public:
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  struct Parameters {
+    double lower = -kUnbounded;  ///< [m or rad]
+    double upper = kUnbounded;   ///< [m or rad]
+    double stiffness = 0.0;      ///< k > 0 [N/m or N m/rad]
+    double damping = 0.0;        ///< b >= 0 [s/m or s/rad]
+  };
+  static constexpr int kMaxSwitches = 2;
+
+  /// @throws InputError if lower > upper or a value is outside its range.
+  explicit EndStop(const Parameters& parameters);
+
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+  [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
+                                        const SwitchModes& modes = {}) const;
+
+  /// Positive while it touches the upper stop (0), the lower stop (1).
+  [[nodiscard]] int switch_count() const { return kMaxSwitches; }
+  [[nodiscard]] SwitchValue find_switch(int index,
+                                        const ScalarMotion& motion) const;
+
+ private:
+  Parameters parameters_;
+};
+
+/// The b with which a free body that arrives at `speed` leaves at
+/// `restitution` of it.
+///
+/// Equation   (1 + e) beta = ln((1 + beta) / (1 - e beta)), beta = b v:
+///            the first integral of m d'' = -k d (1 + b d'), whatever m and k
+/// @param restitution e in (0, 1] [-]
+/// @param speed v > 0 [m/s or rad/s]
+/// @throws InputError for values outside their range.
+[[nodiscard]] double find_stop_damping(double restitution, double speed);
+
+}  // namespace limber::joints

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "joints/friction.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+
+namespace limber::joints {
+namespace {
+
+void check_value(bool holds, const char* what, double value,
+                 const char* expected) {
+  if (holds && std::isfinite(value)) return;
+  throw InputError(fmt::format("friction: its {} is {:g}; expected {}", what,
+                               value, expected));
+}
+
+}  // namespace
+
+Friction::Friction(const Parameters& parameters) : parameters_(parameters) {
+  const Parameters& p = parameters;
+  check_value(p.coulomb >= 0.0, "Coulomb force", p.coulomb, ">= 0");
+  check_value(p.viscous >= 0.0, "viscous coefficient", p.viscous, ">= 0");
+  check_value(p.speed > 0.0, "smoothing speed", p.speed, "> 0");
+}
+
+ScalarResponse Friction::evaluate(const ScalarMotion& motion) const {
+  const Parameters& p = parameters_;
+  const double v = motion.rate;
+  const double speed = std::hypot(v, p.speed);
+  const double force = -p.coulomb * v / speed - p.viscous * v;
+  const double share = p.speed / speed;
+  return {.force = force,
+          .dissipation = -force * v,
+          .damping = p.coulomb * share * share / speed + p.viscous};
+}
+
+}  // namespace limber::joints

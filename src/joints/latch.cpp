@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "joints/latch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+
+namespace limber::joints {
+
+Latch::Latch(const Parameters& parameters)
+    : parameters_(parameters), bushing_(parameters.bushing) {
+  const Parameters& p = parameters;
+  if (!(p.reach > 0.0) || !std::isfinite(p.reach)) {
+    throw InputError(
+        fmt::format("latch: its reach is {:g} m; expected > 0", p.reach));
+  }
+  if (!(p.release_force > 0.0)) {
+    throw InputError(fmt::format(
+        "latch: its release force is {:g} N; expected > 0", p.release_force));
+  }
+  if (std::isnan(p.release_time)) {
+    throw InputError("latch: its release time is not a number");
+  }
+}
+
+CouplerResponse Latch::evaluate(const RelativeMotion& motion,
+                                const CouplerMemory& memory) const {
+  if (memory.latch != LatchStatus::closed) return {};
+  RelativeMotion from_rest = motion;
+  from_rest.R_FM = motion.R_FM * memory.X_FM.R.transpose();
+  from_rest.p_FM_F = motion.p_FM_F - memory.X_FM.p;
+  return bushing_.evaluate(from_rest);
+}
+
+SwitchValue Latch::find_switch(int index, const RelativeMotion& motion,
+                               const CouplerMemory& memory, double t) const {
+  constexpr SwitchValue kOff{-1.0, 0.0};
+  if (memory.latch == LatchStatus::released) return kOff;
+  if (index == 1) {
+    return std::isfinite(parameters_.release_time)
+               ? SwitchValue{t - parameters_.release_time, 1.0}
+               : kOff;
+  }
+  if (memory.latch == LatchStatus::open) {
+    const double distance = motion.p_FM_F.norm();
+    const double rate =
+        distance > 0.0 ? motion.p_FM_F.dot(motion.v_FM_F) / distance : 0.0;
+    return {parameters_.reach - distance, -rate};
+  }
+  if (!std::isfinite(parameters_.release_force)) return kOff;
+  // The elastic part: a damper's first push is no reason to let go.
+  const Matrix3& K = parameters_.bushing.translational_stiffness;
+  const Vector3 force = K * (motion.p_FM_F - memory.X_FM.p);
+  const double size = force.norm();
+  const double rate = size > 0.0 ? force.dot(K * motion.v_FM_F) / size : 0.0;
+  return {size - parameters_.release_force, rate};
+}
+
+void Latch::update(int index, const RelativeMotion& motion,
+                   CouplerMemory& memory) const {
+  if (index == 0 && memory.latch == LatchStatus::open) {
+    memory.latch = LatchStatus::closed;
+    memory.X_FM = {motion.R_FM, motion.p_FM_F};
+    return;
+  }
+  memory.latch = LatchStatus::released;
+}
+
+}  // namespace limber::joints

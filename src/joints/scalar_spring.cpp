@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "joints/scalar_spring.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+
+namespace limber::joints {
+
+ScalarSpring::ScalarSpring(const Parameters& parameters)
+    : parameters_(parameters) {
+  if (!(parameters.damping >= 0.0) || !std::isfinite(parameters.damping)) {
+    throw InputError(fmt::format("spring: its damping is {:g}; expected >= 0",
+                                 parameters.damping));
+  }
+  if (!std::isfinite(parameters.rest)) {
+    throw InputError("spring: where it rests is not finite");
+  }
+}
+
+ScalarResponse ScalarSpring::evaluate(const ScalarMotion& motion,
+                                      const SwitchModes& modes) const {
+  const double s = motion.z - parameters_.rest;
+  if (parameters_.tension_only && !is_on(modes[0], s > 0.0)) return {};
+  const SpringCurve::Point point = parameters_.curve.evaluate(s);
+  const double c = parameters_.damping;
+  const double pull = point.force + c * motion.rate;
+  if (parameters_.tension_only && pull < 0.0) {
+    return {.energy = point.energy, .dissipation = -point.force * motion.rate};
+  }
+  return {.force = -pull,
+          .energy = point.energy,
+          .dissipation = c * motion.rate * motion.rate,
+          .stiffness = point.slope,
+          .damping = c};
+}
+
+SwitchValue ScalarSpring::find_switch(int /*index*/,
+                                      const ScalarMotion& motion) const {
+  return {motion.z - parameters_.rest, motion.rate};
+}
+
+}  // namespace limber::joints
