@@ -10,7 +10,8 @@
 namespace limber::joints {
 namespace {
 
-// Below this share of its largest value the twist has no direction [-].
+// Square of the twist's share of the quaternion: below this, within 6e-5 rad of
+// upside down, it has no direction [-].
 constexpr double kUpsideDown = 1e-9;
 
 double add_turns(double angle, double near) {

@@ -12,7 +12,8 @@ namespace limber::joints {
 ///            which any whole turns are added. With R = Rot(a, s) Rot(b, t),
 ///            a and b normal to each other, it is s about a and t about b.
 /// Source     swing-twist decomposition [@dobrowolski2015]
-/// Limits     an angle has no meaning where e is turned upside down.
+/// Limits     an angle has no meaning where e is turned upside down; its whole
+///            turns are right while it is less than pi from `near`.
 struct AxisCoordinate {
   enum class Kind { angle, distance };
   Kind kind = Kind::angle;
@@ -35,7 +36,7 @@ struct CoordinateValue {
                                        const RelativeMotion& motion,
                                        double near);
 
-/// z alone.
+/// z alone. Does not throw: upside down it is any number.
 [[nodiscard]] double find_position(const AxisCoordinate& coordinate,
                                    const RelativeMotion& motion, double near);
 

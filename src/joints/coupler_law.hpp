@@ -23,7 +23,8 @@ using CouplerLaw = std::variant<Bushing, PointSpring, Joint, Latch>;
 [[nodiscard]] const std::vector<AxisCoordinate>& coordinates_of(
     const CouplerLaw& law);
 
-/// Times at which a drive's command jumps, increasing for each drive [s].
+/// Times at which a drive's command or a derivative of it jumps, increasing for
+/// each drive [s].
 [[nodiscard]] std::vector<double> break_times(const CouplerLaw& law);
 
 }  // namespace limber::joints

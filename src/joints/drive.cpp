@@ -42,11 +42,13 @@ Drive::Drive(const Parameters& parameters) : parameters_(parameters) {
   check(p.signal);
   require(p.stiffness >= 0.0 && std::isfinite(p.stiffness) &&
               (p.stiffness > 0.0 || p.mode != DriveMode::position),
-          fmt::format("its stiffness is {:g}; a position drive needs > 0",
+          fmt::format("its stiffness is {:g}; expected >= 0, of a position "
+                      "drive > 0",
                       p.stiffness));
   require(p.damping >= 0.0 && std::isfinite(p.damping) &&
               (p.damping > 0.0 || p.mode != DriveMode::velocity),
-          fmt::format("its damping is {:g}; a velocity drive needs > 0",
+          fmt::format("its damping is {:g}; expected >= 0, of a velocity drive "
+                      "> 0",
                       p.damping));
   check_limits(p);
 }

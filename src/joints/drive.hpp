@@ -19,19 +19,22 @@ enum class DriveMode {
 ///
 /// Equation   position: force = -clip(k (z - s) + c (z' - s')),
 ///            velocity: force = -clip(c (z' - s)),
-///            effort:   force = clip(s), less what is above the speed limit:
-///            with the motion, it falls to zero between the speed limit and
-///            kOverspeed times it.
-///            The energy is that of the clipped spring, the dissipation that
-///            of the damper, >= 0 also where the limit acts. A drive that only
-///            pulls clips at zero, too; its effort pulls: force = -clip(s).
-/// Limits     the motor's own dynamics and the heat in it are left out.
+///            effort:   force = clip(s), clip to +-max_effort.
+///            The energy is that of the clipped spring, the integral of
+///            clip(k e) by e = z - s; the dissipation that of the damper, >= 0
+///            also where the limit acts. An effort that goes with the motion
+///            falls to zero between max_speed and kOverspeed times it. A drive
+///            that only pulls clips to 0 ... max_effort instead, and its effort
+///            pulls: force = -clip(s).
+/// Limits     max_speed bounds what position and velocity drives are asked for,
+///            not what loads make of it. The motor's own dynamics and the heat
+///            in it are left out.
 class Drive {
  public:
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   struct Parameters {
     DriveMode mode = DriveMode::position;
-    Signal signal;
+    Signal signal = {};
     double stiffness = 0.0;          ///< k > 0 if position [N/m, N m/rad]
     double damping = 0.0;            ///< c >= 0 [N s/m, N m s/rad]
     double max_effort = kUnlimited;  ///< > 0 [N, N m]
@@ -49,7 +52,7 @@ class Drive {
                                         const Instant& now) const;
 
  private:
-  // A value within the limits, and whether it is there of its own.
+  // A value within the limits, and whether the limits left it alone.
   struct Clipped {
     double value = 0.0;
     bool is_free = true;

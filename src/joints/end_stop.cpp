@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/errors.hpp"
@@ -29,10 +28,12 @@ ScalarResponse press(const EndStop::Parameters& p, double d, double v) {
 
 EndStop::EndStop(const Parameters& parameters) : parameters_(parameters) {
   const Parameters& p = parameters;
-  if (!(p.lower <= p.upper)) {
-    throw InputError(fmt::format(
-        "end stop: its lower bound {:g} is above its upper bound {:g}", p.lower,
-        p.upper));
+  if (!(p.lower <= p.upper) || p.lower == kUnbounded ||
+      p.upper == -kUnbounded) {
+    throw InputError(
+        fmt::format("end stop: nothing is within its bounds {:g} and {:g}; "
+                    "expected lower <= upper",
+                    p.lower, p.upper));
   }
   if (!(p.stiffness > 0.0) || !std::isfinite(p.stiffness)) {
     throw InputError(fmt::format(
@@ -59,7 +60,8 @@ ScalarResponse EndStop::evaluate(const ScalarMotion& motion,
 }
 
 SwitchValue EndStop::find_switch(int index, const ScalarMotion& motion) const {
-  if (index == 0) return {motion.z - parameters_.upper, motion.rate};
+  if (index == 0 && has_upper())
+    return {motion.z - parameters_.upper, motion.rate};
   return {parameters_.lower - motion.z, -motion.rate};
 }
 

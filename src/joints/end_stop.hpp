@@ -10,7 +10,8 @@ namespace limber::joints {
 /// One-sided stops at one or both ends of a coordinate's range.
 ///
 /// Equation   beyond a bound by d > 0: k d max(0, 1 + b d') back into the
-///            range; energy k d^2 / 2
+///            range; energy k d^2 / 2; dissipation k b d d'^2, or -k d d' where
+///            the body leaves faster than the stop can follow
 /// Source     [@hunt1975], exponent 1: no force at first touch, none that pulls
 class EndStop {
  public:
@@ -21,21 +22,31 @@ class EndStop {
     double stiffness = 0.0;      ///< k > 0 [N/m or N m/rad]
     double damping = 0.0;        ///< b >= 0 [s/m or s/rad]
   };
-  static constexpr int kMaxSwitches = 2;
 
-  /// @throws InputError if lower > upper or a value is outside its range.
+  /// @throws InputError if no z is within the bounds or a value is outside its
+  /// range.
   explicit EndStop(const Parameters& parameters);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
                                         const SwitchModes& modes = {}) const;
 
-  /// Positive while it touches the upper stop (0), the lower stop (1).
-  [[nodiscard]] int switch_count() const { return kMaxSwitches; }
+  /// Positive while it touches a stop: the upper, then the lower, of those that
+  /// are there.
+  [[nodiscard]] int switch_count() const {
+    return static_cast<int>(has_upper()) + static_cast<int>(has_lower());
+  }
   [[nodiscard]] SwitchValue find_switch(int index,
                                         const ScalarMotion& motion) const;
 
  private:
+  [[nodiscard]] bool has_upper() const {
+    return parameters_.upper < kUnbounded;
+  }
+  [[nodiscard]] bool has_lower() const {
+    return parameters_.lower > -kUnbounded;
+  }
+
   Parameters parameters_;
 };
 

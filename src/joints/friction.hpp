@@ -8,8 +8,7 @@ namespace limber::joints {
 /// Coulomb friction, smoothed about rest, and viscous friction.
 ///
 /// Equation   force = -Fc v / sqrt(v^2 + vs^2) - c v
-/// Source     the regularised signum of contact mechanics [@wriggers2006,
-///            sec. 5.2.3]
+/// Source     the square-root regularisation of [@wriggers2006, sec. 5.2]
 /// Limits     does not stick: under a force F < Fc it creeps with
 ///            v = vs F / sqrt(Fc^2 - F^2). Where friction changes the speed by
 ///            more than vs in a step, Newton's method may not converge.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "joints/joint.hpp"
 
-#include <array>
+#include <cmath>
 #include <utility>
 
 #include "common/errors.hpp"
@@ -14,6 +14,9 @@ Joint::Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
       coordinates_(std::move(coordinates)),
       elements_(std::move(elements)) {
   LIMBER_EXPECT(std::ssize(coordinates_) <= kMaxCoordinates);
+  for (const AxisCoordinate& coordinate : coordinates_) {
+    LIMBER_EXPECT(std::abs(coordinate.axis.norm() - 1.0) < 1e-9);
+  }
   int switches = 0;
   for (const JointElement& element : elements_) {
     LIMBER_EXPECT(element.coordinate >= 0 &&

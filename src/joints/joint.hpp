@@ -27,7 +27,8 @@ class Joint {
   using Hold = std::variant<Bushing, UniversalHold>;
 
   /// @throws ContractError for more than kMaxCoordinates coordinates or
-  /// kMaxSwitches switches, or an element on a coordinate that is not there.
+  /// kMaxSwitches switches, an axis that is not a unit vector, or an element on
+  /// a coordinate that is not there.
   Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
         std::vector<JointElement> elements);
 

@@ -43,7 +43,7 @@ void check_parameters(const JointParameters& p) {
   for (const double value :
        {p.translational_stiffness, p.rotational_stiffness,
         p.translational_damping, p.rotational_damping, p.free_damping}) {
-    if (!(value >= 0.0)) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
       throw InputError(fmt::format(
           "joint: a stiffness or damping is {:g}; expected >= 0", value));
     }
@@ -157,8 +157,8 @@ Joint make_joint(JointKind kind, const Vector3& axis_F, const Vector3& second_F,
 
 Bushing make_joint_bushing(JointKind kind, const Vector3& axis_F,
                            const JointParameters& parameters) {
-  check_parameters(parameters);
   LIMBER_EXPECT(kind != JointKind::universal);
+  check_parameters(parameters);
   const Vector3 axis =
       needs_axis(kind) ? find_direction(axis_F) : Vector3(Vector3::UnitX());
   const HeldDirections held = find_held(kind, axis);

@@ -52,17 +52,20 @@ struct PlaneAxes {
 [[nodiscard]] std::vector<AxisCoordinate> find_coordinates(
     JointKind kind, const Vector3& axis_F, const Vector3& second_F);
 
-/// A joint with unit axes (those that its kind does not need are not looked
-/// at) and what acts along its coordinates.
+/// A joint and what acts along its coordinates. Axes may have any length; those
+/// that its kind does not need are not looked at.
 /// @throws InputError if an axis has no direction, the axes of a universal
-/// joint are not normal to each other, or a value is negative.
+/// joint are not normal to each other, or a value is negative or not finite.
+/// @throws ContractError as Joint does.
 [[nodiscard]] Joint make_joint(JointKind kind, const Vector3& axis_F,
                                const Vector3& second_F,
                                const JointParameters& parameters,
                                std::vector<JointElement> elements = {});
 
 /// The hold of any joint but a universal one: a bushing with the free
-/// directions left out. @throws InputError like make_joint.
+/// directions left out.
+/// @throws InputError like make_joint.
+/// @throws ContractError for a universal joint.
 [[nodiscard]] Bushing make_joint_bushing(JointKind kind, const Vector3& axis_F,
                                          const JointParameters& parameters);
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/errors.hpp"
@@ -21,8 +20,9 @@ Latch::Latch(const Parameters& parameters)
     throw InputError(fmt::format(
         "latch: its release force is {:g} N; expected > 0", p.release_force));
   }
-  if (std::isnan(p.release_time)) {
-    throw InputError("latch: its release time is not a number");
+  if (!(p.release_time > -kNever)) {
+    throw InputError(fmt::format(
+        "latch: its release time is {:g} s; expected a time", p.release_time));
   }
 }
 

@@ -14,17 +14,17 @@ namespace limber::joints {
 ///
 /// Equation   closes when |p_FM| falls to `reach`; then the bushing's, with
 ///            p_FM - p_0 and R_FM R_0^T. Opens at `release_time` or when the
-///            force exceeds `release_force`; what it stores then is lost.
+///            force of its spring exceeds `release_force`; what it stores then
+///            is lost. A latch that is released before it closes never does.
 class Latch {
  public:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   struct Parameters {
     double reach = 0.0;  ///< > 0 [m]
-    Bushing::Parameters bushing;
+    Bushing::Parameters bushing = {};
     double release_force = kNever;  ///< > 0 [N]
-    double release_time = kNever;   ///< [s]
+    double release_time = kNever;   ///< > -infinity [s]
   };
-  static constexpr int kMaxSwitches = 2;
 
   /// @throws InputError for a value outside its range.
   explicit Latch(const Parameters& parameters);
@@ -35,6 +35,7 @@ class Latch {
 
   /// Rises through zero: when the latch closes (0, while it is open) or gives
   /// way (0, while it is closed); at its release time (1).
+  [[nodiscard]] static int switch_count() { return 2; }
   [[nodiscard]] SwitchValue find_switch(int index, const RelativeMotion& motion,
                                         const CouplerMemory& memory,
                                         double t) const;

@@ -18,6 +18,9 @@ struct RelativeMotion {
 /// opposite force acts on F along the same line. Derivatives are with respect
 /// to the increments (dp_FM_F, dphi_F) with dR_FM = skew(dphi_F) R_FM, and to
 /// (v_FM_F, w_FM_F).
+///
+/// Equation   supplied = d energy / dt + dissipation
+///                       + wrench . (v_FM_F, w_FM_F)
 struct CouplerResponse {
   Vector6 wrench = Vector6::Zero();     ///< [N, N m]
   double energy = 0.0;                  ///< [J]

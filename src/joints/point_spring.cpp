@@ -21,7 +21,7 @@ LineMotion find_line(const RelativeMotion& motion, double shortest) {
   if (!(length > shortest)) {
     throw NumericalError(fmt::format(
         "point spring: its ends coincide, so its direction has no meaning; "
-        "use a free length of 0 or a bushing (length {:g} m)",
+        "use a free length of 0 and no table, or a bushing (length {:g} m)",
         length));
   }
   const Vector3 e = motion.p_FM_F / length;
@@ -32,13 +32,15 @@ LineMotion find_line(const RelativeMotion& motion, double shortest) {
 
 PointSpring::PointSpring(const Parameters& parameters)
     : parameters_(parameters),
-      line_({.curve = SpringCurve({parameters.stiffness, parameters.quadratic,
-                                   parameters.extensions, parameters.forces}),
+      line_({.curve = SpringCurve({.stiffness = parameters.stiffness,
+                                   .quadratic = parameters.quadratic,
+                                   .extensions = parameters.extensions,
+                                   .forces = parameters.forces}),
              .damping = parameters.damping,
              .rest = parameters.free_length,
              .tension_only = parameters.tension_only}),
       has_no_length_(parameters.free_length == 0.0 &&
-                     parameters.forces.empty()) {
+                     parameters.forces.empty() && !parameters.tension_only) {
   if (!(parameters.free_length >= 0.0)) {
     throw InputError(
         fmt::format("point spring: free length is {:g} m; expected >= 0",
@@ -69,6 +71,10 @@ CouplerResponse PointSpring::evaluate_without_length(
 CouplerResponse PointSpring::evaluate(const RelativeMotion& motion,
                                       SwitchMode mode) const {
   if (has_no_length_) return evaluate_without_length(motion);
+  if (parameters_.tension_only &&
+      !is_on(mode, motion.p_FM_F.norm() > parameters_.free_length)) {
+    return {};
+  }
   const LineMotion line =
       find_line(motion, kMinLengthRatio * parameters_.free_length);
   const ScalarResponse scalar = line_.evaluate(line.scalar, {mode, {}});

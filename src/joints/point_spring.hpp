@@ -12,10 +12,11 @@ namespace limber::joints {
 ///
 /// Equation   f on M = -(f(s) + c ldot) e, s = l - l0, l = |p_FM|,
 ///            e = p_FM / l, with SpringCurve's f; dissipation c ldot^2.
-///            With l0 = 0 and without a table it is smooth everywhere, and its
-///            damper acts on all of v: dissipation c v' v.
+///            With l0 = 0, without a table and not tension-only it is smooth
+///            everywhere, and its damper acts on all of v: dissipation c v' v.
 /// Source     elementary; f = k2 s |s| is the report's connection.
-/// Limits     otherwise the direction e has no meaning at l = 0.
+/// Limits     otherwise the direction e has no meaning at l = 0, unless a line
+///            is slack there.
 class PointSpring {
  public:
   struct Parameters {

@@ -24,11 +24,6 @@ int switch_count(const ScalarLaw& law) {
       law);
 }
 
-SwitchKind switch_kind(const ScalarLaw& law) {
-  return std::holds_alternative<EndStop>(law) ? SwitchKind::stop
-                                              : SwitchKind::tension;
-}
-
 SwitchValue find_switch(const ScalarLaw& law, int index,
                         const ScalarMotion& motion) {
   return std::visit(Overloaded{[&](const ScalarSpring& spring) {

@@ -19,16 +19,12 @@ using ScalarLaw = std::variant<ScalarSpring, Friction, EndStop, Drive>;
                                       const Instant& now,
                                       const SwitchModes& modes = {});
 
-/// What a change of sign of a law's switch means.
-enum class SwitchKind { stop, tension };
-
-/// How many switches a law has, and one of them.
+/// How many switches a law has, and one of them by its index below this.
 [[nodiscard]] int switch_count(const ScalarLaw& law);
-[[nodiscard]] SwitchKind switch_kind(const ScalarLaw& law);
 [[nodiscard]] SwitchValue find_switch(const ScalarLaw& law, int index,
                                       const ScalarMotion& motion);
 
-/// Times at which a law's command jumps, increasing [s].
+/// Times at which a law's command or a derivative of it jumps, increasing [s].
 [[nodiscard]] std::vector<double> break_times(const ScalarLaw& law);
 
 }  // namespace limber::joints

@@ -5,23 +5,23 @@
 
 namespace limber::joints {
 
-/// A coordinate z of a coupler: an angle [rad], a distance or a path's length
-/// [m], and its rate.
+/// A coordinate z of a coupler: an angle, a distance or a path's length, and
+/// its rate.
 struct ScalarMotion {
-  double z = 0.0;
-  double rate = 0.0;
+  double z = 0.0;     ///< [rad or m]
+  double rate = 0.0;  ///< [rad/s or m/s]
 };
 
-/// What a scalar law answers. In units of z: force [N] or moment [N m].
+/// What a scalar law answers.
 ///
 /// Equation   supplied = d energy / dt + dissipation + force rate
 struct ScalarResponse {
-  double force = 0.0;        ///< pushes z up
+  double force = 0.0;        ///< pushes z up [N or N m]
   double energy = 0.0;       ///< [J]
   double dissipation = 0.0;  ///< >= 0 [W]
   double supplied = 0.0;     ///< power that a drive puts in [W]
-  double stiffness = 0.0;    ///< -d force / d z
-  double damping = 0.0;      ///< -d force / d rate
+  double stiffness = 0.0;    ///< -d force / d z [N/m or N m/rad]
+  double damping = 0.0;      ///< -d force / d rate [N s/m or N m s/rad]
 
   ScalarResponse& operator+=(const ScalarResponse& other) {
     force += other.force;
@@ -46,10 +46,11 @@ using SwitchModes = std::array<SwitchMode, kMaxScalarSwitches>;
   return mode == SwitchMode::by_motion ? by_motion : mode == SwitchMode::on;
 }
 
-/// A function of the motion whose change of sign is an event, and its rate.
+/// A function of the motion whose change of sign is an event, in a unit of its
+/// own.
 struct SwitchValue {
   double value = 0.0;
-  double rate = 0.0;
+  double rate = 0.0;  ///< d value / dt
 };
 
 }  // namespace limber::joints

@@ -18,6 +18,13 @@ ScalarSpring::ScalarSpring(const Parameters& parameters)
   if (!std::isfinite(parameters.rest)) {
     throw InputError("spring: where it rests is not finite");
   }
+  const double push = -parameters.curve.evaluate(0.0).force;
+  if (parameters.tension_only && push > 0.0) {
+    throw InputError(fmt::format(
+        "spring: it only pulls, but its table pushes with {:g} at extension 0; "
+        "expected a force >= 0 there",
+        push));
+  }
 }
 
 ScalarResponse ScalarSpring::evaluate(const ScalarMotion& motion,

@@ -10,17 +10,18 @@ namespace limber::joints {
 ///
 /// Equation   force = -(f(s) + c rate), s = z - rest; dissipation c rate^2.
 ///            Tension-only: force = -max(0, f(s) + c rate) for s > 0, else 0;
-///            what the spring stores and a slack line does not pass on is
+///            what the spring gives back faster than the line moves is
 ///            dissipated.
+/// Limits     tension-only with damping, the force jumps by c rate where the
+///            line becomes taut or slack.
 class ScalarSpring {
  public:
   struct Parameters {
-    SpringCurve curve;
-    double damping = 0.0;  ///< c >= 0 [N s/m or N m s/rad]
-    double rest = 0.0;     ///< [m or rad]
-    bool tension_only = false;
+    SpringCurve curve = {};
+    double damping = 0.0;       ///< c >= 0 [N s/m or N m s/rad]
+    double rest = 0.0;          ///< [m or rad]
+    bool tension_only = false;  ///< f(0) >= 0 then
   };
-  static constexpr int kMaxSwitches = 1;
 
   /// @throws InputError for a value outside its range.
   explicit ScalarSpring(const Parameters& parameters);

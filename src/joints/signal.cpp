@@ -15,9 +15,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// The same break reached by other sums: some roundings of seconds apart.
+bool is_same(double t, double time) {
+  constexpr double kRoundoff = 1e-14;
+  return std::abs(t - time) <= kRoundoff * (1.0 + std::abs(time));
+}
+
 // Whether `now` is past `time`: a time on it counts by its side.
 bool is_past(const Instant& now, double time) {
-  return now.t > time || (now.t == time && now.side == Side::right);
+  return is_same(now.t, time) ? now.side == Side::right : now.t > time;
 }
 
 // Progress from 0 to 1 and its rate, at the share `s` of the duration.
@@ -40,8 +46,7 @@ SignalValue find_progress(const RampSignal& ramp, double s) {
   return {s, 1.0};
 }
 
-// Each with all its times later by `delay`, added as break_times adds it, so
-// that a time on a break is seen as such.
+// Each with all its times later by `delay`.
 SignalValue evaluate_base(const ConstantSignal& signal, const Instant& /*now*/,
                           double /*delay*/) {
   return {signal.value, 0.0};
@@ -197,14 +202,15 @@ std::vector<double> break_times(const Signal& signal) {
     }
   }
   std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
+  times.erase(std::unique(times.begin(), times.end(), is_same), times.end());
   return times;
 }
 
 SignalValue find_largest(const Signal& signal) {
   double shares = 0.0;
-  for (const Impulse& impulse : signal.shaper)
+  for (const Impulse& impulse : signal.shaper) {
     shares += std::abs(impulse.share);
+  }
   const SignalValue base = base_largest(signal);
   return {shares * base.value, shares * base.rate};
 }

@@ -64,16 +64,20 @@ struct SignalValue {
   double rate = 0.0;  ///< per second
 };
 
+/// A time within round-off of a break counts by its side.
 [[nodiscard]] SignalValue evaluate(const Signal& signal, const Instant& now);
 
-/// Times at which the value, the rate or the rate's rate jumps, increasing [s].
+/// Times at which the value or a derivative of it jumps, increasing and further
+/// apart than round-off [s].
 [[nodiscard]] std::vector<double> break_times(const Signal& signal);
 
-/// Largest magnitude of the value and of the rate over all time.
+/// Bounds on the magnitude of the value and of the rate over all time: reached
+/// without a shaper; with one, the base's times the sum of |share|.
 [[nodiscard]] SignalValue find_largest(const Signal& signal);
 
-/// @throws InputError for a value that is not finite, a duration <= 0, times
-/// that do not increase, shares that do not sum to one, a negative delay.
+/// @throws InputError for a value that is not finite, a duration or frequency
+/// <= 0, a rise outside (0, 1/2], a table that is empty or whose times do not
+/// increase, shares that do not sum to one, a negative delay.
 void check(const Signal& signal);
 
 /// How robust a shaper is against a wrong frequency.
@@ -87,8 +91,7 @@ enum class ShaperKind {
 /// Equation   K = exp(-zeta pi / sqrt(1 - zeta^2)), spaced by half of the
 ///            damped period; shares (1, K) / (1 + K) or
 ///            (1, 2 K, K^2) / (1 + K)^2
-/// Source     Singer and Seering, "Preshaping command inputs to reduce system
-///            vibration", J. Dyn. Syst. Meas. Control 112, 1990.
+/// Source     [@singer1990]
 /// @param frequency undamped natural frequency > 0 [Hz]
 /// @param ratio damping ratio in [0, 1) [-]
 /// @throws InputError for values outside their range.

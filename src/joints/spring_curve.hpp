@@ -9,21 +9,22 @@ namespace limber::joints {
 /// moment [N m] by angle [rad].
 ///
 /// Equation   f = k s + k2 s |s|,  E = k s^2 / 2 + k2 |s|^3 / 3,
-///            or linear between the points of a table, on outside them with
-///            the slope of its ends, and E the integral from s = 0
+///            plus, of a table: linear between its points, on outside them
+///            with the slopes of its ends, and E the integral from s = 0
 /// Source     quadratic: the report's connection f = -K x^2
 class SpringCurve {
  public:
   struct Parameters {
-    double stiffness = 0.0;           ///< k >= 0
-    double quadratic = 0.0;           ///< k2 >= 0
-    std::vector<double> extensions;   ///< of a table, increasing
-    std::vector<double> forces = {};  ///< none or two or more, not decreasing
+    double stiffness = 0.0;  ///< k >= 0 [N/m or N m/rad]
+    double quadratic = 0.0;  ///< k2 >= 0 [N/m^2 or N m/rad^2]
+    /// Of a table, increasing; none, or two or more [m or rad].
+    std::vector<double> extensions = {};
+    std::vector<double> forces = {};  ///< not decreasing [N or N m]
   };
   struct Point {
-    double force = 0.0;
+    double force = 0.0;   ///< [N or N m]
     double energy = 0.0;  ///< [J]
-    double slope = 0.0;   ///< d force / d s
+    double slope = 0.0;   ///< d force / d s [N/m or N m/rad]
   };
 
   SpringCurve() = default;
@@ -34,7 +35,7 @@ class SpringCurve {
   [[nodiscard]] Point evaluate(double extension) const;
 
  private:
-  // Up to a constant.
+  // Its energy up to a constant.
   [[nodiscard]] Point evaluate_table(double extension) const;
 
   Parameters parameters_;

@@ -42,7 +42,7 @@ std::string_view to_string(EventKind kind) {
 }
 
 int switch_count(const CouplerLaw& law) {
-  if (std::holds_alternative<Latch>(law)) return Latch::kMaxSwitches;
+  if (std::holds_alternative<Latch>(law)) return Latch::switch_count();
   if (const auto* spring = std::get_if<PointSpring>(&law)) {
     return spring->switch_count();
   }
@@ -58,6 +58,7 @@ int switch_count(const CouplerLaw& law) {
 SwitchValue find_switch(const CouplerLaw& law, int index,
                         const RelativeMotion& motion,
                         const CouplerMemory& memory, double t) {
+  LIMBER_EXPECT(index >= 0 && index < switch_count(law));
   if (const auto* latch = std::get_if<Latch>(&law)) {
     return latch->find_switch(index, motion, memory, t);
   }
@@ -73,7 +74,7 @@ SwitchValue find_switch(const CouplerLaw& law, int index,
 }
 
 EventKind find_event(const ScalarLaw& law, bool rises) {
-  if (switch_kind(law) == SwitchKind::stop) {
+  if (std::holds_alternative<EndStop>(law)) {
     return rises ? EventKind::stop_reached : EventKind::stop_left;
   }
   return rises ? EventKind::taut : EventKind::slack;
@@ -81,6 +82,7 @@ EventKind find_event(const ScalarLaw& law, bool rises) {
 
 std::optional<EventKind> find_event(const CouplerLaw& law, int index,
                                     bool rises, const CouplerMemory& memory) {
+  LIMBER_EXPECT(index >= 0 && index < switch_count(law));
   if (std::holds_alternative<Latch>(law)) {
     if (!rises) return std::nullopt;
     return index == 0 && memory.latch == LatchStatus::open
@@ -94,12 +96,11 @@ std::optional<EventKind> find_event(const CouplerLaw& law, int index,
                     rises);
 }
 
-bool update_memory(const CouplerLaw& law, int index,
+void update_memory(const CouplerLaw& law, int index,
                    const RelativeMotion& motion, CouplerMemory& memory) {
-  const auto* latch = std::get_if<Latch>(&law);
-  if (latch == nullptr) return false;
-  latch->update(index, motion, memory);
-  return true;
+  if (const auto* latch = std::get_if<Latch>(&law)) {
+    latch->update(index, motion, memory);
+  }
 }
 
 }  // namespace limber::joints

@@ -22,19 +22,22 @@ enum class EventKind {
 
 /// How many switches a law has; each is found by its index below this.
 [[nodiscard]] int switch_count(const CouplerLaw& law);
+/// @param t time [s]
+/// @throws ContractError for an index that is not below the count.
+/// @throws NumericalError as AxisCoordinate does.
 [[nodiscard]] SwitchValue find_switch(const CouplerLaw& law, int index,
                                       const RelativeMotion& motion,
                                       const CouplerMemory& memory, double t);
 
 /// What it means that a switch's sign changes, if anything.
+/// @param memory that before the change
 [[nodiscard]] std::optional<EventKind> find_event(const CouplerLaw& law,
                                                   int index, bool rises,
                                                   const CouplerMemory& memory);
 [[nodiscard]] EventKind find_event(const ScalarLaw& law, bool rises);
 
 /// Changes what the coupler remembers, after switch `index` rose.
-/// @returns whether its wrench may have jumped.
-bool update_memory(const CouplerLaw& law, int index,
+void update_memory(const CouplerLaw& law, int index,
                    const RelativeMotion& motion, CouplerMemory& memory);
 
 }  // namespace limber::joints

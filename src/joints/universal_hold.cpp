@@ -28,9 +28,9 @@ UniversalHold::UniversalHold(const Parameters& parameters)
   const double cosine = p.axis_F.dot(p.axis_M) / lengths;
   if (!(std::abs(cosine) < kNormal)) {
     throw InputError(fmt::format(
-        "universal joint: its axes are not normal to each other (their angle "
-        "has the cosine {:g})",
-        cosine));
+        "universal joint: its axes are not normal to each other (the cosine of "
+        "their angle is {:g}; expected less than {:g})",
+        cosine, kNormal));
   }
   p.axis_F.normalize();
   p.axis_M.normalize();

@@ -10,12 +10,14 @@ namespace limber::joints {
 ///
 /// Equation   V = kt p' p / 2 + kr s^2 / 2, s = a . R_FM b;
 ///            dissipation ct v' v + cr sdot^2
-/// Source     the constraint of a cross with compliance
+/// Source     the constraint of a cross, with compliance
+/// Limits     the moment is that of a sine: a tilt of pi / 2 of b towards a is
+///            an unstable equilibrium.
 class UniversalHold {
  public:
   struct Parameters {
-    Vector3 axis_F = Vector3::UnitX();     ///< a, unit
-    Vector3 axis_M = Vector3::UnitY();     ///< b, unit, normal to a at rest
+    Vector3 axis_F = Vector3::UnitX();     ///< a, made a unit vector
+    Vector3 axis_M = Vector3::UnitY();     ///< b, likewise, normal to a
     double translational_stiffness = 0.0;  ///< kt >= 0 [N/m]
     double rotational_stiffness = 0.0;     ///< kr >= 0 [N m/rad]
     double translational_damping = 0.0;    ///< ct >= 0 [N s/m]
