@@ -1,237 +1,228 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every law keeps the same contract; a new law joins by one line in `laws`.
+// Every law keeps the same contract; a new law joins by one line in
+// coupler_cases.cpp.
 #include "joints/coupler_law.hpp"
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include <cctype>
 
-#include "common/errors.hpp"
 #include "common/rotation.hpp"
-#include "joints/joint_kind.hpp"
+#include "support/differences.hpp"
+#include "unit/joints/coupler_cases.hpp"
 
 namespace limber::joints {
 namespace {
 
-constexpr double kDifferenceError = 1e-6;  // of central differences, relative
-constexpr double kStep = 1e-6;
+using testing::carried;
+using testing::CouplerCase;
+using testing::differentiate;
+using testing::Ends;
+using testing::exchanged;
+using testing::hastened;
+using testing::kAfterwards;
+using testing::kMidway;
+using testing::Margin;
+using testing::moved;
+using testing::Parts;
+using testing::random_memory;
+using testing::random_motion;
+using testing::random_vector;
+using testing::stilled;
+using testing::turned;
+using testing::velocity_of;
 
-struct NamedLaw {
-  const char* name;
-  CouplerLaw law;
-};
+constexpr int kTrials = 40;
+constexpr double kEnergyDifference = 1e-8;
+constexpr double kForceDifference = 1e-6;
+constexpr double kRoundoff = 1e-12;
 
-Matrix3 random_semidefinite(std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Matrix3 a;
-  for (double& x : a.reshaped()) x = uniform(random);
-  return 50.0 * a * a.transpose();
-}
-
-std::vector<NamedLaw> laws() {
-  std::mt19937 random(7);
-  const JointParameters stiff{.translational_stiffness = 300.0,
-                              .rotational_stiffness = 40.0,
-                              .translational_damping = 3.0,
-                              .rotational_damping = 0.4,
-                              .free_damping = 0.2};
-  const Vector3 axis = Vector3(1.0, -2.0, 0.5).normalized();
-  return {
-      {"bushing",
-       Bushing({random_semidefinite(random), random_semidefinite(random),
-                random_semidefinite(random), random_semidefinite(random)})},
-      {"fixed", make_joint_bushing(JointKind::fixed, axis, stiff)},
-      {"revolute", make_joint_bushing(JointKind::revolute, axis, stiff)},
-      {"prismatic", make_joint_bushing(JointKind::prismatic, axis, stiff)},
-      {"planar", make_joint_bushing(JointKind::planar, axis, stiff)},
-      {"spring",
-       PointSpring({.stiffness = 200.0, .damping = 3.0, .free_length = 0.7})},
-      {"spring without length",
-       PointSpring({.stiffness = 200.0, .damping = 3.0})},
-  };
-}
-
-RelativeMotion random_motion(std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto vector = [&] {
-    return Vector3(uniform(random), uniform(random), uniform(random));
-  };
-  RelativeMotion motion;
-  motion.R_FM = exp_rotation(3.0 * vector().normalized());
-  motion.p_FM_F = vector();
-  motion.v_FM_F = vector();
-  motion.w_FM_F = vector();
-  return motion;
-}
-
-RelativeMotion moved(const RelativeMotion& motion, int direction, double by) {
-  RelativeMotion m = motion;
-  if (direction < 3) {
-    m.p_FM_F[direction] += by;
-  } else {
-    m.R_FM = exp_rotation(by * Vector3::Unit(direction - 3)) * m.R_FM;
-  }
-  return m;
-}
-
-class CouplerLaws : public ::testing::TestWithParam<NamedLaw> {
+class CouplerLaws : public ::testing::TestWithParam<CouplerCase> {
  protected:
-  std::mt19937 random_{11};
-};
+  // A random motion, and what a coupler may remember there.
+  void draw() {
+    motion_ = random_motion(GetParam().freedom, random_);
+    memory_ = random_memory(law_, motion_, random_);
+  }
 
-TEST_P(CouplerLaws, ForceIsMinusEnergyGradient) {
-  double largest = 0.0;
-  for (int trial = 0; trial < 20; ++trial) {
-    RelativeMotion motion = random_motion(random_);
-    motion.v_FM_F.setZero();
-    motion.w_FM_F.setZero();
-    const CouplerResponse at = evaluate(GetParam().law, motion);
-    for (int i = 0; i < 6; ++i) {
-      const double gradient =
-          (evaluate(GetParam().law, moved(motion, i, kStep)).energy -
-           evaluate(GetParam().law, moved(motion, i, -kStep)).energy) /
-          (2.0 * kStep);
-      EXPECT_NEAR(at.wrench[i], -gradient,
-                  kDifferenceError * (1.0 + at.wrench.norm()));
-      largest = std::max(largest, std::abs(gradient));
+  // A law of these parts alone has nothing to compare, any other something.
+  static void expect(const Margin& margin, double tolerance, Parts parts) {
+    if (GetParam().parts == parts) {
+      EXPECT_EQ(margin.largest(), 0.0);
+    } else {
+      margin.expect_below(tolerance);
     }
   }
-  EXPECT_GT(largest, 1.0);  // the law does something
+
+  std::mt19937 random_{11};
+  CouplerLaw law_ = GetParam().law();
+  RelativeMotion motion_;
+  CouplerMemory memory_;
+};
+
+TEST_P(CouplerLaws, ForceIsMinusEnergyGradientWhenNothingMoves) {
+  Margin margin;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    draw();
+    const RelativeMotion still = stilled(motion_);
+    const CouplerResponse at = evaluate(law_, still, memory_, kAfterwards);
+    for (int i = 0; i < 6; ++i) {
+      const double gradient = differentiate([&](double by) {
+        return evaluate(law_, moved(still, i, by), memory_, kAfterwards).energy;
+      });
+      margin.add(std::abs(at.wrench[i] + gradient), at.wrench.norm());
+    }
+    EXPECT_EQ(at.dissipation, 0.0);
+    EXPECT_EQ(at.supplied, 0.0);
+  }
+  expect(margin, kEnergyDifference, Parts::damper);
 }
 
 TEST_P(CouplerLaws, StiffnessIsMinusForceDerivative) {
-  for (int trial = 0; trial < 20; ++trial) {
-    const RelativeMotion motion = random_motion(random_);
-    const Matrix6 K = evaluate(GetParam().law, motion).stiffness;
+  Margin margin;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    draw();
+    const CouplerResponse at = evaluate(law_, motion_, memory_, kMidway);
     for (int i = 0; i < 6; ++i) {
-      const Vector6 column =
-          -(evaluate(GetParam().law, moved(motion, i, kStep)).wrench -
-            evaluate(GetParam().law, moved(motion, i, -kStep)).wrench) /
-          (2.0 * kStep);
-      EXPECT_LT((K.col(i) - column).norm(), kDifferenceError * (1 + K.norm()));
+      const Vector6 column = differentiate([&](double by) {
+        return evaluate(law_, moved(motion_, i, by), memory_, kMidway).wrench;
+      });
+      margin.add((at.stiffness.col(i) + column).norm(), at.stiffness.norm());
     }
   }
+  expect(margin, kForceDifference, Parts::damper);
 }
 
 TEST_P(CouplerLaws, DampingIsMinusForceDerivativeByVelocity) {
-  for (int trial = 0; trial < 5; ++trial) {
-    const RelativeMotion motion = random_motion(random_);
-    const Matrix6 C = evaluate(GetParam().law, motion).damping;
+  Margin margin;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    draw();
+    const CouplerResponse at = evaluate(law_, motion_, memory_, kMidway);
     for (int i = 0; i < 6; ++i) {
-      const auto pushed = [&](double by) {
-        RelativeMotion m = motion;
-        (i < 3 ? m.v_FM_F[i] : m.w_FM_F[i - 3]) += by;
-        return evaluate(GetParam().law, m).wrench;
-      };
-      const Vector6 column = -(pushed(kStep) - pushed(-kStep)) / (2.0 * kStep);
-      EXPECT_LT((C.col(i) - column).norm(), kDifferenceError * (1 + C.norm()));
+      const Vector6 column = differentiate([&](double by) {
+        return evaluate(law_, hastened(motion_, i, by), memory_, kMidway)
+            .wrench;
+      });
+      margin.add((at.damping.col(i) + column).norm(), at.damping.norm());
     }
   }
+  expect(margin, kForceDifference, Parts::spring);
 }
 
-TEST_P(CouplerLaws, DissipationIsPowerOfTheVelocityPartAndNeverNegative) {
-  for (int trial = 0; trial < 20; ++trial) {
-    const RelativeMotion motion = random_motion(random_);
-    RelativeMotion still = motion;
-    still.v_FM_F.setZero();
-    still.w_FM_F.setZero();
-    const CouplerResponse moving = evaluate(GetParam().law, motion);
-    const Vector6 damper =
-        moving.wrench - evaluate(GetParam().law, still).wrench;
-    const double power = damper.head<3>().dot(motion.v_FM_F) +
-                         damper.tail<3>().dot(motion.w_FM_F);
-    EXPECT_NEAR(moving.dissipation, -power, 1e-12 * (1.0 + std::abs(power)));
-    EXPECT_GE(moving.dissipation, 0.0);
+TEST_P(CouplerLaws, WhatIsSuppliedIsStoredDissipatedOrPassedOn) {
+  Margin margin;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    draw();
+    const CouplerResponse at = evaluate(law_, motion_, memory_, kMidway);
+    const double stored = differentiate([&](double by) {
+      return evaluate(law_, carried(motion_, by), memory_, {kMidway.t + by})
+          .energy;
+    });
+    const double passed_on = at.wrench.dot(velocity_of(motion_));
+    const double rest = at.supplied - stored - at.dissipation - passed_on;
+    margin.add(std::abs(rest), std::abs(passed_on));
+  }
+  margin.expect_below(kEnergyDifference);
+}
+
+TEST_P(CouplerLaws, DissipationIsNeverNegative) {
+  double largest = 0.0;
+  for (int trial = 0; trial < 25 * kTrials; ++trial) {
+    draw();
+    const double power = evaluate(law_, motion_, memory_, kMidway).dissipation;
+    EXPECT_GE(power, 0.0);
+    largest = std::max(largest, power);
+  }
+  if (GetParam().parts == Parts::spring) {
+    EXPECT_EQ(largest, 0.0);
+  } else {
+    EXPECT_GT(largest, 1e-2);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, CouplerLaws, ::testing::ValuesIn(laws()),
+TEST_P(CouplerLaws, TurnedAxesTurnTheWrench) {
+  Margin margin;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    draw();
+    const Matrix3 Q = exp_rotation(3.0 * random_vector(random_));
+    const CouplerResponse at = evaluate(law_, motion_, memory_, kMidway);
+    CouplerMemory memory = memory_;
+    memory.X_FM = {Q * memory.X_FM.R * Q.transpose(), Q * memory.X_FM.p};
+    const CouplerResponse other =
+        evaluate(GetParam().make(Q), turned(motion_, Q), memory, kMidway);
+    Vector6 expected;
+    expected << Q * at.wrench.head<3>(), Q * at.wrench.tail<3>();
+    const double scale = at.wrench.norm() + at.energy + at.dissipation;
+    margin.add((other.wrench - expected).norm(), scale);
+    margin.add(std::abs(other.energy - at.energy), scale);
+    margin.add(std::abs(other.dissipation - at.dissipation), scale);
+    margin.add(std::abs(other.supplied - at.supplied), scale);
+  }
+  margin.expect_below(kRoundoff);
+}
+
+TEST_P(CouplerLaws, NoForceAtRest) {
+  const RelativeMotion& rest = GetParam().rest;
+  memory_.latch = LatchStatus::closed;
+  memory_.X_FM = {rest.R_FM, rest.p_FM_F};
+  const CouplerResponse at = evaluate(law_, rest, memory_, kAfterwards);
+  EXPECT_LT(at.wrench.norm(), 1e-13);
+  EXPECT_LT(std::abs(at.energy), 1e-15);
+  EXPECT_EQ(at.dissipation, 0.0);
+}
+
+TEST_P(CouplerLaws, EitherEndSeesTheSamePhysicsIfTheLawSaysSo) {
+  Margin margin;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    draw();
+    memory_.near = {};
+    if (GetParam().ends == Ends::same_at_rest) motion_ = stilled(motion_);
+    const CouplerResponse at = evaluate(law_, motion_, memory_, kAfterwards);
+    const CouplerResponse other =
+        evaluate(law_, exchanged(motion_), memory_, kAfterwards);
+    // The reaction on F at Fo, in M.
+    const Vector3 force = at.wrench.head<3>();
+    const Vector3 moment = at.wrench.tail<3>();
+    Vector6 expected;
+    expected << -motion_.R_FM.transpose() * force,
+        -motion_.R_FM.transpose() * (moment + motion_.p_FM_F.cross(force));
+    const double scale = at.wrench.norm() + at.energy + at.dissipation;
+    margin.add((other.wrench - expected).norm(), scale);
+    margin.add(std::abs(other.energy - at.energy), scale);
+    margin.add(std::abs(other.dissipation - at.dissipation), scale);
+  }
+  if (GetParam().ends == Ends::differ) {
+    EXPECT_GT(margin.worst(), 1e-3);
+  } else {
+    margin.expect_below(kRoundoff);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, CouplerLaws,
+                         ::testing::ValuesIn(testing::coupler_cases()),
                          [](const auto& instance) {
                            std::string name;
-                           for (const char c :
-                                std::string(instance.param.name)) {
-                             if (c != ' ') name += c;
+                           for (const char c : instance.param.name) {
+                             if (std::isalnum(c) != 0) name += c;
                            }
                            return name;
                          });
 
-TEST(JointBushing, RevoluteIsFreeThroughManyTurns) {
-  const Vector3 axis = Vector3(0.0, 0.6, 0.8);
-  const Bushing hinge = make_joint_bushing(
-      JointKind::revolute, axis,
-      {.translational_stiffness = 1e9, .rotational_stiffness = 1e7});
-  for (double angle = -700.0; angle < 700.0; angle += 7.3) {
-    RelativeMotion motion;
-    motion.R_FM = exp_rotation(angle * axis);
-    const CouplerResponse r = hinge.evaluate(motion);
-    // Round-off of a rotation matrix times the stiffness.
-    EXPECT_LT(r.wrench.norm(), 1e7 * 1e-14);
-    EXPECT_LT(std::abs(r.energy), 1e7 * 1e-14);
+TEST(CouplerLaws, AUniversalJointSeenFromItsOtherEndHasItsAxesExchanged) {
+  const Vector3 a = Vector3(1.0, 2.0, 2.0) / 3.0;
+  const Vector3 b = Vector3(2.0, 1.0, -2.0) / 3.0;
+  const JointParameters stiff{.translational_stiffness = 300.0,
+                              .rotational_stiffness = 40.0};
+  const Joint joint = make_joint(JointKind::universal, a, b, stiff);
+  const Joint other = make_joint(JointKind::universal, b, a, stiff);
+  std::mt19937 random(5);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const RelativeMotion m = random_motion(JointKind::ball, random);
+    const CouplerResponse at = joint.evaluate(m, {}, {});
+    const CouplerResponse seen = other.evaluate(exchanged(m), {}, {});
+    EXPECT_GT(at.energy, 1e-6);
+    EXPECT_NEAR(seen.energy, at.energy, 1e-13 * (1.0 + at.energy));
   }
-}
-
-TEST(JointBushing, TiltOfARevoluteIsHeldWithItsStiffness) {
-  const Bushing hinge = make_joint_bushing(
-      JointKind::revolute, Vector3::UnitZ(), {.rotational_stiffness = 500.0});
-  RelativeMotion motion;
-  motion.R_FM = exp_rotation(1e-5 * Vector3::UnitX()) *
-                exp_rotation(2.0 * Vector3::UnitZ());
-  const CouplerResponse r = hinge.evaluate(motion);
-  EXPECT_NEAR(r.wrench[3], -500.0 * 1e-5, 1e-10);
-  EXPECT_NEAR(r.energy, 0.5 * 500.0 * 1e-10, 1e-14);
-}
-
-TEST(JointBushing, PrismaticHoldsAllButItsAxis) {
-  const Bushing slider = make_joint_bushing(
-      JointKind::prismatic, Vector3::UnitX(),
-      {.translational_stiffness = 10.0, .rotational_stiffness = 10.0});
-  RelativeMotion motion;
-  motion.p_FM_F = Vector3(5.0, 1.0, 2.0);
-  EXPECT_EQ(Vector3(slider.evaluate(motion).wrench.head<3>()),
-            Vector3(0.0, -10.0, -20.0));
-}
-
-TEST(JointBushing, PlanarHoldsNormalTranslationAndTilt) {
-  const Bushing plane = make_joint_bushing(
-      JointKind::planar, Vector3::UnitZ(),
-      {.translational_stiffness = 10.0, .rotational_stiffness = 10.0});
-  RelativeMotion motion;
-  motion.p_FM_F = Vector3(5.0, 1.0, 2.0);
-  motion.R_FM = exp_rotation(1.0 * Vector3::UnitZ());
-  const Vector6 wrench = plane.evaluate(motion).wrench;
-  EXPECT_EQ(Vector3(wrench.head<3>()), Vector3(0.0, 0.0, -20.0));
-  EXPECT_LT(wrench.tail<3>().norm(), 1e-14);
-}
-
-TEST(JointBushing, FloatingHoldsNothing) {
-  const Bushing free = make_joint_bushing(JointKind::floating, Vector3::Zero(),
-                                          {.translational_stiffness = 10.0});
-  RelativeMotion motion;
-  motion.p_FM_F = Vector3(5.0, 1.0, 2.0);
-  EXPECT_EQ(free.evaluate(motion).wrench.norm(), 0.0);
-}
-
-TEST(Laws, RefuseParametersOutOfRange) {
-  EXPECT_THROW(PointSpring({.stiffness = -1.0}), InputError);
-  EXPECT_THROW(PointSpring({.stiffness = 1.0, .free_length = -1.0}),
-               InputError);
-  EXPECT_THROW(Bushing({.translational_stiffness = -Matrix3::Identity()}),
-               InputError);
-  Matrix3 skewed = Matrix3::Identity();
-  skewed(0, 1) = 0.5;
-  EXPECT_THROW(Bushing({.rotational_stiffness = skewed}), InputError);
-  EXPECT_THROW(static_cast<void>(make_joint_bushing(JointKind::revolute,
-                                                    Vector3::Zero(), {})),
-               InputError);
-  EXPECT_THROW(
-      static_cast<void>(make_joint_bushing(JointKind::fixed, Vector3::UnitX(),
-                                           {.translational_stiffness = -5.0})),
-      InputError);
-}
-
-TEST(PointSpring, EndsThatCoincideHaveNoDirection) {
-  const PointSpring spring({.stiffness = 1.0, .free_length = 1.0});
-  EXPECT_THROW(static_cast<void>(spring.evaluate({})), NumericalError);
 }
 
 }  // namespace
