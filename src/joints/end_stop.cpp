@@ -60,8 +60,7 @@ ScalarResponse EndStop::evaluate(const ScalarMotion& motion,
 }
 
 SwitchValue EndStop::find_switch(int index, const ScalarMotion& motion) const {
-  if (index == 0 && has_upper())
-    return {motion.z - parameters_.upper, motion.rate};
+  if (index == 0) return {motion.z - parameters_.upper, motion.rate};
   return {parameters_.lower - motion.z, -motion.rate};
 }
 

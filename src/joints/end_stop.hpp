@@ -31,22 +31,13 @@ class EndStop {
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
                                         const SwitchModes& modes = {}) const;
 
-  /// Positive while it touches a stop: the upper, then the lower, of those that
-  /// are there.
-  [[nodiscard]] int switch_count() const {
-    return static_cast<int>(has_upper()) + static_cast<int>(has_lower());
-  }
+  /// Positive while it touches the upper stop (0), the lower stop (1); of one
+  /// that is not there -infinity.
+  [[nodiscard]] static int switch_count() { return 2; }
   [[nodiscard]] SwitchValue find_switch(int index,
                                         const ScalarMotion& motion) const;
 
  private:
-  [[nodiscard]] bool has_upper() const {
-    return parameters_.upper < kUnbounded;
-  }
-  [[nodiscard]] bool has_lower() const {
-    return parameters_.lower > -kUnbounded;
-  }
-
   Parameters parameters_;
 };
 
