@@ -15,6 +15,7 @@
 #include "dynamics/time_function.hpp"
 #include "flexbody/full_body.hpp"
 #include "flexbody/recipe.hpp"
+#include "joints/drive.hpp"
 
 /// What a scenario file asks for. Plain values; docs/formats/scenario.md is
 /// the manual page.
@@ -90,6 +91,15 @@ struct BasisChoice {
   bool operator==(const BasisChoice&) const = default;
 };
 
+/// A drive along a coordinate of a joint or loop, or along a tendon.
+struct DriveSpec {
+  std::string name;    ///< that of its joint or tendon if it has none
+  std::string joint;   ///< a joint's or loop's name, or empty
+  std::string tendon;  ///< a tendon's name, or empty
+  int coordinate = 1;  ///< of the joint: 1, 2, ...
+  joints::Drive::Parameters drive;
+};
+
 struct OutputSpec {
   std::filesystem::path folder;  ///< empty: out/<scenario name>
   bool xdmf = false;
@@ -111,6 +121,8 @@ struct Scenario {
   std::map<std::string, JointStart> joints;
   BaseStart base;
   std::map<std::string, LinkStart> link_starts;
+  std::vector<DriveSpec> drives;
+  std::map<std::string, double> releases;  ///< of latches, at these times [s]
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< what was read, but not to the letter
