@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "common/errors.hpp"
@@ -94,18 +95,17 @@ WeightedNodes weigh_equally(std::vector<int> nodes) {
           VectorX::Constant(count, 1.0 / static_cast<double>(count))};
 }
 
-std::vector<int> find_boundary_nodes_in_box(const Mesh& mesh,
-                                            const Vector3& lower,
-                                            const Vector3& upper) {
-  const double roundoff = 1e-9 * mesh.size().maxCoeff();
-  std::vector<int> nodes;
+NearNodes find_boundary_nodes(
+    const Mesh& mesh, const std::function<double(const Vector3&)>& distance,
+    double tolerance) {
+  NearNodes near;
+  near.nearest = std::numeric_limits<double>::infinity();
   for (const int node : mesh.boundary_nodes) {
-    const Vector3 x = mesh.x.col(node);
-    if ((x.array() >= lower.array() - roundoff).all() &&
-        (x.array() <= upper.array() + roundoff).all())
-      nodes.push_back(node);
+    const double d = distance(mesh.x.col(node));
+    near.nearest = std::min(near.nearest, d);
+    if (d <= tolerance) near.nodes.push_back(node);
   }
-  return nodes;
+  return near;
 }
 
 WeightedNodes weigh_boundary(const Mesh& mesh, const std::vector<int>& nodes) {

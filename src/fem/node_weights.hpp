@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <functional>
 #include <vector>
 
 #include "fem/mesh.hpp"
@@ -23,10 +23,16 @@ struct WeightedNodes {
 /// Every node the same share.
 [[nodiscard]] WeightedNodes weigh_equally(std::vector<int> nodes);
 
-/// Boundary nodes inside a box [m], bounds included, widened by roundoff.
-[[nodiscard]] std::vector<int> find_boundary_nodes_in_box(const Mesh& mesh,
-                                                          const Vector3& lower,
-                                                          const Vector3& upper);
+/// What of the boundary is near a region.
+struct NearNodes {
+  std::vector<int> nodes;  ///< sorted node indices
+  double nearest = 0.0;    ///< distance of the nearest of all nodes [m]
+};
+
+/// Boundary nodes whose `distance` [m] from a region is `tolerance` or less.
+[[nodiscard]] NearNodes find_boundary_nodes(
+    const Mesh& mesh, const std::function<double(const Vector3&)>& distance,
+    double tolerance);
 
 /// Shares of a load spread evenly over the boundary faces that lie wholly in
 /// `nodes`; equal shares if there is no such face.

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/overloaded.hpp"
 #include "flexbody/body_file.hpp"
 
 namespace limber::flexbody {
@@ -112,16 +113,26 @@ void add_mesh(const MeshSource& mesh, Digest& digest) {
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());
-  if (const auto* group = std::get_if<GroupNodes>(&nodes)) {
-    digest.add(group->group);
-  } else if (const auto* node = std::get_if<TaggedNode>(&nodes)) {
-    digest.add(node->tag);
-  } else if (const auto* nearest = std::get_if<NearestNode>(&nodes)) {
-    digest.add(nearest->point);
-  } else if (const auto* box = std::get_if<BoxNodes>(&nodes)) {
-    digest.add(box->lower);
-    digest.add(box->upper);
-  }
+  std::visit(
+      Overloaded{[&](const GroupNodes& group) { digest.add(group.group); },
+                 [&](const TaggedNode& node) { digest.add(node.tag); },
+                 [&](const NearestNode& node) { digest.add(node.point); },
+                 [&](const BoxNodes& box) {
+                   digest.add(box.lower);
+                   digest.add(box.upper);
+                 },
+                 [&](const PlaneNodes& plane) {
+                   digest.add(plane.point);
+                   digest.add(plane.normal);
+                   digest.add(plane.tolerance);
+                 },
+                 [&](const CylinderNodes& cylinder) {
+                   digest.add(cylinder.from);
+                   digest.add(cylinder.to);
+                   digest.add(cylinder.radius);
+                   digest.add(cylinder.inner_radius);
+                 }},
+      nodes);
 }
 
 // The entry if it is there, sound and the asked one. Whatever else is in its

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "common/types.hpp"
+#include "flexbody/node_selection.hpp"
 
 /// What a user asks of one flexible body, before any mesh is read. Plain
 /// values: hashed to key the cache, so everything that shapes the result is
@@ -38,27 +38,6 @@ struct MeshSource {
   int order = 0;      ///< 1 to 3 when meshing geometry; 0: the file's own, or 2
   double unit = 1.0;  ///< metres per mesh unit [m]
 };
-
-/// Nodes of a named physical group.
-struct GroupNodes {
-  std::string group;
-};
-/// One node by its Gmsh tag.
-struct TaggedNode {
-  std::size_t tag = 0;
-};
-/// The node nearest to a point, mesh frame [m].
-struct NearestNode {
-  Vector3 point = Vector3::Zero();
-};
-/// Nodes on the body's surface inside an axis-aligned box, mesh frame [m],
-/// bounds included.
-struct BoxNodes {
-  Vector3 lower = Vector3::Zero();
-  Vector3 upper = Vector3::Zero();
-};
-using NodeSelection =
-    std::variant<GroupNodes, TaggedNode, NearestNode, BoxNodes>;
 
 /// How a selection's nodes share a load or make an average.
 enum class Weighting {

@@ -8,30 +8,48 @@
 
 #include "common/errors.hpp"
 #include "common/names.hpp"
+#include "common/overloaded.hpp"
 
 namespace limber::flexbody {
 namespace {
 
+template <typename Region>
+fem::WeightedNodes select_region(const fem::Mesh& mesh, const Region& region) {
+  const fem::NearNodes near = fem::find_boundary_nodes(
+      mesh, [&](const Vector3& p_M) { return calc_distance(region, p_M); },
+      find_tolerance(region, mesh.size().maxCoeff()));
+  if (near.nodes.empty())
+    throw InputError(fmt::format(
+        "{}: no surface node belongs to {}; the nearest is {:.3g} m away. Move "
+        "or widen it; look at the length unit.",
+        mesh.source, describe(region), near.nearest));
+  return fem::weigh_boundary(mesh, near.nodes);
+}
+
+fem::WeightedNodes select_nodes(const fem::Mesh& mesh,
+                                const NodeSelection& nodes) {
+  return std::visit(
+      Overloaded{
+          [&](const GroupNodes& group) {
+            return fem::weigh_group(
+                mesh, mesh.groups[fem::find_group(mesh, group.group)]);
+          },
+          [&](const TaggedNode& node) {
+            return fem::weigh_equally({fem::find_tagged_node(mesh, node.tag)});
+          },
+          [&](const NearestNode& node) {
+            return fem::weigh_equally(
+                {fem::find_nearest_node(mesh, node.point)});
+          },
+          [&](const auto& region) { return select_region(mesh, region); }},
+      nodes);
+}
+
 fem::WeightedNodes select_nodes(const fem::Mesh& mesh,
                                 const InterfaceRequest& request) {
-  const auto weigh_one = [](int node) { return fem::weigh_equally({node}); };
-  if (const auto* group = std::get_if<GroupNodes>(&request.nodes))
-    return fem::weigh_group(mesh,
-                            mesh.groups[fem::find_group(mesh, group->group)]);
-  if (const auto* node = std::get_if<TaggedNode>(&request.nodes))
-    return weigh_one(fem::find_tagged_node(mesh, node->tag));
-  if (const auto* nearest = std::get_if<NearestNode>(&request.nodes))
-    return weigh_one(fem::find_nearest_node(mesh, nearest->point));
-  const auto& box = std::get<BoxNodes>(request.nodes);
-  const std::vector<int> nodes =
-      fem::find_boundary_nodes_in_box(mesh, box.lower, box.upper);
-  if (nodes.empty())
-    throw InputError(fmt::format(
-        "{}: interface '{}': no surface node lies in the box from ({:g}, {:g}, "
-        "{:g}) to ({:g}, {:g}, {:g}) m. Widen it; look at the length unit.",
-        mesh.source, request.name, box.lower[0], box.lower[1], box.lower[2],
-        box.upper[0], box.upper[1], box.upper[2]));
-  return fem::weigh_boundary(mesh, nodes);
+  fem::WeightedNodes selection = select_nodes(mesh, request.nodes);
+  if (request.weighting == Weighting::uniform) return selection;
+  return fem::weigh_equally(std::move(selection.nodes));
 }
 
 }  // namespace
@@ -40,20 +58,25 @@ std::vector<Interface> find_interfaces(const fem::Mesh& mesh,
                                        const Recipe& recipe) {
   std::vector<Interface> interfaces;
   std::set<std::string> names;
+  std::vector<std::string> problems;
   for (const InterfaceRequest& request : recipe.interfaces) {
     if (!names.insert(request.name).second)
       throw InputError(
           fmt::format("body '{}': two interfaces are called '{}'. Give each "
                       "its own name.",
                       recipe.name, request.name));
-    fem::WeightedNodes selection = select_nodes(mesh, request);
-    if (request.weighting == Weighting::equal)
-      selection = fem::weigh_equally(selection.nodes);
-    InterfaceMotion motion(selection.nodes, selection.weights, mesh.x,
-                           mesh.size().maxCoeff());
-    interfaces.push_back({request.name, request.static_modes,
-                          std::move(selection), std::move(motion)});
+    try {
+      fem::WeightedNodes selection = select_nodes(mesh, request);
+      InterfaceMotion motion(selection.nodes, selection.weights, mesh.x,
+                             mesh.size().maxCoeff());
+      interfaces.push_back({request.name, request.static_modes,
+                            std::move(selection), std::move(motion)});
+    } catch (const InputError& error) {
+      problems.push_back(
+          fmt::format("interface '{}': {}", request.name, error.what()));
+    }
   }
+  if (!problems.empty()) throw InputError(problems);
   return interfaces;
 }
 

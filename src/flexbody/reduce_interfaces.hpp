@@ -21,7 +21,8 @@ struct Interface {
   InterfaceMotion motion;
 };
 
-/// @throws InputError for a name given twice or a selection without nodes.
+/// @throws InputError for a name given twice, and for every selection without
+/// nodes: the interface, the selection, how far its nearest node is.
 [[nodiscard]] std::vector<Interface> find_interfaces(const fem::Mesh& mesh,
                                                      const Recipe& recipe);
 

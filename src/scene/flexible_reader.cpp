@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/names.hpp"
 #include "scene/akantu_material.hpp"
+#include "scene/place_reader.hpp"
 
 namespace limber::scene {
 namespace {
@@ -126,30 +127,10 @@ void read_basis(XmlElement& element, FlexibleLink& link) {
   link.rows = read_rows(element);
 }
 
-flexbody::NodeSelection read_selection(XmlElement& element) {
-  const std::optional<std::string> group = element.text("group");
-  const std::optional<int> node = element.integer("node", 1, 2000000000);
-  const std::optional<Vector3> nearest = element.vector("nearest");
-  const std::optional<Vector3> lower = element.vector("box_lower");
-  const std::optional<Vector3> upper = element.vector("box_upper");
-  const int ways = int(group.has_value()) + int(node.has_value()) +
-                   int(nearest.has_value()) + int(lower && upper);
-  if (ways != 1 || lower.has_value() != upper.has_value()) {
-    element.fail(
-        "needs exactly one of 'group', 'node', 'nearest', or 'box_lower' with "
-        "'box_upper'");
-  }
-  if (group) return flexbody::GroupNodes{*group};
-  if (node) return flexbody::TaggedNode{static_cast<std::size_t>(*node)};
-  if (nearest) return flexbody::NearestNode{*nearest};
-  return flexbody::BoxNodes{lower.value_or(Vector3::Zero()),
-                            upper.value_or(Vector3::Zero())};
-}
-
 InterfaceRequest read_interface(XmlElement& element) {
   InterfaceRequest request;
   request.name = element.required_text("name");
-  request.nodes = read_selection(element);
+  request.nodes = read_nodes(element);
   const std::string weighting = element.text("weighting").value_or("uniform");
   if (weighting == "equal") {
     request.weighting = flexbody::Weighting::equal;

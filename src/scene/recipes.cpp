@@ -13,24 +13,6 @@ using flexbody::InterfaceRequest;
 using flexbody::LoadPattern;
 using flexbody::Recipe;
 
-std::string to_text(const Vector3& v) {
-  return fmt::format("{:g},{:g},{:g}", v.x(), v.y(), v.z());
-}
-
-std::string describe(const flexbody::NodeSelection& nodes) {
-  if (const auto* group = std::get_if<flexbody::GroupNodes>(&nodes)) {
-    return "group:" + group->group;
-  }
-  if (const auto* node = std::get_if<flexbody::TaggedNode>(&nodes)) {
-    return fmt::format("node:{}", node->tag);
-  }
-  if (const auto* point = std::get_if<flexbody::NearestNode>(&nodes)) {
-    return "nearest:" + to_text(point->point);
-  }
-  const auto& box = std::get<flexbody::BoxNodes>(nodes);
-  return "box:" + to_text(box.lower) + ":" + to_text(box.upper);
-}
-
 const InterfaceRequest* find_request(const Recipe& recipe,
                                      const std::string& name) {
   for (const InterfaceRequest& request : recipe.interfaces) {
@@ -48,20 +30,23 @@ void require_interface(Recipe& recipe, const std::string& name) {
   recipe.interfaces.push_back(request);
 }
 
+/// @throws InputError if an interface of the place's own name has other nodes.
 void require_place(Recipe& recipe, const Place& place) {
   const std::string name = find_place_interface(place);
-  if (name.empty() || find_request(recipe, name) != nullptr) return;
+  if (name.empty()) return;
   if (!place.nodes) {
     require_interface(recipe, name);
     return;
   }
-  recipe.interfaces.push_back({name, *place.nodes, place.weighting, false});
-}
-
-bool is_single_node(const Place& place) {
-  return place.nodes &&
-         (std::holds_alternative<flexbody::TaggedNode>(*place.nodes) ||
-          std::holds_alternative<flexbody::NearestNode>(*place.nodes));
+  const InterfaceRequest* known = find_request(recipe, name);
+  if (known == nullptr) {
+    recipe.interfaces.push_back({name, *place.nodes, place.weighting, false});
+  } else if (known->nodes != *place.nodes ||
+             known->weighting != place.weighting) {
+    throw InputError(fmt::format(
+        "interface '{}' is called like another selection, {}; rename it", name,
+        flexbody::describe(*place.nodes)));
+  }
 }
 
 /// What the interface's own static-deformation modes cover needs none of its
@@ -131,7 +116,7 @@ std::string find_place_interface(const Place& place) {
   if (!place.interface.empty()) return place.interface;
   if (!place.nodes) return "";
   const bool equal = place.weighting == flexbody::Weighting::equal;
-  return describe(*place.nodes) + (equal ? ":equal" : "");
+  return (equal ? "equal:" : "") + flexbody::name_of(*place.nodes);
 }
 
 Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
@@ -163,7 +148,9 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
     add_initial_fields(*start, recipe);
   }
   for (const ProbeSpec& probe : scenario.probes) {
-    if (probe.where.link != link.name || is_single_node(probe.where)) continue;
+    if (probe.where.link != link.name) continue;
+    const auto& nodes = probe.where.nodes;
+    if (nodes && flexbody::is_single_node(*nodes)) continue;
     require_place(recipe, probe.where);
   }
   return recipe;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/basis_reader.hpp"
+#include "scene/place_reader.hpp"
 #include "scene/time_function_reader.hpp"
 #include "scene/time_settings_reader.hpp"
 #include "scene/toml_file.hpp"
@@ -35,63 +36,6 @@ void read_fidelity(TomlTable& table, Scenario& scenario) {
     scenario.fidelity_of_link[link] =
         read_level(levels, link, scenario.fidelity);
   }
-}
-
-std::optional<flexbody::NodeSelection> read_box(TomlTable& table) {
-  const toml::table* box = table.table("box");
-  if (box == nullptr) return std::nullopt;
-  TomlTable corners(*box, "box", table.problems());
-  const auto lower = corners.vector("lower");
-  const auto upper = corners.vector("upper");
-  corners.finish();
-  if (!lower || !upper) {
-    table.fail("box", "needs 'lower' and 'upper', three numbers each");
-    return std::nullopt;
-  }
-  return flexbody::BoxNodes{*lower, *upper};
-}
-
-/// The one of group, node, nearest, box that is there; counts in `ways`.
-std::optional<flexbody::NodeSelection> read_nodes(TomlTable& table, int& ways) {
-  std::optional<flexbody::NodeSelection> nodes;
-  for (const char* key : {"group", "node", "nearest", "box"}) {
-    ways += table.has(key) ? 1 : 0;
-  }
-  if (const auto group = table.text("group")) {
-    nodes = flexbody::GroupNodes{*group};
-  }
-  if (const auto tag = table.integer("node", 1, 2000000000)) {
-    nodes = flexbody::TaggedNode{static_cast<std::size_t>(*tag)};
-  }
-  if (const auto point = table.vector("nearest")) {
-    nodes = flexbody::NearestNode{*point};
-  }
-  if (const auto box = read_box(table)) nodes = box;
-  return nodes;
-}
-
-Place read_place(TomlTable& table) {
-  Place place;
-  int ways = 0;
-  place.link = table.required_text("link");
-  place.nodes = read_nodes(table, ways);
-  if (const auto interface = table.text("interface")) {
-    place.interface = *interface;
-    ++ways;
-  }
-  place.point = table.vector("point");
-  ways += table.has("point") ? 1 : 0;
-  if (ways > 1) {
-    table.fail(
-        "has more than one of 'interface', 'group', 'node', 'nearest', "
-        "'box', 'point'; keep one");
-  }
-  place.weighting = read_choice<flexbody::Weighting>(
-      table, "distribution",
-      {{"uniform", flexbody::Weighting::uniform},
-       {"equal", flexbody::Weighting::equal}},
-      flexbody::Weighting::uniform);
-  return place;
 }
 
 LoadSpec read_nodal_load(TomlTable& table,

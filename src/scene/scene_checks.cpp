@@ -77,8 +77,8 @@ class Checker {
   void check_flexible_place(const std::string& who, const Place& place) {
     if (!place.point && (place.nodes || !place.interface.empty())) return;
     problems_.add(0, fmt::format("{}: link '{}' is flexible; say where by "
-                                 "'interface', 'group', 'node', 'nearest' or "
-                                 "'box'",
+                                 "'interface', 'group', 'node', 'nearest', "
+                                 "'box', 'plane' or 'cylinder'",
                                  who, place.link));
   }
 
@@ -94,12 +94,11 @@ class Checker {
     const bool turns = probe.quantity == Quantity::rotation ||
                        probe.quantity == Quantity::angular_velocity;
     const auto& nodes = probe.where.nodes;
-    if (turns && nodes &&
-        (std::holds_alternative<flexbody::TaggedNode>(*nodes) ||
-         std::holds_alternative<flexbody::NearestNode>(*nodes))) {
-      problems_.add(0, who +
-                           ": one node of a solid has no rotation; use "
-                           "'interface', 'group' or 'box'");
+    if (turns && nodes && flexbody::is_single_node(*nodes)) {
+      problems_.add(0,
+                    who +
+                        ": one node of a solid has no rotation; use "
+                        "'interface', 'group', 'box', 'plane' or 'cylinder'");
     }
   }
 

@@ -30,6 +30,8 @@ void XmlElement::fail(const std::string& text) const {
   problems_.add(line(), fmt::format("<{}> {}", tag(), text));
 }
 
+bool XmlElement::has(const std::string& name) { return text(name).has_value(); }
+
 std::optional<std::string> XmlElement::text(const std::string& name) {
   known_.insert(name);
   const std::string* value = element_.Attribute(name);

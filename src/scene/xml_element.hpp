@@ -29,6 +29,7 @@ class XmlElement {
   void fail(const std::string& text) const;
 
   /// Attribute readers; each makes the name known.
+  [[nodiscard]] bool has(const std::string& name);
   [[nodiscard]] std::optional<std::string> text(const std::string& name);
   [[nodiscard]] std::string required_text(const std::string& name);
   [[nodiscard]] std::optional<double> number(const std::string& name,

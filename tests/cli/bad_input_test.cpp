@@ -105,6 +105,28 @@ TEST(BadInput, GroupThatNoElementHas) {
       "rot");
 }
 
+TEST(BadInput, InterfaceWithoutNodes) {
+  SceneText text;
+  text.flexible_more =
+      "<interface name='bolt' cylinder_from='0.5 0.5 6' "
+      "cylinder_to='0.5 0.5 7' cylinder_radius='0.1'/>";
+  expect_scene_refused(text, "link 'beam': interface 'bolt': ");
+  expect_scene_refused(
+      text,
+      "no surface node belongs to the cylinder from (0.5, 0.5, 6) to (0.5, "
+      "0.5, 7) m of radius 0.1 m; the nearest is 1 m away");
+}
+
+TEST(BadInput, ProbeOnAPlaneWithoutNodes) {
+  SceneText text;
+  text.scenario_more =
+      "[[probe]]\nname='p'\nlink='beam'\n"
+      "plane={point=[0,0,5.5],normal=[0,0,1]}\n";
+  expect_scene_refused(text,
+                       "no surface node belongs to the plane through (0, 0, "
+                       "5.5) m normal to (0, 0, 1); the nearest is 0.5 m away");
+}
+
 TEST(BadInput, DegenerateElement) {
   expect_mesh_refused(two_tetrahedra("1 2 3 4", "1 2 3 3"), "element 2");
 }

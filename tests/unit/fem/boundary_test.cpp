@@ -21,6 +21,14 @@ using testing::write_file;
 
 constexpr double kRoundoff = 1e-12;
 
+std::vector<int> nodes_in_box(const Mesh& mesh, const Vector3& lower,
+                              const Vector3& upper) {
+  const auto distance = [&](const Vector3& x) {
+    return (x - x.cwiseMax(lower).cwiseMin(upper)).norm();
+  };
+  return find_boundary_nodes(mesh, distance, kRoundoff).nodes;
+}
+
 class BoxSkin : public ::testing::TestWithParam<std::tuple<std::string, int>> {
  protected:
   BoxSkin()
@@ -72,8 +80,8 @@ TEST_P(BoxSkin, TrianglesEncloseTheBoxsVolume) {
 /// its second moments.
 TEST_P(BoxSkin, LoadOnAFaceHasTheFacesCentreAndMoments) {
   const Vector3 upper = kBoxCorner + Vector3(0, kBoxSize[1], kBoxSize[2]);
-  const WeightedNodes face = weigh_boundary(
-      mesh_, find_boundary_nodes_in_box(mesh_, kBoxCorner, upper));
+  const WeightedNodes face =
+      weigh_boundary(mesh_, nodes_in_box(mesh_, kBoxCorner, upper));
   EXPECT_NEAR(face.weights.sum(), 1.0, kRoundoff);
   const Matrix3X x = mesh_.x(Eigen::all, face.nodes);
   const Vector3 center = 0.5 * (kBoxCorner + upper);
@@ -121,7 +129,7 @@ TEST(NodeWeights, GroupAndBoxOfTheSameFaceShareALoadAlike) {
       weigh_group(mesh, mesh.groups[find_group(mesh, "root")]);
   const Vector3 upper = kBoxCorner + Vector3(kBoxSize[0], kBoxSize[1], 0.0);
   const WeightedNodes by_box =
-      weigh_boundary(mesh, find_boundary_nodes_in_box(mesh, kBoxCorner, upper));
+      weigh_boundary(mesh, nodes_in_box(mesh, kBoxCorner, upper));
   EXPECT_EQ(by_group.nodes, by_box.nodes);
   EXPECT_LT((by_group.weights - by_box.weights).norm(), kRoundoff);
 }
@@ -129,7 +137,7 @@ TEST(NodeWeights, GroupAndBoxOfTheSameFaceShareALoadAlike) {
 TEST(NodeWeights, NodesOfNoFaceShareEqually) {
   const Mesh mesh = hexahedra();
   const Vector3 end = kBoxCorner + Vector3(kBoxSize[0], 0.0, 0.0);
-  const auto edge = find_boundary_nodes_in_box(mesh, kBoxCorner, end);
+  const auto edge = nodes_in_box(mesh, kBoxCorner, end);
   ASSERT_GT(edge.size(), 3U);
   const WeightedNodes weighted = weigh_boundary(mesh, edge);
   EXPECT_DOUBLE_EQ(weighted.weights.minCoeff(),

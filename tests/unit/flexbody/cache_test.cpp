@@ -90,7 +90,15 @@ Changes list_interface_changes() {
       {"nearest q", select(NearestNode{q})},
       {"box p q", select(BoxNodes{p, q})},
       {"box q p", select(BoxNodes{q, p})},
-      {"box p p", select(BoxNodes{p, p})},
+      {"plane", select(PlaneNodes{p, q.normalized(), 0.0})},
+      {"plane elsewhere", select(PlaneNodes{q, q.normalized(), 0.0})},
+      {"plane turned", select(PlaneNodes{p, p.normalized(), 0.0})},
+      {"plane widened", select(PlaneNodes{p, q.normalized(), 0.1})},
+      {"cylinder", select(CylinderNodes{p, q, 1.0, 0.0})},
+      {"cylinder backwards", select(CylinderNodes{q, p, 1.0, 0.0})},
+      {"cylinder longer", select(CylinderNodes{p, 2.0 * q, 1.0, 0.0})},
+      {"cylinder widened", select(CylinderNodes{p, q, 1.5, 0.0})},
+      {"tube", select(CylinderNodes{p, q, 1.0, 0.5})},
       {"second interface",
        [](Recipe& r) {
          r.interfaces.push_back({"tip", GroupNodes{"tip"}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/recipes.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "unit/scene/temporary_file.hpp"
@@ -50,6 +51,68 @@ TEST(Recipes, OfAutomaticModesHoldThemAsLoadCasesAlone) {
   const auto world =
       make_recipe(robot, 0, push_tip(dynamics::LoadFrame::world)).load_patterns;
   EXPECT_EQ(world.size(), 3U);  // it turns through the body
+}
+
+/// A load and a probe on selections of their own.
+std::vector<std::string> interfaces_of(
+    const flexbody::NodeSelection& loaded,
+    const flexbody::NodeSelection& probed,
+    flexbody::Weighting probed_weighting = flexbody::Weighting::uniform) {
+  Scenario scenario = push_tip(dynamics::LoadFrame::body);
+  scenario.loads[0].where = {"arm", "", loaded, {}};
+  ProbeSpec probe;
+  probe.where = {"arm", "", probed, {}, probed_weighting};
+  scenario.probes = {probe};
+  std::vector<std::string> names;
+  for (const auto& request :
+       make_recipe(make_robot(false), 0, scenario).interfaces) {
+    names.push_back(request.name);
+  }
+  return names;
+}
+
+TEST(Recipes, ShareAnInterfaceBetweenEqualSelectionsAlone) {
+  const Vector3 p(0.1, 0.2, 0.3);
+  const Vector3 q = p + Vector3(0, 0, 1e-9);
+  const Vector3 z = Vector3::UnitZ();
+  const std::vector<flexbody::NodeSelection> selections = {
+      flexbody::GroupNodes{"root"},
+      flexbody::BoxNodes{p, q},
+      flexbody::BoxNodes{p, p},
+      flexbody::make_plane(p, z, 0.0),
+      flexbody::make_plane(q, z, 0.0),
+      flexbody::make_cylinder(p, z, 0.1, 0.0),
+      flexbody::make_cylinder(q, z, 0.1, 0.0),
+      flexbody::make_cylinder(p, z, 0.1, 0.05)};
+  for (std::size_t i = 0; i < selections.size(); ++i) {
+    for (std::size_t j = 0; j < selections.size(); ++j) {
+      const auto names = interfaces_of(selections[i], selections[j]);
+      EXPECT_EQ(names.size(), i == j ? 2U : 3U) << names.back();
+      EXPECT_EQ(names[0], "tip");
+    }
+    EXPECT_EQ(
+        interfaces_of(selections[i], selections[i], flexbody::Weighting::equal)
+            .size(),
+        3U);
+  }
+  // A group may be called like another selection's name.
+  EXPECT_EQ(
+      interfaces_of(flexbody::GroupNodes{"tip:equal"},
+                    flexbody::GroupNodes{"tip"}, flexbody::Weighting::equal)
+          .size(),
+      3U);
+}
+
+TEST(Recipes, RefuseAnInterfaceNamedLikeAnotherSelection) {
+  Robot robot = make_robot(false);
+  robot.links[0].flexible->interfaces.push_back(
+      {"group:root", flexbody::GroupNodes{"tip"}});
+  Scenario scenario = push_tip(dynamics::LoadFrame::body);
+  scenario.loads[0].where = {"arm", "", flexbody::GroupNodes{"root"}, {}};
+  EXPECT_THAT(
+      test::input_error([&] { (void)make_recipe(robot, 0, scenario); }),
+      ::testing::HasSubstr("interface 'group:root' is called like another "
+                           "selection, the group 'root'"));
 }
 
 TEST(Recipes, HoldNodalForcesAsLoadCasesAndForStaticModes) {

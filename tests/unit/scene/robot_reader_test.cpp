@@ -88,6 +88,42 @@ TEST(RobotReader, ReadsTheExtension) {
   EXPECT_EQ(robot.connectors.at(0).to.point, Vector3(0, 0, 9));
 }
 
+std::string interface(const std::string& attributes) {
+  return links("a") + "<flexible link='a'>" + kMesh + "<interface name='i' " +
+         attributes + "/></flexible>";
+}
+
+TEST(RobotReader, ReadsRegionsOfNodes) {
+  const auto nodes = [](const std::string& attributes) {
+    const Robot robot = read(interface(attributes));
+    return robot.links[0].flexible->interfaces.at(0).nodes;
+  };
+  EXPECT_EQ(nodes("plane_point='0 0 5' plane_normal='0 0 -2'"),
+            flexbody::NodeSelection(
+                flexbody::PlaneNodes{{0, 0, 5}, {0, 0, -1}, 0.0}));
+  EXPECT_EQ(nodes("cylinder_from='0 0 0' cylinder_to='0 0 1' "
+                  "cylinder_radius='0.5' cylinder_inner_radius='0.5'"),
+            flexbody::NodeSelection(
+                flexbody::CylinderNodes{{0, 0, 0}, {0, 0, 1}, 0.5, 0.5}));
+}
+
+TEST(RobotReader, RefusesSelectionsWithoutShape) {
+  EXPECT_THAT(error_of(interface("")), HasSubstr("needs exactly one of"));
+  EXPECT_THAT(error_of(interface("group='g' plane_point='0 0 0' "
+                                 "plane_normal='0 0 1'")),
+              HasSubstr("needs exactly one of"));
+  EXPECT_THAT(error_of(interface("plane_tolerance='1'")),
+              HasSubstr("'plane_point' and 'plane_normal'"));
+  EXPECT_THAT(error_of(interface("box_lower='0 0 0'")),
+              HasSubstr("'box_upper'"));
+  EXPECT_THAT(error_of(interface("cylinder_from='0 0 0' cylinder_to='0 0 1' "
+                                 "cylinder_radius='1' "
+                                 "cylinder_inner_radius='2'")),
+              HasSubstr("inner radius 2 m"));
+  EXPECT_THAT(error_of(interface("plane_point='0 0 0' plane_norml='0 0 1'")),
+              HasSubstr("did you mean 'plane_normal'"));
+}
+
 TEST(RobotReader, ReadsTermsOfStaticDeformationModes) {
   const auto basis = [](const std::string& attributes) {
     return links("a") + "<flexible link='a'>" + kMesh + "<basis " + attributes +

@@ -49,6 +49,45 @@ TEST(ScenarioReader, ReadsLoadsAndProbes) {
   EXPECT_EQ(scenario.probes.at(0).quantity, Quantity::velocity);
 }
 
+TEST(ScenarioReader, ReadsRegionsOfNodes) {
+  const Scenario scenario = read(
+      kStart +
+      "[[load]]\nname='l'\nlink='a'\nforce=[1,0,0]\n"
+      "plane={point=[0,0,5],normal=[0,0,2],tolerance=0.01}\n"
+      "[[probe]]\nname='p'\nlink='a'\n"
+      "cylinder={from=[0,0,0],to=[0,0,1],radius=0.5,inner_radius=0.25}\n"
+      "[[probe]]\nname='q'\nlink='a'\nbox={lower=[0,0,0],upper=[1,1,1]}\n");
+  EXPECT_EQ(scenario.loads.at(0).where.nodes,
+            flexbody::NodeSelection(
+                flexbody::PlaneNodes{{0, 0, 5}, {0, 0, 1}, 0.01}));
+  EXPECT_EQ(scenario.probes.at(0).where.nodes,
+            flexbody::NodeSelection(
+                flexbody::CylinderNodes{{0, 0, 0}, {0, 0, 1}, 0.5, 0.25}));
+  EXPECT_EQ(scenario.probes.at(1).where.nodes,
+            flexbody::NodeSelection(flexbody::BoxNodes{{0, 0, 0}, {1, 1, 1}}));
+}
+
+TEST(ScenarioReader, RefusesRegionsWithoutShape) {
+  const auto error_at = [](const std::string& where) {
+    return error_of(kStart + "[[probe]]\nname='p'\nlink='a'\n" + where);
+  };
+  EXPECT_THAT(error_at("plane={point=[0,0,5]}"),
+              HasSubstr("[probe 1.plane] needs 'point' and 'normal'"));
+  EXPECT_THAT(error_at("plane={point=[0,0,5],normal=[0,0,0]}"),
+              HasSubstr("normal is zero"));
+  EXPECT_THAT(error_at("plane={point=[0,0,5],normal=[0,0,1],tolerance=0}"),
+              HasSubstr("tolerance"));
+  EXPECT_THAT(error_at("cylinder={from=[0,0,0],to=[0,0,1]}"),
+              HasSubstr("'radius'"));
+  EXPECT_THAT(error_at("cylinder={from=[1,0,0],to=[1,0,0],radius=1}"),
+              HasSubstr("take them apart"));
+  EXPECT_THAT(error_at("box={lower=[0,0,0]}"), HasSubstr("'upper'"));
+  EXPECT_THAT(error_at("cylinder={from=[0,0,0],to=[0,0,1],radis=1}"),
+              HasSubstr("did you mean 'radius'"));
+  EXPECT_THAT(error_at("group='g'\nplane={point=[0,0,5],normal=[0,0,1]}"),
+              HasSubstr("has more than one of"));
+}
+
 TEST(ScenarioReader, ReadsInitialStateAndLevels) {
   const Scenario scenario = read(
       kStart +
