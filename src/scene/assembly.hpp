@@ -6,8 +6,8 @@
 
 #include "dynamics/system_builder.hpp"
 #include "scene/body_plan.hpp"
-#include "scene/interface_tables.hpp"
 #include "scene/link_motion.hpp"
+#include "scene/mounts.hpp"
 #include "scene/probe.hpp"
 #include "scene/scene.hpp"
 
@@ -20,8 +20,7 @@ class Assembly {
            const std::vector<LinkMotion>& motions);
 
   void add_bodies();
-  void add_joints();
-  void add_connectors();
+  void add_couplers();
   void add_loads();
   [[nodiscard]] std::vector<Probe> make_probes() const;
 
@@ -34,19 +33,7 @@ class Assembly {
   }
 
  private:
-  const BodyPlan& plan_of(int link) const;
   void add_body(const BodyPlan& plan);
-  void add_joint(const Joint& joint);
-  void check_joint_interface(const Joint& joint, int link,
-                             const flexbody::InterfaceTable& table,
-                             const Pose& X_BF);
-  dynamics::AttachmentIndex attach(const std::string& name, int link,
-                                   const Pose& X_LF, const Anchor& anchor);
-  Pose pose_of(const ConnectorEnd& end) const;
-  dynamics::AttachmentIndex attach_end(const std::string& name,
-                                       const ConnectorEnd& end,
-                                       const Pose& X_WF);
-  void add_connector(const Connector& connector);
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   Probe make_probe(const ProbeSpec& spec) const;
@@ -60,6 +47,7 @@ class Assembly {
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& motions_;
   std::vector<dynamics::BodyIndex> body_index_;  ///< one a plan
+  Mounts mounts_;
   dynamics::SystemBuilder builder_;
   std::vector<std::string> warnings_;
 };

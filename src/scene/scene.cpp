@@ -59,8 +59,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   add_full_bodies(scene, make_full, plans);
   Assembly assembly(scene, plans, motions);
   assembly.add_bodies();
-  assembly.add_joints();
-  assembly.add_connectors();
+  assembly.add_couplers();
   assembly.add_loads();
   BuiltScene built;
   built.model = assembly.build();
