@@ -32,6 +32,36 @@ Json describe_link(const scene::Link& link) {
   return json;
 }
 
+template <typename Named>
+Json names_of(const std::vector<Named>& all) {
+  Json names = Json::array();
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+Json describe_loops(const scene::Robot& robot) {
+  Json loops = Json::array();
+  for (const scene::Loop& loop : robot.loops) {
+    loops.push_back(Json{{"name", loop.name},
+                         {"kind", std::string(joints::to_string(loop.kind))},
+                         {"from", loop.from.link},
+                         {"to", loop.to.link}});
+  }
+  return loops;
+}
+
+Json describe_gears(const scene::Robot& robot) {
+  Json gears = Json::array();
+  for (const scene::Gear& gear : robot.gears) {
+    gears.push_back(Json{{"name", gear.name},
+                         {"joint", gear.joint},
+                         {"with", gear.with},
+                         {"ratio", gear.ratio},
+                         {"offset", gear.offset}});
+  }
+  return gears;
+}
+
 Json describe_body(const std::filesystem::path& file) {
   const flexbody::ReducedBody body = flexbody::read_body(file);
   std::vector<std::string> interfaces;
@@ -117,6 +147,10 @@ Json describe_robot(const std::filesystem::path& file) {
               {"links", links},
               {"joints", joints},
               {"connectors", robot.connectors.size()},
+              {"loops", describe_loops(robot)},
+              {"latches", names_of(robot.latches)},
+              {"tendons", names_of(robot.tendons)},
+              {"gears", describe_gears(robot)},
               {"warnings", robot.warnings}};
 }
 

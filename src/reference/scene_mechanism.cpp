@@ -78,6 +78,18 @@ void check_levels(const dynamics::SystemModel& model) {
   }
 }
 
+void check_couplers(const scene::Robot& robot) {
+  const auto refuse = [](const char* what, const auto& all) {
+    if (all.empty()) return;
+    throw InputError(
+        fmt::format("{} '{}' is not compared", what, all.front().name));
+  };
+  refuse("loop", robot.loops);
+  refuse("latch", robot.latches);
+  refuse("tendon", robot.tendons);
+  refuse("gear", robot.gears);
+}
+
 class Translator {
  public:
   Translator(const scene::Scene& scene, const scene::BuiltScene& built)
@@ -266,6 +278,7 @@ class Translator {
 Mechanism make_mechanism(const scene::Scene& scene,
                          const scene::BuiltScene& built) {
   check_levels(built.model);
+  check_couplers(scene.robot);
   return Translator(scene, built).run();
 }
 

@@ -68,9 +68,7 @@ void Assembly::add_body(const BodyPlan& plan) {
 }
 
 void Assembly::add_couplers() {
-  CouplerAssembly couplers(scene_, plans_, mounts_, builder_, warnings_);
-  couplers.add_joints();
-  couplers.add_connectors();
+  CouplerAssembly(scene_, plans_, mounts_, builder_, warnings_).add_all();
 }
 
 void Assembly::add_loads() {
@@ -173,9 +171,10 @@ void Assembly::deform(const dynamics::SystemModel& model,
 // Joints that start beyond half a turn count on from there.
 void Assembly::remember_turns(const dynamics::SystemModel& model,
                               dynamics::SystemState& state) const {
+  const auto starts = find_joint_starts(scene_.robot, scene_.scenario);
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    const auto start = scene_.scenario.joints.find(model.couplers[c].name);
-    if (start == scene_.scenario.joints.end()) continue;
+    const auto start = starts.find(model.couplers[c].name);
+    if (start == starts.end()) continue;
     const std::vector<double>& q = start->second.position;
     const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
     for (std::size_t i = 0; i < coordinates.size() && i < q.size(); ++i) {

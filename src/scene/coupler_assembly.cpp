@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "scene/naming.hpp"
 #include "scene/recipes.hpp"
 
@@ -15,30 +18,38 @@ constexpr double kFarShare = 0.05;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-joints::PointSpring make_spring(const SpringOptions& options, double length) {
-  joints::PointSpring::Parameters parameters;
-  parameters.stiffness = options.stiffness;
-  parameters.damping = options.damping;
-  parameters.free_length = options.free_length.value_or(length);
-  return joints::PointSpring(parameters);
-}
-
-joints::Bushing make_bushing(const BushingOptions& options) {
-  joints::Bushing::Parameters parameters;
-  parameters.translational_stiffness =
-      options.translational_stiffness.asDiagonal();
-  parameters.rotational_stiffness = options.rotational_stiffness.asDiagonal();
-  parameters.translational_damping = options.translational_damping.asDiagonal();
-  parameters.rotational_damping = options.rotational_damping.asDiagonal();
-  return joints::Bushing(parameters);
-}
+/// Two ends of a loop meet within this share of the robot's size.
+constexpr double kGapShare = 1e-6;
 
 }  // namespace
 
-void CouplerAssembly::add_joints() {
+CouplerAssembly::CouplerAssembly(const Scene& scene, const BodyPlans& plans,
+                                 const Mounts& mounts,
+                                 dynamics::SystemBuilder& builder,
+                                 std::vector<std::string>& warnings)
+    : scene_(scene),
+      plans_(plans),
+      mounts_(mounts),
+      builder_(builder),
+      warnings_(warnings),
+      at_zero_(find_motions_at_zero(scene.robot, scene.scenario)) {}
+
+void CouplerAssembly::add_all() {
+  const Robot& robot = scene_.robot;
   for (const int joint : plans_.coupled_joints) {
-    add_joint(scene_.robot.joints[index(joint)]);
+    add_joint(robot.joints[index(joint)]);
   }
+  const auto add_each = [](const char* what, const auto& all, const auto& add) {
+    for (const auto& one : all) {
+      naming(fmt::format("{} '{}'", what, one.name), [&] { add(one); });
+    }
+  };
+  add_each("loop", robot.loops, [this](const Loop& l) { add_loop(l); });
+  add_each("connector", robot.connectors,
+           [this](const Connector& c) { add_connector(c); });
+  add_each("latch", robot.latches, [this](const Latch& l) { add_latch(l); });
+  add_each("tendon", robot.tendons, [this](const Tendon& t) { add_tendon(t); });
+  add_each("gear", robot.gears, [this](const Gear& g) { add_gear(g); });
 }
 
 void CouplerAssembly::check_joint_interface(const Joint& joint, int link,
@@ -76,12 +87,37 @@ Mount CouplerAssembly::mount_joint(const Joint& joint, int link,
   return mount;
 }
 
-void CouplerAssembly::add_coupler(const std::string& name,
-                                  const joints::CouplerLaw& law, const Mount& F,
-                                  const Mount& M) {
+dynamics::CouplerIndex CouplerAssembly::add_coupler(
+    const std::string& name, const joints::CouplerLaw& law, const Mount& F,
+    const Mount& M) {
   const dynamics::AttachmentIndex frame_F = attach(name + ".F", F, builder_);
   const dynamics::AttachmentIndex frame_M = attach(name + ".M", M, builder_);
-  builder_.add_coupler(name, law, frame_F, frame_M);
+  return builder_.add_coupler(name, law, frame_F, frame_M);
+}
+
+void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
+                                const Mount& M) {
+  const joints::JointParameters held =
+      find_joint_parameters(spec.coupler, F.side, M.side);
+  const auto coordinates =
+      joints::find_coordinates(spec.kind, spec.axis, spec.second);
+  std::vector<joints::JointElement> elements =
+      make_elements(spec.actions, coordinates, held);
+  for (const DriveSpec& drive : scene_.scenario.drives) {
+    if (drive.joint != spec.name) continue;
+    naming("drive '" + drive.name + "'", [&] {
+      elements.push_back({drive.coordinate - 1,
+                          make_drive(drive, spec.max_effort, spec.max_speed)});
+    });
+  }
+  const dynamics::CouplerIndex coupler =
+      add_coupler(spec.name,
+                  joints::make_joint(spec.kind, spec.axis, spec.second, held,
+                                     std::move(elements)),
+                  F, M);
+  if (coordinates.size() == 1) {
+    geared_[spec.name] = {coupler, find_hold(coordinates[0], held)};
+  }
 }
 
 void CouplerAssembly::add_joint(const Joint& joint) {
@@ -89,19 +125,34 @@ void CouplerAssembly::add_joint(const Joint& joint) {
   if (free && joint.coupler.free_damping.value_or(0.0) == 0.0) return;
   const Mount F = mount_joint(joint, joint.parent, joint.X_PJ);
   const Mount M = mount_joint(joint, joint.child, Pose{});
-  const joints::JointParameters parameters =
-      find_joint_parameters(joint.coupler, F.side, M.side);
-  add_coupler(
-      joint.name,
-      joints::make_joint(joint.kind, joint.axis_J, joint.second_J, parameters),
-      F, M);
+  naming("joint '" + joint.name + "'", [&] {
+    add_joint({joint.name, joint.kind, joint.axis_J, joint.second_J,
+               joint.coupler, joint.actions, joint.max_effort, joint.max_speed},
+              F, M);
+  });
 }
 
-void CouplerAssembly::add_connectors() {
-  for (const Connector& connector : scene_.robot.connectors) {
-    naming("connector '" + connector.name + "'",
-           [&] { add_connector(connector); });
+void CouplerAssembly::check_gap(const Pose& from, const Pose& to) const {
+  double size = std::max(from.p.norm(), to.p.norm());
+  for (const LinkMotion& link : at_zero_) {
+    size = std::max(size, (link.X_WL.p - from.p).norm());
   }
+  const double gap = (to.p - from.p).norm();
+  if (gap <= kGapShare * size) return;
+  throw InputError(fmt::format(
+      "its ends are {:.3g} m apart where all joints are at zero, at ({:.6g}, "
+      "{:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) m; they must meet there",
+      gap, from.p.x(), from.p.y(), from.p.z(), to.p.x(), to.p.y(), to.p.z()));
+}
+
+void CouplerAssembly::add_loop(const Loop& loop) {
+  const Pose X_WF = mounts_.find_pose(loop.from, at_zero_);
+  check_gap(X_WF, mounts_.find_pose(loop.to, at_zero_));
+  add_joint(
+      {loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
+       loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited},
+      mounts_.find_mount(loop.from, X_WF, at_zero_),
+      mounts_.find_mount(loop.to, X_WF, at_zero_));
 }
 
 void CouplerAssembly::add_connector(const Connector& connector) {
@@ -118,6 +169,66 @@ void CouplerAssembly::add_connector(const Connector& connector) {
   add_coupler(connector.name,
               make_bushing(std::get<BushingOptions>(connector.law)), F,
               mounts_.find_mount(connector.to, from, start));
+}
+
+void CouplerAssembly::add_latch(const Latch& latch) {
+  const auto mount = [&](const ConnectorEnd& end) {
+    return mounts_.find_mount(end, mounts_.find_pose(end, mounts_.start()),
+                              mounts_.start());
+  };
+  const Mount F = mount(latch.from);
+  const Mount M = mount(latch.to);
+  Latch released = latch;
+  const auto time = scene_.scenario.releases.find(latch.name);
+  if (time != scene_.scenario.releases.end()) {
+    released.release_time = time->second;
+  }
+  add_coupler(latch.name,
+              make_latch(released,
+                         find_joint_parameters(latch.coupler, F.side, M.side)),
+              F, M);
+}
+
+void CouplerAssembly::add_tendon(const Tendon& tendon) {
+  std::vector<dynamics::AttachmentIndex> points;
+  std::vector<Vector3> p_W;
+  double length = 0.0;
+  for (const ConnectorEnd& end : tendon.via) {
+    const Pose X_WF = mounts_.find_pose(end, mounts_.start());
+    const Mount mount = mounts_.find_mount(end, X_WF, mounts_.start());
+    points.push_back(attach(
+        fmt::format("{}.{}", tendon.name, points.size() + 1), mount, builder_));
+    if (!p_W.empty()) {
+      const double stretch = (X_WF.p - p_W.back()).norm();
+      if (!(stretch > 0.0)) {
+        throw InputError(fmt::format(
+            "its points {} and {} meet at the start; the line between them has "
+            "no direction",
+            p_W.size(), p_W.size() + 1));
+      }
+      length += stretch;
+    }
+    p_W.push_back(X_WF.p);
+  }
+  std::vector<joints::ScalarLaw> laws = make_tendon_laws(tendon, length);
+  for (const DriveSpec& drive : scene_.scenario.drives) {
+    if (drive.tendon != tendon.name) continue;
+    naming("drive '" + drive.name + "'", [&] {
+      laws.emplace_back(make_drive(drive, joints::Drive::kUnlimited,
+                                   joints::Drive::kUnlimited));
+    });
+  }
+  builder_.add_path(tendon.name, points, laws);
+}
+
+void CouplerAssembly::add_gear(const Gear& gear) {
+  const Geared& joint = geared_.at(gear.joint);
+  const Geared& with = geared_.at(gear.with);
+  dynamics::JointSum sum;
+  sum.terms = {{joint.coupler, 0, 1.0}, {with.coupler, 0, -gear.ratio}};
+  sum.offset = gear.offset;
+  builder_.add_joint_sum(gear.name, sum,
+                         {make_gear_spring(gear, joint.hold, with.hold)});
 }
 
 }  // namespace limber::scene

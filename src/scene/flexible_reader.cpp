@@ -165,32 +165,6 @@ void check_whole(const XmlElement& element, const FlexibleLink& link) {
   }
 }
 
-ConnectorEnd read_end(XmlElement& element, const std::string& side) {
-  ConnectorEnd end;
-  const std::string text = element.required_text(side);
-  const std::size_t slash = text.find('/');
-  end.link = text.substr(0, slash);
-  if (slash != std::string::npos) end.interface = text.substr(slash + 1);
-  end.point = element.vector(side + "_xyz").value_or(Vector3::Zero());
-  return end;
-}
-
-Connector read_ends(XmlElement& element) {
-  Connector connector;
-  connector.name = element.required_text("name");
-  connector.from = read_end(element, "from");
-  connector.to = read_end(element, "to");
-  return connector;
-}
-
-/// One number for all three directions, or three.
-Vector3 read_triple(XmlElement& element, const std::string& name) {
-  const auto values = element.numbers(name, kNonNegative);
-  if (!values) return Vector3::Zero();
-  if (values->size() == 1) return Vector3::Constant(values->front());
-  return element.vector(name, kNonNegative).value_or(Vector3::Zero());
-}
-
 }  // namespace
 
 FlexibleLink read_flexible(XmlElement& element,
@@ -224,42 +198,6 @@ FlexibleLink read_flexible(XmlElement& element,
   element.read_children(readers);
   check_whole(element, link);
   return link;
-}
-
-CouplerOptions read_coupler(XmlElement& element) {
-  CouplerOptions options;
-  options.translational_stiffness =
-      element.number("translational_stiffness", kPositive);
-  options.rotational_stiffness =
-      element.number("rotational_stiffness", kPositive);
-  options.translational_damping =
-      element.number("translational_damping", kNonNegative);
-  options.rotational_damping =
-      element.number("rotational_damping", kNonNegative);
-  options.free_damping = element.number("free_damping", kNonNegative);
-  return options;
-}
-
-Connector read_spring(XmlElement& element) {
-  Connector connector = read_ends(element);
-  SpringOptions spring;
-  spring.stiffness = element.required_number("stiffness", kNonNegative);
-  spring.damping = element.number("damping", kNonNegative).value_or(0.0);
-  spring.free_length = element.number("free_length", kNonNegative);
-  connector.law = spring;
-  return connector;
-}
-
-Connector read_bushing(XmlElement& element) {
-  Connector connector = read_ends(element);
-  BushingOptions bushing;
-  bushing.translational_stiffness =
-      read_triple(element, "translational_stiffness");
-  bushing.rotational_stiffness = read_triple(element, "rotational_stiffness");
-  bushing.translational_damping = read_triple(element, "translational_damping");
-  bushing.rotational_damping = read_triple(element, "rotational_damping");
-  connector.law = bushing;
-  return connector;
 }
 
 }  // namespace limber::scene

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/names.hpp"
 #include "common/rotation.hpp"
 #include "scene/xml_element.hpp"
@@ -132,6 +134,37 @@ void check_starts(const Robot& robot, const Scenario& scenario) {
   problems.raise();
 }
 
+std::vector<LinkMotion> place_links(
+    const Robot& robot, const BaseStart& base,
+    const std::map<std::string, JointStart>& starts) {
+  std::vector<LinkMotion> motions(robot.links.size());
+  motions.front() = root_motion(base);
+  for (const Joint& joint : robot.joints) {
+    const auto start = starts.find(joint.name);
+    const JointMotion relative = find_joint_motion(
+        joint, start == starts.end() ? JointStart{} : start->second);
+    motions[static_cast<std::size_t>(joint.child)] = follow(
+        motions[static_cast<std::size_t>(joint.parent)], joint, relative);
+  }
+  return motions;
+}
+
+/// Gives one of a gear's joints the start that the other has.
+void pass_start(const Gear& gear, std::map<std::string, JointStart>& starts) {
+  const auto value = [](const std::vector<double>& values) {
+    return values.empty() ? 0.0 : values.front();
+  };
+  const double r = gear.ratio;
+  if (const auto with = starts.find(gear.with); with != starts.end()) {
+    starts[gear.joint] = {{r * value(with->second.position) + gear.offset},
+                          {r * value(with->second.velocity)}};
+    return;
+  }
+  const JointStart& start = starts.at(gear.joint);
+  starts[gear.with] = {{(value(start.position) - gear.offset) / r},
+                       {value(start.velocity) / r}};
+}
+
 }  // namespace
 
 std::size_t coordinate_count(joints::JointKind kind) {
@@ -150,19 +183,45 @@ std::size_t coordinate_count(joints::JointKind kind) {
   }
 }
 
+std::map<std::string, JointStart> find_joint_starts(const Robot& robot,
+                                                    const Scenario& scenario) {
+  std::map<std::string, JointStart> starts = scenario.joints;
+  const auto is_known = [&](const std::string& joint) {
+    return starts.count(joint) != 0;
+  };
+  // A loop's coordinate follows from those of the tree.
+  std::vector<Gear> gears;
+  for (const Gear& gear : robot.gears) {
+    if (named_joint(robot, gear.joint) != nullptr &&
+        named_joint(robot, gear.with) != nullptr) {
+      gears.push_back(gear);
+    }
+  }
+  while (true) {
+    auto gear = std::find_if(gears.begin(), gears.end(), [&](const Gear& g) {
+      return is_known(g.joint) != is_known(g.with);
+    });
+    if (gear != gears.end()) {
+      pass_start(*gear, starts);
+      continue;
+    }
+    // Of joints that hang together and have no start, one stays at zero.
+    gear = std::find_if(gears.begin(), gears.end(),
+                        [&](const Gear& g) { return !is_known(g.with); });
+    if (gear == gears.end()) return starts;
+    starts[gear->with] = {};
+  }
+}
+
 std::vector<LinkMotion> find_link_motions(const Robot& robot,
                                           const Scenario& scenario) {
   check_starts(robot, scenario);
-  std::vector<LinkMotion> motions(robot.links.size());
-  motions.front() = root_motion(scenario.base);
-  for (const Joint& joint : robot.joints) {
-    const auto start = scenario.joints.find(joint.name);
-    const JointMotion relative = find_joint_motion(
-        joint, start == scenario.joints.end() ? JointStart{} : start->second);
-    motions[static_cast<std::size_t>(joint.child)] = follow(
-        motions[static_cast<std::size_t>(joint.parent)], joint, relative);
-  }
-  return motions;
+  return place_links(robot, scenario.base, find_joint_starts(robot, scenario));
+}
+
+std::vector<LinkMotion> find_motions_at_zero(const Robot& robot,
+                                             const Scenario& scenario) {
+  return place_links(robot, scenario.base, {});
 }
 
 }  // namespace limber::scene

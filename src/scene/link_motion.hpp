@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "common/pose.hpp"
@@ -22,7 +24,16 @@ struct LinkMotion {
 [[nodiscard]] std::vector<LinkMotion> find_link_motions(
     const Robot& robot, const Scenario& scenario);
 
-/// Coordinates that a joint of this kind has: 0, 1, 3 or 6.
+/// The same where all joints are at zero; the root link is where it starts.
+[[nodiscard]] std::vector<LinkMotion> find_motions_at_zero(
+    const Robot& robot, const Scenario& scenario);
+
+/// Starts of joints: the scenario's, and of geared and mimicking joints that it
+/// leaves out where the other joint puts them.
+[[nodiscard]] std::map<std::string, JointStart> find_joint_starts(
+    const Robot& robot, const Scenario& scenario);
+
+/// Numbers that say where a joint of this kind is: 0, 1, 2, 3 or 6.
 [[nodiscard]] std::size_t coordinate_count(joints::JointKind kind);
 
 }  // namespace limber::scene

@@ -50,18 +50,17 @@ Mount Mounts::find_mount(int link, const Pose& X_LF,
 
 Pose Mounts::find_pose(const ConnectorEnd& end,
                        const std::vector<LinkMotion>& motions) const {
-  if (end.link == "world") return {Matrix3::Identity(), end.point};
+  if (end.link == "world") return {end.R, end.point};
   const int link = find_link(scene_.robot, end.link);
   const BodyPlan& plan = plan_of(link);
   const Pose& X_WL = motions[index(link)].X_WL;
-  if (!plan.reduced) return X_WL * Pose{Matrix3::Identity(), end.point};
+  if (!plan.reduced) return X_WL * Pose{end.R, end.point};
   if (end.interface.empty()) {
     throw InputError(fmt::format(
-        "link '{}' is flexible; name one of its interfaces: \"{}/INTERFACE\"",
-        end.link, end.link));
+        "link '{}' is flexible; name one of its interfaces", end.link));
   }
   const Vector3& p_B = get_table(*plan.reduced, end.interface).p_B;
-  return {X_WL.R, X_WL * (X_BL(link).inverse() * p_B)};
+  return {X_WL.R * end.R, X_WL * (X_BL(link).inverse() * p_B)};
 }
 
 Mount Mounts::find_mount(const ConnectorEnd& end, const Pose& X_WF,

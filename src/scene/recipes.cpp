@@ -95,11 +95,9 @@ void add_connections(Recipe& recipe, const Robot& robot, int index) {
     }
     require_interface(recipe, find_joint_interface(*link.flexible, joint.name));
   }
-  for (const Connector& connector : robot.connectors) {
-    for (const ConnectorEnd* end : {&connector.from, &connector.to}) {
-      if (end->link == link.name && !end->interface.empty()) {
-        require_interface(recipe, end->interface);
-      }
+  for (const ConnectorEnd& end : find_ends(robot)) {
+    if (end.link == link.name && !end.interface.empty()) {
+      require_interface(recipe, end.interface);
     }
   }
 }

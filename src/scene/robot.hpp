@@ -11,9 +11,13 @@
 #include "common/pose.hpp"
 #include "dynamics/system_builder.hpp"
 #include "flexbody/recipe.hpp"
+#include "joints/drive.hpp"
+#include "joints/friction.hpp"
 #include "joints/joint_kind.hpp"
+#include "joints/point_spring.hpp"
+#include "joints/scalar_spring.hpp"
 
-/// A robot as its URDF file and the <flexible> extension describe it. Plain
+/// A robot as its URDF file and Limber's extension describe it. Plain
 /// values; docs/formats/urdf.md is the manual page.
 namespace limber::scene {
 
@@ -53,6 +57,24 @@ struct CouplerOptions {
   std::optional<double> free_damping;             ///< [N s/m or N m s/rad]
 };
 
+/// End stops of one coordinate; what is not given follows from the joint.
+struct StopOptions {
+  std::optional<double> lower;      ///< none: unbounded [rad or m]
+  std::optional<double> upper;      ///< none: unbounded [rad or m]
+  std::optional<double> stiffness;  ///< none: as the joint holds [N m/rad, N/m]
+  std::optional<double> damping;    ///< none: by restitution [s/rad or s/m]
+  double restitution = 0.5;         ///< of a free body at `speed` [-]
+  double speed = 1.0;               ///< [rad/s or m/s]
+};
+
+/// What acts along a coordinate of a joint: <stop>, <friction>, <spring>.
+struct JointAction {
+  int coordinate = 0;  ///< from 0
+  std::variant<StopOptions, joints::Friction::Parameters,
+               joints::ScalarSpring::Parameters>
+      law;
+};
+
 struct Joint {
   std::string name;
   joints::JointKind kind = joints::JointKind::fixed;
@@ -62,23 +84,40 @@ struct Joint {
   Vector3 axis_J = Vector3::UnitX();    ///< unit
   Vector3 second_J = Vector3::UnitY();  ///< unit, of a universal joint
   CouplerOptions coupler;
+  std::vector<JointAction> actions;
+  /// Of drives: <limit>'s effort [N or N m] and velocity [m/s or rad/s].
+  double max_effort = joints::Drive::kUnlimited;
+  double max_speed = joints::Drive::kUnlimited;
 };
 
-/// One end of a <spring> or <bushing>: the world, or a link and, if it is
-/// flexible, one of its interfaces.
+/// One end of a coupler: the world, or a link and, if it is flexible, one of
+/// its interfaces.
 struct ConnectorEnd {
   std::string link;                 ///< "world" is the world
   std::string interface;            ///< of a flexible link
   Vector3 point = Vector3::Zero();  ///< in the link (or world) frame [m]
+  Matrix3 R = Matrix3::Identity();  ///< axes of the end in the link's
+};
+
+/// <loop>: a joint that closes a loop. Its frame is at the end `from`, at rest
+/// where all joints of the tree are at zero.
+struct Loop {
+  std::string name;
+  joints::JointKind kind = joints::JointKind::revolute;
+  ConnectorEnd from;
+  ConnectorEnd to;
+  Vector3 axis_F = Vector3::UnitX();    ///< unit, axes of `from`
+  Vector3 second_F = Vector3::UnitY();  ///< unit, of a universal joint
+  CouplerOptions coupler;
+  std::vector<JointAction> actions;
 };
 
 struct SpringOptions {
-  double stiffness = 0.0;             ///< [N/m]
-  double damping = 0.0;               ///< [N s/m]
-  std::optional<double> free_length;  ///< [m]; none: the length at the start
+  joints::PointSpring::Parameters law;  ///< but for the free length
+  std::optional<double> free_length;    ///< [m]; none: the length at the start
 };
 
-/// Stiffness along and about the axes of the `from` link at the start.
+/// Stiffness along and about the axes of the end `from` at the start.
 struct BushingOptions {
   Vector3 translational_stiffness = Vector3::Zero();  ///< [N/m]
   Vector3 rotational_stiffness = Vector3::Zero();     ///< [N m/rad]
@@ -93,6 +132,39 @@ struct Connector {
   std::variant<SpringOptions, BushingOptions> law;
 };
 
+/// <latch>: locks two ends that come near each other.
+struct Latch {
+  std::string name;
+  ConnectorEnd from;
+  ConnectorEnd to;
+  CouplerOptions coupler;
+  double reach = 0.0;                                ///< [m]
+  double release_force = joints::Drive::kUnlimited;  ///< [N]
+  double release_time = joints::Drive::kUnlimited;   ///< [s]
+};
+
+/// <tendon>: a line through two or more points that only pulls.
+struct Tendon {
+  std::string name;
+  std::vector<ConnectorEnd> via;
+  double stiffness = 0.0;             ///< [N/m]
+  double damping = 0.0;               ///< [N s/m]
+  std::optional<double> free_length;  ///< [m]; none: the length at the start
+  std::optional<double> pretension;   ///< at the start [N]
+  double tension = 0.0;               ///< constant, besides [N]
+};
+
+/// <gear> and URDF's <mimic>: q = ratio q_with + offset.
+struct Gear {
+  std::string name;
+  std::string joint;                ///< of q, a joint or loop
+  std::string with;                 ///< of q_with, a joint or loop
+  double ratio = 1.0;               ///< not zero [unit of q / unit of q_with]
+  double offset = 0.0;              ///< [unit of q]
+  std::optional<double> stiffness;  ///< by q [N m/rad or N/m]
+  std::optional<double> damping;    ///< by q [N m s/rad or N s/m]
+};
+
 /// A tree of links. Links are ordered so that a parent comes before its
 /// children, and `joints[i]` leads to `links[i + 1]`.
 struct Robot {
@@ -100,7 +172,11 @@ struct Robot {
   std::filesystem::path file;
   std::vector<Link> links;
   std::vector<Joint> joints;
+  std::vector<Loop> loops;
   std::vector<Connector> connectors;
+  std::vector<Latch> latches;
+  std::vector<Tendon> tendons;
+  std::vector<Gear> gears;
   std::vector<std::string> warnings;  ///< what was read but is not modelled
 
   /// Whether the root link stands for the world.
@@ -108,6 +184,12 @@ struct Robot {
     return !links.empty() && links.front().name == "world";
   }
 };
+
+/// Coordinates along which a kind's actions and drives act: 0 to 3.
+[[nodiscard]] std::size_t count_coordinates(joints::JointKind kind);
+
+/// All ends of a robot's couplers but those of its joints.
+[[nodiscard]] std::vector<ConnectorEnd> find_ends(const Robot& robot);
 
 /// Index of a link. @throws InputError naming the nearest.
 [[nodiscard]] int find_link(const Robot& robot, const std::string& name);

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <algorithm>
 #include <fstream>
-#include <set>
 #include <sstream>
 
-#include "common/names.hpp"
-#include "scene/flexible_reader.hpp"
+#include "common/errors.hpp"
+#include "scene/extension_reader.hpp"
+#include "scene/urdf_joints.hpp"
 #include "scene/urdf_tree.hpp"
 
 namespace limber::scene {
@@ -68,8 +67,31 @@ joints::JointKind to_kind(int type) {
   }
 }
 
-Joint to_joint(const urdf::Joint& source, int parent, int child,
-               Problems& problems) {
+/// What <limit> and <dynamics> make act in the joint.
+void add_actions(const urdf::Joint& source, Joint& joint) {
+  const bool has_range = joint.kind == joints::JointKind::revolute ||
+                         joint.kind == joints::JointKind::prismatic;
+  if (const auto& limit = source.limits) {
+    if (has_range && (limit->lower != 0.0 || limit->upper != 0.0)) {
+      StopOptions stop;
+      stop.lower = limit->lower;
+      stop.upper = limit->upper;
+      joint.actions.push_back({0, stop});
+    }
+    if (limit->effort > 0.0) joint.max_effort = limit->effort;
+    if (limit->velocity > 0.0) joint.max_speed = limit->velocity;
+  }
+  if (!source.dynamics) return;
+  if (source.dynamics->damping != 0.0) {
+    joint.coupler.free_damping = source.dynamics->damping;
+  }
+  if (source.dynamics->friction != 0.0) {
+    joint.actions.push_back({0, joints::Friction::Parameters{
+                                    .coulomb = source.dynamics->friction}});
+  }
+}
+
+Joint to_joint(const urdf::Joint& source, int parent, int child) {
   Joint joint;
   joint.name = source.name;
   joint.kind = to_kind(source.type);
@@ -77,21 +99,24 @@ Joint to_joint(const urdf::Joint& source, int parent, int child,
   joint.child = child;
   joint.X_PJ = to_pose(source.parent_to_joint_origin_transform);
   if (joints::needs_axis(joint.kind)) {
-    joint.axis_J = to_vector(source.axis);
-    if (!(joint.axis_J.norm() > 0.0)) {
-      problems.add(
-          0, fmt::format("joint '{}': its axis has no direction", source.name));
-    }
-    joint.axis_J.normalize();
+    joint.axis_J = to_vector(source.axis).normalized();
   }
-  if (source.dynamics && source.dynamics->damping != 0.0) {
-    joint.coupler.free_damping = source.dynamics->damping;
-  }
+  add_actions(source, joint);
   return joint;
 }
 
+Gear to_gear(const urdf::Joint& source) {
+  Gear gear;
+  gear.name = source.name + ".mimic";
+  gear.joint = source.name;
+  gear.with = source.mimic->joint_name;
+  gear.ratio = source.mimic->multiplier;
+  gear.offset = source.mimic->offset;
+  return gear;
+}
+
 /// Adds a link and all below it, parents first.
-void add_branch(const urdf::Link& source, Robot& robot, Problems& problems) {
+void add_branch(const urdf::Link& source, Robot& robot) {
   const int parent = static_cast<int>(robot.links.size());
   Link link;
   link.name = source.name;
@@ -99,17 +124,10 @@ void add_branch(const urdf::Link& source, Robot& robot, Problems& problems) {
   robot.links.push_back(link);
   for (const urdf::JointSharedPtr& joint : source.child_joints) {
     const int child = static_cast<int>(robot.links.size());
-    robot.joints.push_back(to_joint(*joint, parent, child, problems));
-    if (joint->limits && joint->type != urdf::Joint::CONTINUOUS &&
-        (joint->limits->lower != 0.0 || joint->limits->upper != 0.0)) {
-      robot.warnings.push_back(fmt::format(
-          "joint '{}': end stops are not modelled; its limits are ignored",
-          joint->name));
-    }
+    robot.joints.push_back(to_joint(*joint, parent, child));
+    if (joint->mimic) robot.gears.push_back(to_gear(*joint));
     for (const urdf::LinkSharedPtr& next : source.child_links) {
-      if (next->name == joint->child_link_name) {
-        add_branch(*next, robot, problems);
-      }
+      if (next->name == joint->child_link_name) add_branch(*next, robot);
     }
   }
 }
@@ -123,112 +141,8 @@ void read_standard_part(const std::string& xml, Robot& robot,
     if (problems.empty()) problems.add(0, "not a URDF robot");
     return;
   }
-  add_branch(*model->getRoot(), robot, problems);
+  add_branch(*model->getRoot(), robot);
 }
-
-std::vector<std::string> joint_names(const Robot& robot) {
-  std::vector<std::string> names;
-  for (const Joint& joint : robot.joints) names.push_back(joint.name);
-  return names;
-}
-
-Link* named_link(Robot& robot, const std::string& name) {
-  for (Link& link : robot.links) {
-    if (link.name == name) return &link;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> link_names(const Robot& robot) {
-  std::vector<std::string> names;
-  for (const Link& link : robot.links) names.push_back(link.name);
-  return names;
-}
-
-/// Reads the elements that Limber adds, in one pass over the robot.
-class ExtensionReader {
- public:
-  ExtensionReader(Robot& robot, Problems& problems)
-      : robot_(robot), problems_(problems) {}
-
-  void read(const TiXmlElement& root) {
-    for (const TiXmlElement* child = root.FirstChildElement(); child != nullptr;
-         child = child->NextSiblingElement()) {
-      XmlElement element(*child, problems_);
-      if (read_one(element)) element.finish_attributes();
-    }
-  }
-
- private:
-  bool read_one(XmlElement& element) {
-    const std::string tag = element.tag();
-    if (tag == "flexible") {
-      add_flexible(element);
-    } else if (tag == "coupler") {
-      add_coupler(element);
-    } else if (tag == "spring") {
-      add_connector(element, read_spring(element));
-    } else if (tag == "bushing") {
-      add_connector(element, read_bushing(element));
-    } else {
-      return false;
-    }
-    if (tag != "flexible") element.read_children({});
-    return true;
-  }
-
-  void add_flexible(XmlElement& element) {
-    const std::string name = element.required_text("link");
-    FlexibleLink flexible = read_flexible(element, robot_.file.parent_path());
-    Link* link = named_link(robot_, name);
-    if (link == nullptr) {
-      element.fail(describe_unknown("link", name, link_names(robot_)));
-      return;
-    }
-    if (link->flexible) element.fail("for link '" + name + "' is given twice");
-    for (const auto& [joint, interface] : flexible.interface_of_joint) {
-      check_joint(element, joint);
-    }
-    link->flexible = std::move(flexible);
-  }
-
-  void check_joint(const XmlElement& element, const std::string& name) {
-    const std::vector<std::string> names = joint_names(robot_);
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      element.fail(describe_unknown("joint", name, names));
-    }
-  }
-
-  void add_coupler(XmlElement& element) {
-    const std::string name = element.required_text("joint");
-    const CouplerOptions options = read_coupler(element);
-    check_joint(element, name);
-    for (Joint& joint : robot_.joints) {
-      if (joint.name != name) continue;
-      const std::optional<double> damping = joint.coupler.free_damping;
-      joint.coupler = options;
-      if (!options.free_damping) joint.coupler.free_damping = damping;
-    }
-  }
-
-  void add_connector(XmlElement& element, const Connector& connector) {
-    check_end(element, connector.from);
-    check_end(element, connector.to);
-    if (!connectors_.insert(connector.name).second) {
-      element.fail(fmt::format("'{}' is given twice", connector.name));
-    }
-    robot_.connectors.push_back(connector);
-  }
-
-  void check_end(const XmlElement& element, const ConnectorEnd& end) {
-    if (end.link == "world" || named_link(robot_, end.link) != nullptr) return;
-    element.fail(describe_unknown("link", end.link, link_names(robot_)));
-  }
-
-  Robot& robot_;
-  Problems& problems_;
-  std::set<std::string> connectors_;
-};
 
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -258,13 +172,6 @@ const TiXmlElement& parse_root(TiXmlDocument& document, const std::string& xml,
 
 }  // namespace
 
-int find_link(const Robot& robot, const std::string& name) {
-  for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    if (robot.links[i].name == name) return static_cast<int>(i);
-  }
-  throw InputError(describe_unknown("link", name, link_names(robot)));
-}
-
 Robot read_robot(const std::filesystem::path& file) {
   const std::string xml = read_text(file);
   Problems problems(file.string());
@@ -272,6 +179,7 @@ Robot read_robot(const std::filesystem::path& file) {
   const TiXmlElement& root = parse_root(document, xml, problems);
   check_urdf_tree(root, problems);
   problems.raise();
+  check_urdf_joints(root, problems);
   Robot robot;
   robot.file = file;
   robot.name = root.Attribute("name") != nullptr ? root.Attribute("name") : "";
@@ -279,7 +187,7 @@ Robot read_robot(const std::filesystem::path& file) {
   problems.raise();
   read_standard_part(xml, robot, problems);
   problems.raise();
-  ExtensionReader(robot, problems).read(root);
+  read_extension(root, robot, problems);
   problems.raise();
   return robot;
 }

@@ -7,8 +7,7 @@
 
 namespace limber::scene {
 
-/// Reads a URDF file and its <flexible>, <coupler>, <spring> and <bushing>
-/// extensions.
+/// Reads a URDF file and Limber's extension of it.
 /// @throws InputError with every problem of the file, each with its line.
 [[nodiscard]] Robot read_robot(const std::filesystem::path& file);
 

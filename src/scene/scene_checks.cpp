@@ -38,6 +38,10 @@ class Checker {
       }
     }
     for (const ProbeSpec& probe : scenario_.probes) check_probe(probe);
+    for (const DriveSpec& drive : scenario_.drives) check_drive(drive);
+    for (const auto& [latch, time] : scenario_.releases) {
+      find_named("[[release]]", "latch", latch, robot_.latches);
+    }
     problems_.raise();
   }
 
@@ -100,6 +104,48 @@ class Checker {
                         ": one node of a solid has no rotation; use "
                         "'interface', 'group', 'box', 'plane' or 'cylinder'");
     }
+  }
+
+  /// Null and a problem if none of `all` is called so.
+  template <typename Named>
+  const Named* find_named(const std::string& who, const std::string& kind,
+                          const std::string& name,
+                          const std::vector<Named>& all) {
+    std::vector<std::string> known;
+    for (const Named& one : all) {
+      if (one.name == name) return &one;
+      known.push_back(one.name);
+    }
+    problems_.add(0, who + ": " + describe_unknown(kind, name, known));
+    return nullptr;
+  }
+
+  void check_drive(const DriveSpec& drive) {
+    const std::string who = "drive '" + drive.name + "'";
+    if (!drive.tendon.empty()) {
+      find_named(who, "tendon", drive.tendon, robot_.tendons);
+      return;
+    }
+    struct Driven {
+      std::string name;
+      joints::JointKind kind;
+    };
+    std::vector<Driven> all;
+    for (const Joint& joint : robot_.joints) {
+      all.push_back({joint.name, joint.kind});
+    }
+    for (const Loop& loop : robot_.loops) all.push_back({loop.name, loop.kind});
+    const Driven* driven = find_named(who, "joint", drive.joint, all);
+    if (driven == nullptr) return;
+    const auto count = static_cast<int>(count_coordinates(driven->kind));
+    if (drive.coordinate >= 1 && drive.coordinate <= count) return;
+    problems_.add(
+        0, count == 0
+               ? fmt::format("{}: joint '{}' is {}: it has no coordinate to "
+                             "drive",
+                             who, drive.joint, joints::to_string(driven->kind))
+               : fmt::format("{}: coordinate {}: joint '{}' has {}", who,
+                             drive.coordinate, drive.joint, count));
   }
 
   const Scenario& scenario_;

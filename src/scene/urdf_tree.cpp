@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -76,20 +75,6 @@ class TreeCheck {
                     fmt::format("joint '{}': {}", name,
                                 describe_unknown("type", type, kJointTypes)));
     }
-    if (joint.FirstChildElement("mimic") != nullptr) {
-      problems_.add(joint.Row(),
-                    fmt::format("joint '{}': <mimic> is not modelled; remove "
-                                "it or join the links by a <bushing>",
-                                name));
-    }
-    const std::string friction =
-        attribute(joint.FirstChildElement("dynamics"), "friction");
-    if (!friction.empty() && std::strtod(friction.c_str(), nullptr) != 0.0) {
-      problems_.add(joint.Row(),
-                    fmt::format("joint '{}': dry friction ({} N or N m) is not "
-                                "modelled; use 'damping' or remove it",
-                                name, friction));
-    }
   }
 
   /// Name of the link at one end, or nothing if there is a problem with it.
@@ -111,7 +96,7 @@ class TreeCheck {
           joint.Row(),
           fmt::format("joint '{}' closes a loop (link '{}' is its own "
                       "ancestor); URDF describes trees: join the ends of the "
-                      "loop by a <bushing> instead",
+                      "loop by a <loop> instead",
                       name, child));
       return;
     }
@@ -121,7 +106,7 @@ class TreeCheck {
         joint.Row(),
         fmt::format("joint '{}': link '{}' has two parents ('{}' and '{}'), a "
                     "loop that URDF cannot have; join the second by a "
-                    "<bushing> instead",
+                    "<loop> instead",
                     name, child, known->second, parent));
   }
 

@@ -205,6 +205,72 @@ TEST(BadInput, LoopThatUrdfCannotHave) {
   expect_scene_refused(text, "joint 'k' closes a loop");
 }
 
+/// Two rigid links on the world, and what a test adds.
+void expect_robot_refused(const std::string& more, const std::string& culprit) {
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+      "ixz='0' iyz='0'/></inertial></link>";
+  const Workspace place;
+  place.write("robot.urdf",
+              "<robot name='r'><link name='world'/><link name='a'>" + mass +
+                  "<link name='b'>" + mass + more + "</robot>\n");
+  place.write("scenario.toml",
+              "robot = \"robot.urdf\"\n[time]\nduration = 0.1\nstep = "
+              "0.01\n");
+  expect_refused(place.limber("run scenario.toml"), culprit);
+}
+
+/// Joints j, k of these types, one after the other.
+std::string two_joints(const std::string& type, const std::string& more_j = "",
+                       const std::string& more_k = "") {
+  const auto joint = [&](const std::string& name, const std::string& parent,
+                         const std::string& child, const std::string& more) {
+    return "<joint name='" + name + "' type='" + type + "'><parent link='" +
+           parent + "'/><child link='" + child + "'/>" + more + "</joint>";
+  };
+  return joint("j", "world", "a", more_j) + joint("k", "a", "b", more_k);
+}
+
+TEST(BadInput, UnknownJointKind) {
+  expect_robot_refused(two_joints("screw"), "unknown type 'screw'");
+  expect_robot_refused(
+      two_joints("floating") + "<coupler joint='j' kind='bal'/>",
+      "unknown kind 'bal'; did you mean 'ball'");
+}
+
+TEST(BadInput, StopWhoseLowerBoundIsAboveItsUpper) {
+  expect_robot_refused(
+      two_joints("revolute",
+                 "<limit lower='2' upper='1' effort='0' velocity='0'/>",
+                 "<limit effort='0' velocity='0'/>"),
+      "robot.urdf:1: joint 'j': its lower limit 2 is above its upper limit 1");
+}
+
+TEST(BadInput, TendonOverOnePoint) {
+  expect_robot_refused(two_joints("continuous") +
+                           "<tendon name='t' tension='1'><via link='a'/>"
+                           "</tendon>",
+                       "robot.urdf:1: <tendon> needs two or more <via>");
+}
+
+TEST(BadInput, MimicInACircle) {
+  expect_robot_refused(
+      two_joints("continuous", "<mimic joint='j'/>"),
+      "robot.urdf:1: joint 'j': <mimic> goes in a circle (j -> j)");
+}
+
+TEST(BadInput, HingeWhoseAxisHasNoLength) {
+  expect_robot_refused(two_joints("continuous", "<axis xyz='0 0 0'/>"),
+                       "robot.urdf:1: joint 'j': its axis has no length");
+}
+
+TEST(BadInput, LoopWhoseEndsAreApart) {
+  expect_robot_refused(two_joints("continuous") +
+                           "<loop name='o' kind='ball' from='b' to='world' "
+                           "to_xyz='1 0 0'/>",
+                       "loop 'o': its ends are 1 m apart");
+}
+
 TEST(BadInput, MoreModesThanDegreesOfFreedom) {
   SceneText text;
   text.eigenmodes = "5000";

@@ -49,11 +49,9 @@ inline std::string make_joint(const std::string& name, const std::string& type,
                               const std::string& parent,
                               const std::string& child,
                               const std::string& axis = "0 1 0") {
-  // URDF wants limits of a slider; they do not act.
+  // URDF wants limits of a slider; bounds of zero are none.
   const std::string limit =
-      type == "prismatic"
-          ? R"(<limit lower="-9" upper="9" effort="1" velocity="1"/>)"
-          : "";
+      type == "prismatic" ? R"(<limit effort="1" velocity="1"/>)" : "";
   return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" +
          parent + "\"/><child link=\"" + child +
          "\"/><origin xyz=\"0.5 0.05 0\" rpy=\"0.2 0.4 -0.3\"/><axis xyz=\"" +

@@ -4,13 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
-#include "dynamics/simulation.hpp"
 #include "flexbody/body_file.hpp"
-#include "scene/scene.hpp"
 #include "support/point_mass_body.hpp"
+#include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 /// Scenes from their files to their motion, against closed forms.
@@ -18,58 +16,12 @@ namespace limber::scene {
 namespace {
 
 using test::input_error;
+using test::kWorld;
+using test::rigid_link;
+using test::SceneFolder;
+using test::simulate_probes;
+using test::time_table;
 using ::testing::HasSubstr;
-
-/// A folder for one test.
-class SceneFolder {
- public:
-  SceneFolder() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "limber-scene-XXXXXX")
-            .string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~SceneFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(folder_, error);
-  }
-  SceneFolder(const SceneFolder&) = delete;
-  SceneFolder& operator=(const SceneFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-
-  [[nodiscard]] BuiltScene build(const std::string& robot,
-                                 const std::string& scenario) const {
-    std::ofstream(folder_ / "robot.urdf") << "<robot name='r'>\n"
-                                          << robot << "</robot>\n";
-    std::ofstream(folder_ / "scenario.toml") << "robot = 'robot.urdf'\n"
-                                             << scenario;
-    return build_system(
-        load_scene(folder_ / "scenario.toml"),
-        [](const flexbody::Recipe& recipe) -> flexbody::ReducedBody {
-          ADD_FAILURE() << recipe.name << " should not be reduced";
-          return {};
-        },
-        folder_ / "cache");
-  }
-
- private:
-  std::filesystem::path folder_;
-};
-
-std::string time_table(double duration, double step) {
-  return fmt::format("[time]\nduration = {}\nstep = {}\n", duration, step);
-}
-
-/// Rigid link: mass [kg], inertia about its origin's axes [kg m^2].
-std::string rigid_link(const std::string& name, double mass, double inertia,
-                       const std::string& center = "0 0 0") {
-  return fmt::format(
-      "<link name='{0}'><inertial><origin xyz='{3}'/><mass value='{1}'/>"
-      "<inertia ixx='{2}' iyy='{2}' izz='{2}' ixy='0' ixz='0' iyz='0'/>"
-      "</inertial></link>\n",
-      name, mass, inertia, center);
-}
 
 std::string joint(const std::string& type, const std::string& axis = "0 0 1",
                   const std::string& limits = "") {
@@ -79,18 +31,10 @@ std::string joint(const std::string& type, const std::string& axis = "0 0 1",
       type, axis, limits);
 }
 
-const std::string kWorld = "<link name='world'/>\n";
 const std::string kLimits =
     "<limit lower='-9' upper='9' effort='1' velocity='1'/>";
 const std::string kProbe =
     "[[probe]]\nname = 'p'\nlink = 'body'\nquantity = 'position'\n";
-
-/// Probe columns at the end of the scenario.
-std::vector<double> simulate_probes(const BuiltScene& built) {
-  dynamics::SystemState state = built.initial;
-  dynamics::simulate(built.model, state, built.settings, {});
-  return evaluate_all(built.probes, built.model, state);
-}
 
 // Half a turn and fifty: the point is where its angle says.
 TEST(BuildSystem, ContinuousJointTurnsAnyNumberOfTimes) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/end_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace limber::scene {
+namespace {
+
+/// from="LINK/INTERFACE" or from="LINK" from_xyz="x y z".
+ConnectorEnd read_end_attributes(XmlElement& element, const std::string& side) {
+  ConnectorEnd end;
+  const std::string text = element.required_text(side);
+  const std::size_t slash = text.find('/');
+  end.link = text.substr(0, slash);
+  if (slash != std::string::npos) end.interface = text.substr(slash + 1);
+  end.point = element.vector(side + "_xyz").value_or(Vector3::Zero());
+  return end;
+}
+
+}  // namespace
+
+ConnectorEnd read_end(XmlElement& element) {
+  ConnectorEnd end;
+  end.link = element.required_text("link");
+  end.interface = element.text("interface").value_or("");
+  end.point = element.vector("point").value_or(Vector3::Zero());
+  end.R = rotation_rpy(element.vector("rpy").value_or(Vector3::Zero()));
+  return end;
+}
+
+void read_ends(XmlElement& element, ConnectorEnd& from, ConnectorEnd& to,
+               std::map<std::string, XmlElement::Reader> others) {
+  const std::map<std::string, ConnectorEnd*> sides = {{"from", &from},
+                                                      {"to", &to}};
+  std::map<std::string, int> given;
+  for (const auto& [side, end] : sides) {
+    others[side] = [&given, side = side, end = end](XmlElement& child) {
+      ++given[side];
+      *end = read_end(child);
+    };
+  }
+  element.read_children(others);
+  for (const auto& [side, end] : sides) {
+    const int count = given[side] + (element.has(side) ? 1 : 0);
+    if (count > 1) element.fail(fmt::format("has more than one '{}'", side));
+    if (given[side] == 0) *end = read_end_attributes(element, side);
+  }
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/extension_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/names.hpp"
+#include "scene/coupler_reader.hpp"
+#include "scene/flexible_reader.hpp"
+#include "scene/xml_element.hpp"
+
+namespace limber::scene {
+namespace {
+
+template <typename Named>
+Named* find_named(std::vector<Named>& all, const std::string& name) {
+  for (Named& one : all) {
+    if (one.name == name) return &one;
+  }
+  return nullptr;
+}
+
+template <typename Named>
+void add_names(const std::vector<Named>& all, std::vector<std::string>& names) {
+  for (const Named& one : all) names.push_back(one.name);
+}
+
+class ExtensionReader {
+ public:
+  ExtensionReader(Robot& robot, Problems& problems)
+      : robot_(robot), problems_(problems) {
+    add_names(robot.links, links_);
+    add_names(robot.joints, joints_);
+    for (const std::string& name : joints_) couplers_.insert(name);
+    for (const Gear& mimic : robot.gears) couplers_.insert(mimic.name);
+  }
+
+  void read(const TiXmlElement& root) {
+    read_all(root, {{"flexible", [this](XmlElement& e) { add_flexible(e); }},
+                    {"coupler", [this](XmlElement& e) { add_coupler(e); }},
+                    {"loop", [this](XmlElement& e) { add_loop(e); }},
+                    {"spring",
+                     [this](XmlElement& e) {
+                       add_pair(e, read_spring(e), robot_.connectors);
+                     }},
+                    {"bushing",
+                     [this](XmlElement& e) {
+                       add_pair(e, read_bushing(e), robot_.connectors);
+                     }},
+                    {"latch",
+                     [this](XmlElement& e) {
+                       add_pair(e, read_latch(e), robot_.latches);
+                     }},
+                    {"tendon", [this](XmlElement& e) { add_tendon(e); }}});
+    // They name joints and loops, which are known by now.
+    read_all(root, {{"gear", [this](XmlElement& e) { add_gear(e); }}});
+  }
+
+ private:
+  void read_all(const TiXmlElement& root,
+                const std::map<std::string, XmlElement::Reader>& readers) {
+    for (const TiXmlElement* child = root.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      const auto found = readers.find(child->ValueStr());
+      if (found == readers.end()) continue;
+      XmlElement element(*child, problems_);
+      found->second(element);
+      element.finish_attributes();
+    }
+  }
+
+  void add_flexible(XmlElement& element) {
+    const std::string name = element.required_text("link");
+    FlexibleLink flexible = read_flexible(element, robot_.file.parent_path());
+    Link* link = find_named(robot_.links, name);
+    if (link == nullptr) {
+      element.fail(describe_unknown("link", name, links_));
+      return;
+    }
+    if (link->flexible) element.fail("for link '" + name + "' is given twice");
+    for (const auto& [joint, interface] : flexible.interface_of_joint) {
+      check_joint(element, joint);
+    }
+    link->flexible = std::move(flexible);
+  }
+
+  void check_joint(const XmlElement& element, const std::string& name) {
+    if (find_named(robot_.joints, name) != nullptr) return;
+    element.fail(describe_unknown("joint", name, joints_));
+  }
+
+  void add_coupler(XmlElement& element) {
+    const std::string name = element.required_text("joint");
+    check_joint(element, name);
+    Joint unknown;
+    Joint* joint = find_named(robot_.joints, name);
+    read_coupler(element, joint != nullptr ? *joint : unknown);
+    if (!tuned_.insert(name).second) {
+      element.fail("for joint '" + name + "' is given twice");
+    }
+  }
+
+  void add_loop(XmlElement& element) {
+    add_pair(element, read_loop(element), robot_.loops);
+  }
+
+  template <typename Coupler>
+  void add_pair(XmlElement& element, const Coupler& coupler,
+                std::vector<Coupler>& all) {
+    check_end(element, coupler.from);
+    check_end(element, coupler.to);
+    check_name(element, coupler.name);
+    all.push_back(coupler);
+  }
+
+  void add_tendon(XmlElement& element) {
+    const Tendon tendon = read_tendon(element);
+    for (const ConnectorEnd& end : tendon.via) check_end(element, end);
+    check_name(element, tendon.name);
+    robot_.tendons.push_back(tendon);
+  }
+
+  void add_gear(XmlElement& element) {
+    const Gear gear = read_gear(element);
+    check_name(element, gear.name);
+    check_geared(element, gear.joint);
+    check_geared(element, gear.with);
+    if (gear.joint == gear.with) {
+      element.fail("couples joint '" + gear.joint + "' with itself");
+    }
+    robot_.gears.push_back(gear);
+  }
+
+  void check_geared(const XmlElement& element, const std::string& name) {
+    const Joint* joint = find_named(robot_.joints, name);
+    const Loop* loop = find_named(robot_.loops, name);
+    if (joint == nullptr && loop == nullptr) {
+      std::vector<std::string> known = joints_;
+      add_names(robot_.loops, known);
+      element.fail(describe_unknown("joint", name, known));
+      return;
+    }
+    const joints::JointKind kind = joint != nullptr ? joint->kind : loop->kind;
+    const std::size_t count = count_coordinates(kind);
+    if (count == 1) return;
+    element.fail(fmt::format(
+        "needs joints with one coordinate; joint '{}' is {} and has {}", name,
+        joints::to_string(kind), count));
+  }
+
+  // Probes, drives and results tell couplers apart by their names.
+  void check_name(const XmlElement& element, const std::string& name) {
+    if (couplers_.insert(name).second) return;
+    element.fail(fmt::format(
+        "'{}' is given twice; couplers and joints need names of their own",
+        name));
+  }
+
+  void check_end(const XmlElement& element, const ConnectorEnd& end) {
+    if (end.link == "world" || find_named(robot_.links, end.link) != nullptr) {
+      return;
+    }
+    element.fail(describe_unknown("link", end.link, links_));
+  }
+
+  Robot& robot_;
+  Problems& problems_;
+  std::vector<std::string> links_;
+  std::vector<std::string> joints_;
+  std::set<std::string> couplers_;
+  std::set<std::string> tuned_;  ///< joints with a <coupler>
+};
+
+}  // namespace
+
+void read_extension(const TiXmlElement& root, Robot& robot,
+                    Problems& problems) {
+  ExtensionReader(robot, problems).read(root);
+}
+
+}  // namespace limber::scene

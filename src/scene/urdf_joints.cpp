@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/urdf_joints.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/names.hpp"
+#include "scene/xml_element.hpp"
+
+namespace limber::scene {
+namespace {
+
+class JointChecks {
+ public:
+  JointChecks(const TiXmlElement& robot, Problems& problems)
+      : problems_(problems) {
+    for (const TiXmlElement* joint = robot.FirstChildElement("joint");
+         joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+      joints_.push_back(joint);
+      names_.push_back(text(*joint, "name"));
+      by_name_[names_.back()] = joint;
+    }
+  }
+
+  void run() {
+    for (const TiXmlElement* joint : joints_) {
+      check_axis(*joint);
+      check_limit(*joint);
+      check_dynamics(*joint);
+      check_mimic(*joint);
+    }
+  }
+
+ private:
+  static std::string text(const TiXmlElement& element, const char* name) {
+    const char* value = element.Attribute(name);
+    return value == nullptr ? "" : value;
+  }
+
+  static bool has_one_coordinate(const TiXmlElement& joint) {
+    const std::string type = text(joint, "type");
+    return type == "revolute" || type == "continuous" || type == "prismatic";
+  }
+
+  void fail(const TiXmlElement& at, const TiXmlElement& joint,
+            const std::string& what) {
+    problems_.add(at.Row(),
+                  fmt::format("joint '{}': {}", text(joint, "name"), what));
+  }
+
+  void check_axis(const TiXmlElement& joint) {
+    const TiXmlElement* axis = joint.FirstChildElement("axis");
+    const bool needs_axis =
+        has_one_coordinate(joint) || text(joint, "type") == "planar";
+    if (axis == nullptr || !needs_axis) return;
+    const std::optional<Vector3> xyz =
+        XmlElement(*axis, problems_).vector("xyz");
+    if (xyz && !(xyz->norm() > 0.0)) {
+      fail(*axis, joint, "its axis has no length, so no direction");
+    }
+  }
+
+  void check_limit(const TiXmlElement& joint) {
+    const TiXmlElement* limit = joint.FirstChildElement("limit");
+    if (limit == nullptr || !has_one_coordinate(joint)) return;
+    XmlElement element(*limit, problems_);
+    const double lower = element.number("lower").value_or(0.0);
+    const double upper = element.number("upper").value_or(0.0);
+    if (lower > upper) {
+      fail(*limit, joint,
+           fmt::format("its lower limit {:g} is above its upper limit {:g}",
+                       lower, upper));
+    }
+  }
+
+  void check_dynamics(const TiXmlElement& joint) {
+    const TiXmlElement* dynamics = joint.FirstChildElement("dynamics");
+    if (dynamics == nullptr) return;
+    XmlElement element(*dynamics, problems_);
+    (void)element.number("damping", kNonNegative);
+    const double friction =
+        element.number("friction", kNonNegative).value_or(0.0);
+    if (friction > 0.0 && !has_one_coordinate(joint)) {
+      fail(*dynamics, joint,
+           fmt::format("friction acts along one coordinate, and a {} joint "
+                       "does not have one; if it has several, give a "
+                       "<friction coordinate=\"\"/> each in a <coupler>",
+                       text(joint, "type")));
+    }
+  }
+
+  void check_mimic(const TiXmlElement& joint) {
+    const TiXmlElement* mimic = joint.FirstChildElement("mimic");
+    if (mimic == nullptr) return;
+    XmlElement element(*mimic, problems_);
+    if (element.number("multiplier") == 0.0) {
+      fail(*mimic, joint, "<mimic> multiplies by 0; make the joint fixed");
+    }
+    (void)element.number("offset");
+    const std::string name = text(*mimic, "joint");
+    const auto other = by_name_.find(name);
+    if (other == by_name_.end()) {
+      fail(*mimic, joint,
+           "<mimic>: " + describe_unknown("joint", name, names_));
+      return;
+    }
+    for (const TiXmlElement* end : {&joint, other->second}) {
+      if (has_one_coordinate(*end)) continue;
+      fail(*mimic, joint,
+           fmt::format("<mimic> needs joints with one coordinate; joint '{}' "
+                       "is {}",
+                       text(*end, "name"), text(*end, "type")));
+    }
+    check_cycle(*mimic, joint);
+  }
+
+  // Who mimics whom comes back to this joint: told once, at the first of them.
+  void check_cycle(const TiXmlElement& mimic, const TiXmlElement& joint) {
+    std::string path = text(joint, "name");
+    const TiXmlElement* at = &joint;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const TiXmlElement* next = at->FirstChildElement("mimic");
+      const auto found = next == nullptr ? by_name_.end()
+                                         : by_name_.find(text(*next, "joint"));
+      if (found == by_name_.end()) return;
+      at = found->second;
+      path += " -> " + text(*at, "name");
+      if (at == &joint) break;
+      if (at->Row() < joint.Row()) return;
+    }
+    if (at != &joint) return;
+    fail(mimic, joint,
+         fmt::format("<mimic> goes in a circle ({}); leave one of them free",
+                     path));
+  }
+
+  Problems& problems_;
+  std::vector<const TiXmlElement*> joints_;
+  std::vector<std::string> names_;
+  std::map<std::string, const TiXmlElement*> by_name_;
+};
+
+}  // namespace
+
+void check_urdf_joints(const TiXmlElement& robot, Problems& problems) {
+  JointChecks(robot, problems).run();
+}
+
+}  // namespace limber::scene

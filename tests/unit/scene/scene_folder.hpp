@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation.hpp"
+#include "scene/scene.hpp"
+
+/// Scenes of rigid links from text to motion.
+namespace limber::scene::test {
+
+/// A folder for one test.
+class SceneFolder {
+ public:
+  SceneFolder() {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "limber-scene-XXXXXX")
+            .string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~SceneFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
+  }
+  SceneFolder(const SceneFolder&) = delete;
+  SceneFolder& operator=(const SceneFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+  [[nodiscard]] Scene load(const std::string& robot,
+                           const std::string& scenario) const {
+    std::ofstream(folder_ / "robot.urdf") << "<robot name='r'>\n"
+                                          << robot << "</robot>\n";
+    std::ofstream(folder_ / "scenario.toml") << "robot = 'robot.urdf'\n"
+                                             << scenario;
+    return load_scene(folder_ / "scenario.toml");
+  }
+
+  [[nodiscard]] BuiltScene build(const Scene& scene) const {
+    return build_system(
+        scene,
+        [](const flexbody::Recipe& recipe) -> flexbody::ReducedBody {
+          ADD_FAILURE() << recipe.name << " should not be reduced";
+          return {};
+        },
+        folder_ / "cache");
+  }
+
+  [[nodiscard]] BuiltScene build(const std::string& robot,
+                                 const std::string& scenario) const {
+    return build(load(robot, scenario));
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+inline const std::string kWorld = "<link name='world'/>\n";
+
+inline std::string time_table(double duration, double step) {
+  return fmt::format("[time]\nduration = {}\nstep = {}\n", duration, step);
+}
+
+/// Rigid link: mass [kg], inertia about its centre's axes [kg m^2].
+inline std::string rigid_link(const std::string& name, double mass,
+                              double inertia,
+                              const std::string& center = "0 0 0") {
+  return fmt::format(
+      "<link name='{0}'><inertial><origin xyz='{3}'/><mass value='{1}'/>"
+      "<inertia ixx='{2}' iyy='{2}' izz='{2}' ixy='0' ixz='0' iyz='0'/>"
+      "</inertial></link>\n",
+      name, mass, inertia, center);
+}
+
+/// Probe columns at the end of the scenario.
+inline std::vector<double> simulate_probes(const BuiltScene& built) {
+  dynamics::SystemState state = built.initial;
+  dynamics::simulate(built.model, state, built.settings, {});
+  return evaluate_all(built.probes, built.model, state);
+}
+
+}  // namespace limber::scene::test
