@@ -115,6 +115,8 @@ Json describe_scenario(const std::filesystem::path& file) {
   const scene::Scenario scenario = scene::read_scenario(file);
   std::vector<std::string> loads;
   for (const auto& load : scenario.loads) loads.push_back(load.name);
+  std::vector<std::string> drives;
+  for (const auto& drive : scenario.drives) drives.push_back(drive.name);
   std::vector<std::string> probes;
   for (const auto& probe : scenario.probes) probes.push_back(probe.name);
   return Json{{"kind", "scenario"},
@@ -124,6 +126,7 @@ Json describe_scenario(const std::filesystem::path& file) {
               {"outputs", scenario.settings.output_times.size()},
               {"fidelity", std::string(dynamics::to_string(scenario.fidelity))},
               {"loads", loads},
+              {"drives", drives},
               {"probes", probes}};
 }
 

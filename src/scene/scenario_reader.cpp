@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/basis_reader.hpp"
+#include "scene/drive_reader.hpp"
 #include "scene/place_reader.hpp"
 #include "scene/time_function_reader.hpp"
 #include "scene/time_settings_reader.hpp"
@@ -223,6 +224,14 @@ void read_root(TomlTable& root, Scenario& scenario) {
   scenario.loads = read_items<LoadSpec>(root, "load", [&](TomlTable& t) {
     return read_load(t, scenario.file.parent_path(), scenario.warnings);
   });
+  scenario.drives = read_items<DriveSpec>(root, "drive", [&](TomlTable& t) {
+    return read_drive(t, scenario.file.parent_path());
+  });
+  for (const toml::table* table : root.tables("release")) {
+    TomlTable release(*table, "release", root.problems());
+    read_release(release, scenario.releases);
+    release.finish();
+  }
   scenario.probes = read_items<ProbeSpec>(root, "probe", read_probe);
   root.finish();
 }

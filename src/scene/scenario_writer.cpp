@@ -54,6 +54,12 @@ void move_paths(toml::table& root, const Mover& mover) {
       if (time != nullptr) mover.move(*time, "file");
     }
   }
+  if (toml::array* drives = root.get_as<toml::array>("drive")) {
+    for (toml::node& item : *drives) {
+      toml::table* signal = item.as_table()->get_as<toml::table>("signal");
+      if (signal != nullptr) mover.move(*signal, "file");
+    }
+  }
   toml::table* links = root["initial"]["links"].as_table();
   if (links == nullptr) return;
   for (auto&& [name, item] : *links) {

@@ -30,8 +30,7 @@ bool is_heading(const std::string& line) {
 Series read_series(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) {
-    throw InputError(
-        fmt::format("{}: cannot read this table of a load", file.string()));
+    throw InputError(fmt::format("{}: cannot read this table", file.string()));
   }
   Series series;
   int number = 0;

@@ -9,7 +9,7 @@
 
 #include "common/errors.hpp"
 #include "flexbody/fourier.hpp"
-#include "scene/series_file.hpp"
+#include "scene/points_reader.hpp"
 
 namespace limber::scene {
 namespace {
@@ -35,34 +35,13 @@ std::vector<double> required_numbers(TomlTable& table, const std::string& key) {
   return table.numbers(key).value_or(std::vector<double>{});
 }
 
-// The points of a history: `times` and `values`, or a `file` of both.
-Series read_points(Source& source) {
-  TomlTable& table = source.table;
-  const auto file = table.text("file");
-  if (!file) {
-    return {required_numbers(table, "times"),
-            required_numbers(table, "values")};
-  }
-  if (table.has("times") || table.has("values")) {
-    table.fail("has both 'file' and 'times' or 'values'; keep one");
-  }
-  (void)table.numbers("times");
-  (void)table.numbers("values");
-  try {
-    return read_series((source.folder / *file).lexically_normal());
-  } catch (const InputError& error) {
-    table.fail("file", error.problems().front());
-  }
-  return {};
-}
-
 dynamics::TimeFunction read_steps(Source& source) {
-  const Series points = read_points(source);
+  const Series points = read_points(source.table, source.folder);
   return dynamics::StepSequence{points.times, points.values};
 }
 
 dynamics::TimeFunction read_table(Source& source) {
-  const Series points = read_points(source);
+  const Series points = read_points(source.table, source.folder);
   return dynamics::Table{points.times, points.values};
 }
 
@@ -136,7 +115,7 @@ dynamics::HarmonicSum to_sum(const flexbody::FourierSeries& series) {
 // Outside of its table a measured load is zero, unless `until` goes on.
 dynamics::TimeFunction read_fourier(Source& source) {
   TomlTable& table = source.table;
-  const Series points = read_points(source);
+  const Series points = read_points(source.table, source.folder);
   const auto harmonics = table.integer("harmonics", 0, 100000);
   const auto until = table.number("until");
   if (!harmonics) {

@@ -86,6 +86,10 @@ TEST(ScenarioWriter, LeadsFromTheNewFolderToEveryFile) {
       "robot = '" + fs::proximate(kModels / "beam.urdf", place).string() +
           "'\n[time]\nduration = 1.0\nstep = 0.1\n"
           "[initial.links.beam]\ndisplacement = 'u.txt'\n"
+          "[[drive]]\njoint = 'j'\nmode = 'effort'\nsignal = { kind = "
+          "'table', file = '" +
+          history.path().filename().string() +
+          "' }\n"
           "[[load]]\nname = 'a'\nlink = 'beam'\nnodal_forces = 'sub/f.txt'\n"
           "[[load]]\nname = 'b'\nlink = 'beam'\nnode = 1\nforce = [1, 0, 0]\n"
           "time = { kind = 'table', file = '" +

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/signal_reader.hpp"
+
+#include "scene/points_reader.hpp"
+
+namespace limber::scene {
+namespace {
+
+using Base = decltype(joints::Signal::base);
+using Folder = std::filesystem::path;
+using Reader = Base (*)(TomlTable&, const Folder&);
+
+Base read_constant(TomlTable& table, const Folder& /*folder*/) {
+  return joints::ConstantSignal{table.required_number("value")};
+}
+
+Base read_ramp(TomlTable& table, const Folder& /*folder*/) {
+  using joints::RampShape;
+  joints::RampSignal ramp;
+  ramp.from = table.number("from").value_or(ramp.from);
+  ramp.to = table.required_number("to");
+  ramp.start = table.number("start").value_or(ramp.start);
+  ramp.duration = table.required_number("duration", kPositive);
+  ramp.shape = read_choice<RampShape>(table, "shape",
+                                      {{"linear", RampShape::linear},
+                                       {"trapezoid", RampShape::trapezoid},
+                                       {"smooth", RampShape::smooth}},
+                                      ramp.shape);
+  const Range share{0.0, 0.5, true, false};
+  ramp.rise = table.number("rise", share).value_or(ramp.rise);
+  if (table.has("rise") && ramp.shape != RampShape::trapezoid) {
+    table.fail("rise", "is of shape 'trapezoid' alone");
+  }
+  return ramp;
+}
+
+Base read_table(TomlTable& table, const Folder& folder) {
+  Series points = read_points(table, folder);
+  return joints::TableSignal{std::move(points.times), std::move(points.values)};
+}
+
+Base read_sine(TomlTable& table, const Folder& /*folder*/) {
+  joints::SineSignal sine;
+  sine.mean = table.number("mean").value_or(sine.mean);
+  sine.amplitude = table.required_number("amplitude");
+  sine.frequency = table.required_number("frequency", kPositive);
+  sine.phase = table.number("phase").value_or(sine.phase);
+  sine.start = table.number("start").value_or(sine.start);
+  return sine;
+}
+
+Base read_base(TomlTable& table, const Folder& folder) {
+  if (!table.has("kind")) table.fail("needs 'kind'");
+  const Reader reader = read_choice<Reader>(table, "kind",
+                                            {{"constant", read_constant},
+                                             {"ramp", read_ramp},
+                                             {"table", read_table},
+                                             {"sine", read_sine}},
+                                            nullptr);
+  if (reader == nullptr) return {};
+  Base base = reader(table, folder);
+  table.finish();
+  return base;
+}
+
+std::vector<joints::Impulse> read_shaper(TomlTable& table) {
+  using joints::ShaperKind;
+  if (!table.has("kind")) table.fail("needs 'kind', 'zv' or 'zvd'");
+  const ShaperKind kind = read_choice<ShaperKind>(
+      table, "kind", {{"zv", ShaperKind::zv}, {"zvd", ShaperKind::zvd}},
+      ShaperKind::zv);
+  const double frequency = table.required_number("frequency", kPositive);
+  const Range below_one{0.0, 1.0, false, true};
+  const auto ratio = table.number("damping_ratio", below_one);
+  table.finish();
+  return joints::make_shaper(kind, frequency, ratio.value_or(0.0));
+}
+
+}  // namespace
+
+joints::Signal read_signal(TomlTable& drive, const Folder& folder) {
+  joints::Signal signal;
+  const toml::table* base = drive.table("signal");
+  const toml::table* shaper = drive.table("shaper");
+  if (base == nullptr) {
+    if (!drive.has("signal")) drive.fail("needs 'signal'");
+  } else {
+    TomlTable table(*base, drive.path() + " signal", drive.problems());
+    signal.base = read_base(table, folder);
+  }
+  if (shaper != nullptr) {
+    TomlTable table(*shaper, drive.path() + " shaper", drive.problems());
+    signal.shaper = read_shaper(table);
+  }
+  return signal;
+}
+
+}  // namespace limber::scene
