@@ -99,11 +99,10 @@ scene::Scenario make_scenario(const Options& options, const std::string& link) {
         {}, {}, options.initial_displacement, options.initial_velocity};
   }
   for (const int tag : options.nodes) {
-    scene::ProbeSpec probe;
-    probe.name = fmt::format("node_{}", tag);
+    scene::PointProbeSpec probe;
     probe.where.link = link;
     probe.where.nodes = flexbody::TaggedNode{static_cast<std::size_t>(tag)};
-    scenario.probes.push_back(probe);
+    scenario.probes.push_back({fmt::format("node_{}", tag), probe});
   }
   return scenario;
 }

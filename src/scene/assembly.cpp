@@ -114,23 +114,31 @@ void Assembly::add_load(const LoadSpec& load) {
                     load.frame, load.time);
 }
 
-std::vector<Probe> Assembly::make_probes() const {
+std::vector<Probe> Assembly::make_probes(
+    const dynamics::SystemModel& model) const {
   std::vector<Probe> probes;
   for (const ProbeSpec& spec : scene_.scenario.probes) {
-    probes.push_back(
-        naming("probe '" + spec.name + "' on link '" + spec.where.link + "'",
-               [&] { return make_probe(spec); }));
+    const std::string who = "probe '" + spec.name + "'";
+    if (const auto* point = std::get_if<PointProbeSpec>(&spec.of)) {
+      probes.push_back(
+          {spec.name, naming(who + " on link '" + point->where.link + "'",
+                             [&] { return make_point_probe(*point); })});
+      continue;
+    }
+    const auto& coupler = std::get<CouplerProbeSpec>(spec.of);
+    probes.push_back({spec.name, naming(who, [&] {
+                        return make_coupler_probe(coupler, model);
+                      })});
   }
   return probes;
 }
 
-Probe Assembly::make_probe(const ProbeSpec& spec) const {
+PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   const int link = find_link(scene_.robot, spec.where.link);
   const BodyPlan& plan = mounts_.plan_of(link);
   if (plan.is_world) throw InputError("it is on the world, which is fixed");
   const Pose& X_BL = mounts_.X_BL(link);
-  Probe probe;
-  probe.name = spec.name;
+  PointProbe probe;
   probe.quantity = spec.quantity;
   probe.body = mounts_.body_of(link);
   probe.R_BL = X_BL.R;

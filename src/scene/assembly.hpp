@@ -22,7 +22,9 @@ class Assembly {
   void add_bodies();
   void add_couplers();
   void add_loads();
-  [[nodiscard]] std::vector<Probe> make_probes() const;
+  /// @param model of build()
+  [[nodiscard]] std::vector<Probe> make_probes(
+      const dynamics::SystemModel& model) const;
 
   /// @throws InputError with every problem found so far.
   [[nodiscard]] dynamics::SystemModel build() const;
@@ -36,7 +38,7 @@ class Assembly {
   void add_body(const BodyPlan& plan);
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
-  Probe make_probe(const ProbeSpec& spec) const;
+  PointProbe make_point_probe(const PointProbeSpec& spec) const;
   void deform(const dynamics::SystemModel& model,
               const dynamics::BodyModel& body, VectorX& u_B, VectorX& udot_B,
               dynamics::SystemState& state) const;

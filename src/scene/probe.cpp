@@ -1,131 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/probe.hpp"
 
-#include "common/rotation.hpp"
-#include "dynamics/mean_frame.hpp"
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/overloaded.hpp"
 
 namespace limber::scene {
-namespace {
-
-/// The motion of the point and of the frame that a probe is on.
-struct Motion {
-  Vector3 p_W;                    ///< [m]
-  Vector3 v_W;                    ///< [m/s]
-  Matrix3 R_W;                    ///< of the deformed frame
-  Vector3 w_W;                    ///< [rad/s]
-  Vector3 u_B = Vector3::Zero();  ///< deformation [m]
-};
-
-Motion find_modal_motion(const Probe& probe, const dynamics::BodyModel& body,
-                         const dynamics::BodyState& rigid,
-                         const dynamics::SystemState& state) {
-  Motion motion;
-  Vector3 udot_B = Vector3::Zero();
-  Vector3 turn_B = Vector3::Zero();
-  Vector3 turndot_B = Vector3::Zero();
-  if (body.modes > 0 && probe.Phi_B.cols() == body.modes) {
-    const auto eta = state.eta.segment(body.offset, body.modes);
-    const auto etadot = state.etadot.segment(body.offset, body.modes);
-    motion.u_B = probe.Phi_B * eta;
-    udot_B = probe.Phi_B * etadot;
-    turn_B = probe.Psi_B * eta;
-    turndot_B = probe.Psi_B * etadot;
-  }
-  const Matrix3 R_WB = rigid.quat_WB.toRotationMatrix();
-  const Vector3 b = probe.p_B + motion.u_B;
-  motion.p_W = rigid.p_WB + R_WB * b;
-  motion.v_W = rigid.v_WB_W + R_WB * (rigid.w_WB_B.cross(b) + udot_B);
-  motion.R_W = R_WB * exp_rotation(turn_B);
-  motion.w_W = R_WB * (rigid.w_WB_B + left_jacobian(turn_B) * turndot_B);
-  return motion;
-}
-
-Motion find_nodal_motion(const Probe& probe, const dynamics::SystemModel& model,
-                         std::size_t f, const dynamics::SystemState& state) {
-  const dynamics::FullModel& full = model.full_bodies[f];
-  const Pose& X_WH = state.X_WH[f];
-  dynamics::MeanFrame body;
-  calc_mean_frame(model, full, state, body);
-  dynamics::NodalFrameMotion frame;
-  calc_nodal_frame(*probe.nodal, nodes_of(full, state.u_H),
-                   nodes_of(full, state.udot_H), frame);
-  Motion motion;
-  motion.p_W = X_WH * frame.p_H;
-  motion.v_W = X_WH.R * frame.v_H;
-  motion.R_W = X_WH.R * frame.R_HB;
-  motion.w_W = X_WH.R * frame.w_H;
-  motion.u_B = body.R_HB.transpose() * (frame.p_H - body.p_HB) - probe.p_B;
-  return motion;
-}
-
-Motion find_motion(const Probe& probe, const dynamics::SystemModel& model,
-                   const dynamics::SystemState& state) {
-  const auto index = static_cast<std::size_t>(probe.body);
-  const dynamics::BodyModel& body = model.bodies.at(index);
-  if (probe.nodal) {
-    return find_nodal_motion(probe, model, static_cast<std::size_t>(body.full),
-                             state);
-  }
-  return find_modal_motion(probe, body, state.bodies.at(index), state);
-}
-
-}  // namespace
 
 std::vector<ProbeColumnName> column_names(const Probe& probe) {
-  std::string letter;
-  std::string unit;
-  switch (probe.quantity) {
-    case Quantity::displacement:
-      letter = "u", unit = "m";
-      break;
-    case Quantity::position:
-      letter = "", unit = "m";
-      break;
-    case Quantity::velocity:
-      letter = "v", unit = "m/s";
-      break;
-    case Quantity::rotation:
-      letter = "r", unit = "rad";
-      break;
-    case Quantity::angular_velocity:
-      letter = "w", unit = "rad/s";
-      break;
-    case Quantity::deformation:
-      letter = "d", unit = "m";
-      break;
-  }
-  std::vector<ProbeColumnName> columns;
-  for (const char* axis : {"x", "y", "z"}) {
-    columns.push_back({probe.name + "." + letter + axis, unit});
-  }
-  return columns;
-}
-
-Vector3 evaluate(const Probe& probe, const dynamics::SystemModel& model,
-                 const dynamics::SystemState& state) {
-  const Motion motion = find_motion(probe, model, state);
-  switch (probe.quantity) {
-    case Quantity::displacement:
-      return motion.p_W - probe.p_start_W;
-    case Quantity::position:
-      return motion.p_W;
-    case Quantity::velocity:
-      return motion.v_W;
-    case Quantity::rotation:
-      return log_rotation(Matrix3(motion.R_W * probe.R_start.transpose()));
-    case Quantity::angular_velocity:
-      return motion.w_W;
-    case Quantity::deformation:
-      return probe.R_BL.transpose() * motion.u_B;
-  }
-  return Vector3::Zero();
+  return std::visit(
+      [&](const auto& of) { return column_names(of, probe.name); }, probe.of);
 }
 
 void set_start(Probe& probe, const dynamics::SystemModel& model,
                const dynamics::SystemState& state) {
-  const Motion motion = find_motion(probe, model, state);
-  probe.p_start_W = motion.p_W;
-  probe.R_start = motion.R_W;
+  auto* point = std::get_if<PointProbe>(&probe.of);
+  if (point != nullptr) set_start(*point, model, state);
 }
 
 std::vector<double> evaluate_all(const std::vector<Probe>& probes,
@@ -134,8 +25,21 @@ std::vector<double> evaluate_all(const std::vector<Probe>& probes,
   std::vector<double> values;
   values.reserve(3 * probes.size());
   for (const Probe& probe : probes) {
-    const Vector3 value = evaluate(probe, model, state);
-    values.insert(values.end(), value.data(), value.data() + 3);
+    try {
+      std::visit(Overloaded{[&](const PointProbe& point) {
+                              const Vector3 value =
+                                  evaluate(point, model, state);
+                              values.insert(values.end(), value.data(),
+                                            value.data() + 3);
+                            },
+                            [&](const CouplerProbe& coupler) {
+                              append_values(coupler, model, state, values);
+                            }},
+                 probe.of);
+    } catch (const NumericalError& error) {
+      throw NumericalError(fmt::format("probe '{}' at t = {:.9g} s: {}",
+                                       probe.name, state.t, error.what()));
+    }
   }
   return values;
 }

@@ -1,52 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
-#include "scene/scenario.hpp"
+#include "scene/coupler_probe.hpp"
+#include "scene/point_probe.hpp"
 
 namespace limber::scene {
 
-/// A point (and frame) of a body that is followed in time.
-///
-/// Equation   p = p_WB + R_WB b, b = p_B + Phi_B eta;
-///            v = v_WB + R_WB (w_WB x b + Phi_B etadot);
-///            R = R_WB exp(Psi_B eta); of an unreduced body, those of its
-///            NodalFrame.
+/// What a run records at every output: one to three columns.
 struct Probe {
   std::string name;
-  Quantity quantity = Quantity::displacement;
-  dynamics::BodyIndex body = 0;
-  Vector3 p_B = Vector3::Zero();  ///< undeformed [m]
-  Matrix3X Phi_B;                 ///< 3 x m, no columns at level rigid
-  Matrix3X Psi_B;                 ///< 3 x m
-  std::shared_ptr<const dynamics::NodalFrame> nodal;  ///< of an unreduced body
-  Matrix3 R_BL = Matrix3::Identity();                 ///< axes of the link
-  Vector3 p_start_W = Vector3::Zero();                ///< [m]
-  Matrix3 R_start = Matrix3::Identity();              ///< of the deformed frame
+  std::variant<PointProbe, CouplerProbe> of;
 };
 
-/// Name and unit of a probe's three columns: "tip.ux" [m], ...
-struct ProbeColumnName {
-  std::string name;
-  std::string unit;
-};
+/// Name and unit of each of a probe's columns: "tip.ux" [m], ...
 [[nodiscard]] std::vector<ProbeColumnName> column_names(const Probe& probe);
-
-/// The probe's three values in `state`, in the order of its columns.
-[[nodiscard]] Vector3 evaluate(const Probe& probe,
-                               const dynamics::SystemModel& model,
-                               const dynamics::SystemState& state);
 
 /// Takes `state` as the start, from which displacement and rotation count.
 void set_start(Probe& probe, const dynamics::SystemModel& model,
                const dynamics::SystemState& state);
 
 /// All columns of all probes in `state`, in order.
+/// @throws NumericalError naming the probe whose quantity has no meaning there.
 [[nodiscard]] std::vector<double> evaluate_all(
     const std::vector<Probe>& probes, const dynamics::SystemModel& model,
     const dynamics::SystemState& state);

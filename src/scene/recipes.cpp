@@ -146,10 +146,11 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
     add_initial_fields(*start, recipe);
   }
   for (const ProbeSpec& probe : scenario.probes) {
-    if (probe.where.link != link.name) continue;
-    const auto& nodes = probe.where.nodes;
+    const auto* point = std::get_if<PointProbeSpec>(&probe.of);
+    if (point == nullptr || point->where.link != link.name) continue;
+    const auto& nodes = point->where.nodes;
     if (nodes && flexbody::is_single_node(*nodes)) continue;
-    require_place(recipe, probe.where);
+    require_place(recipe, point->where);
   }
   return recipe;
 }

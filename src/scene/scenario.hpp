@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "common/types.hpp"
@@ -52,10 +53,50 @@ enum class Quantity {
   deformation,       ///< elastic part, axes of the link [m]
 };
 
-struct ProbeSpec {
-  std::string name;
+/// A point of a link that is followed.
+struct PointProbeSpec {
   Place where;
   Quantity quantity = Quantity::displacement;
+};
+
+/// Of a coupler: docs/formats/scenario.md says which has what.
+enum class CouplerQuantity {
+  coordinate,                 ///< with whole turns [rad or m]
+  coordinate_rate,            ///< [rad/s or m/s]
+  effort,                     ///< along each coordinate [N m or N]
+  relative_position,          ///< from Fo to Mo [m]
+  relative_rotation,          ///< rotation vector of M in F [rad]
+  relative_velocity,          ///< rate of relative_position in F [m/s]
+  relative_angular_velocity,  ///< of M in F [rad/s]
+  force,                      ///< on one side [N]
+  moment,                     ///< on one side, about its origin [N m]
+  energy,                     ///< stored [J]
+  dissipation,                ///< power turned to heat [W]
+  power,                      ///< that its drives put in [W]
+};
+[[nodiscard]] inline bool has_side(CouplerQuantity quantity) {
+  return quantity == CouplerQuantity::force ||
+         quantity == CouplerQuantity::moment;
+}
+[[nodiscard]] inline bool is_vector(CouplerQuantity quantity) {
+  return quantity >= CouplerQuantity::relative_position &&
+         quantity <= CouplerQuantity::moment;
+}
+/// On which of a coupler's frames a force acts, and whose axes are used.
+enum class ProbeSide { F, M };
+enum class ProbeAxes { F, M, world };
+
+/// A joint, spring, bushing, latch, tendon or gear that is followed.
+struct CouplerProbeSpec {
+  std::string coupler;
+  CouplerQuantity quantity = CouplerQuantity::coordinate;
+  ProbeSide side = ProbeSide::M;  ///< of force and moment
+  ProbeAxes axes = ProbeAxes::F;  ///< of vectors
+};
+
+struct ProbeSpec {
+  std::string name;
+  std::variant<PointProbeSpec, CouplerProbeSpec> of;
 };
 
 /// Coordinates of one joint: 1 (revolute, continuous, prismatic), 3 (planar:

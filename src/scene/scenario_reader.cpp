@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/basis_reader.hpp"
+#include "scene/coupler_probe_reader.hpp"
 #include "scene/drive_reader.hpp"
 #include "scene/place_reader.hpp"
 #include "scene/time_function_reader.hpp"
@@ -73,9 +74,8 @@ LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder,
   return load;
 }
 
-ProbeSpec read_probe(TomlTable& table) {
-  ProbeSpec probe;
-  probe.name = table.required_text("name");
+PointProbeSpec read_point_probe(TomlTable& table) {
+  PointProbeSpec probe;
   probe.where = read_place(table);
   probe.quantity =
       read_choice<Quantity>(table, "quantity",
@@ -87,6 +87,12 @@ ProbeSpec read_probe(TomlTable& table) {
                              {"deformation", Quantity::deformation}},
                             Quantity::displacement);
   return probe;
+}
+
+ProbeSpec read_probe(TomlTable& table) {
+  const std::string name = table.required_text("name");
+  if (table.has("coupler")) return {name, read_coupler_probe(table)};
+  return {name, read_point_probe(table)};
 }
 
 BaseStart read_base(TomlTable& table) {

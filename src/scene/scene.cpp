@@ -64,7 +64,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   BuiltScene built;
   built.model = assembly.build();
   built.initial = assembly.make_initial_state(built.model);
-  built.probes = assembly.make_probes();
+  built.probes = assembly.make_probes(built.model);
   for (Probe& probe : built.probes) {
     set_start(probe, built.model, built.initial);
   }

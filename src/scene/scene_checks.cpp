@@ -37,7 +37,10 @@ class Checker {
         check_flexible(who, load.where.link);
       }
     }
-    for (const ProbeSpec& probe : scenario_.probes) check_probe(probe);
+    for (const ProbeSpec& probe : scenario_.probes) {
+      const auto* point = std::get_if<PointProbeSpec>(&probe.of);
+      if (point != nullptr) check_probe("probe '" + probe.name + "'", *point);
+    }
     for (const DriveSpec& drive : scenario_.drives) check_drive(drive);
     for (const auto& [latch, time] : scenario_.releases) {
       find_named("[[release]]", "latch", latch, robot_.latches);
@@ -86,8 +89,7 @@ class Checker {
                                  who, place.link));
   }
 
-  void check_probe(const ProbeSpec& probe) {
-    const std::string who = "probe '" + probe.name + "'";
+  void check_probe(const std::string& who, const PointProbeSpec& probe) {
     check_place(who, probe.where);
     const Link* link = find(probe.where.link);
     if (link == nullptr) return;

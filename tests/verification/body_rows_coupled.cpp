@@ -48,12 +48,11 @@ std::vector<double> flatten(const dynamics::EnergyBalance& energy) {
 
 scene::ProbeSpec deformation_at(const std::string& name,
                                 const flexbody::NodeSelection& nodes) {
-  scene::ProbeSpec probe;
-  probe.name = name;
+  scene::PointProbeSpec probe;
   probe.where.link = "beam";
   probe.where.nodes = nodes;
   probe.quantity = scene::Quantity::deformation;
-  return probe;
+  return {name, probe};
 }
 
 /// Spins about all axes; its tip is struck in the world's x and y.

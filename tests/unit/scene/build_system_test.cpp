@@ -211,8 +211,8 @@ TEST_F(SavedBody, TakesLoadsAndProbesAtItsInterfaces) {
       built.model, state, built.settings,
       [&](const auto&, const dynamics::EnergyBalance& now) { end = now; });
   EXPECT_NEAR(end.linear_momentum.y(), 5.0, 1e-9);
-  EXPECT_GT(Vector3(evaluate(built.probes[0], built.model, state)).norm(),
-            1e-9);
+  const auto p = evaluate_all(built.probes, built.model, state);
+  EXPECT_GT(std::hypot(p.at(0), p.at(1), p.at(2)), 1e-9);
 }
 
 TEST_F(SavedBody, RefusesNodesAndInterfacesThatItDoesNotHave) {

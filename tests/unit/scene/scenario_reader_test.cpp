@@ -46,7 +46,8 @@ TEST(ScenarioReader, ReadsLoadsAndProbes) {
   EXPECT_EQ(scenario.loads[0].frame, dynamics::LoadFrame::world);
   const auto& pulse = std::get<dynamics::Pulse>(scenario.loads[0].time);
   EXPECT_EQ(pulse.shape, dynamics::PulseShape::half_sine);
-  EXPECT_EQ(scenario.probes.at(0).quantity, Quantity::velocity);
+  EXPECT_EQ(std::get<PointProbeSpec>(scenario.probes.at(0).of).quantity,
+            Quantity::velocity);
 }
 
 TEST(ScenarioReader, ReadsRegionsOfNodes) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/coupler_motion.hpp"
+
+#include "common/errors.hpp"
+#include "dynamics/kinematics.hpp"
+#include "dynamics/transmission.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Instant now_of(const SystemState& state) { return {state.t, Side::right}; }
+
+}  // namespace
+
+CouplerReading evaluate_coupler(const SystemModel& model,
+                                const SystemState& state,
+                                CouplerIndex coupler) {
+  const Coupler& c = model.couplers.at(index(coupler));
+  const FrameMotion F = find_frame_motion(model, state, c.frame_F);
+  CouplerReading reading;
+  reading.R_WF = F.X_WF.R;
+  reading.motion = relate(F, find_frame_motion(model, state, c.frame_M));
+  reading.response = joints::evaluate(
+      c.law, reading.motion, state.memory[index(coupler)], now_of(state));
+  return reading;
+}
+
+CoordinateReading evaluate_coordinate(const SystemModel& model,
+                                      const SystemState& state,
+                                      CouplerIndex coupler, int coordinate) {
+  const auto& joint =
+      std::get<joints::Joint>(model.couplers.at(index(coupler)).law);
+  LIMBER_EXPECT(coordinate >= 0 &&
+                coordinate < std::ssize(joint.coordinates()));
+  const joints::CoordinateValue value =
+      joints::evaluate(joint.coordinates()[index(coordinate)],
+                       find_relative_motion(model, state, coupler),
+                       state.memory[index(coupler)].near[index(coordinate)]);
+  CoordinateReading reading{{value.z, value.rate}, {}};
+  for (const joints::JointElement& element : joint.elements()) {
+    if (element.coordinate != coordinate) continue;
+    reading.response +=
+        joints::evaluate(element.law, reading.motion, now_of(state));
+  }
+  return reading;
+}
+
+CoordinateReading evaluate_transmission(const SystemModel& model,
+                                        const SystemState& state,
+                                        TransmissionIndex transmission) {
+  const Transmission& t = model.transmissions.at(index(transmission));
+  CoordinateReading reading{find_motion(model, state, t), {}};
+  for (const joints::ScalarLaw& law : t.laws) {
+    reading.response += joints::evaluate(law, reading.motion, now_of(state));
+  }
+  return reading;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/coupler_probe_reader.hpp"
+
+namespace limber::scene {
+namespace {
+
+const std::vector<std::pair<std::string, CouplerQuantity>> kQuantities = {
+    {"coordinate", CouplerQuantity::coordinate},
+    {"coordinate_rate", CouplerQuantity::coordinate_rate},
+    {"effort", CouplerQuantity::effort},
+    {"relative_position", CouplerQuantity::relative_position},
+    {"relative_rotation", CouplerQuantity::relative_rotation},
+    {"relative_velocity", CouplerQuantity::relative_velocity},
+    {"relative_angular_velocity", CouplerQuantity::relative_angular_velocity},
+    {"force", CouplerQuantity::force},
+    {"moment", CouplerQuantity::moment},
+    {"energy", CouplerQuantity::energy},
+    {"dissipation", CouplerQuantity::dissipation},
+    {"power", CouplerQuantity::power}};
+
+}  // namespace
+
+CouplerProbeSpec read_coupler_probe(TomlTable& table) {
+  CouplerProbeSpec probe;
+  probe.coupler = table.required_text("coupler");
+  if (table.has("link")) {
+    table.fail("has both 'link' and 'coupler'; keep one");
+    (void)table.text("link");
+  }
+  if (!table.has("quantity")) table.fail("needs 'quantity'");
+  probe.quantity = read_choice<CouplerQuantity>(table, "quantity", kQuantities,
+                                                probe.quantity);
+  probe.side = read_choice<ProbeSide>(
+      table, "side", {{"F", ProbeSide::F}, {"M", ProbeSide::M}}, probe.side);
+  probe.axes = read_choice<ProbeAxes>(
+      table, "frame",
+      {{"F", ProbeAxes::F}, {"M", ProbeAxes::M}, {"world", ProbeAxes::world}},
+      probe.axes);
+  if (table.has("side") && !has_side(probe.quantity)) {
+    table.fail("side", "is of 'force' and 'moment' alone");
+  }
+  if (table.has("frame") && !is_vector(probe.quantity)) {
+    table.fail("frame", "is of vectors alone; this quantity has no axes");
+  }
+  return probe;
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene/scenario.hpp"
+#include "scene/toml_table.hpp"
+
+namespace limber::scene {
+
+/// Reads `coupler`, `quantity`, `side` and `frame` of a [[probe]].
+[[nodiscard]] CouplerProbeSpec read_coupler_probe(TomlTable& table);
+
+}  // namespace limber::scene
