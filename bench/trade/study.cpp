@@ -9,6 +9,7 @@
 #include "app/reducer.hpp"
 #include "common/errors.hpp"
 #include "dynamics/node_motion.hpp"
+#include "results/energy_audit.hpp"
 
 namespace limber::bench::trade {
 namespace {
@@ -139,7 +140,7 @@ Outcome Study::simulate(const Choice& choice) const {
     outcome.stopped = find_reason(outcome.run.failure);
     return outcome;
   }
-  outcome.drift = app::find_energy_drift(outcome.run.history);
+  outcome.drift = results::audit_energy(outcome.run.history).relative_largest();
   find_cost(outcome);
   return outcome;
 }

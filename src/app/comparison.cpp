@@ -12,6 +12,7 @@
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
 #include "flexbody/cache.hpp"
+#include "results/energy_audit.hpp"
 
 namespace limber::app {
 namespace {
@@ -145,7 +146,7 @@ class Runner {
     ComparedRun result;
     result.choice = choice;
     result.cost = find_cost(run);
-    result.energy_drift = find_energy_drift(run.history);
+    result.energy_drift = results::audit_energy(run.history).relative_largest();
     result.history.columns = run.history.columns;
     result.history.times = run.history.times;
     result.history.probe_rows = run.history.probe_rows;
@@ -212,22 +213,6 @@ class Runner {
 Comparison run_comparison(const ComparisonPlan& plan,
                           const ComparisonSettings& settings) {
   return Runner(plan, settings).run();
-}
-
-std::optional<double> find_energy_drift(const results::History& history) {
-  if (history.energies.empty()) return std::nullopt;
-  const auto balance = [](const dynamics::EnergyBalance& e) {
-    return e.total() + e.dissipated - e.work;
-  };
-  const double start = balance(history.energies.front());
-  double drift = 0.0;
-  double passed = 0.0;
-  for (const dynamics::EnergyBalance& e : history.energies) {
-    drift = std::max(drift, std::abs(balance(e) - start));
-    passed = std::max({passed, std::abs(e.total()), std::abs(e.work)});
-  }
-  if (!(passed > 0.0)) return std::nullopt;
-  return drift / passed;
 }
 
 std::vector<double> thin_times(const std::vector<double>& times,

@@ -38,7 +38,7 @@ struct ComparedRun {
   Choice choice;
   Cost cost;
   std::optional<results::SystemMotionError> error;  ///< if it was completed
-  std::optional<double> energy_drift;  ///< of the energy that passed [-]
+  std::optional<double> energy_drift;  ///< largest, of the throughput [-]
   std::map<std::string, ProbeDifference> probes;
   std::string stopped;       ///< why and when it ended early, or empty
   results::History history;  ///< probes alone
@@ -65,11 +65,6 @@ inline constexpr double kEnough = 0.2;
 /// its scene refuses.
 [[nodiscard]] Comparison run_comparison(const ComparisonPlan& plan,
                                         const ComparisonSettings& settings);
-
-/// Largest |E + dissipated - work - (the same at the start)| over the outputs,
-/// relative to the largest energy or work that there is; none if there is none.
-[[nodiscard]] std::optional<double> find_energy_drift(
-    const results::History& history);
 
 /// Output times that steps of any compared length can reach: those of the
 /// scenario, without what is nearer to the one before than `longest` [s]. The

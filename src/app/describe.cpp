@@ -92,7 +92,8 @@ Json describe_results(const std::filesystem::path& file) {
   const results::ResultsContents contents = results::read_contents(file);
   return Json{{"kind", "results"},         {"outputs", contents.outputs},
               {"start", contents.start},   {"end", contents.end},
-              {"bodies", contents.bodies}, {"probes", contents.probes}};
+              {"bodies", contents.bodies}, {"probes", contents.probes},
+              {"events", contents.events}};
 }
 
 Json describe_field(const flexbody::ProjectedField& field) {

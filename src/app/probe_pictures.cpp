@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/event_report.hpp"
 #include "app/terminal.hpp"
 #include "results/path_step.hpp"
 #include "results/pictures.hpp"
@@ -23,25 +24,38 @@ std::string find_probe_name(const std::string& column) {
   return column.substr(0, column.rfind('.'));
 }
 
+/// All lines of one column.
+results::Panel make_panel(const std::vector<NamedHistory>& lines,
+                          std::size_t column) {
+  const results::ProbeColumn& what = lines.front().history->columns[column];
+  results::Panel panel{fmt::format("{} [{}]", what.name, what.unit), {}};
+  for (const NamedHistory& line : lines) {
+    panel.series.push_back(make_series(line, column));
+  }
+  return panel;
+}
+
 }  // namespace
 
 void draw_probes(const std::vector<NamedHistory>& lines,
                  const std::filesystem::path& folder) {
-  const auto& columns = lines.front().history->columns;
-  for (std::size_t first = 0; first + 3 <= columns.size(); first += 3) {
-    std::vector<results::Panel> panels;
-    for (std::size_t c = first; c < first + 3; ++c) {
-      results::Panel panel{
-          fmt::format("{} [{}]", columns[c].name, columns[c].unit), {}};
-      for (const NamedHistory& line : lines) {
-        panel.series.push_back(make_series(line, c));
-      }
-      panels.push_back(std::move(panel));
-    }
+  const results::History& history = *lines.front().history;
+  const auto& columns = history.columns;
+  std::vector<results::Mark> marks;
+  if (lines.size() == 1 && !history.times.empty()) {
+    marks =
+        make_marks(history.events, history.times.front(), history.times.back());
+  }
+  for (std::size_t first = 0; first < columns.size();) {
     const std::string name = find_probe_name(columns[first].name);
+    std::vector<results::Panel> panels;
+    for (; first < columns.size(); ++first) {
+      if (find_probe_name(columns[first].name) != name) break;
+      panels.push_back(make_panel(lines, first));
+    }
     const std::string why = results::draw_overlay(
         folder / ("probe_" + results::to_path_step(name) + ".png"), name,
-        panels);
+        panels, marks);
     if (why.empty()) continue;
     print_warnings({why});
     return;  // the next would fail alike

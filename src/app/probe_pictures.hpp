@@ -15,8 +15,9 @@ struct NamedHistory {
   const results::History* history;
 };
 
-/// A picture a probe, "probe_NAME.png": its three columns, a line a history.
-/// All have the columns of the first. What cannot be drawn is a warning.
+/// A picture a probe, "probe_NAME.png": its columns, a line a history. All have
+/// the columns of the first. A single history's events are marked. What cannot
+/// be drawn is a warning.
 void draw_probes(const std::vector<NamedHistory>& lines,
                  const std::filesystem::path& folder);
 

@@ -4,11 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/event_report.hpp"
 #include "app/run_scene.hpp"
 #include "app/terminal.hpp"
+#include "results/energy_audit.hpp"
 
 namespace limber::app {
 namespace {
+
+/// What the audit leaves open, of the energy that passed through.
+std::string describe_drift(const results::History& history) {
+  const results::EnergyAudit audit = results::audit_energy(history);
+  const std::optional<double> relative = audit.relative();
+  if (!relative) return "";
+  return fmt::format("; drift {:.2g} J, {:.1e} of the throughput", audit.drift,
+                     *relative);
+}
 
 void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("{} bodies, {} modes ({} in closed form), {} couplers\n",
@@ -26,9 +37,11 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
              run.statistics.newton_iterations);
   if (!run.history.energies.empty()) {
     const dynamics::EnergyBalance& last = run.history.energies.back();
-    fmt::print("energy  {:.6g} J, work {:.6g} J, dissipated {:.6g} J\n",
-               last.total(), last.work, last.dissipated);
+    fmt::print("energy  {:.6g} J, work {:.6g} J, dissipated {:.6g} J{}\n",
+               last.total(), last.work, last.dissipated,
+               describe_drift(run.history));
   }
+  fmt::print("{}", to_text(run.history.events));
   for (std::size_t i = 0; i < run.history.columns.size(); ++i) {
     if (run.history.probe_rows.empty()) break;
     double peak = 0.0;

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/event_report.hpp"
 #include "app/mode_options.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
 #include "flexbody/cache.hpp"
+#include "results/energy_audit.hpp"
 
 namespace limber::app {
 namespace {
@@ -49,14 +51,15 @@ void add_columns(Run& run) {
 Json summarize_energy(const results::History& history) {
   Json json = Json::object();
   if (history.energies.empty()) return json;
-  const dynamics::EnergyBalance& first = history.energies.front();
-  const dynamics::EnergyBalance& last = history.energies.back();
-  json["initial"] = first.total();
-  json["final"] = last.total();
-  json["dissipated"] = last.dissipated;
-  json["work"] = last.work;
-  json["drift"] = (last.total() + last.dissipated - last.work) -
-                  (first.total() + first.dissipated - first.work);
+  const results::EnergyAudit audit = results::audit_energy(history);
+  json["initial"] = audit.initial;
+  json["final"] = audit.final;
+  json["dissipated"] = audit.dissipated;
+  json["work"] = audit.work;
+  json["drift"] = audit.drift;
+  json["throughput"] = audit.throughput;
+  const std::optional<double> relative = audit.relative();
+  json["relative_drift"] = relative ? Json(*relative) : Json(nullptr);
   return json;
 }
 
@@ -108,6 +111,7 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
+  run.history.events = run.statistics.events;
   return run;
 }
 
@@ -162,6 +166,7 @@ Json summarize(const Run& run) {
   json["bodies_reduced"] = run.built.bodies_reduced;
   json["bodies_cached"] = run.built.bodies_cached;
   json["energy"] = summarize_energy(run.history);
+  json["events"] = to_json(run.history.events);
   json["probes"] = summarize_probes(run.history);
   json["levels"] = Json::array();
   for (const BodyLevel& level : run.levels) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/energy.hpp"
+#include "dynamics/event.hpp"
 #include "dynamics/system_state.hpp"
 
 namespace limber::results {
@@ -15,13 +16,15 @@ struct ProbeColumn {
   std::string unit;  ///< e.g. "m"
 };
 
-/// What a run leaves in memory: one entry an output time everywhere.
+/// What a run leaves in memory: one entry an output time everywhere but in
+/// `events`.
 struct History {
   std::vector<ProbeColumn> columns;
   std::vector<double> times;                    ///< [s]
   std::vector<std::vector<double>> probe_rows;  ///< [time][column]
   std::vector<dynamics::SystemState> states;
   std::vector<dynamics::EnergyBalance> energies;
+  std::vector<dynamics::Event> events;  ///< in the order of time
 };
 
 }  // namespace limber::results

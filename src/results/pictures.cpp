@@ -87,11 +87,27 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
   script.add(plot);
 }
 
+// Lines through every panel that follows, labels in the next one.
+void add_marks(GnuplotScript& script, const std::vector<Mark>& marks) {
+  for (const Mark& mark : marks) {
+    script.add(
+        fmt::format("set arrow from first {0:.9g}, graph 0 to first {0:.9g}, "
+                    "graph 1 nohead back lc rgb '#888888' dt 3 lw 0.9",
+                    mark.time));
+    script.add(
+        fmt::format("set label {} at first {:.9g}, graph 0.97 right "
+                    "rotate by 90 font 'sans,9' tc rgb '#555555' "
+                    "offset character -0.6, 0 front",
+                    quote(mark.label), mark.time));
+  }
+}
+
 }  // namespace
 
 std::string draw_overlay(const std::filesystem::path& file,
                          const std::string& title,
-                         const std::vector<Panel>& panels) {
+                         const std::vector<Panel>& panels,
+                         const std::vector<Mark>& marks) {
   const int count = static_cast<int>(panels.size());
   GnuplotScript script(file, kWidth, kHeaderHeight + kPanelHeight * count);
   double reference = 0.0;
@@ -112,7 +128,9 @@ std::string draw_overlay(const std::filesystem::path& file,
   script.add("set border lc rgb '#555555' lw 0.7");
   script.add("set ytics nomirror; set xtics nomirror");
   script.add("set format y '%.3g'");
+  add_marks(script, marks);
   for (std::size_t p = 0; p < panels.size(); ++p) {
+    if (p == 1) script.add("unset label");
     add_panel(script, p, panels[p], reference, key_height,
               p + 1 == panels.size());
   }

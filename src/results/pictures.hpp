@@ -27,10 +27,17 @@ struct Panel {
   std::vector<Series> series;
 };
 
-/// Panels one above the other with a common time axis.
+/// A thin vertical line at a time, with what happened then.
+struct Mark {
+  double time = 0.0;  ///< [s]
+  std::string label;
+};
+
+/// Panels one above the other with a common time axis, each with all marks.
 [[nodiscard]] std::string draw_overlay(const std::filesystem::path& file,
                                        const std::string& title,
-                                       const std::vector<Panel>& panels);
+                                       const std::vector<Panel>& panels,
+                                       const std::vector<Mark>& marks = {});
 
 /// Energies over time: what each part holds, work and dissipation.
 [[nodiscard]] std::string draw_energy(const std::filesystem::path& file,

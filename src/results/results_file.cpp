@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <algorithm>
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
@@ -76,7 +76,8 @@ void write_energies(Hdf5File& out, const History& history) {
   write("elastic", "eta' diag(lambda) eta/2", &EnergyBalance::elastic);
   write("coupler", "stored in couplers", &EnergyBalance::coupler);
   write("dissipated", "since the start", &EnergyBalance::dissipated);
-  write("work", "of loads and gravity since the start", &EnergyBalance::work);
+  write("work", "of loads, gravity and drives since the start",
+        &EnergyBalance::work);
 
   MatrixX linear(count(history), 3);
   MatrixX angular(count(history), 3);
@@ -87,6 +88,35 @@ void write_energies(Hdf5File& out, const History& history) {
   }
   out.write("momentum/linear", linear, "kg m/s", "world frame");
   out.write("momentum/angular", angular, "kg m^2/s", "about the world origin");
+}
+
+// A line an event.
+std::string join(const History& history, std::string dynamics::Event::*text) {
+  std::string lines;
+  for (const dynamics::Event& event : history.events) {
+    std::string line = event.*text;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    lines += line + '\n';
+  }
+  return lines;
+}
+
+void write_events(Hdf5File& out, const History& history) {
+  MatrixX times(std::ssize(history.events), 1);
+  MatrixX rates(times.rows(), 1);
+  for (Eigen::Index i = 0; i < times.rows(); ++i) {
+    const dynamics::Event& event = history.events[static_cast<std::size_t>(i)];
+    times(i, 0) = event.time;
+    rates(i, 0) = event.rate;
+  }
+  out.write("events/time", times, "s", "when each event happened");
+  out.write("events/rate", rates, "m/s or rad/s",
+            "how fast the joint's coordinate, the line's length or the latch's "
+            "distance changed; of a load 0");
+  out.write("events/source", join(history, &dynamics::Event::source),
+            "coupler, tendon or load, a line an event");
+  out.write("events/what", join(history, &dynamics::Event::what),
+            "what happened, a line an event");
 }
 
 std::vector<std::string> list_names(const Hdf5File& in, const char* group) {
@@ -113,6 +143,7 @@ void write_results(const std::filesystem::path& file,
   }
   write_probes(out, history);
   write_energies(out, history);
+  write_events(out, history);
   out.close();
 }
 
@@ -130,6 +161,8 @@ ResultsContents read_contents(const std::filesystem::path& file) {
   const MatrixX times = in.read_matrix("time");
   ResultsContents contents;
   contents.outputs = times.rows();
+  // Files from before there were events have none.
+  if (in.has("events")) contents.events = in.read_matrix("events/time").rows();
   if (times.size() > 0) {
     contents.start = times(0, 0);
     contents.end = times(times.rows() - 1, 0);

@@ -12,9 +12,9 @@ namespace limber::results {
 
 inline constexpr int kResultsFileVersion = 1;
 
-/// Writes rigid and modal states, probes and energies at every output time to
-/// one HDF5 file; every dataset carries its unit and meaning. Names of bodies
-/// and probes are spelled there as `to_path_step` has them.
+/// Writes rigid and modal states, probes and energies at every output time, and
+/// the events, to one HDF5 file; every dataset carries its unit and meaning.
+/// Names of bodies and probes are spelled there as `to_path_step` has them.
 /// @throws InputError if the place cannot be written.
 void write_results(const std::filesystem::path& file,
                    const dynamics::SystemModel& model, const History& history);
@@ -22,6 +22,7 @@ void write_results(const std::filesystem::path& file,
 /// What a results file holds, without its data.
 struct ResultsContents {
   Eigen::Index outputs = 0;
+  Eigen::Index events = 0;
   double start = 0.0;               ///< first output time [s]
   double end = 0.0;                 ///< last output time [s]
   std::vector<std::string> bodies;  ///< names

@@ -45,6 +45,9 @@ TEST(FailingRun, KeepsWhatWasComputed) {
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["completed"], false);
   EXPECT_GT(summary["steps"], 160);  // those of the half second of rest
+  ASSERT_EQ(summary["events"].size(), 1U);
+  EXPECT_EQ(summary["events"][0]["time"], 0.5);
+  EXPECT_EQ(summary["events"][0]["source"], "push");
   const std::string csv = read_text(place.folder() / "o/probes.csv");
   EXPECT_THAT(csv, HasSubstr("\n0.5,"));
   EXPECT_TRUE(std::filesystem::exists(place.folder() / "o/results.h5"));

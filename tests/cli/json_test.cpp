@@ -54,8 +54,8 @@ TEST(Json, OfRunHasThePromisedKeysAndLeavesResults) {
       parse(place.limber("run '" + kExample + "' --out results --json"));
   expect_keys(run, {"steps", "newton_iterations", "seconds_offline",
                     "seconds_online", "energy", "probes"});
-  expect_keys(run["energy"],
-              {"initial", "final", "dissipated", "work", "drift"});
+  expect_keys(run["energy"], {"initial", "final", "dissipated", "work", "drift",
+                              "throughput", "relative_drift"});
   expect_keys(run["probes"]["A.ux"], {"final", "peak", "unit"});
   EXPECT_EQ(run["steps"], 5000);
   for (const char* name : {"summary.json", "probes.csv", "results.h5"}) {

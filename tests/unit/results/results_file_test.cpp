@@ -40,10 +40,13 @@ struct Expected {
 };
 
 // docs/formats/files.md, written out for the small run.
-std::map<std::string, Expected> expect_numbers(std::uint64_t outputs) {
+std::map<std::string, Expected> expect_numbers(std::uint64_t outputs,
+                                               std::uint64_t events) {
   const std::uint64_t t = outputs;
   std::map<std::string, Expected> all = {
       {"time", {"s", {t, 1}}},
+      {"events/time", {"s", {events, 1}}},
+      {"events/rate", {"m/s or rad/s", {events, 1}}},
       {"version", {"1", {1}}},
       {"probes/tip.ux", {"m", {t, 1}}},
       {"probes/tip.wy", {"rad/s", {t, 1}}},
@@ -67,9 +70,13 @@ std::map<std::string, Expected> expect_numbers(std::uint64_t outputs) {
   return all;
 }
 
-const std::vector<std::string> kTexts = {
-    "format", "bodies/arm/fidelity", "bodies/hand/fidelity",
-    "bodies/plate/fidelity", "bodies/ball/fidelity"};
+const std::vector<std::string> kTexts = {"format",
+                                         "events/source",
+                                         "events/what",
+                                         "bodies/arm/fidelity",
+                                         "bodies/hand/fidelity",
+                                         "bodies/plate/fidelity",
+                                         "bodies/ball/fidelity"};
 
 std::map<std::string, RawDataset> write_and_read(const SmallRun& run) {
   const TemporaryFolder folder;
@@ -79,7 +86,8 @@ std::map<std::string, RawDataset> write_and_read(const SmallRun& run) {
 }
 
 void check_layout(const SmallRun& run) {
-  const auto expected = expect_numbers(run.history.times.size());
+  const auto expected =
+      expect_numbers(run.history.times.size(), run.history.events.size());
   const auto all = write_and_read(run);
   std::set<std::string> names(kTexts.begin(), kTexts.end());
   for (const auto& [name, data] : expected) names.insert(name);
@@ -318,6 +326,22 @@ TEST(ResultsFile, WorkAndDissipationBalanceWhatIsStored) {
   EXPECT_NEAR(stored(last) - stored(0),
               energy("work", last) - energy("dissipated", last),
               discretisation * (energy("dissipated", last) + std::abs(work)));
+}
+
+TEST(ResultsFile, HoldsEveryEvent) {
+  SmallRun run = make_small_run();
+  run.history.events = {{0.25, "push", "load edge", 0.0},
+                        {0.5, "elbow\njoint", "stop reached", -1.5}};
+  check_layout(run);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "r.h5";
+  write_results(file, run.model, run.history);
+  const Hdf5File in = Hdf5File::open(file);
+  EXPECT_EQ(in.read_matrix("events/time"), Eigen::Vector2d(0.25, 0.5));
+  EXPECT_EQ(in.read_matrix("events/rate"), Eigen::Vector2d(0.0, -1.5));
+  EXPECT_EQ(in.read_text("events/source"), "push\nelbow joint\n");
+  EXPECT_EQ(in.read_text("events/what"), "load edge\nstop reached\n");
+  EXPECT_EQ(read_contents(file).events, 2);
 }
 
 // --- What it is -------------------------------------------------------------

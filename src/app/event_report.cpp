@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/event_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limber::app {
+namespace {
+
+using dynamics::Event;
+
+constexpr std::size_t kMostLines = 10;
+constexpr std::size_t kMostMarks = 12;
+/// Width of a mark's label, as a share of the picture's.
+constexpr double kLabelWidth = 0.015;
+
+/// Events of one kind.
+struct Kind {
+  std::string what;
+  std::size_t count = 0;
+  const Event* first = nullptr;
+  const Event* last = nullptr;
+};
+
+std::vector<Kind> find_kinds(const std::vector<Event>& events) {
+  std::vector<Kind> kinds;
+  for (const Event& event : events) {
+    auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) {
+      return k.what == event.what;
+    });
+    if (kind == kinds.end()) {
+      kind = kinds.insert(kinds.end(), {event.what, 0, &event, &event});
+    }
+    ++kind->count;
+    kind->last = &event;
+  }
+  return kinds;
+}
+
+std::string place(const Event& event) {
+  return fmt::format("{:.6g} s '{}'", event.time, event.source);
+}
+
+}  // namespace
+
+Json to_json(const std::vector<Event>& events) {
+  Json json = Json::array();
+  for (const Event& event : events) {
+    json.push_back(Json{{"time", event.time},
+                        {"source", event.source},
+                        {"what", event.what},
+                        {"rate", event.rate}});
+  }
+  return json;
+}
+
+std::string to_text(const std::vector<Event>& events) {
+  if (events.empty()) return "";
+  std::string text = fmt::format("events  {}\n", events.size());
+  if (events.size() <= kMostLines) {
+    for (const Event& event : events) {
+      text += fmt::format("  {} {}", place(event), event.what);
+      if (event.rate != 0.0) text += fmt::format(", rate {:.4g}", event.rate);
+      text += "\n";
+    }
+    return text;
+  }
+  for (const Kind& kind : find_kinds(events)) {
+    text += fmt::format("  {} {}, first {}, last {}\n", kind.count, kind.what,
+                        place(*kind.first), place(*kind.last));
+  }
+  return text;
+}
+
+std::vector<results::Mark> make_marks(const std::vector<Event>& events,
+                                      double start, double end) {
+  std::vector<results::Mark> marks;
+  for (const Event& event : events) {
+    if (event.time < start || event.time > end) continue;
+    const std::string label = event.source + " " + event.what;
+    if (!marks.empty() &&
+        event.time - marks.back().time < kLabelWidth * (end - start)) {
+      marks.back().label += ", " + label;
+      continue;
+    }
+    marks.push_back({event.time, label});
+  }
+  if (marks.size() > kMostMarks) marks.clear();
+  return marks;
+}
+
+}  // namespace limber::app
