@@ -251,6 +251,9 @@ TEST(BadValues, OfACallerAreItsDefects) {
   EXPECT_THROW(Joint(Bushing({}), {angle}, {{-1, spring}}), ContractError);
   EXPECT_THROW(Joint(Bushing({}), {angle, angle, angle, angle}, {}),
                ContractError);
+  const ScalarLaw stop = EndStop({.stiffness = 1.0});
+  const std::vector<JointElement> stops(6, {0, stop});  // 12 switches
+  EXPECT_THROW(Joint(Bushing({}), {angle}, stops), ContractError);
   EXPECT_THROW(Joint(Bushing({}), {{.axis = 2.0 * kX}}, {}), ContractError);
   EXPECT_THROW(static_cast<void>(
                    make_joint(JointKind::fixed, kX, kY, {}, {{0, spring}})),

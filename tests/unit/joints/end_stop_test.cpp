@@ -124,6 +124,17 @@ TEST(EndStop, BothSidesPressBackIntoTheRange) {
   EXPECT_EQ(stop.evaluate({0.0, 9.0}).force, 0.0);
 }
 
+// So that a step across it sees no corner.
+TEST(EndStop, AStopHeldOnGoesOnWhereItIsLeft) {
+  const EndStop stop = make_stop(1e4, 2.0);
+  const SwitchModes upper{SwitchMode::on, SwitchMode::off};
+  const SwitchModes lower{SwitchMode::off, SwitchMode::on};
+  EXPECT_NEAR(stop.evaluate({0.24, -0.1}, upper).force, 80.0, 1e-10);
+  EXPECT_NEAR(stop.evaluate({0.24, -0.1}, upper).energy, 0.5, 1e-12);
+  EXPECT_NEAR(stop.evaluate({0.24, -0.1}, upper).stiffness, 8e3, 1e-9);
+  EXPECT_NEAR(stop.evaluate({-0.99, 0.1}, lower).force, -80.0, 1e-10);
+}
+
 TEST(EndStop, ItsSwitchesArePositiveWhileItTouches) {
   const double k = 100.0;
   const EndStop both = make_stop(k, 0.0);

@@ -210,6 +210,35 @@ TEST_P(ScalarLaws, NothingIsSuppliedButByDrives) {
   EXPECT_EQ(largest > 0.1, std::holds_alternative<Drive>(GetParam().law));
 }
 
+// Those of end stops and of what only pulls.
+TEST_P(ScalarLaws, ASwitchHeldWhereTheMotionHasItChangesNothing) {
+  const ScalarLaw& law = GetParam().law;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const ScalarMotion m = draw();
+    SwitchModes modes{};
+    for (int i = 0; i < switch_count(law); ++i) {
+      const bool is_up = find_switch(law, i, m).value > 0.0;
+      modes.at(static_cast<std::size_t>(i)) =
+          is_up ? SwitchMode::on : SwitchMode::off;
+    }
+    const ScalarResponse held = evaluate(law, m, kMidway, modes);
+    EXPECT_EQ(held.force, at(m, kMidway).force);
+    EXPECT_EQ(held.energy, at(m, kMidway).energy);
+    EXPECT_EQ(held.dissipation, at(m, kMidway).dissipation);
+  }
+}
+
+TEST_P(ScalarLaws, ASwitchHeldOffExertsNothing) {
+  const ScalarLaw& law = GetParam().law;
+  if (switch_count(law) == 0) return;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const ScalarResponse held =
+        evaluate(law, draw(), kMidway, {SwitchMode::off, SwitchMode::off});
+    EXPECT_EQ(held.force, 0.0);
+    EXPECT_EQ(held.energy, 0.0);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, ScalarLaws, ::testing::ValuesIn(laws()),
                          [](const auto& instance) {
                            std::string name;

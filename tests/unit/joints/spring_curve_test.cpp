@@ -91,6 +91,15 @@ TEST(ScalarSpring, ASlackLineNeitherPullsNorStores) {
   }
 }
 
+TEST(ScalarSpring, ALineHeldTautGoesOnWhereItBecomesSlack) {
+  const SwitchModes taut{SwitchMode::on, SwitchMode::off};
+  for (const double s : {-1e-3, 1e-3}) {
+    const ScalarResponse at = line().evaluate({1.0 + s, 0.5}, taut);
+    EXPECT_NEAR(at.force, -4.0 - 100.0 * s, 1e-12);
+    EXPECT_EQ(at.stiffness, 100.0);
+  }
+}
+
 // At s = 0.1 the spring's 10 N are used up by the damper at 1.25 m/s.
 TEST(ScalarSpring, ALineThatIsLetGoFastDoesNotPush) {
   EXPECT_NEAR(line().evaluate({1.1, -1.0}).force, -2.0, 10.0 * kRoundoff);

@@ -21,7 +21,7 @@ using testing::differentiate;
 const Vector3 kAxis = Vector3(2.0, -1.0, 2.0) / 3.0;
 
 EndStop stop() {
-  return EndStop({.lower = -0.5, .upper = 12.0, .stiffness = 100.0});
+  return EndStop({.lower = -0.5, .upper = 11.0, .stiffness = 100.0});
 }
 
 ScalarSpring line() {
@@ -63,17 +63,49 @@ TEST(Switches, ArePositiveWhileTautOrTouching) {
   motion.w_FM_F = 2.0 * kAxis;
   CouplerMemory memory;
   memory.near[2] = 4.0 * 3.141592653589793;
-  // Two whole turns less 0.2 rad: 0.366 rad beyond the upper stop.
+  // Two whole turns less 0.2 rad: 1.366 rad beyond the upper stop.
   const double angle = memory.near[2] - 0.2;
   const auto at = [&](int index) {
     return find_switch(planar(), index, motion, memory, 0.0);
   };
   EXPECT_NEAR(at(0).value, 0.5, 1e-14);
   EXPECT_NEAR(at(0).rate, 3.0, 1e-14);
-  EXPECT_NEAR(at(1).value, angle - 12.0, 1e-13);
+  EXPECT_NEAR(at(1).value, angle - 11.0, 1e-13);
   EXPECT_NEAR(at(1).rate, 2.0, 1e-14);
   EXPECT_NEAR(at(2).value, -0.5 - angle, 1e-13);
   EXPECT_NEAR(at(2).rate, -2.0, 1e-14);
+}
+
+// Held off, each takes away the force of its own law alone.
+TEST(Switches, AreHeldInTheOrderInWhichTheyAreFound) {
+  const Vector3 y = find_plane_axes(kAxis).y;
+  RelativeMotion motion;
+  motion.p_FM_F = 0.9 * y;
+  motion.R_FM = exp_rotation(-0.8 * kAxis);
+  for (const double turns : {0.0, 2.0}) {
+    const double angle = turns * 2.0 * 3.141592653589793 - 0.8;
+    CouplerMemory memory;
+    memory.near[2] = angle;
+    const Vector6 all = evaluate(planar(), motion, memory, {}).wrench;
+    EXPECT_NEAR(all.head<3>().dot(y), -5.0, 1e-13);
+    const bool is_lower = angle < 0.0;
+    ASSERT_NE(is_lower, angle > 11.0);
+    for (int i = 0; i < 3; ++i) {
+      CouplerMemory held = memory;
+      held.switches.at(static_cast<std::size_t>(i)) = SwitchMode::off;
+      const Vector6 rest = evaluate(planar(), motion, held, {}).wrench;
+      const bool has_line = i != 0;
+      const bool has_stop = i != (is_lower ? 2 : 1);
+      EXPECT_EQ(rest.head<3>().norm() > 1.0, has_line);
+      EXPECT_EQ(rest.tail<3>().norm() > 1e-9, has_stop);
+    }
+  }
+  CouplerMemory held;
+  held.switches[0] = SwitchMode::off;
+  RelativeMotion far;
+  far.p_FM_F = Vector3(5.0, 0.0, 0.0);
+  EXPECT_GT(evaluate(rope(), far, {}, {}).wrench.norm(), 1.0);
+  EXPECT_EQ(evaluate(rope(), far, held, {}).wrench.norm(), 0.0);
 }
 
 TEST(Switches, ARopeIsTautAboveItsFreeLength) {
