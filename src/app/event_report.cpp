@@ -14,6 +14,8 @@ constexpr std::size_t kMostLines = 10;
 constexpr std::size_t kMostMarks = 12;
 /// Width of a mark's label, as a share of the picture's.
 constexpr double kLabelWidth = 0.015;
+/// Letters that fit along a mark.
+constexpr std::size_t kMostLetters = 48;
 
 /// Events of one kind.
 struct Kind {
@@ -40,6 +42,14 @@ std::vector<Kind> find_kinds(const std::vector<Event>& events) {
 
 std::string place(const Event& event) {
   return fmt::format("{:.6g} s '{}'", event.time, event.source);
+}
+
+// What no longer fits is there as dots.
+void append(std::string& label, const std::string& more) {
+  const std::string dots = ", ...";
+  if (label.ends_with(dots)) return;
+  const bool fits = label.size() + 2 + more.size() <= kMostLetters;
+  label += fits ? ", " + more : dots;
 }
 
 }  // namespace
@@ -81,7 +91,7 @@ std::vector<results::Mark> make_marks(const std::vector<Event>& events,
     const std::string label = event.source + " " + event.what;
     if (!marks.empty() &&
         event.time - marks.back().time < kLabelWidth * (end - start)) {
-      marks.back().label += ", " + label;
+      append(marks.back().label, label);
       continue;
     }
     marks.push_back({event.time, label});
