@@ -44,8 +44,8 @@ Json describe_loops(const scene::Robot& robot) {
   for (const scene::Loop& loop : robot.loops) {
     loops.push_back(Json{{"name", loop.name},
                          {"kind", std::string(joints::to_string(loop.kind))},
-                         {"from", loop.from.link},
-                         {"to", loop.to.link}});
+                         {"from", loop.from.where.link},
+                         {"to", loop.to.where.link}});
   }
   return loops;
 }

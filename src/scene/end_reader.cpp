@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include "scene/place_reader.hpp"
 
 namespace limber::scene {
 namespace {
@@ -13,9 +13,9 @@ ConnectorEnd read_end_attributes(XmlElement& element, const std::string& side) {
   ConnectorEnd end;
   const std::string text = element.required_text(side);
   const std::size_t slash = text.find('/');
-  end.link = text.substr(0, slash);
-  if (slash != std::string::npos) end.interface = text.substr(slash + 1);
-  end.point = element.vector(side + "_xyz").value_or(Vector3::Zero());
+  end.where.link = text.substr(0, slash);
+  if (slash != std::string::npos) end.where.interface = text.substr(slash + 1);
+  end.where.point = element.vector(side + "_xyz");
   return end;
 }
 
@@ -23,9 +23,7 @@ ConnectorEnd read_end_attributes(XmlElement& element, const std::string& side) {
 
 ConnectorEnd read_end(XmlElement& element) {
   ConnectorEnd end;
-  end.link = element.required_text("link");
-  end.interface = element.text("interface").value_or("");
-  end.point = element.vector("point").value_or(Vector3::Zero());
+  end.where = read_place(element);
   end.R = rotation_rpy(element.vector("rpy").value_or(Vector3::Zero()));
   return end;
 }

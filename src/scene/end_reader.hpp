@@ -10,7 +10,7 @@
 /// Readers of the ends of couplers.
 namespace limber::scene {
 
-/// The end that an element's `link`, `interface`, `point` and `rpy` make.
+/// The end that an element's place and `rpy` make.
 [[nodiscard]] ConnectorEnd read_end(XmlElement& element);
 
 /// Both ends of a coupler, by children <from> and <to> or by attributes of

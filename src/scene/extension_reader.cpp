@@ -163,10 +163,9 @@ class ExtensionReader {
   }
 
   void check_end(const XmlElement& element, const ConnectorEnd& end) {
-    if (end.link == "world" || find_named(robot_.links, end.link) != nullptr) {
-      return;
-    }
-    element.fail(describe_unknown("link", end.link, links_));
+    const std::string& link = end.where.link;
+    if (link == "world" || find_named(robot_.links, link) != nullptr) return;
+    element.fail(describe_unknown("link", link, links_));
   }
 
   Robot& robot_;

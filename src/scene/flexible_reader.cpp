@@ -131,13 +131,7 @@ InterfaceRequest read_interface(XmlElement& element) {
   InterfaceRequest request;
   request.name = element.required_text("name");
   request.nodes = read_nodes(element);
-  const std::string weighting = element.text("weighting").value_or("uniform");
-  if (weighting == "equal") {
-    request.weighting = flexbody::Weighting::equal;
-  } else if (weighting != "uniform") {
-    element.fail(
-        describe_unknown("weighting", weighting, {"uniform", "equal"}));
-  }
+  request.weighting = read_weighting(element);
   request.static_modes = element.boolean("static_modes").value_or(true);
   return request;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "scene/recipes.hpp"
 
 namespace limber::scene {
 namespace {
@@ -48,33 +49,53 @@ Mount Mounts::find_mount(int link, const Pose& X_LF,
   return mount;
 }
 
+Anchor Mounts::find_end_anchor(const Place& where) const {
+  const BodyPlan& plan = plan_of(find_link(scene_.robot, where.link));
+  const bool has_nodes = where.nodes || !where.interface.empty();
+  if (!plan.reduced) {
+    if (!has_nodes) return {};
+    throw InputError(fmt::format(
+        "link '{}' is rigid and has no nodes; give a point in its frame",
+        where.link));
+  }
+  if (!has_nodes) {
+    throw InputError(fmt::format(
+        "link '{}' is flexible; name one of its interfaces or select nodes",
+        where.link));
+  }
+  Anchor anchor = find_anchor(plan, where);
+  if (where.point && anchor.table->rotation_rank < 3) {
+    throw InputError(fmt::format(
+        "'{}' of link '{}' has too few nodes to carry a point beside them; "
+        "leave 'point' out or select more nodes",
+        find_place_interface(where), where.link));
+  }
+  return anchor;
+}
+
 Pose Mounts::find_pose(const ConnectorEnd& end,
                        const std::vector<LinkMotion>& motions) const {
-  if (end.link == "world") return {end.R, end.point};
-  const int link = find_link(scene_.robot, end.link);
-  const BodyPlan& plan = plan_of(link);
+  const Place& where = end.where;
+  const Vector3 point = where.point.value_or(Vector3::Zero());
+  if (where.link == "world") return {end.R, point};
+  const int link = find_link(scene_.robot, where.link);
   const Pose& X_WL = motions[index(link)].X_WL;
-  if (!plan.reduced) return X_WL * Pose{end.R, end.point};
-  if (end.interface.empty()) {
-    throw InputError(fmt::format(
-        "link '{}' is flexible; name one of its interfaces", end.link));
-  }
-  const Vector3& p_B = get_table(*plan.reduced, end.interface).p_B;
-  return {X_WL.R * end.R, X_WL * (X_BL(link).inverse() * p_B)};
+  const Anchor anchor = find_end_anchor(where);
+  if (!anchor.table || where.point) return X_WL * Pose{end.R, point};
+  return {X_WL.R * end.R, X_WL * (X_BL(link).inverse() * anchor.table->p_B)};
 }
 
 Mount Mounts::find_mount(const ConnectorEnd& end, const Pose& X_WF,
                          const std::vector<LinkMotion>& motions) const {
-  if (end.link == "world") {
+  if (end.where.link == "world") {
     Mount mount;
-    mount.link = end.link;
+    mount.link = end.where.link;
     mount.X_BF = X_WF;
     return mount;
   }
-  const int link = find_link(scene_.robot, end.link);
-  const BodyPlan& plan = plan_of(link);
+  const int link = find_link(scene_.robot, end.where.link);
   return find_mount(link, motions[index(link)].X_WL.inverse() * X_WF,
-                    plan.reduced ? find_anchor(plan, end.interface) : Anchor{});
+                    find_end_anchor(end.where));
 }
 
 dynamics::AttachmentIndex attach(const std::string& name, const Mount& mount,

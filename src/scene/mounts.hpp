@@ -45,7 +45,7 @@ class Mounts {
 
   /// Pose of an end in the world where links move as `motions` say: its
   /// point, or the middle of its interface, and the axes of its link.
-  /// @throws InputError for a flexible link without an interface.
+  /// @throws InputError for a flexible link without nodes, a rigid one with.
   [[nodiscard]] Pose find_pose(const ConnectorEnd& end,
                                const std::vector<LinkMotion>& motions) const;
   /// A frame on an end's link that is at X_WF there.
@@ -53,6 +53,8 @@ class Mounts {
                                  const std::vector<LinkMotion>& motions) const;
 
  private:
+  [[nodiscard]] Anchor find_end_anchor(const Place& where) const;
+
   const Scene& scene_;
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& start_;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/names.hpp"
+
 namespace limber::scene {
 namespace {
 
@@ -142,6 +144,31 @@ NodeSelection read_nodes(XmlElement& element) {
         "with 'cylinder_to' and 'cylinder_radius'");
   }
   return choice.nodes.value_or(flexbody::GroupNodes{});
+}
+
+flexbody::Weighting read_weighting(XmlElement& element) {
+  const std::string name = element.text("weighting").value_or("uniform");
+  if (name == "equal") return flexbody::Weighting::equal;
+  if (name != "uniform") {
+    element.fail(describe_unknown("weighting", name, {"uniform", "equal"}));
+  }
+  return flexbody::Weighting::uniform;
+}
+
+Place read_place(XmlElement& element) {
+  Place place;
+  place.link = element.required_text("link");
+  const Choice choice = read_ways(element);
+  place.nodes = choice.nodes;
+  place.interface = element.text("interface").value_or("");
+  if (choice.ways + (element.has("interface") ? 1 : 0) > 1) {
+    element.fail(
+        "has more than one of 'interface', 'group', 'node', 'nearest', 'box_', "
+        "'plane_', 'cylinder_'; keep one");
+  }
+  place.point = element.vector("point");
+  place.weighting = read_weighting(element);
+  return place;
 }
 
 Place read_place(TomlTable& table) {

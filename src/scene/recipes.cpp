@@ -31,7 +31,8 @@ void require_interface(Recipe& recipe, const std::string& name) {
 }
 
 /// @throws InputError if an interface of the place's own name has other nodes.
-void require_place(Recipe& recipe, const Place& place) {
+void require_place(Recipe& recipe, const Place& place,
+                   bool static_modes = false) {
   const std::string name = find_place_interface(place);
   if (name.empty()) return;
   if (!place.nodes) {
@@ -40,7 +41,8 @@ void require_place(Recipe& recipe, const Place& place) {
   }
   const InterfaceRequest* known = find_request(recipe, name);
   if (known == nullptr) {
-    recipe.interfaces.push_back({name, *place.nodes, place.weighting, false});
+    recipe.interfaces.push_back(
+        {name, *place.nodes, place.weighting, static_modes});
   } else if (known->nodes != *place.nodes ||
              known->weighting != place.weighting) {
     throw InputError(fmt::format(
@@ -96,9 +98,7 @@ void add_connections(Recipe& recipe, const Robot& robot, int index) {
     require_interface(recipe, find_joint_interface(*link.flexible, joint.name));
   }
   for (const ConnectorEnd& end : find_ends(robot)) {
-    if (end.link == link.name && !end.interface.empty()) {
-      require_interface(recipe, end.interface);
-    }
+    if (end.where.link == link.name) require_place(recipe, end.where, true);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "joints/joint_kind.hpp"
 #include "joints/point_spring.hpp"
 #include "joints/scalar_spring.hpp"
+#include "scene/place.hpp"
 
 /// A robot as its URDF file and Limber's extension describe it. Plain
 /// values; docs/formats/urdf.md is the manual page.
@@ -90,12 +91,9 @@ struct Joint {
   double max_speed = joints::Drive::kUnlimited;
 };
 
-/// One end of a coupler: the world, or a link and, if it is flexible, one of
-/// its interfaces.
+/// One end of a coupler.
 struct ConnectorEnd {
-  std::string link;                 ///< "world" is the world
-  std::string interface;            ///< of a flexible link
-  Vector3 point = Vector3::Zero();  ///< in the link (or world) frame [m]
+  Place where;                      ///< the link "world" is the world
   Matrix3 R = Matrix3::Identity();  ///< axes of the end in the link's
 };
 

@@ -17,20 +17,11 @@
 #include "flexbody/full_body.hpp"
 #include "flexbody/recipe.hpp"
 #include "joints/drive.hpp"
+#include "scene/place.hpp"
 
 /// What a scenario file asks for. Plain values; docs/formats/scenario.md is
 /// the manual page.
 namespace limber::scene {
-
-/// A place on a link. A flexible link takes an interface or a node selection
-/// (mesh frame); a rigid link takes a point in its own frame.
-struct Place {
-  std::string link;
-  std::string interface;                         ///< name, or empty
-  std::optional<flexbody::NodeSelection> nodes;  ///< of a flexible link
-  std::optional<Vector3> point;                  ///< of a rigid link [m]
-  flexbody::Weighting weighting = flexbody::Weighting::uniform;
-};
 
 struct LoadSpec {
   std::string name;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -227,6 +228,55 @@ TEST_F(SavedBody, RefusesNodesAndInterfacesThatItDoesNotHave) {
         (void)build("[[probe]]\nname = 'p'\nlink = 'body'\nnode = 99\n");
       }),
       HasSubstr("99"));
+}
+
+// Loops, springs, tendons and latches follow a bending link's interfaces, and
+// their frames lie where the points say.
+TEST_F(SavedBody, HoldsCouplersAtItsInterfaces) {
+  const auto body = saved_body();
+  const Vector3 tip_L = body.interfaces[1].p_B + body.p_MoBcm_M;
+  const std::string tip =
+      fmt::format("{} {} {}", tip_L.x(), tip_L.y(), tip_L.z());
+  const std::string ends =
+      "<from link='body' interface='tip'/>"
+      "<to link='world' point='" +
+      tip + "'/>";
+  const BuiltScene built = folder_.build(
+      reduced_link("body.h5") + "<loop name='o' kind='ball'>" + ends +
+          "</loop><latch name='l' reach='1'>" + ends +
+          "</latch>"
+          "<bushing name='b' translational_stiffness='3'><from link='body' "
+          "interface='root' point='1 2 3'/><to link='world'/></bushing>"
+          "<tendon name='t' stiffness='2'><via link='body' interface='root'/>"
+          "<via link='world' point='9 9 9'/></tendon>",
+      time_table(0.1, 1e-3));
+  for (const char* name : {"o.F", "l.F", "b.F", "t.1"}) {
+    const auto attachment = std::find_if(
+        built.model.attachments.begin(), built.model.attachments.end(),
+        [&](const auto& a) { return a.name == name; });
+    ASSERT_NE(attachment, built.model.attachments.end()) << name;
+    EXPECT_EQ(attachment->body, 0) << name;
+    EXPECT_EQ(attachment->Phi_B.cols(), 3) << name;
+    EXPECT_FALSE(attachment->Phi_B.isZero()) << name;
+  }
+  const auto& bushing = built.model.attachments[static_cast<std::size_t>(
+      built.model.couplers[1].frame_F)];
+  EXPECT_TRUE(bushing.p_BF.isApprox(Vector3(1, 2, 3) - body.p_MoBcm_M, 1e-14));
+}
+
+TEST_F(SavedBody, RefusesCouplersThatHoldNoNodes) {
+  const auto error_of = [&](const std::string& link, const std::string& end) {
+    return input_error([&] {
+      (void)folder_.build(link + "<spring name='s' stiffness='1'><from " + end +
+                              "/><to link='world' point='1 0 0'/></spring>",
+                          time_table(0.1, 1e-3));
+    });
+  };
+  EXPECT_THAT(error_of(reduced_link("body.h5"), "link='body'"),
+              HasSubstr("connector 's': link 'body' is flexible"));
+  EXPECT_THAT(
+      error_of(rigid_link("body", 1.0, 1.0), "link='body' interface='tip'"),
+      HasSubstr("connector 's': link 'body' is rigid and has no nodes"));
 }
 
 }  // namespace

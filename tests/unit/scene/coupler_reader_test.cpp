@@ -174,18 +174,18 @@ TEST(CouplerReader, ReadsLoops) {
   EXPECT_EQ(pin.kind, JointKind::revolute);
   EXPECT_EQ(pin.axis_F, Vector3::UnitY());
   EXPECT_EQ(pin.coupler.translational_stiffness, 9.0);
-  EXPECT_EQ(pin.from.link, "b");
-  EXPECT_EQ(pin.from.point, Vector3::UnitX());
+  EXPECT_EQ(pin.from.where.link, "b");
+  EXPECT_EQ(pin.from.where.point, Vector3::UnitX());
   EXPECT_TRUE(pin.from.R.col(0).isApprox(Vector3::UnitY(), 1e-15));
-  EXPECT_EQ(pin.to.link, "world");
-  EXPECT_EQ(pin.to.point, Vector3(1, 2, 3));
+  EXPECT_EQ(pin.to.where.link, "world");
+  EXPECT_EQ(pin.to.where.point, Vector3(1, 2, 3));
   const auto& stop = std::get<StopOptions>(pin.actions.at(0).law);
   EXPECT_EQ(stop.lower, 0.0);
   EXPECT_FALSE(stop.upper.has_value());
   EXPECT_EQ(stop.restitution, 1.0);
   EXPECT_EQ(stop.speed, 2.0);
-  EXPECT_EQ(robot.loops[1].from.point, Vector3(4, 5, 6));
-  EXPECT_EQ(robot.loops[1].to.interface, "tip");
+  EXPECT_EQ(robot.loops[1].from.where.point, Vector3(4, 5, 6));
+  EXPECT_EQ(robot.loops[1].to.where.interface, "tip");
 }
 
 TEST(CouplerReader, ReadsSpringsOfEveryKind) {
@@ -203,7 +203,7 @@ TEST(CouplerReader, ReadsSpringsOfEveryKind) {
   const auto& second = std::get<SpringOptions>(robot.connectors.at(1).law);
   EXPECT_THAT(second.law.extensions, ElementsAre(-1.0, 1.0));
   EXPECT_THAT(second.law.forces, ElementsAre(-2.0, 4.0));
-  EXPECT_EQ(robot.connectors[1].to.link, "c");
+  EXPECT_EQ(robot.connectors[1].to.where.link, "c");
 }
 
 TEST(CouplerReader, ReadsTendonsLatchesAndGears) {
@@ -226,7 +226,7 @@ TEST(CouplerReader, ReadsTendonsLatchesAndGears) {
   EXPECT_EQ(gear.damping, 7.0);
   const Tendon& tendon = robot.tendons.at(0);
   EXPECT_EQ(tendon.via.size(), 3U);
-  EXPECT_EQ(tendon.via[0].point, Vector3::UnitX());
+  EXPECT_EQ(tendon.via[0].where.point, Vector3::UnitX());
   EXPECT_EQ(tendon.stiffness, 8.0);
   EXPECT_EQ(tendon.pretension, 3.0);
   EXPECT_EQ(tendon.tension, 4.0);
@@ -235,6 +235,30 @@ TEST(CouplerReader, ReadsTendonsLatchesAndGears) {
   EXPECT_EQ(latch.coupler.rotational_stiffness, 5.0);
   EXPECT_EQ(latch.release_force, 9.0);
   EXPECT_EQ(latch.release_time, 2.0);
+}
+
+TEST(CouplerReader, EndsSelectNodes) {
+  const Robot robot =
+      read(base("revolute") +
+           "<bushing name='n' rotational_stiffness='1 2 3'>"
+           "<from link='b' group='tip' weighting='equal' point='1 2 3'/>"
+           "<to link='c' box_lower='0 0 0' box_upper='1 1 1'/></bushing>"
+           "<spring name='s' stiffness='1'><from link='b' nearest='4 5 6'/>"
+           "<to link='world'/></spring>");
+  const Place& from = robot.connectors.at(0).from.where;
+  EXPECT_EQ(std::get<flexbody::GroupNodes>(*from.nodes).group, "tip");
+  EXPECT_EQ(from.weighting, flexbody::Weighting::equal);
+  EXPECT_EQ(from.point, Vector3(1, 2, 3));
+  EXPECT_TRUE(std::holds_alternative<flexbody::BoxNodes>(
+      *robot.connectors[0].to.where.nodes));
+  EXPECT_EQ(
+      std::get<flexbody::NearestNode>(*robot.connectors.at(1).from.where.nodes)
+          .point,
+      Vector3(4, 5, 6));
+  EXPECT_THAT(error_of(base("revolute") +
+                       "<spring name='s' stiffness='1'><from link='b' "
+                       "nearest='4 5 6' group='tip'/><to link='c'/></spring>"),
+              HasSubstr("more than one of"));
 }
 
 TEST(CouplerReader, MimickingJointIsGeared) {

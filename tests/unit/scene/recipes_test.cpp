@@ -115,6 +115,34 @@ TEST(Recipes, RefuseAnInterfaceNamedLikeAnotherSelection) {
                            "selection, the group 'root'"));
 }
 
+// Every end of a coupler bends the link there, a point of a tendon too.
+TEST(Recipes, HoldInterfacesOfAllCouplersWithTheirStaticModes) {
+  Robot robot = make_robot(false);
+  const auto end = [](const flexbody::NodeSelection& nodes) {
+    return ConnectorEnd{{"arm", "", nodes, {}}, Matrix3::Identity()};
+  };
+  const ConnectorEnd world{{"world", "", {}, {}}, Matrix3::Identity()};
+  Loop loop;
+  loop.from = end(flexbody::GroupNodes{"root"});
+  loop.to = world;
+  robot.loops = {loop};
+  Latch latch;
+  latch.from = world;
+  latch.to = ConnectorEnd{{"arm", "tip", {}, {}}, Matrix3::Identity()};
+  robot.latches = {latch};
+  Tendon tendon;
+  tendon.via = {world, end(flexbody::TaggedNode{7})};
+  robot.tendons = {tendon};
+  const auto interfaces = make_recipe(robot, 0, {}).interfaces;
+  ASSERT_EQ(interfaces.size(), 3U);
+  EXPECT_EQ(interfaces[0].name, "tip");  // the link's own
+  EXPECT_EQ(interfaces[1].name, "group:root");
+  EXPECT_EQ(interfaces[2].name, "node:7");
+  for (const auto& interface : interfaces) {
+    EXPECT_TRUE(interface.static_modes);
+  }
+}
+
 TEST(Recipes, HoldNodalForcesAsLoadCasesAndForStaticModes) {
   const TemporaryFile file("forces.txt", "0 0.5\n1 2\n3 4\n5 6\n");
   Scenario scenario;

@@ -84,8 +84,8 @@ TEST(RobotReader, ReadsTheExtension) {
   EXPECT_EQ(link.interfaces.at(0).weighting, flexbody::Weighting::equal);
   EXPECT_EQ(link.interface_of_joint.at("j"), "i");
   EXPECT_EQ(robot.joints[0].coupler.rotational_stiffness, 5.0);
-  EXPECT_EQ(robot.connectors.at(0).from.interface, "i");
-  EXPECT_EQ(robot.connectors.at(0).to.point, Vector3(0, 0, 9));
+  EXPECT_EQ(robot.connectors.at(0).from.where.interface, "i");
+  EXPECT_EQ(robot.connectors.at(0).to.where.point, Vector3(0, 0, 9));
 }
 
 std::string interface(const std::string& attributes) {
