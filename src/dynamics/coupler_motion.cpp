@@ -12,6 +12,19 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Instant now_of(const SystemState& state) { return {state.t, Side::right}; }
 
+// What a law answers, with its switches from `first` on where they stand;
+// moves `first` past them.
+joints::ScalarResponse evaluate(const joints::ScalarLaw& law,
+                                const joints::ScalarMotion& motion,
+                                const Instant& now,
+                                const joints::CouplerMemory& memory,
+                                std::size_t& first) {
+  const joints::ScalarResponse response = joints::evaluate(
+      law, motion, now, {memory.switches[first], memory.switches[first + 1]});
+  first += index(joints::switch_count(law));
+  return response;
+}
+
 }  // namespace
 
 CouplerReading evaluate_coupler(const SystemModel& model,
@@ -34,15 +47,20 @@ CoordinateReading evaluate_coordinate(const SystemModel& model,
       std::get<joints::Joint>(model.couplers.at(index(coupler)).law);
   LIMBER_EXPECT(coordinate >= 0 &&
                 coordinate < std::ssize(joint.coordinates()));
+  const joints::CouplerMemory& memory = state.memory[index(coupler)];
   const joints::CoordinateValue value =
       joints::evaluate(joint.coordinates()[index(coordinate)],
                        find_relative_motion(model, state, coupler),
-                       state.memory[index(coupler)].near[index(coordinate)]);
+                       memory.near[index(coordinate)]);
   CoordinateReading reading{{value.z, value.rate}, {}};
+  std::size_t first = 0;  // of an element's switches
   for (const joints::JointElement& element : joint.elements()) {
-    if (element.coordinate != coordinate) continue;
+    if (element.coordinate != coordinate) {
+      first += index(joints::switch_count(element.law));
+      continue;
+    }
     reading.response +=
-        joints::evaluate(element.law, reading.motion, now_of(state));
+        evaluate(element.law, reading.motion, now_of(state), memory, first);
   }
   return reading;
 }
@@ -51,9 +69,13 @@ CoordinateReading evaluate_transmission(const SystemModel& model,
                                         const SystemState& state,
                                         TransmissionIndex transmission) {
   const Transmission& t = model.transmissions.at(index(transmission));
+  const joints::CouplerMemory& memory =
+      state.memory[model.couplers.size() + index(transmission)];
   CoordinateReading reading{find_motion(model, state, t), {}};
+  std::size_t first = 0;  // of a law's switches
   for (const joints::ScalarLaw& law : t.laws) {
-    reading.response += joints::evaluate(law, reading.motion, now_of(state));
+    reading.response +=
+        evaluate(law, reading.motion, now_of(state), memory, first);
   }
   return reading;
 }

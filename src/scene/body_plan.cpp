@@ -15,12 +15,6 @@ Matrix3 steiner(double m, const Vector3& d) {
   return m * (d.squaredNorm() * Matrix3::Identity() - d * d.transpose());
 }
 
-bool merges(const Robot& robot, const Joint& joint) {
-  return joint.kind == joints::JointKind::fixed &&
-         !robot.links[index(joint.parent)].flexible &&
-         !robot.links[index(joint.child)].flexible;
-}
-
 class Planner {
  public:
   Planner(const Robot& robot, const std::vector<ReducedPointer>& reduced)
@@ -127,6 +121,12 @@ class Planner {
 };
 
 }  // namespace
+
+bool merges(const Robot& robot, const Joint& joint) {
+  return joint.kind == joints::JointKind::fixed &&
+         !robot.links[index(joint.parent)].flexible &&
+         !robot.links[index(joint.child)].flexible;
+}
 
 BodyPlans plan_bodies(const Robot& robot,
                       const std::vector<ReducedPointer>& reduced) {

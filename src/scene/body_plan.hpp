@@ -37,6 +37,9 @@ struct BodyPlans {
   std::vector<int> coupled_joints;  ///< joints that become couplers
 };
 
+/// Whether a joint holds two rigid links together as one body.
+[[nodiscard]] bool merges(const Robot& robot, const Joint& joint);
+
 /// Merges rigid links on fixed joints (parallel-axis theorem) and puts every
 /// frame B at its centre of mass: axes of the first link if rigid, of the mesh
 /// if flexible. The world's B is the root link.

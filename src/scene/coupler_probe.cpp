@@ -177,6 +177,10 @@ std::size_t check_coupler_probe(const CouplerProbeSpec& spec,
   for (const CouplerTraits& traits : known) names.push_back(traits.name);
   const std::size_t found = find_name("coupler", spec.coupler, names);
   const CouplerTraits& traits = known[found];
+  if (!traits.why_none.empty()) {
+    throw InputError(fmt::format("joint '{}' {}; there is nothing to follow",
+                                 spec.coupler, traits.why_none));
+  }
   if (!traits.has_frames && is_vector(spec.quantity)) {
     throw InputError(fmt::format(
         "coupler '{}' acts along one coordinate and joins no two frames; use "
@@ -199,7 +203,8 @@ CouplerProbe make_coupler_probe(const CouplerProbeSpec& spec,
   std::vector<CouplerProbe> probes;
   const auto add = [&](const std::string& name, bool is_transmission, int i,
                        const std::vector<Kind>& kinds) {
-    known.push_back({name, !is_transmission, static_cast<int>(kinds.size())});
+    known.push_back(
+        {name, !is_transmission, static_cast<int>(kinds.size()), ""});
     probes.push_back({spec, is_transmission, i, kinds});
   };
   for (int i = 0; i < std::ssize(model.couplers); ++i) {

@@ -6,6 +6,7 @@
 
 #include "dynamics/system_model.hpp"
 #include "dynamics/system_state.hpp"
+#include "scene/coupler_traits.hpp"
 #include "scene/probe_column.hpp"
 #include "scene/scenario.hpp"
 
@@ -22,13 +23,6 @@ struct CouplerProbe {
   int index = 0;  ///< of SystemModel::couplers or transmissions
   /// What it can move along, in order.
   std::vector<joints::AxisCoordinate::Kind> coordinates;
-};
-
-/// What couplers a probe can name, and what there is to follow.
-struct CouplerTraits {
-  std::string name;
-  bool has_frames = true;  ///< joins two frames; a tendon or gear does not
-  int coordinates = 0;
 };
 
 /// @param known all of them; names may be shared, the first one counts

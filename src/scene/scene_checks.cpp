@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/names.hpp"
+#include "scene/coupler_probe.hpp"
 #include "scene/problems.hpp"
 
 namespace limber::scene {
@@ -38,8 +39,8 @@ class Checker {
       }
     }
     for (const ProbeSpec& probe : scenario_.probes) {
-      const auto* point = std::get_if<PointProbeSpec>(&probe.of);
-      if (point != nullptr) check_probe("probe '" + probe.name + "'", *point);
+      const std::string who = "probe '" + probe.name + "'";
+      std::visit([&](const auto& of) { check_probe(who, of); }, probe.of);
     }
     for (const DriveSpec& drive : scenario_.drives) check_drive(drive);
     for (const auto& [latch, time] : scenario_.releases) {
@@ -87,6 +88,14 @@ class Checker {
                                  "'interface', 'group', 'node', 'nearest', "
                                  "'box', 'plane' or 'cylinder'",
                                  who, place.link));
+  }
+
+  void check_probe(const std::string& who, const CouplerProbeSpec& probe) {
+    try {
+      check_coupler_probe(probe, find_coupler_traits(robot_));
+    } catch (const InputError& error) {
+      problems_.add(0, who + ": " + error.problems().front());
+    }
   }
 
   void check_probe(const std::string& who, const PointProbeSpec& probe) {

@@ -367,8 +367,8 @@ TEST(CouplerAssembly, GearedJointsStartWhereTheOthersPutThem) {
   const auto starts = [&](const std::string& initial) {
     const BuiltScene built = folder.build(robot, kTime + initial);
     std::vector<double> q;
-    for (const joints::CouplerMemory& memory : built.initial.memory) {
-      q.push_back(memory.near[0]);
+    for (std::size_t c = 0; c < built.model.couplers.size(); ++c) {
+      q.push_back(built.initial.memory[c].near[0]);
     }
     q.push_back(built.initial.bodies[1].w_WB_B.z());
     q.push_back(built.initial.bodies[2].p_WB.z());

@@ -60,9 +60,9 @@ std::vector<std::string> interfaces_of(
     flexbody::Weighting probed_weighting = flexbody::Weighting::uniform) {
   Scenario scenario = push_tip(dynamics::LoadFrame::body);
   scenario.loads[0].where = {"arm", "", loaded, {}};
-  ProbeSpec probe;
+  PointProbeSpec probe;
   probe.where = {"arm", "", probed, {}, probed_weighting};
-  scenario.probes = {probe};
+  scenario.probes = {{"p", probe}};
   std::vector<std::string> names;
   for (const auto& request :
        make_recipe(make_robot(false), 0, scenario).interfaces) {

@@ -61,10 +61,12 @@ TEST(ScenarioReader, ReadsRegionsOfNodes) {
   EXPECT_EQ(scenario.loads.at(0).where.nodes,
             flexbody::NodeSelection(
                 flexbody::PlaneNodes{{0, 0, 5}, {0, 0, 1}, 0.01}));
-  EXPECT_EQ(scenario.probes.at(0).where.nodes,
-            flexbody::NodeSelection(
-                flexbody::CylinderNodes{{0, 0, 0}, {0, 0, 1}, 0.5, 0.25}));
-  EXPECT_EQ(scenario.probes.at(1).where.nodes,
+  const auto nodes = [&](std::size_t i) {
+    return std::get<PointProbeSpec>(scenario.probes.at(i).of).where.nodes;
+  };
+  EXPECT_EQ(nodes(0), flexbody::NodeSelection(flexbody::CylinderNodes{
+                          {0, 0, 0}, {0, 0, 1}, 0.5, 0.25}));
+  EXPECT_EQ(nodes(1),
             flexbody::NodeSelection(flexbody::BoxNodes{{0, 0, 0}, {1, 1, 1}}));
 }
 

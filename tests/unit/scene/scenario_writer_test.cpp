@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "scene/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {
@@ -86,10 +87,6 @@ TEST(ScenarioWriter, LeadsFromTheNewFolderToEveryFile) {
       "robot = '" + fs::proximate(kModels / "beam.urdf", place).string() +
           "'\n[time]\nduration = 1.0\nstep = 0.1\n"
           "[initial.links.beam]\ndisplacement = 'u.txt'\n"
-          "[[drive]]\njoint = 'j'\nmode = 'effort'\nsignal = { kind = "
-          "'table', file = '" +
-          history.path().filename().string() +
-          "' }\n"
           "[[load]]\nname = 'a'\nlink = 'beam'\nnodal_forces = 'sub/f.txt'\n"
           "[[load]]\nname = 'b'\nlink = 'beam'\nnode = 1\nforce = [1, 0, 0]\n"
           "time = { kind = 'table', file = '" +
@@ -102,6 +99,40 @@ TEST(ScenarioWriter, LeadsFromTheNewFolderToEveryFile) {
             resolve(place / "sub" / "f.txt"));
   EXPECT_EQ(resolve(scene.scenario.link_starts.at("beam").displacement),
             resolve(place / "u.txt"));
+}
+
+TEST(ScenarioWriter, WritesDrivesReleasesAndCouplerProbesBackExactly) {
+  const TemporaryFile history("history.txt", "0 0.1\n1 0.3\n");
+  const TemporaryFile file(
+      "drives.toml",
+      "robot = 'r.urdf'\n[time]\nduration = 1.0\nstep = 0.1\n"
+      "[[drive]]\njoint = 'j'\nmode = 'position'\nstiffness = 0.1\n"
+      "max_effort = 0.3\nsignal = { kind = 'table', file = '" +
+          history.path().filename().string() +
+          "' }\nshaper = { kind = 'zvd', frequency = 0.7 }\n"
+          "[[release]]\nlatch = 'l'\ntime = 0.7\n"
+          "[[probe]]\nname = 'p'\ncoupler = 'j'\nquantity = 'moment'\n"
+          "side = 'F'\nframe = 'M'\n");
+  const fs::path folder =
+      fs::temp_directory_path() / ("limber-drives-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "chosen.toml")
+      << rewrite_scenario(file.path(), {}, folder);
+  const Scenario chosen = read_scenario(folder / "chosen.toml");
+  fs::remove_all(folder);
+  const DriveSpec& drive = chosen.drives.at(0);
+  EXPECT_EQ(drive.name, "j");
+  EXPECT_EQ(drive.drive.stiffness, 0.1);
+  EXPECT_EQ(drive.drive.max_effort, 0.3);
+  EXPECT_EQ(std::get<joints::TableSignal>(drive.drive.signal.base).values,
+            (std::vector<double>{0.1, 0.3}));
+  ASSERT_EQ(drive.drive.signal.shaper.size(), 3U);
+  EXPECT_EQ(drive.drive.signal.shaper[2].delay, 1.0 / 0.7);
+  EXPECT_EQ(chosen.releases.at("l"), 0.7);
+  const auto& probe = std::get<CouplerProbeSpec>(chosen.probes.at(0).of);
+  EXPECT_EQ(probe.quantity, CouplerQuantity::moment);
+  EXPECT_EQ(probe.side, ProbeSide::F);
+  EXPECT_EQ(probe.axes, ProbeAxes::M);
 }
 
 TEST(ScenarioWriter, PutsAChoiceBeforeTheFilesLinkByLinkChoices) {
