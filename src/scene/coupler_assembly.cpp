@@ -166,9 +166,10 @@ void CouplerAssembly::add_connector(const Connector& connector) {
     return;
   }
   // At rest at the start: both frames are the one of the first end.
-  add_coupler(connector.name,
-              make_bushing(std::get<BushingOptions>(connector.law)), F,
-              mounts_.find_mount(connector.to, from, start));
+  add_coupler(
+      connector.name,
+      joints::Bushing(std::get<joints::Bushing::Parameters>(connector.law)), F,
+      mounts_.find_mount(connector.to, from, start));
 }
 
 void CouplerAssembly::add_latch(const Latch& latch) {

@@ -87,16 +87,6 @@ joints::PointSpring make_spring(const SpringOptions& options, double length) {
   return joints::PointSpring(parameters);
 }
 
-joints::Bushing make_bushing(const BushingOptions& options) {
-  joints::Bushing::Parameters parameters;
-  parameters.translational_stiffness =
-      options.translational_stiffness.asDiagonal();
-  parameters.rotational_stiffness = options.rotational_stiffness.asDiagonal();
-  parameters.translational_damping = options.translational_damping.asDiagonal();
-  parameters.rotational_damping = options.rotational_damping.asDiagonal();
-  return joints::Bushing(parameters);
-}
-
 joints::Latch make_latch(const Latch& latch, const JointParameters& held) {
   joints::Latch::Parameters parameters;
   parameters.reach = latch.reach;

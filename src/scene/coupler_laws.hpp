@@ -27,7 +27,6 @@ namespace limber::scene {
 /// @param length of the spring at the start [m]
 [[nodiscard]] joints::PointSpring make_spring(const SpringOptions& options,
                                               double length);
-[[nodiscard]] joints::Bushing make_bushing(const BushingOptions& options);
 
 /// @param held stiffness and damping of the closed latch
 [[nodiscard]] joints::Latch make_latch(const Latch& latch,

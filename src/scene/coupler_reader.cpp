@@ -89,6 +89,48 @@ Vector3 read_triple(XmlElement& element, const std::string& name) {
   return element.vector(name, kNonNegative).value_or(Vector3::Zero());
 }
 
+void read_diagonal_bushing(XmlElement& element,
+                           joints::Bushing::Parameters& bushing) {
+  const auto read = [&](const char* name) {
+    return Matrix3(read_triple(element, name).asDiagonal());
+  };
+  bushing.translational_stiffness = read("translational_stiffness");
+  bushing.rotational_stiffness = read("rotational_stiffness");
+  bushing.translational_damping = read("translational_damping");
+  bushing.rotational_damping = read("rotational_damping");
+}
+
+/// 36 numbers row by row, x y z rx ry rz; zero if it is not given.
+Matrix6 read_matrix(XmlElement& element, const std::string& name) {
+  constexpr double kSymmetric = 1e-6;  // what digits of a file leave
+  const auto numbers = element.numbers(name);
+  if (!numbers) return Matrix6::Zero();
+  if (numbers->size() != 36) {
+    element.fail(
+        fmt::format("{}: expected 36 numbers, got {}", name, numbers->size()));
+    return Matrix6::Zero();
+  }
+  const Matrix6 m = Eigen::Map<const Matrix6>(numbers->data());
+  const Matrix6 symmetric = 0.5 * (m + m.transpose());
+  if ((m - symmetric).cwiseAbs().maxCoeff() >
+      kSymmetric * m.cwiseAbs().maxCoeff()) {
+    element.fail(fmt::format("{}: expected a symmetric matrix", name));
+  }
+  return symmetric;
+}
+
+void read_full_bushing(XmlElement& element,
+                       joints::Bushing::Parameters& bushing) {
+  const Matrix6 K = read_matrix(element, "stiffness");
+  const Matrix6 C = read_matrix(element, "damping");
+  bushing.translational_stiffness = K.topLeftCorner<3, 3>();
+  bushing.coupling_stiffness = K.topRightCorner<3, 3>();
+  bushing.rotational_stiffness = K.bottomRightCorner<3, 3>();
+  bushing.translational_damping = C.topLeftCorner<3, 3>();
+  bushing.coupling_damping = C.topRightCorner<3, 3>();
+  bushing.rotational_damping = C.bottomRightCorner<3, 3>();
+}
+
 }  // namespace
 
 void read_coupler(XmlElement& element, Joint& joint) {
@@ -142,12 +184,17 @@ Connector read_spring(XmlElement& element) {
 Connector read_bushing(XmlElement& element) {
   Connector connector;
   connector.name = element.required_text("name");
-  BushingOptions bushing;
-  bushing.translational_stiffness =
-      read_triple(element, "translational_stiffness");
-  bushing.rotational_stiffness = read_triple(element, "rotational_stiffness");
-  bushing.translational_damping = read_triple(element, "translational_damping");
-  bushing.rotational_damping = read_triple(element, "rotational_damping");
+  joints::Bushing::Parameters bushing;
+  if (element.has("stiffness") || element.has("damping")) {
+    read_full_bushing(element, bushing);
+  } else {
+    read_diagonal_bushing(element, bushing);
+  }
+  try {
+    (void)joints::Bushing(bushing);
+  } catch (const InputError& error) {
+    element.fail(error.what());
+  }
   connector.law = bushing;
   read_ends(element, connector.from, connector.to);
   return connector;

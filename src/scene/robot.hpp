@@ -11,6 +11,7 @@
 #include "common/pose.hpp"
 #include "dynamics/system_builder.hpp"
 #include "flexbody/recipe.hpp"
+#include "joints/bushing.hpp"
 #include "joints/drive.hpp"
 #include "joints/friction.hpp"
 #include "joints/joint_kind.hpp"
@@ -115,19 +116,13 @@ struct SpringOptions {
   std::optional<double> free_length;    ///< [m]; none: the length at the start
 };
 
-/// Stiffness along and about the axes of the end `from` at the start.
-struct BushingOptions {
-  Vector3 translational_stiffness = Vector3::Zero();  ///< [N/m]
-  Vector3 rotational_stiffness = Vector3::Zero();     ///< [N m/rad]
-  Vector3 translational_damping = Vector3::Zero();    ///< [N s/m]
-  Vector3 rotational_damping = Vector3::Zero();       ///< [N m s/rad]
-};
-
+/// <spring> or <bushing>. A bushing is at rest at the start, in the axes of
+/// `from`.
 struct Connector {
   std::string name;
   ConnectorEnd from;
   ConnectorEnd to;
-  std::variant<SpringOptions, BushingOptions> law;
+  std::variant<SpringOptions, joints::Bushing::Parameters> law;
 };
 
 /// <latch>: locks two ends that come near each other.

@@ -107,5 +107,27 @@ TEST(Json, OfInfoTellsTheKind) {
   EXPECT_EQ(results["bodies"], json({"beam"}));
 }
 
+TEST(Json, OfInfoListsARobotsCouplers) {
+  const Workspace place;
+  place.write("robot.urdf",
+              "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+              "<joint name='j' type='continuous'><parent link='a'/>"
+              "<child link='b'/></joint><joint name='k' type='floating'>"
+              "<parent link='a'/><child link='c'/></joint>"
+              "<loop name='o' kind='ball' from='b' to='c'/>"
+              "<loop name='p' kind='prismatic' from='b' to='c'/>"
+              "<gear name='g' joint='p' with='j' ratio='2'/>"
+              "<latch name='l' reach='1' from='b' to='c'/>"
+              "<tendon name='t'><via link='a'/><via link='c'/></tendon>"
+              "</robot>");
+  const json robot = parse(place.limber("info robot.urdf --json"));
+  EXPECT_EQ(robot["loops"][0]["name"], "o");
+  EXPECT_EQ(robot["loops"][0]["kind"], "ball");
+  EXPECT_EQ(robot["loops"][1]["to"], "c");
+  EXPECT_EQ(robot["gears"][0]["ratio"], 2.0);
+  EXPECT_EQ(robot["latches"], json({"l"}));
+  EXPECT_EQ(robot["tendons"], json({"t"}));
+}
+
 }  // namespace
 }  // namespace limber::test

@@ -237,6 +237,43 @@ TEST(CouplerReader, ReadsTendonsLatchesAndGears) {
   EXPECT_EQ(latch.release_time, 2.0);
 }
 
+// [Kt Kc; Kc' Kr] = (i + 1) on the diagonal, and 0.5 between x and ry.
+TEST(CouplerReader, ReadsBushingsOfSixBySixNumbers) {
+  std::string matrix;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const bool couples = (i == 0 && j == 4) || (i == 4 && j == 0);
+      matrix += i == j ? std::to_string(i + 1) + " " : couples ? "0.5 " : "0 ";
+    }
+  }
+  const auto bushing = [&](const std::string& attributes) {
+    return base("revolute") + "<bushing name='n' from='b' to='world' " +
+           attributes + "/>";
+  };
+  const Robot robot = read(bushing("stiffness='" + matrix + "'"));
+  const auto& law =
+      std::get<joints::Bushing::Parameters>(robot.connectors.at(0).law);
+  EXPECT_EQ(law.translational_stiffness.diagonal(), Vector3(1, 2, 3));
+  EXPECT_EQ(law.rotational_stiffness.diagonal(), Vector3(4, 5, 6));
+  Matrix3 coupling = Matrix3::Zero();
+  coupling(0, 1) = 0.5;
+  EXPECT_EQ(law.coupling_stiffness, coupling);
+  EXPECT_TRUE(law.coupling_damping.isZero());
+  EXPECT_THAT(error_of(bushing("damping='1 2 3'")),
+              HasSubstr("damping: expected 36 numbers, got 3"));
+  std::string skew = matrix;
+  skew.replace(skew.find("0.5"), 3, "0.4");
+  EXPECT_THAT(error_of(bushing("stiffness='" + skew + "'")),
+              HasSubstr("expected a symmetric matrix"));
+  std::string indefinite = matrix;
+  indefinite.replace(0, 1, "0");
+  EXPECT_THAT(error_of(bushing("stiffness='" + indefinite + "'")),
+              HasSubstr("robot.urdf:2: <bushing>"));
+  EXPECT_THAT(
+      error_of(bushing("stiffness='" + matrix + "' rotational_stiffness='1'")),
+      HasSubstr("unknown attribute 'rotational_stiffness'"));
+}
+
 TEST(CouplerReader, EndsSelectNodes) {
   const Robot robot =
       read(base("revolute") +
