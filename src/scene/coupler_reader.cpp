@@ -111,7 +111,7 @@ Matrix6 read_matrix(XmlElement& element, const std::string& name) {
     return Matrix6::Zero();
   }
   const Matrix6 m = Eigen::Map<const Matrix6>(numbers->data());
-  const Matrix6 symmetric = 0.5 * (m + m.transpose());
+  Matrix6 symmetric = 0.5 * (m + m.transpose());
   if ((m - symmetric).cwiseAbs().maxCoeff() >
       kSymmetric * m.cwiseAbs().maxCoeff()) {
     element.fail(fmt::format("{}: expected a symmetric matrix", name));

@@ -206,7 +206,8 @@ TEST(BadInput, LoopThatUrdfCannotHave) {
 }
 
 /// Two rigid links on the world, and what a test adds.
-void expect_robot_refused(const std::string& more, const std::string& culprit) {
+void expect_robot_refused(const std::string& more, const std::string& culprit,
+                          const std::string& scenario_more = "") {
   const std::string mass =
       "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
       "ixz='0' iyz='0'/></inertial></link>";
@@ -216,7 +217,8 @@ void expect_robot_refused(const std::string& more, const std::string& culprit) {
                   "<link name='b'>" + mass + more + "</robot>\n");
   place.write("scenario.toml",
               "robot = \"robot.urdf\"\n[time]\nduration = 0.1\nstep = "
-              "0.01\n");
+              "0.01\n" +
+                  scenario_more);
   expect_refused(place.limber("run scenario.toml"), culprit);
 }
 
@@ -232,7 +234,9 @@ std::string two_joints(const std::string& type, const std::string& more_j = "",
 }
 
 TEST(BadInput, UnknownJointKind) {
-  expect_robot_refused(two_joints("screw"), "unknown type 'screw'");
+  std::string robot = two_joints("continuous");
+  robot.replace(robot.find("continuous"), 10, "screw");
+  expect_robot_refused(robot, "joint 'j': unknown type 'screw'");
   expect_robot_refused(
       two_joints("floating") + "<coupler joint='j' kind='bal'/>",
       "unknown kind 'bal'; did you mean 'ball'");
@@ -244,6 +248,13 @@ TEST(BadInput, StopWhoseLowerBoundIsAboveItsUpper) {
                  "<limit lower='2' upper='1' effort='0' velocity='0'/>",
                  "<limit effort='0' velocity='0'/>"),
       "robot.urdf:1: joint 'j': its lower limit 2 is above its upper limit 1");
+}
+
+TEST(BadInput, DriveOnAFixedJoint) {
+  expect_robot_refused(two_joints("fixed"),
+                       "scenario.toml: drive 'j': joint 'j' is fixed",
+                       "[[drive]]\njoint = 'j'\nmode = 'effort'\n"
+                       "signal = { kind = 'constant', value = 1.0 }\n");
 }
 
 TEST(BadInput, TendonOverOnePoint) {
