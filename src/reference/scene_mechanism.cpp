@@ -36,9 +36,16 @@ Mobilizer find_mobilizer(JointKind kind) {
     case JointKind::ball:
       return Mobilizer::ball;
     case JointKind::universal:
-      throw InputError("a universal joint is not compared");
+      break;  // refused before
   }
   return Mobilizer::weld;
+}
+
+[[noreturn]] void refuse(const std::string& who, const char* why) {
+  throw InputError(fmt::format(
+      "{} {}; what is compared are joints without universal ones, bushings "
+      "without coupling of translation and rotation, and linear springs",
+      who, why));
 }
 
 /// What the joint holds. @throws InputError if more acts in it.
@@ -46,10 +53,36 @@ joints::Bushing::Parameters find_hold(const dynamics::Coupler& coupler) {
   const auto& joint = std::get<joints::Joint>(coupler.law);
   const auto* bushing = std::get_if<joints::Bushing>(&joint.hold());
   if (bushing == nullptr || !joint.elements().empty()) {
-    throw InputError(fmt::format("joint '{}': what acts in it is not compared",
-                                 coupler.name));
+    refuse("joint '" + coupler.name + "'",
+           "has springs, friction, stops, drives or a second axis");
   }
   return bushing->parameters();
+}
+
+/// What only our own equations have. @throws InputError naming it.
+void check_couplers(const dynamics::SystemModel& model) {
+  for (const dynamics::Transmission& transmission : model.transmissions) {
+    refuse("'" + transmission.name + "'", "is a tendon, a gear or a mimic");
+  }
+  for (const dynamics::Coupler& coupler : model.couplers) {
+    const std::string who = "'" + coupler.name + "'";
+    if (std::holds_alternative<joints::Latch>(coupler.law)) {
+      refuse(who, "is a latch");
+    }
+    if (const auto* law = std::get_if<joints::Bushing>(&coupler.law)) {
+      const joints::Bushing::Parameters& p = law->parameters();
+      if (!p.coupling_stiffness.isZero(0.0) ||
+          !p.coupling_damping.isZero(0.0)) {
+        refuse(who, "couples translation and rotation");
+      }
+    }
+    if (const auto* law = std::get_if<joints::PointSpring>(&coupler.law)) {
+      const joints::PointSpring::Parameters& p = law->parameters();
+      if (p.quadratic != 0.0 || !p.forces.empty() || p.tension_only) {
+        refuse(who, "is not a linear spring");
+      }
+    }
+  }
 }
 
 std::vector<double> join(const Vector3& a, const Vector3& b) {
@@ -278,6 +311,10 @@ class Translator {
 Mechanism make_mechanism(const scene::Scene& scene,
                          const scene::BuiltScene& built) {
   check_levels(built.model);
+  check_couplers(built.model);
+  if (!scene.robot.loops.empty()) {
+    refuse("'" + scene.robot.loops.front().name + "'", "closes a loop");
+  }
   check_couplers(scene.robot);
   return Translator(scene, built).run();
 }
