@@ -82,7 +82,7 @@ Mount CouplerAssembly::mount_joint(const Joint& joint, int link,
         return find_anchor(plan,
                            find_joint_interface(*source.flexible, joint.name));
       });
-  const Mount mount = mounts_.find_mount(link, X_LF, anchor);
+  Mount mount = mounts_.find_mount(link, X_LF, anchor);
   check_joint_interface(joint, link, mount);
   return mount;
 }
