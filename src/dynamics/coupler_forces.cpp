@@ -63,14 +63,7 @@ void apply_transmission(const SystemModel& model, const SystemState& state,
                         WrenchSource source, SystemTerms& terms,
                         TransmissionTerms& out) {
   calc_coordinate(model, state, transmission, terms, out);
-  out.response = {};
-  std::size_t first = 0;  // of a law's switches
-  for (const joints::ScalarLaw& law : transmission.laws) {
-    out.response +=
-        joints::evaluate(law, out.motion, now,
-                         {memory.switches[first], memory.switches[first + 1]});
-    first += static_cast<std::size_t>(joints::switch_count(law));
-  }
+  out.response = evaluate_laws(transmission, out.motion, memory, now);
   terms.dissipated_power += out.response.dissipation;
   terms.load_power += out.response.supplied;
   if (source == WrenchSource::law) out.applied = out.response.force;

@@ -12,19 +12,6 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Instant now_of(const SystemState& state) { return {state.t, Side::right}; }
 
-// What a law answers, with its switches from `first` on where they stand;
-// moves `first` past them.
-joints::ScalarResponse evaluate(const joints::ScalarLaw& law,
-                                const joints::ScalarMotion& motion,
-                                const Instant& now,
-                                const joints::CouplerMemory& memory,
-                                std::size_t& first) {
-  const joints::ScalarResponse response = joints::evaluate(
-      law, motion, now, {memory.switches[first], memory.switches[first + 1]});
-  first += index(joints::switch_count(law));
-  return response;
-}
-
 }  // namespace
 
 CouplerReading evaluate_coupler(const SystemModel& model,
@@ -55,12 +42,12 @@ CoordinateReading evaluate_coordinate(const SystemModel& model,
   CoordinateReading reading{{value.z, value.rate}, {}};
   std::size_t first = 0;  // of an element's switches
   for (const joints::JointElement& element : joint.elements()) {
-    if (element.coordinate != coordinate) {
-      first += index(joints::switch_count(element.law));
-      continue;
+    if (element.coordinate == coordinate) {
+      reading.response += joints::evaluate(
+          element.law, reading.motion, now_of(state),
+          {memory.switches[first], memory.switches[first + 1]});
     }
-    reading.response +=
-        evaluate(element.law, reading.motion, now_of(state), memory, first);
+    first += index(joints::switch_count(element.law));
   }
   return reading;
 }
@@ -71,13 +58,8 @@ CoordinateReading evaluate_transmission(const SystemModel& model,
   const Transmission& t = model.transmissions.at(index(transmission));
   const joints::CouplerMemory& memory =
       state.memory[model.couplers.size() + index(transmission)];
-  CoordinateReading reading{find_motion(model, state, t), {}};
-  std::size_t first = 0;  // of a law's switches
-  for (const joints::ScalarLaw& law : t.laws) {
-    reading.response +=
-        evaluate(law, reading.motion, now_of(state), memory, first);
-  }
-  return reading;
+  const joints::ScalarMotion motion = find_motion(model, state, t);
+  return {motion, evaluate_laws(t, motion, memory, now_of(state))};
 }
 
 }  // namespace limber::dynamics

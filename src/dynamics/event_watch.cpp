@@ -71,17 +71,15 @@ joints::SwitchValue EventWatch::evaluate(const Switch& s,
                              find_motion(model_, state, transmission));
 }
 
-bool EventWatch::start(SystemState& state, std::vector<Event>& events) {
-  bool has_jump = false;
+void EventWatch::start(SystemState& state, std::vector<Event>& events) {
   for (std::size_t i = 0; i < switches_.size(); ++i) {
     Switch& s = switches_[i];
     set(s, evaluate(s, state).value >= 0.0, state);
     if (!s.is_up || !is_latch(s)) continue;
     s.is_up = false;
-    has_jump |= pass(i, state, events).has_jump;
+    pass(i, state, events);
   }
   accept(state);
-  return has_jump;
 }
 
 std::optional<EventWatch::Crossing> EventWatch::find_first(

@@ -18,8 +18,7 @@ class EventWatch {
   [[nodiscard]] bool is_empty() const { return switches_.empty(); }
 
   /// Takes the switches as they are. Latches that are within reach close.
-  /// @returns whether one did, so that forces jump.
-  bool start(SystemState& state, std::vector<Event>& events);
+  void start(SystemState& state, std::vector<Event>& events);
 
   /// The first switch whose sign changed since the last accepted state, and
   /// when: of the cubic through its values and rates at both ends.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/marcher.hpp"
 
-#include <algorithm>
-
 namespace limber::dynamics {
 namespace {
 
@@ -29,7 +27,7 @@ Marcher::Marcher(const SystemModel& model, const SimulationSettings& settings,
 void Marcher::start(SystemState& state, double h) {
   watch_.start(state, events_);
   stepper_.start(state, h);
-  if (!watch_.is_empty()) before_ = state;
+  if (!watch_.is_empty()) before_ = state;  // so that no step allocates
 }
 
 void Marcher::cross_jump(const SystemState& state, double h) {

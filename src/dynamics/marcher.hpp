@@ -12,9 +12,8 @@ namespace limber::dynamics {
 /// keeps what couplers remember. Without switches and angles it adds nothing to
 /// a step.
 ///
-/// Equation   what a switch does to a law is held through a step, so that
-/// motion
-///            is smooth within one, and changes where the step is cut.
+/// Equation   what a switch does to a law is held through a step, so that the
+///            motion is smooth within one, and changes where the step is cut.
 /// Source     events by the cubic through the values and rates at both ends of
 ///            a step [@hairer1993, sec. II.6], whose error is smaller than that
 ///            of the integrators.

@@ -92,6 +92,20 @@ void calc_coordinate(const SystemModel& model, const SystemState& state,
   }
 }
 
+joints::ScalarResponse evaluate_laws(const Transmission& transmission,
+                                     const joints::ScalarMotion& motion,
+                                     const joints::CouplerMemory& memory,
+                                     const Instant& now) {
+  joints::ScalarResponse sum;
+  std::size_t first = 0;  // of a law's switches
+  for (const joints::ScalarLaw& law : transmission.laws) {
+    sum += joints::evaluate(
+        law, motion, now, {memory.switches[first], memory.switches[first + 1]});
+    first += index(joints::switch_count(law));
+  }
+  return sum;
+}
+
 joints::ScalarMotion find_motion(const SystemModel& model,
                                  const SystemState& state,
                                  const Transmission& transmission) {

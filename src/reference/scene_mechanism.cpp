@@ -59,16 +59,10 @@ joints::Bushing::Parameters find_hold(const dynamics::Coupler& coupler) {
   return bushing->parameters();
 }
 
-/// What only our own equations have. @throws InputError naming it.
-void check_couplers(const dynamics::SystemModel& model) {
-  for (const dynamics::Transmission& transmission : model.transmissions) {
-    refuse("'" + transmission.name + "'", "is a tendon, a gear or a mimic");
-  }
+/// Laws that only our own equations have. @throws InputError naming one.
+void check_laws(const dynamics::SystemModel& model) {
   for (const dynamics::Coupler& coupler : model.couplers) {
     const std::string who = "'" + coupler.name + "'";
-    if (std::holds_alternative<joints::Latch>(coupler.law)) {
-      refuse(who, "is a latch");
-    }
     if (const auto* law = std::get_if<joints::Bushing>(&coupler.law)) {
       const joints::Bushing::Parameters& p = law->parameters();
       if (!p.coupling_stiffness.isZero(0.0) ||
@@ -311,11 +305,8 @@ class Translator {
 Mechanism make_mechanism(const scene::Scene& scene,
                          const scene::BuiltScene& built) {
   check_levels(built.model);
-  check_couplers(built.model);
-  if (!scene.robot.loops.empty()) {
-    refuse("'" + scene.robot.loops.front().name + "'", "closes a loop");
-  }
   check_couplers(scene.robot);
+  check_laws(built.model);
   return Translator(scene, built).run();
 }
 
