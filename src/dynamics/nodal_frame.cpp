@@ -7,18 +7,85 @@
 #include <numeric>
 
 #include "common/errors.hpp"
+#include "common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Second moments of a set that is no point and no line.
-bool spans_a_plane(const Matrix3X& d, const VectorX& weights, double size) {
-  constexpr double kThin = 1e-6;  // of the body's size
-  const Matrix3 S = d * weights.asDiagonal() * d.transpose();
-  const Vector3 moments =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(S, Eigen::EigenvaluesOnly)
-          .eigenvalues();
-  return moments[1] > std::pow(kThin * size, 2);
+constexpr double kThin = 1e-6;  // of the body's size
+
+// Principal second moments of a set, the smallest first, and their axes.
+using Moments = Eigen::SelfAdjointEigenSolver<Matrix3>;
+Moments find_moments(const Matrix3X& d, const VectorX& weights) {
+  return Moments(Matrix3(d * weights.asDiagonal() * d.transpose()));
+}
+
+double find_size(const flexbody::FullBody& body) {
+  return (body.x_B.rowwise().maxCoeff() - body.x_B.rowwise().minCoeff())
+      .maxCoeff();
+}
+
+// The frame turns with all nodes, or about a line with them.
+void turn_with_body(const flexbody::FullBody& body, NodalFrame& frame) {
+  frame.turns = true;
+  frame.turning.resize(static_cast<std::size_t>(body.node_count()));
+  std::iota(frame.turning.begin(), frame.turning.end(), 0);
+  frame.d_B = body.x_B.colwise() - frame.mean_B;
+  frame.y_B = body.first_moment;
+}
+
+// sum (p_i - p) y_i^T, with p_i - p = d_i + u_i - u
+Matrix3 find_correlation(const NodalFrame& frame, const ConstNodes& u_H,
+                         const Vector3& u) {
+  Matrix3 A = Matrix3::Zero();
+  for (std::size_t i = 0; i < frame.turning.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const Vector3 arm = frame.d_B.col(k) + u_H.col(frame.turning[i]) - u;
+    A += arm * frame.y_B.col(k).transpose();
+  }
+  return A;
+}
+
+// sum lever_i x_i of a nodal field; levers sum to zero.
+Vector3 find_line_vector(const NodalFrame& frame, const ConstNodes& x) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    sum += frame.lever[static_cast<Eigen::Index>(i)] * x.col(frame.nodes[i]);
+  }
+  return sum;
+}
+
+// The rotation nearest to the correlation A of those that take `line` to t.
+Matrix3 find_line_rotation(const Matrix3& A, const Vector3& line,
+                           const Vector3& t) {
+  const Matrix3 mean = find_polar_rotation(A);
+  const Matrix3 R =
+      Quaternion::FromTwoVectors(mean * line, t).toRotationMatrix() * mean;
+  const Matrix3 B = R * A.transpose();
+  const double angle =
+      std::atan2((skew(t) * B).trace(), B.trace() - t.dot(B * t));
+  return exp_rotation(angle * t) * R;
+}
+
+// Rotation of a set that defines it, and what spreads a moment.
+void calc_rotation(const NodalFrame& frame, const ConstNodes& u_H,
+                   const Vector3& u, NodalFrameMotion& motion) {
+  const Matrix3 A = find_correlation(frame, u_H, u);
+  if (!frame.is_line()) {
+    motion.R_HB = find_polar_rotation(A);
+    const Matrix3 S = motion.R_HB * A.transpose();
+    motion.spread = (S.trace() * Matrix3::Identity() - S).inverse();
+    return;
+  }
+  const Vector3 L = frame.line_B + find_line_vector(frame, u_H);
+  const Vector3 t = L.normalized();
+  motion.R_HB = find_line_rotation(A, frame.line_B, t);
+  const Matrix3 S = motion.R_HB * A.transpose();
+  const Vector3 k = S.trace() * t - S * t;
+  const double inertia = k.dot(t);
+  motion.spread = t * t.transpose() / inertia;
+  motion.line_spread =
+      (Matrix3::Identity() - t * k.transpose() / inertia) * skew(t) / L.norm();
 }
 
 }  // namespace
@@ -44,21 +111,19 @@ NodalFrame make_nodal_frame(const flexbody::FullBody& body,
   frame.mean_B = frame.d_B * set.weights;
   frame.d_B.colwise() -= frame.mean_B;
   frame.arm_B = origin_B - frame.mean_B;
-  const double size =
-      (body.x_B.rowwise().maxCoeff() - body.x_B.rowwise().minCoeff())
-          .maxCoeff();
-  if (spans_a_plane(frame.d_B, frame.weights, size)) {
+  const Moments moments = find_moments(frame.d_B, frame.weights);
+  const double thin = std::pow(kThin * find_size(body), 2);
+  if (moments.eigenvalues()[1] > thin) {
     frame.turns = true;
     frame.turning = frame.nodes;
     frame.y_B = frame.d_B * frame.weights.asDiagonal();
-    return frame;
-  }
-  frame.turns = !body.is_clamped();
-  if (frame.turns) {
-    frame.turning.resize(static_cast<std::size_t>(body.node_count()));
-    std::iota(frame.turning.begin(), frame.turning.end(), 0);
-    frame.d_B = body.x_B.colwise() - frame.mean_B;
-    frame.y_B = body.first_moment;
+  } else if (moments.eigenvalues()[2] > thin) {
+    const Vector3 line = moments.eigenvectors().col(2);
+    frame.lever = frame.weights.cwiseProduct(frame.d_B.transpose() * line);
+    frame.line_B = frame.d_B * frame.lever;
+    turn_with_body(body, frame);
+  } else if (!body.is_clamped()) {
+    turn_with_body(body, frame);
   }
   return frame;
 }
@@ -75,17 +140,9 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
   motion.R_HB.setIdentity();
   motion.w_H.setZero();
   motion.spread.setZero();
+  motion.line_spread.setZero();
   if (frame.turns) {
-    // sum (p_i - p) y_i^T, with p_i - p = d_i + u_i - u
-    Matrix3 A = Matrix3::Zero();
-    for (std::size_t i = 0; i < frame.turning.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const Vector3 arm = frame.d_B.col(k) + u_H.col(frame.turning[i]) - u;
-      A += arm * frame.y_B.col(k).transpose();
-    }
-    motion.R_HB = find_polar_rotation(A);
-    const Matrix3 S = motion.R_HB * A.transpose();
-    motion.spread = (S.trace() * Matrix3::Identity() - S).inverse();
+    calc_rotation(frame, u_H, u, motion);
     Vector3 moment = Vector3::Zero();
     for (std::size_t i = 0; i < frame.turning.size(); ++i) {
       const Vector3 y_H =
@@ -94,6 +151,9 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
       moment += y_H.cross(velocity);
     }
     motion.w_H = motion.spread * moment;
+    if (frame.is_line()) {
+      motion.w_H += motion.line_spread * find_line_vector(frame, udot_H);
+    }
   }
   motion.arm_H = motion.R_HB * frame.arm_B;
   motion.p_H = frame.mean_B + u + motion.arm_H;
@@ -107,11 +167,18 @@ void add_nodal_wrench(const NodalFrame& frame, const NodalFrameMotion& motion,
     force.col(frame.nodes[i]) +=
         frame.weights[static_cast<Eigen::Index>(i)] * force_H;
   }
-  const Vector3 turn = motion.spread * (moment_H + motion.arm_H.cross(force_H));
+  const Vector3 moment_at_mean = moment_H + motion.arm_H.cross(force_H);
+  const Vector3 turn = motion.spread * moment_at_mean;
   const Vector3 turn_B = motion.R_HB.transpose() * turn;
   for (std::size_t i = 0; i < frame.turning.size(); ++i) {
     const Vector3 y = frame.y_B.col(static_cast<Eigen::Index>(i));
     force.col(frame.turning[i]) += motion.R_HB * turn_B.cross(y);
+  }
+  if (!frame.is_line()) return;
+  const Vector3 pull = motion.line_spread.transpose() * moment_at_mean;
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    force.col(frame.nodes[i]) +=
+        frame.lever[static_cast<Eigen::Index>(i)] * pull;
   }
 }
 

@@ -14,9 +14,12 @@ namespace limber::dynamics {
 ///            sum_i y_i x R^T (p_i - p) = 0 with y_i = w_i d_i
 /// Source     weighted orthogonal Procrustes problem [@umeyama1991];
 ///            for small motion this is flexbody::InterfaceMotion
-/// Limits     nodes on one line, or a single one, define no rotation: the
-///            frame then turns with the mean-axis frame of its body, y_i the
-///            first moments of all nodes, and that takes the moment. If the
+///            Nodes on one line along e define it but for the turn about the
+///            line: R e = L / |L|, L = sum_i w_i (e . d_i) (p_i - p), and about
+///            L it is the nearest to the nodes of the whole body, y_i their
+///            first moments. These take the moment about the line.
+/// Limits     a single node defines no rotation: the frame then turns with the
+///            mean-axis frame of its body, whose nodes take the moment. If the
 ///            body is clamped it does not turn, and the clamp takes the moment.
 struct NodalFrame {
   std::vector<int> nodes;
@@ -27,6 +30,10 @@ struct NodalFrame {
   std::vector<int> turning;  ///< nodes that define the rotation
   Matrix3X d_B;              ///< 3 x n of these, undeformed, from the mean [m]
   Matrix3X y_B;              ///< 3 x n first moments, their sum is zero
+  VectorX lever;  ///< of nodes on a line: w_i (e . d_i) [m], their sum is zero
+  Vector3 line_B = Vector3::Zero();  ///< L undeformed, along e [m^2]
+
+  [[nodiscard]] bool is_line() const { return lever.size() > 0; }
 };
 
 /// @param origin_B undeformed origin of the frame, body frame [m]
@@ -44,6 +51,8 @@ struct NodalFrameMotion {
   /// A moment [N m] to the factor of its nodal forces, the inverse of what
   /// y_B d_B' measures; zero if it does not turn.
   Matrix3 spread = Matrix3::Zero();
+  /// Of nodes on a line, L' to what it adds to w_H [1/m^2].
+  Matrix3 line_spread = Matrix3::Zero();
 };
 
 using ConstNodes = Eigen::Map<const Matrix3X>;
@@ -58,7 +67,10 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
 /// moment, about any point of H, that of both.
 ///
 /// Equation   f_i = w_i f + (K^-1 (m + arm x f)) x R y_i,
-///            K = tr(S) I - S, S = sum_i R y_i (p_i - p)^T
+///            K = tr(S) I - S, S = sum_i R y_i (p_i - p)^T;
+///            of nodes on a line along t = L / |L|, with k = K t, K^-1 is
+///            t t^T / (k . t), and the line's nodes also take
+///            w_i (e . d_i) [(I - t k^T / (k . t)) [t]x / |L|]^T (m + arm x f)
 void add_nodal_wrench(const NodalFrame& frame, const NodalFrameMotion& motion,
                       const Vector3& force_H, const Vector3& moment_H,
                       Eigen::Ref<Matrix3X> force);

@@ -36,6 +36,13 @@ void calc_nodal_jacobian(const NodalFrame& frame,
     G.block<3, 3>(0, 3 * frame.turning[i]) -= R_arm * turn;
     G.block<3, 3>(3, 3 * frame.turning[i]) = R_AH * turn;
   }
+  if (!frame.is_line()) return;
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const Matrix3 turn =
+        frame.lever[static_cast<Eigen::Index>(i)] * motion.line_spread;
+    G.block<3, 3>(0, 3 * frame.nodes[i]) -= R_arm * turn;
+    G.block<3, 3>(3, 3 * frame.nodes[i]) += R_AH * turn;
+  }
 }
 
 }  // namespace limber::dynamics

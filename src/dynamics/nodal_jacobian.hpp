@@ -15,7 +15,8 @@ void calc_modal_jacobian(const Attachment& attachment,
 
 /// Of weighted nodes.
 ///
-/// Equation   d theta = spread sum_i R y_i x du_i,
+/// Equation   d theta = spread sum_i R y_i x du_i
+///                    + line_spread sum_i lever_i du_i,
 ///            d p = sum_i w_i du_i + d theta x arm
 /// @param G 6 x 3N; columns of nodes that are not in the frame are zeroed
 void calc_nodal_jacobian(const NodalFrame& frame,

@@ -132,10 +132,13 @@ TEST_P(NodalFrameOf, JacobianAndVelocitiesAreItsDerivatives) {
 }
 
 TEST_P(NodalFrameOf, IsTheMeanOfTheReducedLevelsToSecondOrder) {
-  if (find_node_set(*body_, GetParam()).nodes.size() < 4) return;  // see below
   const flexbody::NodeSet& set = find_node_set(*body_, GetParam());
+  if (set.nodes.size() < 2) return;  // a node has no rotation there
   const flexbody::InterfaceMotion linear(set.nodes, set.weights, body_->x_B,
                                          0.3);
+  // About a line there is none.
+  const Matrix3 defined =
+      linear.rotation_axes() * linear.rotation_axes().transpose();
   const NodalFrame frame = make(linear.mean_point());
   const Matrix3X shape = make_field(body_->node_count(), 1.0, 8);
   std::vector<double> errors;
@@ -145,18 +148,19 @@ TEST_P(NodalFrameOf, IsTheMeanOfTheReducedLevelsToSecondOrder) {
     const Vector6 expected = linear.apply(u.reshaped());
     EXPECT_LT((motion.p_H - linear.mean_point() - expected.head<3>()).norm(),
               1e-15);
-    errors.push_back((log_rotation(motion.R_HB) - expected.tail<3>()).norm());
+    errors.push_back(
+        (defined * log_rotation(motion.R_HB) - expected.tail<3>()).norm());
   }
   EXPECT_NEAR(std::log10(errors[0] / errors[1]), 2.0, 0.05);
 }
 
-// "first" is planar: the matrix of its rotation has rank two. A line and a node
-// turn with the body.
+// "first" is planar: the matrix of its rotation has rank two. A node turns with
+// the body, and so does a line about itself.
 INSTANTIATE_TEST_SUITE_P(Sets, NodalFrameOf,
                          ::testing::Values("first", "block", "edge", "node"),
                          [](const auto& i) { return std::string(i.param); });
 
-TEST(NodalFrame, OfOneNodeOrALineTurnsWithTheMeanAxisFrame) {
+TEST(NodalFrame, OfOneNodeTurnsWithTheMeanAxisFrame) {
   const testing::SpringNetwork network = make_lattice();
   const auto body = make_full(network);
   SystemBuilder builder;
@@ -167,14 +171,45 @@ TEST(NodalFrame, OfOneNodeOrALineTurnsWithTheMeanAxisFrame) {
   state.udot_H = make_field(body->node_count(), 1.0, 10).reshaped();
   MeanFrame mean;
   calc_mean_frame(model, model.full_bodies[0], state, mean);
-  for (const char* name : {"node", "edge"}) {
-    const NodalFrame frame =
-        make_nodal_frame(*body, find_node_set(*body, name), kOrigin);
-    const NodalFrameMotion motion =
-        find_motion(frame, state.u_H.reshaped(3, body->node_count()),
-                    state.udot_H.reshaped(3, body->node_count()));
-    EXPECT_LT((motion.R_HB - mean.R_HB).norm(), 1e-14) << name;
-    EXPECT_LT((motion.w_H - mean.w_H).norm(), 1e-13) << name;
+  const NodalFrame frame =
+      make_nodal_frame(*body, find_node_set(*body, "node"), kOrigin);
+  const NodalFrameMotion motion =
+      find_motion(frame, state.u_H.reshaped(3, body->node_count()),
+                  state.udot_H.reshaped(3, body->node_count()));
+  EXPECT_LT((motion.R_HB - mean.R_HB).norm(), 1e-14);
+  EXPECT_LT((motion.w_H - mean.w_H).norm(), 1e-13);
+}
+
+/// Its nodes give the line's direction, and about it the rotation is the
+/// nearest to all nodes: no rotation nearby is nearer.
+TEST(NodalFrame, OfALineFollowsItAndTurnsAboutItWithTheBody) {
+  for (const bool is_clamped : {false, true}) {
+    const auto body = make_full(make_lattice({.is_clamped = is_clamped}));
+    const flexbody::NodeSet& set = find_node_set(*body, "edge");
+    const NodalFrame frame = make_nodal_frame(*body, set, kOrigin);
+    ASSERT_TRUE(frame.is_line());
+    const Matrix3X u = make_field(body->node_count(), 0.03, 9);
+    const Matrix3 R = find_motion(frame, u, u).R_HB;
+    const Matrix3X d =
+        body->x_B(Eigen::all, set.nodes).colwise() - frame.mean_B;
+    const Matrix3X p = d + u(Eigen::all, set.nodes);
+    const Matrix3 of_line = p * set.weights.asDiagonal() * d.transpose();
+    const Matrix3 of_body = (body->x_B + u) * body->first_moment.transpose();
+    const auto change = [&](const Matrix3& A, const Vector3& turn) {
+      return (A.transpose() * (exp_rotation(turn) - Matrix3::Identity()) * R)
+          .trace();
+    };
+    constexpr double kAngle = 1e-3;
+    const Vector3 along = R * (d.col(2) - d.col(0)).normalized();
+    const Vector3 across = along.unitOrthogonal();
+    for (const Vector3& axis : {across, along.cross(across).eval()}) {
+      const double there = change(of_line, kAngle * axis);
+      EXPECT_LT(there, 0.0);
+      EXPECT_NEAR(change(of_line, -kAngle * axis) / there, 1.0, 1e-9);
+    }
+    const double there = change(of_body, kAngle * along);
+    EXPECT_LT(there, 0.0);
+    EXPECT_NEAR(change(of_body, -kAngle * along) / there, 1.0, 1e-9);
   }
 }
 
