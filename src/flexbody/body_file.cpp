@@ -126,9 +126,11 @@ void write_interfaces(Hdf5File& out, const ReducedBody& body) {
               "translation per modal coordinate, 3 x m");
     out.write(at + "Psi_B", MatrixX(table.Psi_B), "rad kg^-1/2 m^-1",
               "rotation per modal coordinate, 3 x m");
-    out.write(at + "rotation_rank",
-              std::vector<std::int64_t>{table.rotation_rank}, "1",
-              "rotations that the node set defines");
+    out.write(
+        at + "rotation_axes", MatrixX(table.rotation_axes), "1",
+        "axes about which the node set defines a rotation, 3 x 0, 2 or 3");
+    out.write(at + "node_count", to_integers({table.node_count}), "1",
+              "nodes of the set");
     out.write(at + "flexibility", MatrixX(table.flexibility), "m/N, rad/(N m)",
               "inertia-relieved flexibility, 6 x 6");
   }
@@ -217,8 +219,10 @@ void read_interfaces(const Reader& reader, std::size_t count,
     table.p_B = reader.matrix(at + "p_B", 3, 1);
     table.Phi_B = reader.matrix(at + "Phi_B", 3, m);
     table.Psi_B = reader.matrix(at + "Psi_B", 3, m);
-    table.rotation_rank =
-        static_cast<int>(reader.integer(at + "rotation_rank"));
+    table.rotation_axes =
+        reader.matrix(at + "rotation_axes", 3,
+                      reader.in().read_matrix(at + "rotation_axes").cols());
+    table.node_count = reader.sizes(at + "node_count", 1)[0];
     table.flexibility = reader.matrix(at + "flexibility", 6, 6);
     body.interfaces.push_back(std::move(table));
   }

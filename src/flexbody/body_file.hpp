@@ -8,7 +8,7 @@
 namespace limber::flexbody {
 
 /// Version of the layout that `write_body` writes.
-inline constexpr int kBodyFileVersion = 6;
+inline constexpr int kBodyFileVersion = 7;
 
 /// Writes one self-describing HDF5 file (every dataset carries its unit and
 /// meaning), atomically: who reads `file` meanwhile finds the old one or the

@@ -19,10 +19,10 @@ void add_tables(const std::vector<Interface>& interfaces,
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const InterfaceMotion& motion = interfaces[i].motion;
     const Matrix6X table = motion.apply(Phi);
-    body.interfaces.push_back({interfaces[i].name,
-                               motion.mean_point() - body.p_MoBcm_M,
-                               table.topRows<3>(), table.bottomRows<3>(),
-                               motion.rotation_rank(), modes.flexibility[i]});
+    body.interfaces.push_back(
+        {interfaces[i].name, motion.mean_point() - body.p_MoBcm_M,
+         table.topRows<3>(), table.bottomRows<3>(), motion.rotation_axes(),
+         interfaces[i].selection.nodes.size(), modes.flexibility[i]});
   }
 }
 

@@ -54,11 +54,18 @@ struct InterfaceTable {
   Vector3 p_B = Vector3::Zero();  ///< undeformed mean point, from the c.m. [m]
   Matrix3X Phi_B;                 ///< 3 x m translation
   Matrix3X Psi_B;                 ///< 3 x m rotation
-  int rotation_rank = 0;          ///< rotations the node set defines: 0, 2, 3
+  /// Orthonormal axes about which the node set defines a rotation, 3 x 0 (a
+  /// point), 3 x 2 (a line) or 3 x 3, body frame.
+  Matrix3X rotation_axes = Matrix3X(3, 0);
+  std::size_t node_count = 0;  ///< nodes of the set
   /// Rotation of the interface under a unit moment held inertia-relieved, and
   /// translation under a unit force: the body's own flexibility there,
   /// 6 x 6 (translation first), body frame [m/N, rad/(N m)].
   Matrix6 flexibility = Matrix6::Zero();
+
+  [[nodiscard]] int rotation_rank() const {
+    return static_cast<int>(rotation_axes.cols());
+  }
 };
 
 /// What rotation does to the whole mesh, per unit of it: the constants of the

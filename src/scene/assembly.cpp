@@ -10,6 +10,7 @@
 #include "scene/link_start.hpp"
 #include "scene/naming.hpp"
 #include "scene/nodal_forces.hpp"
+#include "scene/rotation_check.hpp"
 
 namespace limber::scene {
 namespace {
@@ -91,6 +92,22 @@ void Assembly::add_nodal_load(const LoadSpec& load) {
       flexbody::reduce_nodal_load(*plan.reduced, file.times, forces), forces);
 }
 
+void Assembly::check_moment(const LoadSpec& load, const Mount& mount) const {
+  if (!mount.anchor.table || load.moment.isZero()) return;
+  const int link = find_link(scene_.robot, load.where.link);
+  if (load.frame == dynamics::LoadFrame::body) {
+    check_rotation(mount, rotation_about(load.moment));
+  } else if (mounts_.plan_of(link).reduced->clamped) {
+    const Matrix3& R_WL = motions_[index(link)].X_WL.R;
+    check_rotation(mount, rotation_about(R_WL.transpose() * load.moment));
+  } else {
+    naming(
+        "its moment is fixed in the world, so it comes about every direction "
+        "of a link that turns",
+        [&] { check_rotation(mount, Matrix3::Identity()); });
+  }
+}
+
 void Assembly::add_load(const LoadSpec& load) {
   const int link = find_link(scene_.robot, load.where.link);
   const BodyPlan& plan = mounts_.plan_of(link);
@@ -100,13 +117,10 @@ void Assembly::add_load(const LoadSpec& load) {
   if (plan.reduced) {
     anchor = find_anchor(plan, load.where);
     X_LF.p = mounts_.X_BL(link).inverse() * anchor.table->p_B;
-    if (anchor.table->rotation_rank < 3 && !load.moment.isZero()) {
-      throw InputError(
-          "its nodes are too few to take a moment; use a surface group");
-    }
   }
-  const dynamics::AttachmentIndex where =
-      attach(load.name, mounts_.find_mount(link, X_LF, anchor), builder_);
+  const Mount mount = mounts_.find_mount(link, X_LF, anchor);
+  check_moment(load, mount);
+  const dynamics::AttachmentIndex where = attach(load.name, mount, builder_);
   const bool in_body = load.frame == dynamics::LoadFrame::body;
   const Matrix3 R =
       in_body ? mounts_.X_BL(link).R : Matrix3(Matrix3::Identity());
@@ -145,6 +159,10 @@ PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   probe.p_B = X_BL * spec.where.point.value_or(Vector3::Zero());
   if (!plan.reduced) return probe;
   const Anchor anchor = find_anchor(plan, spec.where);
+  if (spec.quantity == Quantity::rotation ||
+      spec.quantity == Quantity::angular_velocity) {
+    check_rotation(*anchor.table, Matrix3::Identity());
+  }
   probe.p_B = anchor.table->p_B;
   probe.Phi_B = anchor.table->Phi_B;
   probe.Psi_B = anchor.table->Psi_B;

@@ -36,6 +36,7 @@ class Assembly {
 
  private:
   void add_body(const BodyPlan& plan);
+  void check_moment(const LoadSpec& load, const Mount& mount) const;
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;

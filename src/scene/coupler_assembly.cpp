@@ -8,6 +8,7 @@
 
 #include "scene/naming.hpp"
 #include "scene/recipes.hpp"
+#include "scene/rotation_check.hpp"
 
 namespace limber::scene {
 namespace {
@@ -55,12 +56,6 @@ void CouplerAssembly::add_all() {
 void CouplerAssembly::check_joint_interface(const Joint& joint, int link,
                                             const Mount& mount) {
   const flexbody::InterfaceTable& table = *mount.anchor.table;
-  if (table.rotation_rank < 3) {
-    throw InputError(fmt::format(
-        "joint '{}': interface '{}' of link '{}' has too few nodes to hold a "
-        "rotation; use a surface group",
-        joint.name, table.name, mount.link));
-  }
   const double distance = (mount.X_BF.p - table.p_B).norm();
   if (distance > kFarShare * mounts_.plan_of(link).reduced->size.norm()) {
     warnings_.push_back(fmt::format(
@@ -90,6 +85,9 @@ Mount CouplerAssembly::mount_joint(const Joint& joint, int link,
 dynamics::CouplerIndex CouplerAssembly::add_coupler(
     const std::string& name, const joints::CouplerLaw& law, const Mount& F,
     const Mount& M) {
+  const AskedSides asked = find_asked_rotations(law);
+  check_rotation(F, asked.F);
+  check_rotation(M, asked.M);
   const dynamics::AttachmentIndex frame_F = attach(name + ".F", F, builder_);
   const dynamics::AttachmentIndex frame_M = attach(name + ".M", M, builder_);
   return builder_.add_coupler(name, law, frame_F, frame_M);
@@ -116,7 +114,8 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
                                      std::move(elements)),
                   F, M);
   if (coordinates.size() == 1) {
-    geared_[spec.name] = {coupler, find_hold(coordinates[0], held)};
+    geared_[spec.name] = {
+        coupler, find_hold(coordinates[0], held), coordinates, {F, M}};
   }
 }
 
@@ -225,6 +224,11 @@ void CouplerAssembly::add_tendon(const Tendon& tendon) {
 void CouplerAssembly::add_gear(const Gear& gear) {
   const Geared& joint = geared_.at(gear.joint);
   const Geared& with = geared_.at(gear.with);
+  for (const Geared* side : {&joint, &with}) {
+    const AskedSides asked = find_asked_rotations(side->coordinates, 0);
+    check_rotation(side->mounts[0], asked.F);
+    check_rotation(side->mounts[1], asked.M);
+  }
   dynamics::JointSum sum;
   sum.terms = {{joint.coupler, 0, 1.0}, {with.coupler, 0, -gear.ratio}};
   sum.offset = gear.offset;

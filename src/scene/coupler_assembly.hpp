@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ class CouplerAssembly {
   struct Geared {
     dynamics::CouplerIndex coupler;
     Hold hold;
+    std::vector<joints::AxisCoordinate> coordinates;
+    std::array<Mount, 2> mounts;  ///< of F and M
   };
 
   void add_joint(const Joint& joint);

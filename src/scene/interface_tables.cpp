@@ -15,6 +15,7 @@ flexbody::InterfaceTable row_table(const flexbody::ReducedBody& body,
   table.p_B = body.rows.x_B.col(i);
   table.Phi_B = body.rows.Phi_B.middleRows(3 * i, 3);
   table.Psi_B = Matrix3X::Zero(3, body.mode_count());
+  table.node_count = 1;
   return table;
 }
 

@@ -64,7 +64,7 @@ Anchor Mounts::find_end_anchor(const Place& where) const {
         where.link));
   }
   Anchor anchor = find_anchor(plan, where);
-  if (where.point && anchor.table->rotation_rank < 3) {
+  if (where.point && anchor.table->rotation_rank() < 3) {
     throw InputError(fmt::format(
         "'{}' of link '{}' has too few nodes to carry a point beside them; "
         "leave 'point' out or select more nodes",

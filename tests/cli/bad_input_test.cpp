@@ -127,6 +127,27 @@ TEST(BadInput, ProbeOnAPlaneWithoutNodes) {
                        "5.5) m normal to (0, 0, 1); the nearest is 0.5 m away");
 }
 
+TEST(BadInput, RotationOfALineOfNodes) {
+  SceneText text;
+  text.scenario_more =
+      "[[probe]]\nname='turn'\nlink='beam'\nquantity='rotation'\n"
+      "plane={point=[1,1,0],normal=[1,1,0]}\n";
+  expect_scene_refused(text, "probe 'turn' on link 'beam': ");
+  expect_scene_refused(text,
+                       "nodes are on one line along (0, 0, 1), so it has "
+                       "no rotation about (0, 0, 1)");
+}
+
+TEST(BadInput, MomentOnANode) {
+  SceneText text;
+  text.scenario_more =
+      "[[load]]\nname='twist'\nlink='beam'\nmoment=[0,0,2]\n"
+      "nearest=[0,0,5]\n";
+  expect_scene_refused(text,
+                       "load 'twist': link 'beam': interface 'nearest:0,0,5': "
+                       "it is one node, so it has no rotation about (0, 0, 1)");
+}
+
 TEST(BadInput, DegenerateElement) {
   expect_mesh_refused(two_tetrahedra("1 2 3 4", "1 2 3 3"), "element 2");
 }

@@ -121,7 +121,8 @@ inline flexbody::InterfaceTable make_interface(const PointMassBody& body,
     }
   }
   table.Psi_B = inertia.inverse() * table.Psi_B;
-  table.rotation_rank = 3;
+  table.rotation_axes = Matrix3::Identity();
+  table.node_count = static_cast<std::size_t>(last - first);
   return table;
 }
 

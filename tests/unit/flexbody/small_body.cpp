@@ -100,7 +100,8 @@ void add_lists(const ReducedBody& body, FieldList& fields) {
     fields.add("interface p_B", MatrixX(table.p_B));
     fields.add("interface Phi_B", MatrixX(table.Phi_B));
     fields.add("interface Psi_B", MatrixX(table.Psi_B));
-    fields.add("interface rotation_rank", table.rotation_rank);
+    fields.add("interface rotation_axes", MatrixX(table.rotation_axes));
+    fields.add("interface node_count", table.node_count);
     fields.add("interface flexibility", MatrixX(table.flexibility));
   }
 }
@@ -184,7 +185,8 @@ ReducedBody make_small_body(unsigned seed) {
   table.p_B = numbers.matrix(3, 1);
   table.Phi_B = numbers.matrix(3, m);
   table.Psi_B = numbers.matrix(3, m);
-  table.rotation_rank = 2;
+  table.rotation_axes = numbers.matrix(3, 2);
+  table.node_count = 17;
   table.flexibility = numbers.matrix(6, 6);
   body.interfaces.push_back(table);
   body.selection = SelectionRecord{
