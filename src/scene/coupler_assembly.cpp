@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "scene/naming.hpp"
@@ -21,6 +22,9 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Two ends of a loop meet within this share of the robot's size.
 constexpr double kGapShare = 1e-6;
+
+/// A gear that is farther from its place at the start gets a warning [rad, m].
+constexpr double kStretched = 1e-9;
 
 }  // namespace
 
@@ -99,8 +103,8 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
       find_joint_parameters(spec.coupler, F.side, M.side);
   const auto coordinates =
       joints::find_coordinates(spec.kind, spec.axis, spec.second);
-  std::vector<joints::JointElement> elements =
-      make_elements(spec.actions, coordinates, held);
+  std::vector<joints::JointElement> elements = make_elements(
+      spec.actions, coordinates, find_stop_stiffness(F.side, M.side));
   for (const DriveSpec& drive : scene_.scenario.drives) {
     if (drive.joint != spec.name) continue;
     naming("drive '" + drive.name + "'", [&] {
@@ -131,7 +135,8 @@ void CouplerAssembly::add_joint(const Joint& joint) {
   });
 }
 
-void CouplerAssembly::check_gap(const Pose& from, const Pose& to) const {
+void CouplerAssembly::check_gap(const Pose& from, const Pose& to,
+                                const char* where) const {
   double size = std::max(from.p.norm(), to.p.norm());
   for (const LinkMotion& link : at_zero_) {
     size = std::max(size, (link.X_WL.p - from.p).norm());
@@ -139,14 +144,16 @@ void CouplerAssembly::check_gap(const Pose& from, const Pose& to) const {
   const double gap = (to.p - from.p).norm();
   if (gap <= kGapShare * size) return;
   throw InputError(fmt::format(
-      "its ends are {:.3g} m apart where all joints are at zero, at ({:.6g}, "
-      "{:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) m; they must meet there",
-      gap, from.p.x(), from.p.y(), from.p.z(), to.p.x(), to.p.y(), to.p.z()));
+      "its ends are {:.3g} m apart {}, at ({:.6g}, {:.6g}, {:.6g}) and "
+      "({:.6g}, {:.6g}, {:.6g}) m; they must meet there",
+      gap, where, from.p.x(), from.p.y(), from.p.z(), to.p.x(), to.p.y(),
+      to.p.z()));
 }
 
 void CouplerAssembly::add_loop(const Loop& loop) {
   const Pose X_WF = mounts_.find_pose(loop.from, at_zero_);
-  check_gap(X_WF, mounts_.find_pose(loop.to, at_zero_));
+  check_gap(X_WF, mounts_.find_pose(loop.to, at_zero_),
+            "where all joints are at zero");
   add_joint(
       {loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
        loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited},
@@ -165,6 +172,7 @@ void CouplerAssembly::add_connector(const Connector& connector) {
     return;
   }
   // At rest at the start: both frames are the one of the first end.
+  if (connector.to.where.point) check_gap(from, to, "at the start");
   add_coupler(
       connector.name,
       joints::Bushing(std::get<joints::Bushing::Parameters>(connector.law)), F,
@@ -221,7 +229,24 @@ void CouplerAssembly::add_tendon(const Tendon& tendon) {
   builder_.add_path(tendon.name, points, laws);
 }
 
+void CouplerAssembly::check_start(const Gear& gear) {
+  const auto start = [&](const std::string& joint) {
+    const auto given = scene_.scenario.joints.find(joint);
+    if (given == scene_.scenario.joints.end()) return 0.0;
+    const std::vector<double>& position = given->second.position;
+    return position.empty() ? 0.0 : position.front();
+  };
+  const double needed = gear.ratio * start(gear.with) + gear.offset;
+  const double excess = start(gear.joint) - needed;
+  if (std::abs(excess) <= kStretched * (1.0 + std::abs(needed))) return;
+  warnings_.push_back(fmt::format(
+      "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, "
+      "and joint '{}' asks for {:g}",
+      gear.name, excess, gear.joint, start(gear.joint), gear.with, needed));
+}
+
 void CouplerAssembly::add_gear(const Gear& gear) {
+  check_start(gear);
   const Geared& joint = geared_.at(gear.joint);
   const Geared& with = geared_.at(gear.with);
   for (const Geared* side : {&joint, &with}) {

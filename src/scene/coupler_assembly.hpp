@@ -47,10 +47,11 @@ class CouplerAssembly {
   Mount mount_joint(const Joint& joint, int link, const Pose& X_LF);
   void check_joint_interface(const Joint& joint, int link, const Mount& mount);
   void add_loop(const Loop& loop);
-  void check_gap(const Pose& from, const Pose& to) const;
+  void check_gap(const Pose& from, const Pose& to, const char* where) const;
   void add_connector(const Connector& connector);
   void add_latch(const Latch& latch);
   void add_tendon(const Tendon& tendon);
+  void check_start(const Gear& gear);
   void add_gear(const Gear& gear);
   dynamics::CouplerIndex add_coupler(const std::string& name,
                                      const joints::CouplerLaw& law,

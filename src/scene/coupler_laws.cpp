@@ -15,11 +15,11 @@ using joints::JointParameters;
 using joints::ScalarLaw;
 using joints::ScalarSpring;
 
-EndStop make_stop(const StopOptions& options, const Hold& hold) {
+EndStop make_stop(const StopOptions& options, double stiffness) {
   EndStop::Parameters stop;
   stop.lower = options.lower.value_or(stop.lower);
   stop.upper = options.upper.value_or(stop.upper);
-  stop.stiffness = options.stiffness.value_or(hold.stiffness);
+  stop.stiffness = options.stiffness.value_or(stiffness);
   stop.damping = options.damping ? *options.damping
                                  : joints::find_stop_damping(
                                        options.restitution, options.speed);
@@ -50,17 +50,19 @@ Hold find_hold(const AxisCoordinate& coordinate, const JointParameters& held) {
 std::vector<joints::JointElement> make_elements(
     const std::vector<JointAction>& actions,
     const std::vector<AxisCoordinate>& coordinates,
-    const JointParameters& held) {
+    const StopStiffness& stiffness) {
   std::vector<joints::JointElement> elements;
   for (const JointAction& action : actions) {
-    const Hold hold = find_hold(
-        coordinates.at(static_cast<std::size_t>(action.coordinate)), held);
+    const AxisCoordinate& coordinate =
+        coordinates.at(static_cast<std::size_t>(action.coordinate));
+    const bool turns = coordinate.kind == AxisCoordinate::Kind::angle;
     elements.push_back(
         {action.coordinate,
          std::visit(
              Overloaded{
                  [&](const StopOptions& stop) -> ScalarLaw {
-                   return make_stop(stop, hold);
+                   return make_stop(stop, turns ? stiffness.rotational
+                                                : stiffness.translational);
                  },
                  [](const joints::Friction::Parameters& friction) -> ScalarLaw {
                    return joints::Friction(friction);

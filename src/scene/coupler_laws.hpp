@@ -5,6 +5,7 @@
 
 #include "joints/coupler_law.hpp"
 #include "joints/joint_kind.hpp"
+#include "scene/default_stiffness.hpp"
 #include "scene/robot.hpp"
 #include "scene/scenario.hpp"
 
@@ -12,12 +13,12 @@
 /// All throw InputError for values outside their range.
 namespace limber::scene {
 
-/// What acts along the coordinates of a joint that is held by `held`: default
-/// stiffness of a stop is that of the held rotation or translation.
+/// What acts along the coordinates of a joint.
+/// @param stiffness of a stop that gives none
 [[nodiscard]] std::vector<joints::JointElement> make_elements(
     const std::vector<JointAction>& actions,
     const std::vector<joints::AxisCoordinate>& coordinates,
-    const joints::JointParameters& held);
+    const StopStiffness& stiffness);
 
 /// A drive; its limits are the scenario's, else these.
 /// @param max_effort [N or N m] @param max_speed [m/s or rad/s]

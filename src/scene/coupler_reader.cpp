@@ -155,7 +155,7 @@ Loop read_loop(XmlElement& element) {
   loop.coupler = read_options(element);
   loop.coupler.free_damping = element.number("free_damping", kNonNegative);
   ActionReader actions(loop.kind, loop.actions);
-  read_ends(element, loop.from, loop.to, actions.readers());
+  read_ends(element, TurnedEnds::from, loop.from, loop.to, actions.readers());
   return loop;
 }
 
@@ -177,7 +177,7 @@ Connector read_spring(XmlElement& element) {
     element.fail(error.what());
   }
   connector.law = spring;
-  read_ends(element, connector.from, connector.to);
+  read_ends(element, TurnedEnds::none, connector.from, connector.to);
   return connector;
 }
 
@@ -196,7 +196,7 @@ Connector read_bushing(XmlElement& element) {
     element.fail(error.what());
   }
   connector.law = bushing;
-  read_ends(element, connector.from, connector.to);
+  read_ends(element, TurnedEnds::from, connector.from, connector.to);
   return connector;
 }
 
@@ -209,7 +209,7 @@ Latch read_latch(XmlElement& element) {
       element.number("release_force", kPositive).value_or(latch.release_force);
   latch.release_time =
       element.number("release_time").value_or(latch.release_time);
-  read_ends(element, latch.from, latch.to);
+  read_ends(element, TurnedEnds::both, latch.from, latch.to);
   return latch;
 }
 

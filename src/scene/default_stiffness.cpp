@@ -31,13 +31,17 @@ double reduce(double a, double b) {
   return a * b / (a + b);
 }
 
+double stiffness_at(double frequency, double mu) {
+  const double omega = 2.0 * std::numbers::pi * frequency;
+  return mu * omega * omega;
+}
+
 double find_stiffness(const CouplerSide& side_F, const CouplerSide& side_M,
                       int first, double mu) {
   const double flexibility = std::min(find_flexibility(side_F, first),
                                       find_flexibility(side_M, first));
   if (std::isfinite(flexibility)) return kStiffnessRatio / flexibility;
-  const double omega = 2.0 * std::numbers::pi * kRigidFrequency;
-  return mu * omega * omega;
+  return stiffness_at(kRigidFrequency, mu);
 }
 
 double find_damping(double stiffness, double mu) {
@@ -62,6 +66,12 @@ joints::JointParameters find_joint_parameters(const CouplerOptions& options,
       find_damping(parameters.rotational_stiffness, inertia));
   parameters.free_damping = options.free_damping.value_or(0.0);
   return parameters;
+}
+
+StopStiffness find_stop_stiffness(const CouplerSide& side_F,
+                                  const CouplerSide& side_M) {
+  return {stiffness_at(kStopFrequency, reduce(side_F.mass, side_M.mass)),
+          stiffness_at(kStopFrequency, reduce(side_F.inertia, side_M.inertia))};
 }
 
 }  // namespace limber::scene

@@ -26,6 +26,10 @@ inline constexpr double kRigidFrequency = 1000.0;
 /// Share of critical damping of the two masses on their coupler [-].
 inline constexpr double kDampingRatio = 0.01;
 
+/// Frequency at which a free body would swing on a stop [Hz]: it touches for
+/// 10 ms, at any speed.
+inline constexpr double kStopFrequency = 50.0;
+
 /// Parameters of a coupler between two sides: what `options` gives, and for
 /// the rest
 ///   k = kStiffnessRatio / min over the flexible sides of c,
@@ -40,5 +44,16 @@ inline constexpr double kDampingRatio = 0.01;
 [[nodiscard]] joints::JointParameters find_joint_parameters(
     const CouplerOptions& options, const CouplerSide& side_F,
     const CouplerSide& side_M);
+
+/// Of an end stop whose file gives none.
+struct StopStiffness {
+  double translational = 0.0;  ///< [N/m]
+  double rotational = 0.0;     ///< [N m/rad]
+};
+
+/// mu (2 pi kStopFrequency)^2 with mu the mass, or the moment of inertia, of
+/// both sides as above. A stop is softer than what holds a joint: it is hit.
+[[nodiscard]] StopStiffness find_stop_stiffness(const CouplerSide& side_F,
+                                                const CouplerSide& side_M);
 
 }  // namespace limber::scene

@@ -19,24 +19,37 @@ ConnectorEnd read_end_attributes(XmlElement& element, const std::string& side) {
   return end;
 }
 
-}  // namespace
-
-ConnectorEnd read_end(XmlElement& element) {
+ConnectorEnd read_turned_end(XmlElement& element) {
   ConnectorEnd end;
   end.where = read_place(element);
   end.R = rotation_rpy(element.vector("rpy").value_or(Vector3::Zero()));
   return end;
 }
 
-void read_ends(XmlElement& element, ConnectorEnd& from, ConnectorEnd& to,
+}  // namespace
+
+ConnectorEnd read_end(XmlElement& element) {
+  ConnectorEnd end;
+  end.where = read_place(element);
+  if (element.has("rpy")) {
+    (void)element.vector("rpy");
+    element.fail("'rpy' would turn nothing here; leave it out");
+  }
+  return end;
+}
+
+void read_ends(XmlElement& element, TurnedEnds turned, ConnectorEnd& from,
+               ConnectorEnd& to,
                std::map<std::string, XmlElement::Reader> others) {
   const std::map<std::string, ConnectorEnd*> sides = {{"from", &from},
                                                       {"to", &to}};
   std::map<std::string, int> given;
   for (const auto& [side, end] : sides) {
-    others[side] = [&given, side = side, end = end](XmlElement& child) {
+    const bool turns = turned == TurnedEnds::both ||
+                       (turned == TurnedEnds::from && end == &from);
+    others[side] = [&given, side = side, end = end, turns](XmlElement& child) {
       ++given[side];
-      *end = read_end(child);
+      *end = turns ? read_turned_end(child) : read_end(child);
     };
   }
   element.read_children(others);

@@ -10,12 +10,16 @@
 /// Readers of the ends of couplers.
 namespace limber::scene {
 
-/// The end that an element's place and `rpy` make.
+/// Which ends of a coupler have axes that `rpy` may turn.
+enum class TurnedEnds { none, from, both };
+
+/// The end that an element's place makes, with the link's axes.
 [[nodiscard]] ConnectorEnd read_end(XmlElement& element);
 
 /// Both ends of a coupler, by children <from> and <to> or by attributes of
 /// these names, and all its children: `others` by their readers.
-void read_ends(XmlElement& element, ConnectorEnd& from, ConnectorEnd& to,
+void read_ends(XmlElement& element, TurnedEnds turned, ConnectorEnd& from,
+               ConnectorEnd& to,
                std::map<std::string, XmlElement::Reader> others = {});
 
 }  // namespace limber::scene

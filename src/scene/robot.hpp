@@ -63,7 +63,7 @@ struct CouplerOptions {
 struct StopOptions {
   std::optional<double> lower;      ///< none: unbounded [rad or m]
   std::optional<double> upper;      ///< none: unbounded [rad or m]
-  std::optional<double> stiffness;  ///< none: as the joint holds [N m/rad, N/m]
+  std::optional<double> stiffness;  ///< none: by mass [N m/rad or N/m]
   std::optional<double> damping;    ///< none: by restitution [s/rad or s/m]
   double restitution = 0.5;         ///< of a free body at `speed` [-]
   double speed = 1.0;               ///< [rad/s or m/s]

@@ -73,7 +73,10 @@ double default_damping(double stiffness, double mu) {
   return 0.02 * std::sqrt(stiffness * mu);
 }
 
-TEST(CouplerAssembly, StopHoldsAsTheJointUnlessToldOtherwise) {
+// Stiffness with which 1 kg (1 kg m^2) swings at 50 Hz.
+constexpr double kUnitStop = 1e4 * kPi * kPi;
+
+TEST(CouplerAssembly, StopIsAsStiffAsTheMassThatHitsItUnlessToldOtherwise) {
   const SceneFolder folder;
   const BuiltScene built = folder.build(
       two_bodies("revolute", "prismatic") +
@@ -84,12 +87,12 @@ TEST(CouplerAssembly, StopHoldsAsTheJointUnlessToldOtherwise) {
       element<joints::EndStop>(joint_law(built.model, "j"), 0).parameters();
   EXPECT_EQ(turn.lower, -1.0);
   EXPECT_EQ(turn.upper, 2.0);
-  EXPECT_NEAR(turn.stiffness, 0.1 * kUnitStiffness, 1e-9 * turn.stiffness);
+  EXPECT_NEAR(turn.stiffness, 0.1 * kUnitStop, 1e-9 * turn.stiffness);
   EXPECT_EQ(turn.damping, joints::find_stop_damping(0.5, 1.0));
   const auto& slide =
       element<joints::EndStop>(joint_law(built.model, "k"), 0).parameters();
   EXPECT_EQ(slide.lower, -joints::EndStop::kUnbounded);
-  EXPECT_NEAR(slide.stiffness, 4.0 * kUnitStiffness, 1e-9 * slide.stiffness);
+  EXPECT_NEAR(slide.stiffness, 4.0 * kUnitStop, 1e-9 * slide.stiffness);
   EXPECT_EQ(slide.damping, 5.0);
 }
 
@@ -247,6 +250,42 @@ TEST(CouplerAssembly, GearIsAsStiffAsItsSofterJoint) {
       spring("ratio='3' stiffness='11' damping='12'");
   EXPECT_EQ(given.curve.parameters().stiffness, 11.0);
   EXPECT_EQ(given.damping, 12.0);
+}
+
+TEST(CouplerAssembly, PointsOfABushingMeetAtTheStart) {
+  const SceneFolder folder;
+  const auto error = [&](const std::string& to) {
+    return test::input_error([&] {
+      (void)folder.build(two_bodies("revolute", "revolute") +
+                             "<bushing name='n' rotational_stiffness='1'>"
+                             "<from link='world' point='1 2 3'/>"
+                             "<to link='a' point='" +
+                             to + "'/></bushing>",
+                         kTime);
+    });
+  };
+  EXPECT_EQ(error("1 2 3"), "");
+  EXPECT_THAT(error("1 2 2"),
+              ::testing::HasSubstr("'n': its ends are 1 m apart at the start"));
+}
+
+TEST(CouplerAssembly, GearThatStartsOutOfPlaceIsToldOnce) {
+  const SceneFolder folder;
+  const auto warnings = [&](const std::string& start) {
+    return folder
+        .build(two_bodies("continuous", "continuous") +
+                   "<gear name='g' joint='j' with='k' ratio='-2' "
+                   "offset='0.5'/>",
+               kTime + start)
+        .warnings;
+  };
+  EXPECT_TRUE(warnings("[initial.joints]\nj={position=-0.1}\n"
+                       "k={position=0.3}\n")
+                  .empty());
+  EXPECT_THAT(warnings(""),
+              ::testing::ElementsAre("gear 'g' starts strained by -0.5: joint "
+                                     "'j' is at 0, and joint 'k' asks for "
+                                     "0.5"));
 }
 
 TEST(CouplerAssembly, LatchHoldsLikeAFixedJointUntilItsRelease) {

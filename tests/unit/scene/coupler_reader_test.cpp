@@ -298,6 +298,23 @@ TEST(CouplerReader, EndsSelectNodes) {
               HasSubstr("more than one of"));
 }
 
+TEST(CouplerReader, AxesOfEndsThatHaveNoneAreRefused) {
+  const std::string nothing = "<from> 'rpy' would turn nothing here";
+  const std::string from = "<from link='b' rpy='0 0 1'/><to link='c'/>";
+  EXPECT_THAT(error_of(base("revolute") + "<spring name='s' stiffness='1'>" +
+                       from + "</spring>"),
+              HasSubstr(nothing));
+  EXPECT_THAT(error_of(base("revolute") +
+                       "<bushing name='n' rotational_stiffness='1'>"
+                       "<from link='b'/><to link='c' rpy='0 0 1'/></bushing>"),
+              HasSubstr("<to> 'rpy' would turn nothing here"));
+  (void)read(base("revolute") + "<bushing name='n' rotational_stiffness='1'>" +
+             from + "</bushing>");
+  (void)read(base("revolute") +
+             "<latch name='grip' reach='1'><from link='b' rpy='0 0 1'/>"
+             "<to link='c' rpy='0 1 0'/></latch>");
+}
+
 TEST(CouplerReader, MimickingJointIsGeared) {
   const Robot robot = read(base(
       "revolute", kRange + "<mimic joint='k' multiplier='-3' offset='0.5'/>"));

@@ -35,6 +35,20 @@ TEST(DefaultStiffness, OfRigidSidesGivesTheStatedFrequency) {
   EXPECT_DOUBLE_EQ(p.rotational_stiffness, 4.0 * omega * omega);
 }
 
+TEST(DefaultStiffness, OfAStopLetsAFreeBodyTouchForTenMilliseconds) {
+  CouplerSide F;
+  F.mass = 2.0;
+  F.inertia = 4.0;
+  CouplerSide M = make_flexible(1e-6, 1e-4);
+  M.mass = 6.0;
+  M.inertia = 12.0;
+  const StopStiffness stop = find_stop_stiffness(F, M);
+  const double translational = std::sqrt(1.5 / stop.translational);
+  const double rotational = std::sqrt(3.0 / stop.rotational);
+  EXPECT_NEAR(std::numbers::pi * translational, 0.01, 1e-15);
+  EXPECT_NEAR(std::numbers::pi * rotational, 0.01, 1e-15);
+}
+
 TEST(DefaultStiffness, LeavesWhatIsGivenAlone) {
   CouplerOptions options;
   options.translational_stiffness = 5.0;

@@ -46,12 +46,12 @@ flexbody::InterfaceTable make_point() {
 Matrix3 asked_by(JointKind kind, const Vector3& axis,
                  double free_damping = 0.0) {
   return find_asked_rotations(
-      joints::make_joint_bushing(kind, axis,
-                                 {.translational_stiffness = 1e9,
-                                  .rotational_stiffness = 1e7,
-                                  .translational_damping = 1e3,
-                                  .rotational_damping = 1e2,
-                                  .free_damping = free_damping}))
+             joints::make_joint_bushing(kind, axis,
+                                        {.translational_stiffness = 1e9,
+                                         .rotational_stiffness = 1e7,
+                                         .translational_damping = 1e3,
+                                         .rotational_damping = 1e2,
+                                         .free_damping = free_damping}))
       .F;
 }
 
@@ -85,8 +85,8 @@ TEST(RotationCheck, SoftAndDampedDirectionsAreAskedToo) {
   EXPECT_NE(error_of(make_line(), asked_by(JointKind::revolute, kZ, 1e-6)), "");
   joints::Bushing::Parameters soft;
   soft.rotational_stiffness = Vector3(1e9, 1e9, 1e-2).asDiagonal();
-  EXPECT_NE(error_of(make_line(), find_asked_rotations(joints::Bushing(soft)).F),
-            "");
+  EXPECT_NE(
+      error_of(make_line(), find_asked_rotations(joints::Bushing(soft)).F), "");
 }
 
 TEST(RotationCheck, CouplersWithoutRotationGoAnywhere) {
@@ -153,8 +153,8 @@ TEST(RotationCheck, LatchAsksForAllRotationsUnlessItHoldsNone) {
   joints::Latch::Parameters latch;
   latch.reach = 0.01;
   latch.bushing.translational_stiffness = 1e6 * Matrix3::Identity();
-  EXPECT_EQ(error_of(make_point(), find_asked_rotations(joints::Latch(latch)).F),
-            "");
+  EXPECT_EQ(
+      error_of(make_point(), find_asked_rotations(joints::Latch(latch)).F), "");
   latch.bushing.rotational_stiffness = 1e6 * Matrix3::Identity();
   EXPECT_NE(error_of(make_line(), find_asked_rotations(joints::Latch(latch)).M),
             "");
