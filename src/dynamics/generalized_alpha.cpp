@@ -9,7 +9,6 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
-#include "dynamics/full_terms.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -54,50 +53,12 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       residual_(VectorX::Zero(NewtonMatrix::size(model))),
       x_(VectorX::Zero(NewtonMatrix::size(model))) {
   next_fresh_steps_ = kFewestFreshSteps;
-  const std::size_t n = model.bodies.size();
-  const Rates zero{std::vector<Vector3>(n, Vector3::Zero()),
-                   std::vector<Vector3>(n, Vector3::Zero()),
-                   VectorX::Zero(model.modal_count),
-                   VectorX::Zero(model.nodal_count)};
-  a_ = a_next_ = vdot_ = vdot_next_ = inc_ = zero;
+  a_ = a_next_ = vdot_ = vdot_next_ = inc_ = make_rates(model);
 }
 
 void GeneralizedAlpha::set_coefficients(double h) {
   coefficients_.acceleration = (1.0 - am_) / ((1.0 - af_) * beta_ * h * h);
   coefficients_.velocity = gamma_ / (beta_ * h);
-}
-
-// r = M vdot + bias - forces, translation in world axes; clamped rows zero.
-void GeneralizedAlpha::calc_residual() {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const BodyTerms& t = terms_.bodies[b];
-    double* r =
-        residual_.data() + 6 * b + static_cast<std::size_t>(body.offset);
-    Eigen::Map<Vector3> translation(r);
-    Eigen::Map<Vector3> rotation(r + 3);
-    translation.setZero();
-    rotation.setZero();
-    const Vector3& dw = vdot_next_.rotation[b];
-    if (body.has_rigid_motion()) {
-      translation = body.mass * vdot_next_.translation[b] - t.force_W;
-      rotation = t.J * dw + t.bias_r - t.moment_B;
-    }
-    const double* etaddot = vdot_next_.modes.data() + body.offset;
-    for (int k = 0; k < body.modes; ++k) {
-      rotation += t.H.col(k) * etaddot[k];
-      r[6 + k] =
-          etaddot[k] + t.H.col(k).dot(dw) + t.bias_e[k] - t.modal_force[k];
-    }
-    if (body.clamped) rotation.setZero();
-  }
-  for (std::size_t f = 0; f < model_.full_bodies.size(); ++f) {
-    const FullModel& full = model_.full_bodies[f];
-    double* rows =
-        residual_.data() + NewtonMatrix::first_node_row(model_) + full.first;
-    calc_full_residual(model_, f, vdot_next_.nodes, terms_,
-                       Nodes(rows, 3, full.mesh->node_count()));
-  }
 }
 
 void GeneralizedAlpha::refactor(bool renews_full) {
@@ -142,7 +103,7 @@ void GeneralizedAlpha::start(const SystemState& state, double h) {
   next_ = state;
   set_coefficients(h);
   calc_terms(model_, next_, Side::right, terms_);
-  calc_residual();
+  calc_residual(model_, vdot_next_, terms_, residual_);
   add_quasi_static_accelerations();
   power_load_ = terms_.load_power;
   power_loss_ = terms_.dissipated_power;
@@ -153,10 +114,10 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
   set_coefficients(h);
   vdot_next_ = vdot_;
   calc_terms(model_, next_, Side::left, terms_);
-  calc_residual();
+  calc_residual(model_, vdot_next_, terms_, residual_);
   const VectorX before = residual_;
   calc_forces(model_, next_, Side::right, terms_);
-  calc_residual();
+  calc_residual(model_, vdot_next_, terms_, residual_);
   residual_ -= before;
   add_quasi_static_accelerations();
   power_load_ = terms_.load_power;
@@ -340,7 +301,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   bool needs_factors = !keeps;
   while (true) {
     calc_terms(model_, next_, Side::left, terms_, WrenchSource::iterate);
-    calc_residual();
+    calc_residual(model_, vdot_next_, terms_, residual_);
     if (needs_factors) {
       // What new frames do not mend, new stiffnesses may.
       refactor(result.factorizations > 0);

@@ -5,6 +5,7 @@
 
 #include "dynamics/equations.hpp"
 #include "dynamics/newton_matrix.hpp"
+#include "dynamics/residual.hpp"
 #include "dynamics/step_result.hpp"
 
 namespace limber::dynamics {
@@ -54,15 +55,8 @@ class GeneralizedAlpha {
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }
 
  private:
-  struct Rates {  // a value for each velocity component
-    std::vector<Vector3> translation;
-    std::vector<Vector3> rotation;
-    VectorX modes;
-    VectorX nodes;  // of unreduced bodies
-  };
   void set_coefficients(double h);
   void advance(const SystemState& from, double h, double end);
-  void calc_residual();
   void apply_increments(double h);
   void add_quasi_static_accelerations();
   struct Size {
