@@ -358,4 +358,26 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   }
 }
 
+void NewtonMatrix::find_wrench_changes(const SystemTerms& terms,
+                                       const VectorX& increments,
+                                       VectorX& changes) const {
+  const auto row = [this](int link) {
+    const auto couplers = static_cast<Eigen::Index>(couplers_);
+    return link < couplers ? 6 * link : 6 * couplers + (link - couplers);
+  };
+  std::vector<Vector6> motions(scale_.size(), Vector6::Zero());
+  for (const End& end : ends_) {
+    motions[index(end.link)] +=
+        end.G * increments.segment(end.row, end.G.cols());
+  }
+  changes.resize(row(static_cast<int>(scale_.size())));
+  for (int link = 0; link < static_cast<int>(scale_.size()); ++link) {
+    const Vector6 change =
+        -find_stiffness(terms, index(link), 0.0) * motions[index(link)];
+    const bool is_coupler = index(link) < couplers_;
+    changes.segment(row(link), is_coupler ? 6 : 1) =
+        change.head(is_coupler ? 6 : 1);
+  }
+}
+
 }  // namespace limber::dynamics

@@ -65,6 +65,11 @@ class NewtonMatrix {
     return wrenches_;
   }
 
+  /// What increments change of the laws at the last factors: -K_c G x, six a
+  /// coupler, then one a transmission.
+  void find_wrench_changes(const SystemTerms& terms, const VectorX& increments,
+                           VectorX& changes) const;
+
   [[nodiscard]] static Eigen::Index size(const SystemModel& model) {
     return first_node_row(model) + model.nodal_count;
   }

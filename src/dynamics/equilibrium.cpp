@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/equilibrium.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/names.hpp"
+#include "common/rotation.hpp"
+#include "dynamics/energy.hpp"
+#include "dynamics/generalized_alpha.hpp"
+#include "dynamics/static_newton.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+/// Joints' angles count on from where they are.
+void remember_angles(const SystemModel& model, SystemState& state) {
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
+    if (coordinates.empty()) continue;
+    const joints::RelativeMotion motion =
+        find_relative_motion(model, state, static_cast<CouplerIndex>(c));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      double& near = state.memory[c].near[i];
+      near = joints::find_position(coordinates[i], motion, near);
+    }
+  }
+}
+
+bool try_solve(StaticNewton& newton, const VectorX& target,
+               const StaticNewton::Settings& settings, SystemState& state) {
+  try {
+    return newton.solve(target, settings, state);
+  } catch (const NumericalError&) {
+    return false;  // turned inside out on the way
+  }
+}
+
+/// Puts the load on by and by.
+class Continuation {
+ public:
+  Continuation(const SystemModel& model, StaticNewton& newton,
+               const EquilibriumSettings& settings)
+      : model_(model), newton_(newton), settings_(settings) {}
+
+  int run(const VectorX& unbalanced, SystemState& state,
+          const Progress& progress) {
+    constexpr double kOnTheWay = 1e-6;
+    constexpr int kEasy = 6;  // iterations of a step that may grow
+    double reached = 0.0;
+    double step = 1.0;
+    int steps = 0;
+    while (reached < 1.0) {
+      const double next = std::min(1.0, reached + step);
+      SystemState trial = state;
+      const int before = newton_.iterations();
+      const double tolerance = next < 1.0 ? kOnTheWay : settings_.tolerance;
+      if (try_solve(newton_, (1.0 - next) * unbalanced,
+                    {tolerance, settings_.newton_iterations}, trial)) {
+        remember_angles(model_, trial);
+        state = std::move(trial);
+        reached = next;
+        ++steps;
+        report(progress, "equilibrium", reached);
+        if (newton_.iterations() - before <= kEasy) step *= 2.0;
+        continue;
+      }
+      step = 0.5 * (next - reached);
+      if (step < settings_.smallest_share) fail(reached);
+    }
+    return steps;
+  }
+
+ private:
+  [[noreturn]] void fail(double reached) const {
+    const auto b = static_cast<std::size_t>(newton_.most_moved());
+    throw NumericalError(fmt::format(
+        "body '{}': no equilibrium beyond {:.4g} of what is not balanced at "
+        "the start. There is a limit point, or motion that nothing holds; "
+        "relaxation may find an equilibrium that is farther away",
+        model_.bodies[b].name, reached));
+  }
+
+  const SystemModel& model_;
+  StaticNewton& newton_;
+  const EquilibriumSettings& settings_;
+};
+
+/// Falls towards an equilibrium, with the loads of the start's time.
+class Fall {
+ public:
+  Fall(const SystemModel& model, double step)
+      : model_(model),
+        scheme_(model, {.tolerance = kTolerance, .implicit_euler = true}),
+        step_(step) {}
+
+  /// Until `near` holds of the state at a peak of kinetic energy.
+  template <typename Near>
+  int run(SystemState& state, int most, const Near& near) {
+    scheme_.start(state, step_);
+    double kinetic = 0.0;
+    for (int steps = 1; steps <= most; ++steps) {
+      try {
+        (void)scheme_.step(state, step_, state.t);
+      } catch (const NumericalError&) {
+        step_ *= 0.5;
+        restart(state);
+        kinetic = 0.0;
+        continue;
+      }
+      remember_angles(model_, state);
+      const EnergyBalance energy = calc_energy(model_, state);
+      const double now = energy.kinetic_rigid + energy.kinetic_modal;
+      const bool is_peak = !(now > kinetic);
+      kinetic = now;
+      if (!is_peak) continue;
+      restart(state);
+      kinetic = 0.0;
+      if (near(state)) return steps;
+    }
+    throw NumericalError(fmt::format(
+        "relaxation: no equilibrium after {} steps of {:.3g} s", most, step_));
+  }
+
+ private:
+  static constexpr double kTolerance = 1e-6;
+  void restart(SystemState& state) {
+    state = stop(state);
+    scheme_.start(state, step_);
+  }
+
+  const SystemModel& model_;
+  GeneralizedAlpha scheme_;
+  double step_;
+};
+
+int relax(const SystemModel& model, StaticNewton& newton,
+          const EquilibriumSettings& settings, SystemState& state) {
+  constexpr double kNear = 0.1;  // of the extent, to a peak's equilibrium
+  constexpr double kSteps = 0.1;
+  const VectorX balanced = VectorX::Zero(NewtonMatrix::size(model));
+  const double acceleration =
+      newton.measure_acceleration(newton.calc_forces_left(state));
+  const double time = std::sqrt(newton.extent() / acceleration);
+  const double t = state.t;
+  // The scheme sees a load from before its edges.
+  state.t += 1e-9 * (std::abs(t) + time);
+  Fall fall(model, kSteps * time);
+  const int steps =
+      fall.run(state, settings.relaxation_steps, [&](SystemState& at) {
+        SystemState trial = at;
+        trial.t = t;
+        if (!try_solve(newton, balanced,
+                       {settings.tolerance, settings.newton_iterations},
+                       trial) ||
+            newton.measure(find_increments(model, at, trial)) >
+                kNear * newton.extent()) {
+          return false;
+        }
+        at = trial;
+        return true;
+      });
+  state.t = t;
+  return steps;
+}
+
+}  // namespace
+
+const std::vector<std::string>& equilibrium_method_names() {
+  static const std::vector<std::string> names = {"newton", "relaxation"};
+  return names;
+}
+
+EquilibriumMethod parse_equilibrium_method(std::string_view name) {
+  return static_cast<EquilibriumMethod>(
+      find_name("method", name, equilibrium_method_names()));
+}
+
+Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
+                             const EquilibriumSettings& settings,
+                             const Progress& progress) {
+  Equilibrium found;
+  found.state = stop(start);
+  StaticNewton newton(model, found.state);
+  found.extent = newton.extent();
+  const VectorX unbalanced = newton.calc_forces_left(found.state);
+  check_balance(model, found.state, newton.terms());
+  if (unbalanced.isZero(0.0)) return found;
+  if (settings.method == EquilibriumMethod::relaxation) {
+    found.relaxation_steps = relax(model, newton, settings, found.state);
+    found.load_steps = 1;
+  } else {
+    Continuation continuation(model, newton, settings);
+    found.load_steps = continuation.run(unbalanced, found.state, progress);
+  }
+  update_mean_frames(model, found.state);
+  found.newton_iterations = newton.iterations();
+  found.distance =
+      newton.measure(find_increments(model, stop(start), found.state));
+  report(progress, "equilibrium", 1.0);
+  return found;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/rest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+#include "dynamics/newton_matrix.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+double radius_of_gyration(const BodyModel& body) {
+  return std::sqrt(0.5 * body.J0.trace() / body.mass);
+}
+
+Eigen::Index first_row(const SystemModel& model, std::size_t b) {
+  return 6 * static_cast<Eigen::Index>(b) + model.bodies[b].offset;
+}
+
+/// Which bodies hang together; the world is the last entry.
+class Groups {
+ public:
+  explicit Groups(std::size_t bodies) : parent_(bodies + 1) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t find(std::size_t i) const {
+    while (parent_[i] != i) i = parent_[i];
+    return i;
+  }
+  void join(BodyIndex a, BodyIndex b) { parent_[root(a)] = root(b); }
+  std::size_t root(BodyIndex body) const {
+    return find(body == kWorld ? parent_.size() - 1
+                               : static_cast<std::size_t>(body));
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+Groups find_groups(const SystemModel& model) {
+  Groups groups(model.bodies.size());
+  const auto body_at = [&](AttachmentIndex a) {
+    return model.attachments[static_cast<std::size_t>(a)].body;
+  };
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].clamped) groups.join(static_cast<int>(b), kWorld);
+  }
+  for (const Coupler& c : model.couplers) {
+    groups.join(body_at(c.frame_F), body_at(c.frame_M));
+  }
+  for (const Transmission& t : model.transmissions) {
+    const auto* path = std::get_if<PathCoordinate>(&t.coordinate);
+    if (path == nullptr) continue;  // its joints are couplers
+    for (const AttachmentIndex point : path->points) {
+      groups.join(body_at(path->points.front()), body_at(point));
+    }
+  }
+  return groups;
+}
+
+/// Force and moment about the world's origin.
+struct Wrench {
+  Vector3 force = Vector3::Zero();
+  Vector3 moment = Vector3::Zero();
+
+  void add(const Vector3& p, const Vector3& f, const Vector3& m) {
+    force += f;
+    moment += p.cross(f) + m;
+  }
+};
+
+/// Magnitudes of all that acts, whatever of it cancels.
+struct Magnitudes {
+  double force = 0.0;   ///< [N]
+  double moment = 0.0;  ///< about anything within the system [N m]
+};
+
+Magnitudes find_magnitudes(const SystemModel& model, const SystemState& state,
+                           const SystemTerms& terms) {
+  Magnitudes sum;
+  for (const Load& load : model.loads) {
+    const double c = std::abs(evaluate(load.function, state.t, Side::right));
+    sum.force += c * load.force.norm();
+    sum.moment += c * load.moment.norm();
+  }
+  for (const CouplerTerms& coupler : terms.couplers) {
+    sum.force += coupler.applied.head<3>().norm();
+    sum.moment += coupler.applied.tail<3>().norm();
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    sum.force += body.mass * model.gravity_W.norm() +
+                 std::sqrt(body.mass) * terms.bodies[b].modal_force.norm();
+  }
+  for (const FullTerms& full : terms.full) sum.force += full.force.norm();
+  double reach = find_extent(model, state);
+  for (const BodyState& body : state.bodies) {
+    reach = std::max(reach, body.p_WB.norm());
+  }
+  sum.moment += reach * sum.force;
+  return sum;
+}
+
+void add_body(const SystemModel& model, const SystemState& state,
+              const SystemTerms& terms, BodyIndex b, Wrench& sum) {
+  const auto i = static_cast<std::size_t>(b);
+  const BodyModel& body = model.bodies[i];
+  if (body.full < 0) {
+    const BodyTerms& t = terms.bodies[i];
+    sum.add(state.bodies[i].p_WB, t.force_W, t.R_WB * t.moment_B);
+    return;
+  }
+  const auto f = static_cast<std::size_t>(body.full);
+  const FullModel& full = model.full_bodies[f];
+  const ConstNodes u_H = nodes_of(full, state.u_H);
+  const Matrix3X force = terms.full[f].force - terms.full[f].internal;
+  for (Eigen::Index n = 0; n < force.cols(); ++n) {
+    const Vector3 p = state.X_WH[f] * (full.mesh->x_B.col(n) + u_H.col(n));
+    sum.add(p, state.X_WH[f].R * force.col(n), Vector3::Zero());
+  }
+}
+
+std::string name_group(const SystemModel& model,
+                       const std::vector<BodyIndex>& group) {
+  const auto name = [&](std::size_t i) {
+    return model.bodies[static_cast<std::size_t>(group[i])].name;
+  };
+  if (group.size() == 1) return fmt::format("body '{}' is", name(0));
+  return fmt::format("body '{}' and {} with it are", name(0), group.size() - 1);
+}
+
+[[noreturn]] void refuse(const std::string& who, const char* what,
+                         const Vector3& sum, const char* unit,
+                         const char* direction) {
+  const Vector3 e = sum.normalized();
+  throw InputError(fmt::format(
+      "{} not in equilibrium anywhere: nothing ties to the world what a {} of "
+      "{:.4g} {} {} ({:.3g}, {:.3g}, {:.3g}) drives; hold it, or balance it",
+      who, what, sum.norm(), unit, direction, e.x() + 0.0, e.y() + 0.0,
+      e.z() + 0.0));
+}
+
+}  // namespace
+
+SystemState stop(const SystemState& state) {
+  SystemState rest = state;
+  for (BodyState& body : rest.bodies) {
+    body.v_WB_W.setZero();
+    body.w_WB_B.setZero();
+  }
+  rest.etadot.setZero();
+  rest.udot_H.setZero();
+  return rest;
+}
+
+void displace(const SystemModel& model, const VectorX& increments, double share,
+              SystemState& state) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Eigen::Index row = first_row(model, b);
+    state.eta.segment(body.offset, body.modes) +=
+        share * increments.segment(row + 6, body.modes);
+    if (!body.has_rigid_motion()) continue;
+    BodyState& rigid = state.bodies[b];
+    rigid.p_WB += share * increments.segment<3>(row);
+    const Vector3 turn = share * increments.segment<3>(row + 3);
+    rigid.quat_WB = (rigid.quat_WB * exp_quaternion(turn)).normalized();
+  }
+  state.u_H += share * increments.tail(model.nodal_count);
+}
+
+VectorX find_increments(const SystemModel& model, const SystemState& from,
+                        const SystemState& to) {
+  VectorX increments = VectorX::Zero(NewtonMatrix::size(model));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Eigen::Index row = first_row(model, b);
+    increments.segment(row + 6, body.modes) =
+        to.eta.segment(body.offset, body.modes) -
+        from.eta.segment(body.offset, body.modes);
+    if (!body.has_rigid_motion()) continue;
+    const BodyState& a = from.bodies[b];
+    const BodyState& z = to.bodies[b];
+    increments.segment<3>(row) = z.p_WB - a.p_WB;
+    increments.segment<3>(row + 3) =
+        log_rotation((a.quat_WB.conjugate() * z.quat_WB).toRotationMatrix());
+  }
+  increments.tail(model.nodal_count) = to.u_H - from.u_H;
+  return increments;
+}
+
+VectorX find_length_weights(const SystemModel& model) {
+  VectorX weights = VectorX::Zero(NewtonMatrix::size(model));
+  double mass = 0.0;
+  for (const BodyModel& body : model.bodies) mass += body.mass;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Eigen::Index row = first_row(model, b);
+    weights.segment<3>(row).setConstant(std::sqrt(body.mass));
+    weights.segment<3>(row + 3).setConstant(std::sqrt(body.mass) *
+                                            radius_of_gyration(body));
+    weights.segment(row + 6, body.modes).setOnes();
+    if (body.full < 0) continue;
+    const FullModel& full =
+        model.full_bodies[static_cast<std::size_t>(body.full)];
+    weights
+        .segment(NewtonMatrix::first_node_row(model) + full.first, full.dofs())
+        .setConstant(
+            std::sqrt(3.0 * body.mass / static_cast<double>(full.dofs())));
+  }
+  return weights / std::sqrt(mass);
+}
+
+double find_extent(const SystemModel& model, const SystemState& state) {
+  double radius = 0.0;
+  double distance = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    radius = std::max(radius, radius_of_gyration(model.bodies[b]));
+    distance = std::max(
+        distance, (state.bodies[b].p_WB - state.bodies.front().p_WB).norm());
+  }
+  return radius + distance;
+}
+
+std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
+  const Groups groups = find_groups(model);
+  std::vector<std::vector<BodyIndex>> by_root(model.bodies.size() + 1);
+  for (int b = 0; b < std::ssize(model.bodies); ++b) {
+    if (groups.root(b) == groups.root(kWorld)) continue;
+    by_root[groups.root(b)].push_back(b);
+  }
+  std::erase_if(by_root, [](const auto& group) { return group.empty(); });
+  return by_root;
+}
+
+void check_balance(const SystemModel& model, const SystemState& state,
+                   const SystemTerms& terms) {
+  constexpr double kBalanced = 1e-10;  // of what acts: round-off
+  const Magnitudes all = find_magnitudes(model, state, terms);
+  for (const std::vector<BodyIndex>& group : find_free_groups(model)) {
+    Wrench sum;
+    for (const BodyIndex b : group) add_body(model, state, terms, b, sum);
+    const std::string who = name_group(model, group);
+    if (sum.force.norm() > kBalanced * all.force) {
+      refuse(who, "force", sum.force, "N", "along");
+    }
+    if (sum.moment.norm() > kBalanced * all.moment) {
+      refuse(who, "moment", sum.moment, "N m", "about");
+    }
+  }
+}
+
+}  // namespace limber::dynamics

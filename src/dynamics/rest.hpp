@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/workspace.hpp"
+
+/// A system at rest: its configuration, and the forces that would move it.
+namespace limber::dynamics {
+
+/// The same configuration without velocities.
+[[nodiscard]] SystemState stop(const SystemState& state);
+
+/// Moves a configuration by `share` of increments as NewtonMatrix has them:
+/// translation in world axes, rotation in body axes, modes, nodes.
+void displace(const SystemModel& model, const VectorX& increments, double share,
+              SystemState& state);
+
+/// The increments that displace `from` to `to`, of the same model.
+[[nodiscard]] VectorX find_increments(const SystemModel& model,
+                                      const SystemState& from,
+                                      const SystemState& to);
+
+/// Factors of increments whose norm is their length, mass-weighted [m].
+///
+/// Equation   L^2 = sum_b (m |dp|^2 + m r^2 |dtheta|^2 + |deta|^2
+///            + m |du|^2 / N) / sum_b m,   r the radius of gyration
+[[nodiscard]] VectorX find_length_weights(const SystemModel& model);
+
+/// Extent of a configuration: the largest distance between two bodies'
+/// origins plus the largest radius of gyration [m].
+[[nodiscard]] double find_extent(const SystemModel& model,
+                                 const SystemState& state);
+
+/// Bodies that nothing ties to the world, not even through others, each group
+/// by itself.
+[[nodiscard]] std::vector<std::vector<BodyIndex>> find_free_groups(
+    const SystemModel& model);
+
+/// Checks that the forces on each free group balance: no configuration
+/// changes what internal forces leave of them.
+/// @param terms at rest, evaluated by calc_terms
+/// @throws InputError naming the bodies and what pushes or turns them where.
+void check_balance(const SystemModel& model, const SystemState& state,
+                   const SystemTerms& terms);
+
+}  // namespace limber::dynamics

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/static_newton.hpp"
+
+#include <cmath>
+#include <unsupported/Eigen/IterativeSolvers>
+
+#include "common/errors.hpp"
+#include "dynamics/equations.hpp"
+#include "dynamics/matrix_free.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// Differences of forces over a motion of this share of the extent.
+constexpr double kProbe = 1e-7;
+// No correction moves the system by more than this share of its extent.
+constexpr double kLongest = 0.2;
+// A correction leaves this share of the error to the next one.
+constexpr double kLinear = 1e-4;
+constexpr int kKrylovVectors = 60;
+constexpr int kKrylovIterations = 240;
+
+VectorX collect_laws(const SystemTerms& terms) {
+  const auto couplers = std::ssize(terms.couplers);
+  VectorX all(6 * couplers + std::ssize(terms.transmissions));
+  for (Eigen::Index c = 0; c < couplers; ++c) {
+    all.segment<6>(6 * c) =
+        terms.couplers[static_cast<std::size_t>(c)].response.wrench;
+  }
+  for (std::size_t i = 0; i < terms.transmissions.size(); ++i) {
+    all[6 * couplers + static_cast<Eigen::Index>(i)] =
+        terms.transmissions[i].response.force;
+  }
+  return all;
+}
+
+void set_applied(const VectorX& wrenches, SystemTerms& terms) {
+  const auto couplers = std::ssize(terms.couplers);
+  for (Eigen::Index c = 0; c < couplers; ++c) {
+    terms.couplers[static_cast<std::size_t>(c)].applied =
+        wrenches.segment<6>(6 * c);
+  }
+  for (std::size_t i = 0; i < terms.transmissions.size(); ++i) {
+    terms.transmissions[i].applied =
+        wrenches[6 * couplers + static_cast<Eigen::Index>(i)];
+  }
+}
+
+/// The NewtonMatrix of a slow step, as Eigen's solvers take it.
+class SlowStep {
+ public:
+  using Solve = std::function<VectorX(const VectorX&)>;
+  template <typename Matrix>
+  SlowStep& analyzePattern(const Matrix& /*matrix*/) {
+    return *this;
+  }
+  template <typename Matrix>
+  SlowStep& factorize(const Matrix& /*matrix*/) {
+    return *this;
+  }
+  template <typename Matrix>
+  SlowStep& compute(const Matrix& /*matrix*/) {
+    return *this;
+  }
+  void set(Solve solve) { solve_ = std::move(solve); }
+  [[nodiscard]] VectorX solve(const VectorX& right) const {
+    return solve_(right);
+  }
+  [[nodiscard]] static Eigen::ComputationInfo info() { return Eigen::Success; }
+
+ private:
+  Solve solve_;
+};
+
+}  // namespace
+
+StaticNewton::StaticNewton(const SystemModel& model, const SystemState& start)
+    : model_(model),
+      weights_(find_length_weights(model)),
+      extent_(find_extent(model, start)),
+      no_acceleration_(make_rates(model)),
+      terms_(make_terms(model)),
+      probed_(make_terms(model)),
+      matrix_(model),
+      no_turn_(model.bodies.size(), Vector3::Zero()),
+      residual_(VectorX::Zero(NewtonMatrix::size(model))),
+      base_(residual_),
+      correction_(residual_) {
+  const double acceleration = measure_acceleration(calc_forces_left(start));
+  slowness_ = std::max(acceleration / extent_, 1e-12);
+  wrenches_ = laws_;
+}
+
+void StaticNewton::evaluate(const SystemState& state, WrenchSource source,
+                            SystemTerms& terms, VectorX& residual) const {
+  calc_terms(model_, state, Side::right, terms, source);
+  calc_residual(model_, no_acceleration_, terms, residual);
+}
+
+const VectorX& StaticNewton::calc_forces_left(const SystemState& state) {
+  evaluate(state, WrenchSource::law, terms_, residual_);
+  laws_ = collect_laws(terms_);
+  return residual_;
+}
+
+double StaticNewton::measure_acceleration(const VectorX& residual) const {
+  // r / m of translations, r / (m r^2) of rotations, r of modes; each times
+  // its weight: all that is r over weight over the mass.
+  double mass = 0.0;
+  for (const BodyModel& body : model_.bodies) mass += body.mass;
+  double squared = 0.0;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    if (weights_[i] > 0.0) {
+      squared += std::pow(residual[i] / (weights_[i] * mass), 2);
+    }
+  }
+  return std::sqrt(squared);
+}
+
+BodyIndex StaticNewton::most_moved() const {
+  BodyIndex most = 0;
+  double largest = -1.0;
+  for (int b = 0; b < std::ssize(model_.bodies); ++b) {
+    const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
+    const Eigen::Index row = 6 * b + body.offset;
+    const VectorX moved = correction_.cwiseProduct(weights_);
+    double squared = moved.segment(row, 6 + body.modes).squaredNorm();
+    if (body.full >= 0) {
+      const auto& full =
+          model_.full_bodies[static_cast<std::size_t>(body.full)];
+      squared += moved
+                     .segment(NewtonMatrix::first_node_row(model_) + full.first,
+                              full.dofs())
+                     .squaredNorm();
+    }
+    if (squared / body.mass > largest) {
+      largest = squared / body.mass;
+      most = b;
+    }
+  }
+  return most;
+}
+
+/// What a motion changes of the residual, the couplers' wrenches by what their
+/// laws change, per unit of the motion.
+VectorX StaticNewton::apply(const SystemState& state,
+                            const VectorX& direction) {
+  const double length = measure(direction);
+  if (!(length > 0.0)) return VectorX::Zero(direction.size());
+  const double share = kProbe * extent_ / length;
+  matrix_.find_wrench_changes(terms_, direction, changes_);
+  set_applied(wrenches_ + share * changes_, probed_);
+  SystemState near = state;
+  displace(model_, direction, share, near);
+  calc_terms(model_, near, Side::right, probed_, WrenchSource::iterate);
+  VectorX changed = VectorX::Zero(direction.size());
+  calc_residual(model_, no_acceleration_, probed_, changed);
+  return (changed - base_) / share;
+}
+
+void StaticNewton::correct(const SystemState& state, const VectorX& target) {
+  const VectorX right = target - calc_forces_left(state);
+  set_applied(wrenches_, terms_);
+  calc_forces(model_, state, Side::right, terms_, WrenchSource::iterate);
+  calc_residual(model_, no_acceleration_, terms_, base_);
+  matrix_.factor(model_, state, terms_, no_turn_, {slowness_, 0.0}, true);
+  set_applied(laws_, terms_);  // so that it solves for forces alone
+  // Unknowns are lengths, so that norms are means over the system.
+  const VectorX scale =
+      (weights_.array() > 0.0).select(weights_.cwiseInverse(), 1.0);
+  const MatrixFree map(scale.size(), [&](const VectorX& lengths) {
+    return apply(state, scale.cwiseProduct(lengths));
+  });
+  Eigen::GMRES<MatrixFree, SlowStep> solver(map);
+  solver.preconditioner().set([&](const VectorX& forces) {
+    VectorX increments;
+    matrix_.solve(model_, terms_, -forces, increments);
+    return VectorX(increments.cwiseQuotient(scale));
+  });
+  solver.set_restart(std::min<Eigen::Index>(kKrylovVectors, scale.size()));
+  solver.setMaxIterations(kKrylovIterations);
+  solver.setTolerance(kLinear);
+  correction_ = scale.cwiseProduct(VectorX(solver.solve(right)));
+}
+
+bool StaticNewton::solve(const VectorX& target, const Settings& settings,
+                         SystemState& state) {
+  (void)calc_forces_left(state);
+  wrenches_ = laws_;
+  double last = 0.0;
+  for (int i = 0; i < settings.max_iterations; ++i) {
+    ++iterations_;
+    correct(state, target);
+    const double length = measure(correction_);
+    if (!std::isfinite(length)) return false;
+    const double share = std::min(1.0, kLongest * extent_ / length);
+    matrix_.find_wrench_changes(terms_, correction_, changes_);
+    wrenches_ += share * (laws_ - wrenches_ + changes_);
+    displace(model_, correction_, share, state);
+    const double left = length / extent_;
+    if (share == 1.0 && left <= settings.tolerance) return true;
+    // Round-off: no correction is smaller than the one before.
+    constexpr double kFine = 1e-9;
+    if (i > 0 && left < kFine && length > 0.5 * last) return true;
+    last = length;
+  }
+  return false;
+}
+
+}  // namespace limber::dynamics

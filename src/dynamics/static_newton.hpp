@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/newton_matrix.hpp"
+#include "dynamics/residual.hpp"
+#include "dynamics/rest.hpp"
+
+namespace limber::dynamics {
+
+/// Newton's method for a system at rest; the engine of find_equilibrium. Costs
+/// about a force evaluation a Krylov vector: O(bodies).
+class StaticNewton {
+ public:
+  struct Settings {
+    double tolerance = 1e-12;  ///< last correction over the extent [-]
+    int max_iterations = 20;
+  };
+
+  /// @param start at rest
+  StaticNewton(const SystemModel& model, const SystemState& start);
+
+  /// Forces that are left at `state`, couplers as their laws have them; rows as
+  /// increments of NewtonMatrix, their signs changed. At rest.
+  [[nodiscard]] const VectorX& calc_forces_left(const SystemState& state);
+  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+
+  /// Root mean square acceleration that such forces cause [m/s^2].
+  [[nodiscard]] double measure_acceleration(const VectorX& residual) const;
+
+  /// Moves `state` to where calc_forces_left is `target`.
+  /// @returns whether it converged; if not, `state` is of no use.
+  bool solve(const VectorX& target, const Settings& settings,
+             SystemState& state);
+
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] double extent() const { return extent_; }
+  /// That the last correction moved most.
+  [[nodiscard]] BodyIndex most_moved() const;
+  /// Mass-weighted length of increments [m].
+  [[nodiscard]] double measure(const VectorX& increments) const {
+    return increments.cwiseProduct(weights_).norm();
+  }
+
+ private:
+  void evaluate(const SystemState& state, WrenchSource source,
+                SystemTerms& terms, VectorX& residual) const;
+  void correct(const SystemState& state, const VectorX& target);
+  VectorX apply(const SystemState& state, const VectorX& direction);
+
+  const SystemModel& model_;
+  VectorX weights_;
+  double extent_ = 0.0;
+  double slowness_ = 0.0;  ///< coefficient of acceleration [1/s^2]
+  Rates no_acceleration_;
+  SystemTerms terms_;   ///< at the iterate
+  SystemTerms probed_;  ///< near it
+  NewtonMatrix matrix_;
+  std::vector<Vector3> no_turn_;
+  VectorX wrenches_;  ///< that act: six a coupler, one a transmission
+  VectorX changes_;   ///< of the laws along a motion
+  VectorX laws_;      ///< the same as the laws have them
+  VectorX residual_;  ///< of the laws
+  VectorX base_;      ///< of the wrenches
+  VectorX correction_;
+  int iterations_ = 0;
+};
+
+}  // namespace limber::dynamics
