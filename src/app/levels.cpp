@@ -43,7 +43,10 @@ SystemModel find_flexible_model(const scene::Scene& scene,
                                 const scene::BuiltScene& built,
                                 const std::filesystem::path& cache) {
   if (!has_all_modes(built.model)) {
-    return build_at_level(scene, Fidelity::uncoupled, built.model, cache).model;
+    scene::Scene at_start = scene;
+    at_start.scenario.equilibrium.reset();
+    return build_at_level(at_start, Fidelity::uncoupled, built.model, cache)
+        .model;
   }
   SystemModel model = built.model;
   for (dynamics::BodyModel& body : model.bodies) {
@@ -152,6 +155,7 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
   scene::Scene flexible_scene = scene;
   flexible_scene.scenario.fidelity = dynamics::Fidelity::uncoupled;
   flexible_scene.scenario.fidelity_of_link.clear();
+  flexible_scene.scenario.equilibrium.reset();
   const scene::BuiltScene flexible = scene::build_system(
       flexible_scene, make_reducer(progress),
       cache.empty() ? flexbody::default_cache_folder() : cache);
@@ -197,10 +201,10 @@ std::vector<std::string> find_level_warnings(
                                      to_string(level.advice.level),
                                      level.advice.reason));
     }
-    if (level.advice.is_beyond_linear) {
+    if (level.is_stretched()) {
       warnings.push_back(fmt::format(
           "link '{}' deforms by {:.2g} m, beyond the linear limit of {:.2g} "
-          "m: no level is right",
+          "m: only level full is right",
           level.name, level.peaks.deformation, level.limits.linear_limit));
     }
   }

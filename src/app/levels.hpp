@@ -27,7 +27,11 @@ struct BodyLevel {
 
   /// The level used leaves out no more than the limits allow.
   [[nodiscard]] bool is_justified() const {
-    return used >= advice.level && !advice.is_beyond_linear;
+    return used >= advice.level && !is_stretched();
+  }
+  /// It deforms too far for linear elasticity, which all but level `full` have.
+  [[nodiscard]] bool is_stretched() const {
+    return advice.is_beyond_linear && used != dynamics::Fidelity::full;
   }
 };
 

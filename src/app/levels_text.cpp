@@ -171,8 +171,8 @@ std::string to_text(const BodyLevel& level) {
                       advice.reason);
   if (advice.is_beyond_linear) {
     text += fmt::format(
-        "  beware       {:.3g} m is beyond the linear range of {:.3g} m: no "
-        "level is right\n",
+        "  beware       {:.3g} m is beyond the linear range of {:.3g} m: only "
+        "level full is right\n",
         peaks.deformation, level.limits.linear_limit);
   }
   return text;

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   limber::app::add_verify(app, action);
   limber::app::add_modes(app, action);
   limber::app::add_frequencies(app, action);
+  limber::app::add_static(app, action);
   limber::app::add_reduce(app, action);
   limber::app::add_info(app, action);
   limber::app::add_wobble(app, action);

@@ -21,7 +21,7 @@ void draw_run(const Run& run, const std::filesystem::path& folder) {
   warn(results::draw_energy(folder / "energy.png", name, run.history));
   warn(results::draw_scene(
       folder / "scene.png", name, run.built.model,
-      {run.history.states.front(), run.history.states.back()}, 1.0));
+      {run.history.states.front(), run.history.states.back()}));
   draw_probes(
       {{std::string(to_string(run.scene.scenario.fidelity)), &run.history}},
       folder);

@@ -54,7 +54,7 @@ struct LevelAdvice {
   Fidelity level = Fidelity::coupled;
   std::string reason;  ///< one sentence with its numbers
   LevelErrors errors;
-  /// Linear elasticity may not hold: then no level is right.
+  /// Linear elasticity may not hold: then only level `full` is right.
   bool is_beyond_linear = false;
 };
 /// @param body with its modes, at Fidelity::uncoupled

@@ -45,10 +45,19 @@ struct Mark {
                                       const History& history);
 
 /// The surfaces of all flexible bodies (and the frames of rigid ones) at the
-/// given states, deformation drawn `exaggeration` times.
+/// given states.
 [[nodiscard]] std::string draw_scene(
     const std::filesystem::path& file, const std::string& title,
     const dynamics::SystemModel& model,
-    const std::vector<dynamics::SystemState>& states, double exaggeration);
+    const std::vector<dynamics::SystemState>& states);
+
+/// The same of an equilibrium and the start from which it was found; the way
+/// between them is drawn `exaggeration` times, so that joints stay together.
+[[nodiscard]] std::string draw_displacement(const std::filesystem::path& file,
+                                            const std::string& title,
+                                            const dynamics::SystemModel& model,
+                                            const dynamics::SystemState& start,
+                                            const dynamics::SystemState& state,
+                                            double exaggeration);
 
 }  // namespace limber::results

@@ -30,16 +30,33 @@ struct Bounds {
   }
 };
 
+// A state to draw: what is displaced from `base` is drawn so many times.
+struct Pose3d {
+  std::string name;
+  const SystemState& state;
+  const SystemState& base;
+  double exaggeration = 1.0;
+
+  template <typename Points>
+  [[nodiscard]] Points place(const Points& from, const Points& to) const {
+    return from + exaggeration * (to - from);
+  }
+};
+
 // Positions of a body's kept rows in the world, 3 x n.
-Matrix3X place_rows(const SystemModel& model, std::size_t b,
-                    const SystemState& state, double exaggeration) {
+Matrix3X find_rows(const SystemModel& model, std::size_t b,
+                   const SystemState& state) {
   const Matrix3X& x_B = model.bodies[b].reduced->rows.x_B;
-  MatrixX u_B(x_B.size(), 1);
-  calc_node_deformations(model, static_cast<dynamics::BodyIndex>(b),
-                         {&state, 1}, u_B);
-  const Matrix3X points = x_B + exaggeration * u_B.reshaped(3, x_B.cols());
-  const dynamics::BodyState& rigid = state.bodies[b];
-  return (rigid.quat_WB.toRotationMatrix() * points).colwise() + rigid.p_WB;
+  MatrixX p_WP(x_B.size(), 1);
+  calc_node_positions(model, static_cast<dynamics::BodyIndex>(b), {&state, 1},
+                      p_WP);
+  return p_WP.reshaped(3, x_B.cols());
+}
+
+Matrix3X place_rows(const SystemModel& model, std::size_t b,
+                    const Pose3d& pose) {
+  return pose.place<Matrix3X>(find_rows(model, b, pose.base),
+                              find_rows(model, b, pose.state));
 }
 
 std::size_t count_triangles(const SystemModel& model) {
@@ -52,13 +69,13 @@ std::size_t count_triangles(const SystemModel& model) {
 
 // One polygon block for all surfaces at one state.
 void add_surfaces(GnuplotScript& script, const std::string& block,
-                  const SystemModel& model, const SystemState& state,
-                  double exaggeration, std::size_t stride, Bounds& bounds) {
+                  const SystemModel& model, const Pose3d& pose,
+                  std::size_t stride, Bounds& bounds) {
   script.add(fmt::format("${} << EOD", block));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     if (!body.reduced) continue;
-    const Matrix3X points = place_rows(model, b, state, exaggeration);
+    const Matrix3X points = place_rows(model, b, pose);
     const auto& triangles = body.reduced->triangles;
     for (std::size_t t = 0; t < triangles.size(); t += stride) {
       for (const std::size_t corner : triangles[t]) {
@@ -75,15 +92,19 @@ void add_surfaces(GnuplotScript& script, const std::string& block,
 // Rigid bodies have no shape: a mark at the centre of mass, lines to what
 // their couplers hold.
 void add_rigid_bodies(GnuplotScript& script, const std::string& block,
-                      const SystemModel& model, const SystemState& state,
+                      const SystemModel& model, const Pose3d& pose,
                       Bounds& bounds) {
+  const auto center = [&](std::size_t b) {
+    return pose.place<Vector3>(pose.base.bodies[b].p_WB,
+                               pose.state.bodies[b].p_WB);
+  };
   const auto line = [&](const Vector3& p) {
     bounds.include(p);
     script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
   };
   script.add(fmt::format("${}_marks << EOD", block));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].reduced) line(state.bodies[b].p_WB);
+    if (!model.bodies[b].reduced) line(center(b));
   }
   script.add("EOD");
   script.add(fmt::format("${}_lines << EOD", block));
@@ -93,8 +114,11 @@ void add_rigid_bodies(GnuplotScript& script, const std::string& block,
         model.bodies[static_cast<std::size_t>(b)].reduced) {
       continue;
     }
-    line(state.bodies[static_cast<std::size_t>(b)].p_WB);
-    line(dynamics::find_frame_motion(model, state, static_cast<int>(i)).X_WF.p);
+    line(center(static_cast<std::size_t>(b)));
+    const auto frame = [&](const SystemState& state) {
+      return find_frame_motion(model, state, static_cast<int>(i)).X_WF.p;
+    };
+    line(pose.place<Vector3>(frame(pose.base), frame(pose.state)));
     script.add("");
     script.add("");
   }
@@ -122,47 +146,63 @@ void set_view(GnuplotScript& script, const Bounds& bounds) {
   script.add("set key at screen 0.97,0.93 right");
 }
 
-}  // namespace
-
-std::string draw_scene(const std::filesystem::path& file,
-                       const std::string& title, const SystemModel& model,
-                       const std::vector<SystemState>& states,
-                       double exaggeration) {
-  if (states.empty()) return "no picture: there is no state to draw";
+std::string draw(const std::filesystem::path& file, const std::string& heading,
+                 const SystemModel& model, const std::vector<Pose3d>& poses) {
+  if (poses.empty()) return "no picture: there is no state to draw";
   GnuplotScript script(file, 1200, 1000);
-  const std::size_t total = count_triangles(model) * states.size();
+  const std::size_t total = count_triangles(model) * poses.size();
   const std::size_t stride =
       std::max<std::size_t>(1, (total + kMostTriangles - 1) / kMostTriangles);
   Bounds bounds;
   std::string plot;
-  for (std::size_t s = 0; s < states.size(); ++s) {
+  for (std::size_t s = 0; s < poses.size(); ++s) {
     const std::string block = fmt::format("s{}", s);
     const char* colour = kColours[s % kColours.size()];
-    const std::string name = quote(fmt::format("t = {:g} s", states[s].t));
     const char* separator = s == 0 ? "splot " : ", ";
     if (total > 0) {
-      add_surfaces(script, block, model, states[s], exaggeration, stride,
-                   bounds);
+      add_surfaces(script, block, model, poses[s], stride, bounds);
       plot += fmt::format(
           "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle",
           separator, block, s == 0 ? 0.25 : 0.8, colour);
       separator = ", ";
     }
-    add_rigid_bodies(script, block, model, states[s], bounds);
+    add_rigid_bodies(script, block, model, poses[s], bounds);
     plot += fmt::format(
         "{}${}_lines with lines lc rgb '{}' lw 2.5 notitle, ${}_marks with "
         "points pt 7 ps 1.6 lc rgb '{}' notitle, NaN with lines lw 6 lc rgb "
         "'{}' title {}",
-        separator, block, colour, block, colour, colour, name);
-  }
-  std::string heading = title;
-  if (exaggeration != 1.0) {
-    heading += fmt::format(" (deformation x {:g})", exaggeration);
+        separator, block, colour, block, colour, colour, quote(poses[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
   set_view(script, bounds);
   script.add(plot);
   return script.run();
+}
+
+}  // namespace
+
+std::string draw_scene(const std::filesystem::path& file,
+                       const std::string& title, const SystemModel& model,
+                       const std::vector<SystemState>& states) {
+  std::vector<Pose3d> poses;
+  for (const SystemState& state : states) {
+    poses.push_back({fmt::format("t = {:g} s", state.t), state, state});
+  }
+  return draw(file, title, model, poses);
+}
+
+std::string draw_displacement(const std::filesystem::path& file,
+                              const std::string& title,
+                              const SystemModel& model,
+                              const SystemState& start,
+                              const SystemState& state, double exaggeration) {
+  std::string heading = title;
+  if (exaggeration != 1.0) {
+    heading += fmt::format(" (displacement x {:g})", exaggeration);
+  }
+  return draw(
+      file, heading, model,
+      {{"start", start, start}, {"equilibrium", state, start, exaggeration}});
 }
 
 }  // namespace limber::results

@@ -14,6 +14,7 @@ BasisChoice merge(const BasisChoice& base, const BasisChoice& over) {
   if (over.eigenmodes) choice.eigenmodes = over.eigenmodes;
   if (over.interfaces) choice.interfaces = over.interfaces;
   if (over.loads) choice.loads = over.loads;
+  if (over.terms) choice.terms = over.terms;
   return choice;
 }
 
@@ -24,6 +25,7 @@ void apply(const BasisChoice& choice, flexbody::BasisOptions& basis) {
   }
   basis.interface_modes = choice.interfaces.value_or(basis.interface_modes);
   basis.load_modes = choice.loads.value_or(basis.load_modes);
+  basis.terms = choice.terms.value_or(basis.terms);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ BasisChoice read_basis_choice(TomlTable& table) {
                     table.problems());
   choice.interfaces = sources.boolean("interfaces");
   choice.loads = sources.boolean("loads");
+  choice.terms = sources.integer("terms", 1, 100);
   sources.finish();
   return choice;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/types.hpp"
+#include "dynamics/equilibrium.hpp"
 #include "dynamics/fidelity.hpp"
 #include "dynamics/level_advice.hpp"
 #include "dynamics/simulation.hpp"
@@ -119,6 +120,7 @@ struct BasisChoice {
   std::optional<int> eigenmodes;   ///< lowest; also in place of "auto"
   std::optional<bool> interfaces;  ///< their static-deformation modes
   std::optional<bool> loads;       ///< their static-deformation modes
+  std::optional<int> terms = {};   ///< of each of these: Krylov terms
 
   bool operator==(const BasisChoice&) const = default;
 };
@@ -153,6 +155,8 @@ struct Scenario {
   std::map<std::string, JointStart> joints;
   BaseStart base;
   std::map<std::string, LinkStart> link_starts;
+  /// Starts from the static equilibrium near what all these say, at rest.
+  std::optional<dynamics::EquilibriumMethod> equilibrium;
   std::vector<DriveSpec> drives;
   std::map<std::string, double> releases;  ///< of latches, at these times [s]
   std::vector<ProbeSpec> probes;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "scene/basis_reader.hpp"
@@ -150,6 +151,38 @@ void read_starts(TomlTable& table, const std::string& section,
   }
 }
 
+bool has_velocities(const Scenario& scenario) {
+  const auto moves = [](const std::vector<double>& v) {
+    return std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; });
+  };
+  return !scenario.base.velocity.isZero(0.0) ||
+         !scenario.base.angular_velocity.isZero(0.0) ||
+         std::any_of(scenario.joints.begin(), scenario.joints.end(),
+                     [&](const auto& j) { return moves(j.second.velocity); }) ||
+         std::any_of(scenario.link_starts.begin(), scenario.link_starts.end(),
+                     [&](const auto& l) {
+                       return moves(l.second.etadot) ||
+                              !l.second.velocity.empty();
+                     });
+}
+
+void read_equilibrium(TomlTable& table, Scenario& scenario) {
+  const bool is_asked = table.boolean("equilibrium").value_or(false);
+  const auto method = read_name(table, "equilibrium_method",
+                                dynamics::EquilibriumMethod::newton,
+                                dynamics::parse_equilibrium_method);
+  if (!is_asked) {
+    if (table.has("equilibrium_method")) {
+      table.fail("'equilibrium_method' needs 'equilibrium = true'");
+    }
+    return;
+  }
+  scenario.equilibrium = method;
+  if (has_velocities(scenario)) {
+    table.fail("'equilibrium' starts at rest; leave the velocities out");
+  }
+}
+
 void read_initial(TomlTable& table, Scenario& scenario) {
   if (const toml::table* base = table.table("base")) {
     TomlTable values(*base, "initial.base", table.problems());
@@ -160,6 +193,7 @@ void read_initial(TomlTable& table, Scenario& scenario) {
   read_starts(table, "links", scenario.link_starts, [&](TomlTable& values) {
     return read_link_start(values, scenario.file.parent_path());
   });
+  read_equilibrium(table, scenario);
 }
 
 OutputSpec read_output(TomlTable& table) {

@@ -95,6 +95,7 @@ void set_basis(toml::table& root, const BasisChoice& choice) {
   set_basis(basis, "", "eigenmodes", choice.eigenmodes);
   set_basis(basis, "static_deformation", "interfaces", choice.interfaces);
   set_basis(basis, "static_deformation", "loads", choice.loads);
+  set_basis(basis, "static_deformation", "terms", choice.terms);
 }
 
 void set_step(toml::table& root, double step) {

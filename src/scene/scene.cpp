@@ -7,6 +7,7 @@
 #include "scene/basis_choice.hpp"
 #include "scene/full_bodies.hpp"
 #include "scene/link_motion.hpp"
+#include "scene/naming.hpp"
 #include "scene/reductions.hpp"
 #include "scene/robot_reader.hpp"
 #include "scene/scenario_reader.hpp"
@@ -47,6 +48,24 @@ Scene load_scene(const std::filesystem::path& file,
   return scene;
 }
 
+namespace {
+
+void settle(const Scene& scene, BuiltScene& built) {
+  const std::string who = "[initial] equilibrium";
+  try {
+    naming(who, [&] {
+      built.initial =
+          dynamics::find_equilibrium(built.model, built.initial,
+                                     {.method = *scene.scenario.equilibrium})
+              .state;
+    });
+  } catch (const NumericalError& error) {
+    throw NumericalError(who + ": " + error.what());
+  }
+}
+
+}  // namespace
+
 BuiltScene build_system(const Scene& scene, const Reducer& reducer,
                         const std::filesystem::path& cache,
                         const FullMaker& make_full) {
@@ -64,6 +83,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   BuiltScene built;
   built.model = assembly.build();
   built.initial = assembly.make_initial_state(built.model);
+  if (scene.scenario.equilibrium) settle(scene, built);
   built.probes = assembly.make_probes(built.model);
   for (Probe& probe : built.probes) {
     set_start(probe, built.model, built.initial);

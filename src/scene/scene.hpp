@@ -66,10 +66,12 @@ struct BuiltScene {
 /// Reduces the flexible links (equal ones once, known ones from `cache`), puts
 /// the system together and finds its initial state: body frames where the
 /// joints put the undeformed links, with velocities that agree with the joints'
-/// rates, and flexible links deformed as the scenario says. Couplers rest in
-/// the undeformed configuration. `make_full` is needed for links at level
+/// rates, and flexible links deformed as the scenario says; or, if it asks, the
+/// static equilibrium near there. Couplers rest in the undeformed
+/// configuration. `make_full` is needed for links at level
 /// `full` alone.
-/// @throws InputError naming the link, joint, load or probe.
+/// @throws InputError naming the link, joint, load or probe; both errors as
+/// dynamics::find_equilibrium.
 [[nodiscard]] BuiltScene build_system(const Scene& scene,
                                       const Reducer& reducer,
                                       const std::filesystem::path& cache,

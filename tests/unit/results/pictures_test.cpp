@@ -132,8 +132,11 @@ TEST_F(Pictures, EnergyAndSceneOfARunArePngs) {
       [&](const auto& file) { return draw_energy(file, "run", run.history); }));
   expect_sensible(draw_and_measure([&](const auto& file) {
     return draw_scene(file, "run", run.model,
-                      {run.history.states.front(), run.history.states.back()},
-                      20.0);
+                      {run.history.states.front(), run.history.states.back()});
+  }));
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_displacement(file, "run", run.model, run.history.states.front(),
+                             run.history.states.back(), 20.0);
   }));
 }
 
@@ -142,19 +145,19 @@ TEST_F(Pictures, SceneOfRigidBodiesAloneIsAPng) {
   const int ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
   const dynamics::SystemModel free_ball = builder.build();
   expect_sensible(draw_and_measure([&](const auto& file) {
-    return draw_scene(file, "ball", free_ball, {make_state(free_ball)}, 1.0);
+    return draw_scene(file, "ball", free_ball, {make_state(free_ball)});
   }));
   builder.attach_frame("handle", ball, {Matrix3::Identity(), {1, 0, 0}});
   const dynamics::SystemModel held_ball = builder.build();
   expect_sensible(draw_and_measure([&](const auto& file) {
-    return draw_scene(file, "ball", held_ball, {make_state(held_ball)}, 1.0);
+    return draw_scene(file, "ball", held_ball, {make_state(held_ball)});
   }));
 }
 
 TEST_F(Pictures, SceneWithoutAStateSaysSo) {
   const TemporaryFolder folder;
   const std::string why = draw_scene(folder.path() / "scene.png", "run",
-                                     make_empty_run().model, {}, 1.0);
+                                     make_empty_run().model, {});
   EXPECT_THAT(why, HasSubstr("no state"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
@@ -268,7 +271,7 @@ TEST(PicturesWithoutGnuplot, SayWhatToInstallAndLeaveNothing) {
   const Panel panel{"u [m]", {make_series("a", wave(50))}};
   for (const std::string& why :
        {draw_overlay(file, "tip", {panel}), draw_energy(file, "t", run.history),
-        draw_scene(file, "run", run.model, run.history.states, 1.0)}) {
+        draw_scene(file, "run", run.model, run.history.states)}) {
     EXPECT_THAT(why, HasSubstr("gnuplot is not installed"));
     EXPECT_THAT(why, HasSubstr("gnuplot-nox"));
   }

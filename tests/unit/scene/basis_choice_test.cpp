@@ -35,11 +35,12 @@ const BasisOptions& basis_of(const Scene& scene, const std::string& link) {
 
 TEST(BasisChoice, OfAScenarioTakesThePlaceOfTheRobotsKeyByKey) {
   const Scene scene = load(
-      "[basis]\nstatic_deformation = { loads = false }\n"
+      "[basis]\nstatic_deformation = { loads = false, terms = 3 }\n"
       "[basis.links.upper_1]\neigenmodes = 3\n");
   EXPECT_EQ(basis_of(scene, "upper_1").eigenmodes, 3);
   EXPECT_TRUE(basis_of(scene, "upper_1").interface_modes);
   EXPECT_FALSE(basis_of(scene, "upper_1").load_modes);
+  EXPECT_EQ(basis_of(scene, "upper_1").terms, 3);
   EXPECT_EQ(basis_of(scene, "upper_2").eigenmodes, 6);
   EXPECT_FALSE(basis_of(scene, "upper_2").load_modes);
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/json.hpp"
+#include "dynamics/equilibrium.hpp"
+#include "scene/scene.hpp"
+
+/// What `limber static` says of an equilibrium.
+namespace limber::app {
+
+/// One body, against the start.
+struct StaticBody {
+  std::string name;
+  double moved = 0.0;          ///< of the centre of mass [m]
+  double turned = 0.0;         ///< [rad]
+  double deformation = 0.0;    ///< largest of a kept node [m]
+  double size = 0.0;           ///< longest edge; 0 if rigid [m]
+  double strain_energy = 0.0;  ///< [J]
+};
+
+/// One coupler or transmission: what it carries.
+struct StaticCoupler {
+  std::string name;
+  double force = 0.0;   ///< [N]; of a gear the force along its coordinate
+  double moment = 0.0;  ///< on M, at its origin [N m]
+};
+
+struct StaticReport {
+  std::vector<StaticBody> bodies;
+  std::vector<StaticCoupler> couplers;
+  double coupler_energy = 0.0;  ///< [J]
+  /// Lowest natural frequency there, negative if a disturbance grows; none if
+  /// it was not sought [Hz].
+  std::optional<double> lowest_frequency;
+};
+
+/// @param built its initial state is the start
+[[nodiscard]] StaticReport report_equilibrium(
+    const scene::BuiltScene& built, const dynamics::Equilibrium& found);
+
+[[nodiscard]] Json to_json(const StaticReport& report);
+[[nodiscard]] std::string to_text(const StaticReport& report);
+
+}  // namespace limber::app

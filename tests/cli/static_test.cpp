@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+
+/// `limber static`, and runs that start from an equilibrium.
+namespace limber::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kBadInput = 2;
+
+/// The report's beam clamped at its root, pulled sideways at its tip.
+void write_clamped_beam(const Workspace& place, const std::string& force) {
+  place.write("beam.urdf",
+              "<robot name='beam'><link name='beam'/><flexible link='beam'>"
+              "<mesh file='" LIMBER_SOURCE_DIR
+              "/tests/data/beam/beam579_v41.msh'/><material "
+              "youngs_modulus='200e9' poisson_ratio='0' density='8000'/>"
+              "<clamp group='root'/><basis eigenmodes='10'/>"
+              "<interface name='tip' group='tip'/></flexible></robot>\n");
+  place.write("s.toml",
+              "robot = 'beam.urdf'\n[time]\nduration = 1.0\nstep = 0.01\n"
+              "[[load]]\nname = 'tip'\nlink = 'beam'\ninterface = 'tip'\n"
+              "force = [" +
+                  force +
+                  ", 0, 0]\nframe = 'world'\n"
+                  "[[probe]]\nname = 'tip'\nlink = 'beam'\ninterface = 'tip'\n"
+                  "quantity = 'deformation'\n");
+}
+
+json read_summary(const Workspace& place) {
+  return json::parse(read_text(place.folder() / "o/summary.json"));
+}
+
+double probe(const json& summary, const std::string& name) {
+  return summary.at("probes").at(name).at("value").get<double>();
+}
+
+// tests/data/beam/static.csv: beam579, "own SVK 4pt" with 12 digits; another
+// independent program has 0.98598972 and -0.11822246 with 8.
+TEST(Static, BeamBentByAFifthAtLevelFullIsTheIndependentProgramsAnswer) {
+  const Workspace place;
+  write_clamped_beam(place, "4e8");
+  const CommandResult r =
+      place.limber("static s.toml --out o --fidelity full --cache c");
+  ASSERT_EQ(r.status, 0) << r.errors;
+  const json summary = read_summary(place);
+  EXPECT_NEAR(probe(summary, "tip.dx"), 0.985989683796, 1e-9);
+  EXPECT_NEAR(probe(summary, "tip.dz"), -0.118222457447, 1e-9);
+  EXPECT_TRUE(summary.at("warnings").empty()) << summary.at("warnings");
+  EXPECT_TRUE(std::filesystem::exists(place.folder() / "o/results.h5"));
+  EXPECT_TRUE(std::filesystem::exists(place.folder() / "o/equilibrium.png"));
+}
+
+TEST(Static, BeamBentByAFifthAtLevelCoupledIsTooFarForIt) {
+  const Workspace place;
+  write_clamped_beam(place, "4e8");
+  const CommandResult r = place.limber("static s.toml --out o --cache c");
+  ASSERT_EQ(r.status, 0) << r.errors;
+  EXPECT_THAT(r.errors, AllOf(HasSubstr("link 'beam' deforms by"),
+                              HasSubstr("beyond the linear limit"),
+                              HasSubstr("only level full is right")));
+}
+
+// The same, lin at 500 N: the static-deformation mode of the load is exact.
+TEST(Static, SmallLoadHasTheLinearAnswer) {
+  const Workspace place;
+  write_clamped_beam(place, "500");
+  const CommandResult r = place.limber("static s.toml --out o --cache c");
+  ASSERT_EQ(r.status, 0) << r.errors;
+  EXPECT_EQ(r.errors, "");
+  EXPECT_NEAR(probe(read_summary(place), "tip.dx"), 1.27901468831e-06,
+              1e-9 * 1.279e-6);
+}
+
+TEST(Static, WithoutALoadSaysThatTheAnswerIsTrivial) {
+  const Workspace place;
+  write_clamped_beam(place, "0");
+  const CommandResult r = place.limber("static s.toml --out o --cache c");
+  EXPECT_EQ(r.status, kBadInput);
+  EXPECT_THAT(r.errors, AllOf(HasSubstr("s.toml: nothing acts"),
+                              HasSubstr("trivial equilibrium")));
+}
+
+TEST(Static, FreeBodyThatIsTurnedIsRefusedWithTheDirection) {
+  const Workspace place;
+  place.write("s.toml",
+              "robot = '" LIMBER_SOURCE_DIR
+              "/models/beam.urdf'\n[time]\nduration = 1.0\nstep = 0.01\n"
+              "[[load]]\nname = 'twist'\nlink = 'beam'\ngroup = 'tip'\n"
+              "moment = [0, 0, 5]\nframe = 'world'\n"
+              "[initial]\nequilibrium = true\n");
+  for (const char* command : {"static", "run"}) {
+    const CommandResult r =
+        place.limber(fmt::format("{} s.toml --out o --cache c", command));
+    EXPECT_EQ(r.status, kBadInput);
+    EXPECT_THAT(r.errors, AllOf(HasSubstr("body 'beam'"),
+                                HasSubstr("moment of 5 N m about (0, 0, 1)")));
+  }
+}
+
+/// An arm of a hub and a flat beam under gravity, held by its motor.
+void write_arm(const Workspace& place, const std::string& initial) {
+  place.write("s.toml",
+              "robot = '" LIMBER_SOURCE_DIR
+              "/models/slew_arm.urdf'\n[time]\nduration = 1.0\nstep = 0.001\n"
+              "output_interval = 0.1\n"
+              "[gravity]\nacceleration = [0, -9.81, 0]\n" +
+                  initial +
+                  "[[drive]]\njoint = 'shoulder'\nmode = 'position'\n"
+                  "stiffness = 2e4\ndamping = 60.0\n"
+                  "signal = { kind = 'constant', value = 0.0 }\n"
+                  "[[probe]]\nname = 'tip'\nlink = 'beam'\ninterface = 'tip'\n"
+                  "quantity = 'velocity'\n"
+                  "[[probe]]\nname = 'turn'\nlink = 'beam'\ninterface = 'tip'\n"
+                  "quantity = 'angular_velocity'\n");
+}
+
+double find_fastest(const Workspace& place) {
+  double fastest = 0.0;
+  const json summary = read_summary(place);
+  for (const auto& [name, value] : summary.at("probes").items()) {
+    fastest = std::max(fastest, std::abs(value.at("peak").get<double>()));
+  }
+  return fastest;
+}
+
+TEST(Static, RunFromAnEquilibriumStaysAtRestWhereOneWithoutRings) {
+  for (const char* method : {"newton", "relaxation"}) {
+    const Workspace place;
+    write_arm(place, fmt::format("[initial]\nequilibrium = true\n"
+                                 "equilibrium_method = '{}'\n",
+                                 method));
+    const CommandResult r = place.limber("run s.toml --out o --cache c");
+    ASSERT_EQ(r.status, 0) << r.errors;
+    EXPECT_LT(find_fastest(place), 1e-8) << method;
+  }
+  const Workspace place;
+  write_arm(place, "");
+  ASSERT_EQ(place.limber("run s.toml --out o --cache c").status, 0);
+  EXPECT_GT(find_fastest(place), 1e-2);
+}
+
+TEST(Static, EquilibriumWithVelocitiesIsRefused) {
+  const Workspace place;
+  write_arm(place,
+            "[initial]\nequilibrium = true\n"
+            "joints = { shoulder = { velocity = 1.0 } }\n");
+  const CommandResult r = place.limber("run s.toml --out o --cache c");
+  EXPECT_EQ(r.status, kBadInput);
+  EXPECT_THAT(r.errors, HasSubstr("'equilibrium' starts at rest"));
+}
+
+}  // namespace
+}  // namespace limber::test
