@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fem/matrices.hpp"
+#include "fem/mesh.hpp"
+
+namespace limber::fem {
+
+/// What the nodes have of the body's skin: N x N, both triangles [m^2]. Times a
+/// drag per area it is the scalar damping matrix of the skin.
+///
+/// Equation   S_ab = int N_a N_b dA over the boundary faces
+[[nodiscard]] SparseMatrix assemble_skin(const Mesh& mesh);
+
+/// Largest values over all quadrature points of the displacement gradient's
+/// two parts; both zero for a translation.
+struct LargestGradient {
+  double strain = 0.0;    ///< principal value of its symmetric part [-]
+  double rotation = 0.0;  ///< of its skew part [rad]
+};
+/// @param u 3 x N [m]
+[[nodiscard]] LargestGradient calc_largest_gradient(const Mesh& mesh,
+                                                    const Matrix3X& u);
+
+}  // namespace limber::fem
