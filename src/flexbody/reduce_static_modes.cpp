@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "flexbody/force_directions.hpp"
-#include "flexbody/multiply_mass.hpp"
+#include "flexbody/reduce_krylov.hpp"
 #include "flexbody/reduce_load_cases.hpp"
-#include "flexbody/reduced_basis.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -76,28 +75,6 @@ MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
               principal.eigenvectors().rowwise().reverse().leftCols(taken));
 }
 
-/// `first` and the blocks K^+ M of it, K^+ M of that, ...
-MatrixX extend(const MeshedBody& body, const MatrixX& first,
-               const BasisOptions& options) {
-  if (options.terms <= 1 || first.cols() == 0) return first;
-  const Support& support = body.support;
-  const auto make_orthonormal = [&](const MatrixX& vectors) {
-    return orthonormalise(vectors, support.matrices.M_s, support.R,
-                          options.drop_tolerance);
-  };
-  MatrixX all = make_orthonormal(first);
-  MatrixX block = all;
-  for (int n = 1; n < options.terms && block.cols() > 0; ++n) {
-    MatrixX joined = all;
-    append(body.inverse.solve(multiply_mass(support.matrices.M_s, block)),
-           joined);
-    joined = make_orthonormal(joined);
-    block = joined.rightCols(joined.cols() - all.cols());
-    all = std::move(joined);
-  }
-  return all;
-}
-
 }  // namespace
 
 StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
@@ -125,7 +102,8 @@ StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
       append(find_force_modes(body, nodal, modes.loads.emplace_back()),
              modes.vectors);
   }
-  modes.vectors = extend(body, modes.vectors, recipe.basis);
+  modes.vectors = find_krylov_vectors(body, modes.vectors, recipe.basis.terms,
+                                      recipe.basis.drop_tolerance);
   return modes;
 }
 

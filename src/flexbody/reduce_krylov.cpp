@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/reduce_krylov.hpp"
+
+#include "flexbody/multiply_mass.hpp"
+#include "flexbody/reduced_basis.hpp"
+
+namespace limber::flexbody {
+
+MatrixX find_krylov_vectors(const MeshedBody& body, const MatrixX& first,
+                            int terms, double drop_tolerance) {
+  if (terms <= 1 || first.cols() == 0) return first;
+  const Support& support = body.support;
+  const auto make_orthonormal = [&](const MatrixX& vectors) {
+    return orthonormalise(vectors, support.matrices.M_s, support.R,
+                          drop_tolerance);
+  };
+  MatrixX all = make_orthonormal(first);
+  MatrixX block = all;
+  for (int n = 1; n < terms && block.cols() > 0; ++n) {
+    const MatrixX next =
+        body.inverse.solve(multiply_mass(support.matrices.M_s, block));
+    MatrixX joined(all.rows(), all.cols() + next.cols());
+    joined << all, next;
+    joined = make_orthonormal(joined);
+    block = joined.rightCols(joined.cols() - all.cols());
+    all = std::move(joined);
+  }
+  return all;
+}
+
+}  // namespace limber::flexbody

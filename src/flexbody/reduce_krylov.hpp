@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "flexbody/reduce_meshed_body.hpp"
+
+namespace limber::flexbody {
+
+/// The span of x_n = (K^+ M)^n x_0, n < terms, for each column x_0 of `first`.
+/// With one term `first` itself; above, its M-orthonormal columns, each block
+/// K^+ M of the orthonormal block before it, because the plain powers lean
+/// towards the first mode until round-off is all that tells them apart.
+///
+/// Source     [@ligterink2005, section 5]
+/// @param first 3n x inputs on the free nodes, without rigid motion [m]
+/// @param drop_tolerance as orthonormalise's [-]
+/// @return fewer than terms * inputs columns where the span is exhausted
+[[nodiscard]] MatrixX find_krylov_vectors(const MeshedBody& body,
+                                          const MatrixX& first, int terms,
+                                          double drop_tolerance);
+
+}  // namespace limber::flexbody
