@@ -11,6 +11,8 @@
 namespace limber::flexbody {
 namespace {
 
+constexpr double kDropTolerance = 1e-8;  // as BasisOptions'
+
 /// @throws InputError if a load deforms nothing.
 MatrixX find_deforming_loads(const MeshedBody& body, const MatrixX& loads) {
   constexpr double kRoundoff = 1e-11;
@@ -27,6 +29,32 @@ MatrixX find_deforming_loads(const MeshedBody& body, const MatrixX& loads) {
           "depart from. Expected nodal forces that do more than move the body.",
           body.mesh.source, j + 1, F.cols()));
   return elastic;
+}
+
+void check_terms(const MeshedBody& body, int terms, int least) {
+  if (terms >= least) return;
+  throw InputError(
+      fmt::format("{}: {} terms of the expansion; expected {} or more.",
+                  body.mesh.source, terms, least));
+}
+
+MatrixX find_terms(const MeshedBody& body, const MatrixX& F, int terms) {
+  return find_krylov_vectors(body, body.inverse.solve(F), terms,
+                             kDropTolerance);
+}
+
+/// Lagrange's equations in the span of the vectors.
+DepartureModel project(const MeshedBody& body, const MatrixX& F,
+                       const MatrixX& vectors, const Friction& friction) {
+  const Support& support = body.support;
+  DepartureModel model;
+  model.basis =
+      make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
+                         support.R, kDropTolerance);
+  const MatrixX& Phi = model.basis.Phi;
+  model.C = Phi.transpose() * multiply_damping(body, friction, Phi);
+  model.Q = Phi.transpose() * F;
+  return model;
 }
 
 }  // namespace
@@ -69,24 +97,52 @@ Eigen::MatrixXcd DepartureModel::calc_response(std::complex<double> s) const {
 DepartureModel make_departure_model(const MeshedBody& body,
                                     const MatrixX& loads, int terms,
                                     const Friction& friction) {
-  constexpr double kDropTolerance = 1e-8;
   LIMBER_EXPECT(loads.rows() == 3 * body.mesh.x.cols());
-  if (terms < 1)
-    throw InputError(
-        fmt::format("{}: {} terms of the expansion; expected 1 or more.",
-                    body.mesh.source, terms));
+  check_terms(body, terms, 1);
   const MatrixX F = find_deforming_loads(body, loads);
-  const MatrixX vectors =
-      find_krylov_vectors(body, body.inverse.solve(F), terms, kDropTolerance);
-  const Support& support = body.support;
-  DepartureModel model;
-  model.basis =
-      make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
-                         support.R, kDropTolerance);
-  const MatrixX& Phi = model.basis.Phi;
-  model.C = Phi.transpose() * multiply_damping(body, friction, Phi);
-  model.Q = Phi.transpose() * F;
-  return model;
+  return project(body, F, find_terms(body, F, terms), friction);
+}
+
+std::vector<DepartureModel> make_interval_models(const MeshedBody& body,
+                                                 const MatrixX& loads,
+                                                 int terms, int carried,
+                                                 const Friction& friction) {
+  LIMBER_EXPECT(loads.rows() == 3 * body.mesh.x.cols());
+  check_terms(body, terms, 1);
+  check_terms(body, carried, 0);
+  const MatrixX F = find_deforming_loads(body, loads);
+  std::vector<DepartureModel> models;
+  MatrixX before(F.rows(), 0);
+  for (Eigen::Index j = 0; j < F.cols(); ++j) {
+    const MatrixX own = find_terms(body, F.col(j), terms);
+    MatrixX vectors(F.rows(), own.cols() + before.cols());
+    vectors << own, before;
+    models.push_back(project(body, F.col(j), vectors, friction));
+    if (carried > 0) before = find_terms(body, F.col(j), carried);
+  }
+  return models;
+}
+
+CarriedMotion carry_motion(const MeshedBody& body, const DepartureModel& from,
+                           const DepartureModel& to,
+                           const DepartureMotion& motion) {
+  LIMBER_EXPECT(motion.r.size() == from.basis.lambda.size());
+  LIMBER_EXPECT(motion.rdot.size() == from.basis.lambda.size());
+  const fem::StructuralMatrices& matrices = body.support.matrices;
+  const auto calc_energy = [](const DepartureModel& model,
+                              const DepartureMotion& at) {
+    return 0.5 * (at.rdot.squaredNorm() +
+                  at.r.dot(model.basis.lambda.cwiseProduct(at.r)));
+  };
+  const MatrixX x = from.basis.Phi * motion.r;
+  const MatrixX v = from.basis.Phi * motion.rdot;
+  const MatrixX& Phi = to.basis.Phi;
+  CarriedMotion carried;
+  carried.motion.r = to.basis.lambda.cwiseInverse().asDiagonal() *
+                     (Phi.transpose() * fem::multiply_stiffness(matrices.K, x));
+  carried.motion.rdot = Phi.transpose() * fem::multiply_mass(matrices.M_s, v);
+  carried.lost = calc_energy(from, motion) - calc_energy(to, carried.motion);
+  return carried;
 }
 
 }  // namespace limber::flexbody

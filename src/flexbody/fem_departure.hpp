@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <vector>
 
 #include "flexbody/fem_operating_state.hpp"
 #include "flexbody/reduced_basis.hpp"
@@ -54,5 +55,32 @@ struct DepartureModel {
 [[nodiscard]] DepartureModel make_departure_model(
     const MeshedBody& body, const MatrixX& loads, int terms,
     const Friction& friction = {});
+
+/// Loads that act one after another, each with a model of its own input that
+/// also spans the first terms of the load before: what that one leaves rings
+/// on.
+///
+/// Source     [@ligterink2005, section 6.1]
+/// @param loads 3N x intervals, as make_departure_model's
+/// @param carried >= 0, terms of the load before that are kept
+[[nodiscard]] std::vector<DepartureModel> make_interval_models(
+    const MeshedBody& body, const MatrixX& loads, int terms, int carried,
+    const Friction& friction = {});
+
+/// Where a model's motion stands.
+struct DepartureMotion {
+  VectorX r;     ///< [kg^1/2 m]
+  VectorX rdot;  ///< [kg^1/2 m/s]
+};
+/// A motion in the coordinates of another model: nearest in elastic energy, its
+/// rate nearest in kinetic energy. Never gains energy.
+struct CarriedMotion {
+  DepartureMotion motion;
+  double lost = 0.0;  ///< energy that the new model cannot hold [J]
+};
+[[nodiscard]] CarriedMotion carry_motion(const MeshedBody& body,
+                                         const DepartureModel& from,
+                                         const DepartureModel& to,
+                                         const DepartureMotion& motion);
 
 }  // namespace limber::flexbody

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -28,7 +29,7 @@ inline std::filesystem::path write_bar(const Bar& bar) {
   std::string name =
       fmt::format("{}.{}.geo", info->test_suite_name(), info->name());
   std::replace(name.begin(), name.end(), '/', '_');
-  const std::filesystem::path file =
+  std::filesystem::path file =
       std::filesystem::path(::testing::TempDir()) / name;
   const Vector3& a = bar.corner;
   const Vector3& s = bar.size;

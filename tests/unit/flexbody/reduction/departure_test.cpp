@@ -244,6 +244,48 @@ TEST_P(Departure, WithoutFrictionKeepsItsEnergy) {
             1e-9 * reduced.norm());
 }
 
+/// A load is held; at the interval's end another takes its place.
+TEST_P(Departure, NextIntervalCarriesWhatTheLastLoadLeaves) {
+  const MeshedBody& body = dense_.body;
+  MatrixX F(3 * body.mesh.x.cols(), 2);
+  F << push_tip(body), testing::make_load(body).reshaped();
+  const auto lost = [&](int carried, double rate) {
+    const std::vector<DepartureModel> models =
+        make_interval_models(body, F, 3, carried);
+    const VectorX r = models[0].calc_static();
+    const VectorX rdot = rate * r;
+    const double energy = 0.5 * (rdot.squaredNorm() +
+                                 r.dot(models[0].basis.lambda.cwiseProduct(r)));
+    return carry_motion(body, models[0], models[1], {r, rdot}).lost / energy;
+  };
+  const double w = dense_.first_frequency;
+  EXPECT_GT(lost(0, 0.0), 1e-3);
+  EXPECT_GT(lost(0, w), 1e-3);
+  EXPECT_NEAR(lost(1, 0.0), 0.0, 1e-10);
+  EXPECT_NEAR(lost(1, w), 0.0, 1e-10);
+}
+
+TEST_P(Departure, CarriedMotionIsTheOldOneWhereAllTermsAreKept) {
+  const MeshedBody& body = dense_.body;
+  MatrixX F(3 * body.mesh.x.cols(), 2);
+  F << push_tip(body), testing::make_load(body).reshaped();
+  const std::vector<DepartureModel> models =
+      make_interval_models(body, F, 3, 3);
+  EXPECT_EQ(models[0].basis.lambda.size(), 3);
+  EXPECT_EQ(models[1].basis.lambda.size(), 6);
+  const DepartureMotion motion{VectorX::LinSpaced(3, 1.0, -2.0),
+                               VectorX::LinSpaced(3, -0.5, 1.0)};
+  const DepartureMotion carried =
+      carry_motion(body, models[0], models[1], motion).motion;
+  const auto difference = [&](const VectorX& old_r, const VectorX& new_r) {
+    const VectorX x = models[0].basis.Phi * old_r;
+    return dense_.norm((models[1].basis.Phi * new_r - x).cast<Complex>()) /
+           dense_.norm(x.cast<Complex>());
+  };
+  EXPECT_LT(difference(motion.r, carried.r), 1e-9);
+  EXPECT_LT(difference(motion.rdot, carried.rdot), 1e-9);
+}
+
 TEST(DepartureModel, RefusesWhatDeformsNothing) {
   const MeshedBody body(make_recipe({}), {});
   const auto error_of = [&](const MatrixX& loads, int terms) -> std::string {
