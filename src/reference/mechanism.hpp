@@ -7,8 +7,10 @@
 #include "common/pose.hpp"
 #include "dynamics/time_function.hpp"
 #include "flexbody/nodal_load.hpp"
+#include "joints/axis_coordinate.hpp"
 #include "joints/bushing.hpp"
 #include "joints/point_spring.hpp"
+#include "joints/universal_hold.hpp"
 
 /// A tree of rigid bodies in words that any rigid-body program can read:
 /// nothing of it is prepared for, or by, our own equations. Plain values.
@@ -19,12 +21,13 @@ inline constexpr int kGround = -1;
 
 /// How a body's frame M may move in its parent's frame F.
 enum class Mobilizer {
-  weld,    ///< not at all
-  pin,     ///< turns about z: angle [rad]
-  slider,  ///< slides along z: distance [m]
-  planar,  ///< x, y [m] along F, then an angle [rad] about z
-  ball,    ///< turns: roll, pitch, yaw [rad]
-  free,    ///< x, y, z [m] along F, then roll, pitch, yaw [rad]
+  weld,       ///< not at all
+  pin,        ///< turns about z: angle [rad]
+  slider,     ///< slides along z: distance [m]
+  planar,     ///< x, y [m] along F, then an angle [rad] about z
+  universal,  ///< turns about x of F: angle [rad]; about y of M: angle [rad]
+  ball,       ///< turns: roll, pitch, yaw [rad]
+  free,       ///< x, y, z [m] along F, then roll, pitch, yaw [rad]
 };
 
 /// A rigid body, its mass about its own frame, and the joint that it hangs on.
@@ -59,6 +62,27 @@ struct BushingElement {
   int joint_of = kGround;
 };
 
+/// What a universal joint holds.
+struct UniversalElement {
+  std::string name;
+  MechanismFrame F;
+  MechanismFrame M;
+  joints::UniversalHold::Parameters law;
+  int joint_of = kGround;  ///< as of a BushingElement
+};
+
+/// Linear spring and damper along a coordinate of M in F. Whole turns are not
+/// counted.
+struct CoordinateElement {
+  std::string name;
+  MechanismFrame F;
+  MechanismFrame M;
+  joints::AxisCoordinate coordinate;
+  double stiffness = 0.0;  ///< [N/m or N m/rad]
+  double rest = 0.0;       ///< [m or rad]
+  double damping = 0.0;    ///< [N s/m or N m s/rad]
+};
+
 struct SpringElement {
   MechanismFrame F;
   MechanismFrame M;
@@ -84,6 +108,8 @@ struct HistoryElement {
 struct Mechanism {
   std::vector<MechanismBody> bodies;
   std::vector<BushingElement> bushings;
+  std::vector<UniversalElement> universals;
+  std::vector<CoordinateElement> coordinates;
   std::vector<SpringElement> springs;
   std::vector<LoadElement> loads;
   std::vector<HistoryElement> histories;

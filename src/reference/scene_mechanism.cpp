@@ -20,6 +20,16 @@ Pose turn_z_to(const Vector3& axis) {
           Vector3::Zero()};
 }
 
+/// Axes of a mobilizer in those of its joint: z along the axis or, of a
+/// universal joint, x along the first and y along the second.
+Pose find_axes(const scene::Joint& joint) {
+  if (!joints::needs_axis(joint.kind)) return {};
+  if (joint.kind != JointKind::universal) return turn_z_to(joint.axis_J);
+  Pose axes;
+  axes.R << joint.axis_J, joint.second_J, joint.axis_J.cross(joint.second_J);
+  return axes;
+}
+
 Mobilizer find_mobilizer(JointKind kind) {
   switch (kind) {
     case JointKind::revolute:
@@ -36,27 +46,48 @@ Mobilizer find_mobilizer(JointKind kind) {
     case JointKind::ball:
       return Mobilizer::ball;
     case JointKind::universal:
-      break;  // refused before
+      return Mobilizer::universal;
   }
   return Mobilizer::weld;
 }
 
 [[noreturn]] void refuse(const std::string& who, const char* why) {
   throw InputError(fmt::format(
-      "{} {}; what is compared are joints without universal ones, bushings "
-      "without coupling of translation and rotation, and linear springs",
+      "{} {}; what is compared are joints, linear springs and viscous friction "
+      "in them, bushings without coupling of translation and rotation, and "
+      "linear springs between points",
       who, why));
 }
 
-/// What the joint holds. @throws InputError if more acts in it.
-joints::Bushing::Parameters find_hold(const dynamics::Coupler& coupler) {
-  const auto& joint = std::get<joints::Joint>(coupler.law);
-  const auto* bushing = std::get_if<joints::Bushing>(&joint.hold());
-  if (bushing == nullptr || !joint.elements().empty()) {
-    refuse("joint '" + coupler.name + "'",
-           "has springs, friction, stops, drives or a second axis");
+bool is_linear(const joints::SpringCurve::Parameters& curve) {
+  return curve.quadratic == 0.0 && curve.forces.empty();
+}
+
+/// What of a law along a joint's coordinate Simbody is asked about.
+/// @throws InputError if that is not all of it.
+CoordinateElement find_linear(const joints::ScalarLaw& law,
+                              const std::string& joint) {
+  CoordinateElement element;
+  element.name = joint;
+  if (const auto* spring = std::get_if<joints::ScalarSpring>(&law)) {
+    const joints::ScalarSpring::Parameters& p = spring->parameters();
+    if (!is_linear(p.curve.parameters()) || p.tension_only) {
+      refuse("joint '" + joint + "'", "has a spring that is not linear");
+    }
+    element.stiffness = p.curve.parameters().stiffness;
+    element.rest = p.rest;
+    element.damping = p.damping;
+    return element;
   }
-  return bushing->parameters();
+  const auto* friction = std::get_if<joints::Friction>(&law);
+  if (friction == nullptr) {
+    refuse("joint '" + joint + "'", "has stops or drives");
+  }
+  if (friction->parameters().coulomb != 0.0) {
+    refuse("joint '" + joint + "'", "has Coulomb friction");
+  }
+  element.damping = friction->parameters().viscous;
+  return element;
 }
 
 /// Laws that only our own equations have. @throws InputError naming one.
@@ -128,7 +159,7 @@ class Translator {
   Mechanism run() {
     mechanism_.gravity_W = scene_.scenario.gravity;
     for (int link = 0; link < std::ssize(robot_.links); ++link) add_link(link);
-    add_joint_bushings();
+    add_joints();
     add_connectors();
     add_loads();
     for (const scene::BodyPlan& plan : plans_.bodies) {
@@ -180,13 +211,11 @@ class Translator {
   }
 
   void set_joint(const scene::Joint& joint, MechanismBody& body) const {
-    const bool has_axis =
-        joint.kind != JointKind::fixed && joint.kind != JointKind::floating;
-    const Pose axis = has_axis ? turn_z_to(joint.axis_J) : Pose{};
+    const Pose axes = find_axes(joint);
     body.parent = joint.parent;
     body.mobilizer = find_mobilizer(joint.kind);
-    body.X_PF = joint.X_PJ * axis;
-    body.X_LM = axis;
+    body.X_PF = joint.X_PJ * axes;
+    body.X_LM = axes;
     const auto start = scene_.scenario.joints.find(joint.name);
     if (start == scene_.scenario.joints.end()) return;
     body.position = start->second.position;
@@ -227,7 +256,7 @@ class Translator {
   }
 
   /// Couplers come in the order in which a scene adds them: joints first.
-  void add_joint_bushings() {
+  void add_joints() {
     std::size_t coupler = 0;
     for (const int i : plans_.coupled_joints) {
       const scene::Joint& joint = robot_.joints[index(i)];
@@ -235,16 +264,31 @@ class Translator {
                           model_.couplers[coupler].name == joint.name;
       if (!exists) continue;  // floating, without damping
       const dynamics::Coupler& source = model_.couplers[coupler++];
-      BushingElement element;
-      element.F = {joint.parent, joint.X_PJ};
-      element.M = {joint.child, Pose{}};
-      element.law = find_hold(source);
-      element.R_FD = turn_z_to(joint.axis_J).R;
-      element.joint_of =
-          joint.kind == JointKind::floating ? kGround : joint.child;
-      mechanism_.bushings.push_back(element);
+      add_joint(joint, std::get<joints::Joint>(source.law));
     }
     LIMBER_EXPECT(coupler + robot_.connectors.size() == model_.couplers.size());
+  }
+
+  void add_joint(const scene::Joint& joint, const joints::Joint& law) {
+    const MechanismFrame F{joint.parent, joint.X_PJ};
+    const MechanismFrame M{joint.child, Pose{}};
+    const int joint_of =
+        joint.kind == JointKind::floating ? kGround : joint.child;
+    if (const auto* bushing = std::get_if<joints::Bushing>(&law.hold())) {
+      mechanism_.bushings.push_back(
+          {F, M, bushing->parameters(), turn_z_to(joint.axis_J).R, joint_of});
+    } else {
+      mechanism_.universals.push_back(
+          {joint.name, F, M,
+           std::get<joints::UniversalHold>(law.hold()).parameters(), joint_of});
+    }
+    for (const joints::JointElement& acting : law.elements()) {
+      CoordinateElement element = find_linear(acting.law, joint.name);
+      element.F = F;
+      element.M = M;
+      element.coordinate = law.coordinates()[index(acting.coordinate)];
+      mechanism_.coordinates.push_back(element);
+    }
   }
 
   void add_connectors() {

@@ -39,6 +39,58 @@ class ChordalBushing : public SimTK::Force::Custom::Implementation {
   SimTK::Vec3 strength_;  ///< D_i [N m]
 };
 
+/// What a universal joint of docs/joints.md holds.
+///
+/// Equation   V = kt p' p / 2 + kr h^2 / 2, h = a . b with a on F, b on M;
+///            dh/dt = w . (b x a), so the moment on M is
+///            -(kr h + cr dh/dt) b x a. Dissipation ct v' v + cr (dh/dt)^2.
+class CrossBushing : public SimTK::Force::Custom::Implementation {
+ public:
+  CrossBushing(const SimbodyFrame& F, const SimbodyFrame& M,
+               const joints::UniversalHold::Parameters& law);
+
+  void calcForce(const SimTK::State& state,
+                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
+                 SimTK::Vector& mobility_forces) const override;
+  [[nodiscard]] SimTK::Real calcPotentialEnergy(
+      const SimTK::State& state) const override;
+
+ private:
+  SimbodyFrame F_;
+  SimbodyFrame M_;
+  joints::UniversalHold::Parameters law_;
+};
+
+/// Linear spring and damper along a coordinate of M in F.
+///
+/// Equation   distance: z = e . p. Angle: z = 2 atan2(s, c), s = e . q_v,
+///            c = q_0 of the quaternion of R_FM, and
+///            dz/dt = w . (c (c e + q_v x e) + s q_v) / (c^2 + s^2)
+/// Limits     the turn of an angle is the one nearest to the spring's rest.
+///            @throws NumericalError where a spring is wound by nearly a half
+///            turn, beyond which that may be another than it was.
+class CoordinateSpring : public SimTK::Force::Custom::Implementation {
+ public:
+  CoordinateSpring(const SimbodyFrame& F, const SimbodyFrame& M,
+                   CoordinateElement element);
+
+  void calcForce(const SimTK::State& state,
+                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
+                 SimTK::Vector& mobility_forces) const override;
+  [[nodiscard]] SimTK::Real calcPotentialEnergy(
+      const SimTK::State& state) const override;
+
+ private:
+  [[nodiscard]] double find_extension(const SimTK::State& state) const;
+  [[nodiscard]] bool is_angle() const;
+
+  SimbodyFrame F_;
+  SimbodyFrame M_;
+  CoordinateElement element_;
+};
+
 /// The interval between two jumps that is being integrated. Loads take the
 /// right limit at its begin and the left one at its end.
 struct Interval {

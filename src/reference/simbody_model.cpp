@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reference/simbody_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/errors.hpp"
@@ -44,6 +46,8 @@ MobilizedBody make_mobilized(MobilizedBody& parent, const MechanismBody& part) {
       return MobilizedBody::Slider(parent, F, rigid, M);
     case Mobilizer::planar:
       return MobilizedBody::Planar(parent, F, rigid, M);
+    case Mobilizer::universal:
+      return MobilizedBody::Universal(parent, F, rigid, M);
     case Mobilizer::ball:
       return MobilizedBody::Ball(parent, F, rigid, M);
     case Mobilizer::free:
@@ -61,6 +65,8 @@ std::size_t count_coordinates(Mobilizer mobilizer) {
     case Mobilizer::pin:
     case Mobilizer::slider:
       return 1;
+    case Mobilizer::universal:
+      return 2;
     case Mobilizer::planar:
     case Mobilizer::ball:
       return 3;
@@ -100,6 +106,8 @@ Transform find_start_pose(const MechanismBody& part) {
       return Vec3(0, 0, q[0]);
     case Mobilizer::planar:
       return {Rotation(q[2], SimTK::ZAxis), Vec3(q[0], q[1], 0)};
+    case Mobilizer::universal:
+      return Rotation(q[0], SimTK::XAxis) * Rotation(q[1], SimTK::YAxis);
     case Mobilizer::ball:
       return rotation_rpy(q[0], q[1], q[2]);
     case Mobilizer::free:
@@ -120,6 +128,11 @@ SpatialVec find_start_velocity(const MechanismBody& part) {
       return {Vec3(0), Vec3(0, 0, u[0])};
     case Mobilizer::planar:
       return {Vec3(0, 0, u[2]), Vec3(u[0], u[1], 0)};
+    case Mobilizer::universal: {
+      const Rotation first(take_coordinates(part.position, part.mobilizer)[0],
+                           SimTK::XAxis);
+      return {Vec3(u[0], 0, 0) + first * Vec3(0, u[1], 0), Vec3(0)};
+    }
     case Mobilizer::ball:
       return {Vec3(u[0], u[1], u[2]), Vec3(0)};
     case Mobilizer::free:
@@ -129,12 +142,15 @@ SpatialVec find_start_velocity(const MechanismBody& part) {
 }
 
 bool stands_for_joint(const Mechanism& mechanism, int body) {
+  const auto stands = [&](const auto& b) { return b.joint_of == body; };
   return std::any_of(mechanism.bushings.begin(), mechanism.bushings.end(),
-                     [&](const auto& b) { return b.joint_of == body; });
+                     stands) ||
+         std::any_of(mechanism.universals.begin(), mechanism.universals.end(),
+                     stands);
 }
 
 /// What is left of a joint's bushing when a mobilizer holds: damping of the
-/// motion that it leaves free, which is along or about z of D.
+/// motion that it leaves free: along or about z of D; of a ball, all turning.
 joints::Bushing::Parameters keep_free_damping(const BushingElement& element,
                                               Mobilizer mobilizer) {
   const Vector3 z = element.R_FD.col(2);
@@ -151,6 +167,9 @@ joints::Bushing::Parameters keep_free_damping(const BushingElement& element,
   }
   if (turns) {
     left.rotational_damping = along * element.law.rotational_damping * along;
+  }
+  if (mobilizer == Mobilizer::ball) {
+    left.rotational_damping = element.law.rotational_damping;
   }
   return left;
 }
@@ -202,6 +221,8 @@ SimbodyModel::SimbodyModel(const Mechanism& mechanism, JointModel joints)
     add_body(mechanism.bodies[static_cast<std::size_t>(i)], is_free);
   }
   for (const auto& element : mechanism.bushings) add_bushing(element);
+  for (const auto& element : mechanism.universals) add_universal(element);
+  for (const auto& element : mechanism.coordinates) add_coordinate(element);
   for (const auto& element : mechanism.springs) add_spring(element);
   add_loads();
   system_.realizeTopology();
@@ -244,6 +265,25 @@ void SimbodyModel::add_bushing(const BushingElement& element) {
   }
   couplers_.push_back(
       SimTK::Force::Custom(forces_, new ChordalBushing(F, M, law)));
+}
+
+void SimbodyModel::add_universal(const UniversalElement& element) {
+  if (joints_ == JointModel::ideal) return;
+  if (joints_ == JointModel::linear_bushings) {
+    throw InputError(fmt::format(
+        "universal joint '{}' has no linear bushing: what it holds turns with "
+        "both of its sides; compare with --joints bushings or ideal",
+        element.name));
+  }
+  couplers_.push_back(SimTK::Force::Custom(
+      forces_,
+      new CrossBushing(frame(element.F), frame(element.M), element.law)));
+}
+
+void SimbodyModel::add_coordinate(const CoordinateElement& element) {
+  couplers_.push_back(SimTK::Force::Custom(
+      forces_,
+      new CoordinateSpring(frame(element.F), frame(element.M), element)));
 }
 
 void SimbodyModel::add_spring(const SpringElement& element) {

@@ -31,6 +31,8 @@ class SimbodyModel {
   [[nodiscard]] SimbodyFrame frame(const MechanismFrame& frame) const;
   void add_body(const MechanismBody& part, bool is_free);
   void add_bushing(const BushingElement& element);
+  void add_universal(const UniversalElement& element);
+  void add_coordinate(const CoordinateElement& element);
   void add_spring(const SpringElement& element);
   void add_loads();
   [[nodiscard]] SimTK::State make_joint_start() const;
@@ -42,7 +44,7 @@ class SimbodyModel {
   SimTK::SimbodyMatterSubsystem matter_;
   SimTK::GeneralForceSubsystem forces_;
   std::vector<SimTK::MobilizedBody> bodies_;
-  std::vector<SimTK::Force> couplers_;  ///< bushings and springs
+  std::vector<SimTK::Force> couplers_;  ///< what stores energy
 };
 
 }  // namespace limber::reference
