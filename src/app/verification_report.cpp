@@ -123,15 +123,19 @@ Json to_json(const VerificationReport& report) {
               {"runs", runs}};
 }
 
-std::string to_text(const VerificationReport& report) {
+std::string describe_runs(const VerificationReport& report) {
   const Verification& result = report.result;
-  std::string text = fmt::format(
+  return fmt::format(
       "{}: joints {}, accuracy {:g}, {} steps\n"
       "limber: level rigid, {}, step {:g} s\n\n",
       reference::witness_name(), joints_name(report),
       report.options.witness.accuracy, result.witness_steps,
       integrator_name(report), result.runs.back().step);
-  text += body_table(result);
+}
+
+std::string to_text(const VerificationReport& report) {
+  const Verification& result = report.result;
+  std::string text = describe_runs(report) + body_table(result);
   if (result.runs.size() > 1) text += step_table(result);
   return text;
 }

@@ -20,6 +20,8 @@ struct VerificationReport {
 };
 
 [[nodiscard]] Json to_json(const VerificationReport& report);
+/// Who ran how, two lines and an empty one.
+[[nodiscard]] std::string describe_runs(const VerificationReport& report);
 /// Tables: differences body by body at the smallest step; and, if the step was
 /// halved, the relative difference and its order at each.
 [[nodiscard]] std::string to_text(const VerificationReport& report);

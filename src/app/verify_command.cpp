@@ -5,7 +5,10 @@
 
 #include "app/commands.hpp"
 #include "app/reducer.hpp"
+#include "app/run_scene.hpp"
+#include "app/stiffening_report.hpp"
 #include "app/terminal.hpp"
+#include "app/text_file.hpp"
 #include "app/validators.hpp"
 #include "app/verification_report.hpp"
 #include "common/errors.hpp"
@@ -16,13 +19,15 @@ namespace {
 
 struct Options {
   std::string scenario;
-  std::string joints = "bushings";
+  std::string joints;
   std::string integrator;
   std::string cache;
   double step = 0.0;
   double duration = 0.0;
   double accuracy = 1e-12;
   int refine = 0;
+  std::vector<double> stiffen;
+  std::string out;
   bool json = false;
 };
 
@@ -54,10 +59,44 @@ scene::BuiltScene build(const scene::Scene& scene, const Options& options) {
   return built;
 }
 
+reference::JointModel find_joint_model(const Options& options) {
+  if (!options.joints.empty()) {
+    return reference::parse_joint_model(options.joints);
+  }
+  return options.stiffen.empty() ? reference::JointModel::bushings
+                                 : reference::JointModel::ideal;
+}
+
+/// Prints a report, and writes it if there is a folder for it.
+template <typename Report>
+void tell(const Options& options, const Report& report) {
+  clear_progress_bar();
+  const Json json = to_json(report);
+  fmt::print("{}\n", options.json ? to_text(json) : to_text(report));
+  if (options.out.empty()) return;
+  write_text(std::filesystem::path(options.out) / "verification.json",
+             to_text(json));
+}
+
+void stiffen(const Options& options, const scene::Scene& scene,
+             const scene::BuiltScene& built, const VerificationReport& common) {
+  StiffeningReport report;
+  report.common = common;
+  report.factors = options.stiffen;
+  report.study = reference::verify_stiffened(
+      scene, built, options.stiffen, common.options, make_progress_bar());
+  tell(options, report);
+  if (options.out.empty()) return;
+  const std::string why =
+      draw(report, std::filesystem::path(options.out) / "stiffness.png");
+  if (!why.empty()) print_warnings({why});
+}
+
 void verify(const Options& options) {
+  if (!options.out.empty()) check_output_folder(options.out);
   VerificationReport report;
   report.scenario = options.scenario;
-  report.options.witness.joints = reference::parse_joint_model(options.joints);
+  report.options.witness.joints = find_joint_model(options);
   report.options.witness.accuracy = options.accuracy;
   report.options.refinements = options.refine;
   scene::Overrides overrides;
@@ -65,10 +104,14 @@ void verify(const Options& options) {
   scene::Scene scene = scene::load_scene(options.scenario, overrides);
   apply(options, scene.scenario.settings);
   report.integrator = scene.scenario.settings.integrator;
-  report.result = reference::verify(scene, build(scene, options),
-                                    report.options, make_progress_bar());
-  clear_progress_bar();
-  fmt::print("{}\n", options.json ? to_text(to_json(report)) : to_text(report));
+  const scene::BuiltScene built = build(scene, options);
+  if (!options.stiffen.empty()) {
+    stiffen(options, scene, built, report);
+    return;
+  }
+  report.result =
+      reference::verify(scene, built, report.options, make_progress_bar());
+  tell(options, report);
 }
 
 #else
@@ -105,6 +148,15 @@ void add_verify(CLI::App& app, Action& action) {
       ->add_option("--refine", options->refine,
                    "Halve our step this often; shows the order")
       ->check(CLI::Range(0, 20));
+  command
+      ->add_option("--stiffen", options->stiffen,
+                   "Factors of what all joints hold, as in 1,10,100: how our "
+                   "joints become Simbody's ideal ones")
+      ->delimiter(',')
+      ->check(make_positive());
+  command->add_option("--out", options->out,
+                      "Folder for verification.json and, with --stiffen, "
+                      "stiffness.png (default: none)");
   command->add_option("--cache", options->cache, "Folder of reduced bodies");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(

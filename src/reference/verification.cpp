@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reference/verification.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "reference/scene_mechanism.hpp"
+#include "reference/stiffening.hpp"
 
 namespace limber::reference {
 namespace {
@@ -69,19 +74,19 @@ double find_longest(const dynamics::SimulationSettings& settings) {
   return longest;
 }
 
-Agreement run_ours(const scene::BuiltScene& built,
+Agreement run_ours(const dynamics::SystemModel& model,
+                   dynamics::SystemState state,
                    const dynamics::SimulationSettings& settings,
                    const std::vector<Snapshot>& witness,
                    const Progress& progress) {
   std::vector<dynamics::SystemState> states;
   std::vector<dynamics::EnergyBalance> energies;
-  dynamics::SystemState state = built.initial;
   const auto observer = [&](const dynamics::SystemState& now,
                             const dynamics::EnergyBalance& energy) {
     states.push_back(now);
     energies.push_back(energy);
   };
-  dynamics::simulate(built.model, state, settings, observer, progress);
+  dynamics::simulate(model, state, settings, observer, progress);
   Agreement agreement = compare(witness, states, energies);
   agreement.step = find_longest(settings);
   return agreement;
@@ -95,6 +100,63 @@ void add_ends(const dynamics::SystemState& initial,
     times.insert(times.begin(), initial.t);
   }
   if (times.back() < settings.end_time) times.push_back(settings.end_time);
+}
+
+/// The witness, run once, and what runs of ours are held against it.
+class Comparison {
+ public:
+  Comparison(const scene::Scene& scene, const scene::BuiltScene& built,
+             const VerificationOptions& options, const Progress& progress)
+      : built_(built),
+        options_(options),
+        progress_(progress),
+        settings_(built.settings) {
+    LIMBER_EXPECT(options.refinements >= 0);
+    add_ends(built.initial, settings_);
+    witness_ = simulate(
+        make_mechanism(scene, built), options.witness,
+        dynamics::find_landmarks(built.model, built.initial.t, settings_),
+        progress);
+  }
+
+  /// Ours with joints `factor` times as stiff.
+  [[nodiscard]] Verification run(double factor) const {
+    Verification verification;
+    for (const dynamics::BodyModel& body : built_.model.bodies) {
+      verification.bodies.push_back(body.name);
+    }
+    verification.witness_steps = witness_.steps;
+    measure_witness(witness_.snapshots, verification);
+    const dynamics::SystemModel model =
+        factor == 1.0 ? built_.model : stiffen_joints(built_.model, factor);
+    for (int i = 0; i <= options_.refinements; ++i) {
+      verification.runs.push_back(run_ours(model, built_.initial,
+                                           halve_steps(settings_, i),
+                                           witness_.snapshots, progress_));
+    }
+    return verification;
+  }
+
+ private:
+  const scene::BuiltScene& built_;
+  VerificationOptions options_;
+  const Progress& progress_;
+  dynamics::SimulationSettings settings_;
+  WitnessRun witness_;
+};
+
+void check_factors(const std::vector<double>& factors) {
+  const bool increase =
+      std::adjacent_find(factors.begin(), factors.end(),
+                         std::greater_equal<>()) == factors.end();
+  const bool are_finite =
+      std::all_of(factors.begin(), factors.end(),
+                  [](double f) { return f > 0.0 && std::isfinite(f); });
+  if (factors.size() >= 2 && increase && are_finite) return;
+  throw InputError(fmt::format(
+      "factors of stiffness are {:g}; expected two or more numbers > 0, "
+      "increasing",
+      fmt::join(factors, ", ")));
 }
 
 double find_share(double part, double whole) {
@@ -138,26 +200,31 @@ Agreement compare(const std::vector<Snapshot>& witness,
 Verification verify(const scene::Scene& scene, const scene::BuiltScene& built,
                     const VerificationOptions& options,
                     const Progress& progress) {
-  LIMBER_EXPECT(options.refinements >= 0);
-  const Mechanism mechanism = make_mechanism(scene, built);
-  dynamics::SimulationSettings settings = built.settings;
-  add_ends(built.initial, settings);
-  const WitnessRun witness =
-      simulate(mechanism, options.witness,
-               dynamics::find_landmarks(built.model, built.initial.t, settings),
-               progress);
+  return Comparison(scene, built, options, progress).run(1.0);
+}
 
-  Verification verification;
-  for (const dynamics::BodyModel& body : built.model.bodies) {
-    verification.bodies.push_back(body.name);
+StiffenedVerification verify_stiffened(const scene::Scene& scene,
+                                       const scene::BuiltScene& built,
+                                       const std::vector<double>& factors,
+                                       const VerificationOptions& options,
+                                       const Progress& progress) {
+  check_factors(factors);
+  if (options.witness.joints != JointModel::ideal) {
+    throw InputError(
+        "stiffened joints are compared with ideal ones, no others");
   }
-  verification.witness_steps = witness.steps;
-  measure_witness(witness.snapshots, verification);
-  for (int i = 0; i <= options.refinements; ++i) {
-    verification.runs.push_back(
-        run_ours(built, halve_steps(settings, i), witness.snapshots, progress));
+  const Comparison comparison(scene, built, options, progress);
+  StiffenedVerification all;
+  for (const double factor : factors) {
+    try {
+      all.results.push_back(comparison.run(factor));
+    } catch (const NumericalError& error) {
+      if (all.results.size() < 2) throw;
+      all.ended = error.what();
+      break;
+    }
   }
-  return verification;
+  return all;
 }
 
 }  // namespace limber::reference

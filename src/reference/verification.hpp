@@ -63,4 +63,19 @@ struct VerificationOptions {
                                   const VerificationOptions& options,
                                   const Progress& progress = {});
 
+struct StiffenedVerification {
+  std::vector<Verification> results;  ///< one a factor, as far as ours got
+  std::string ended;  ///< why there is none for the next factor; else empty
+};
+
+/// The same with joints `factors` times as stiff (stiffen_joints), one after
+/// the other, against the witness's ideal joints, which it simulates once.
+/// Where ours fails for the third factor or a later one, that is the end.
+/// @throws InputError if the factors are not two or more, positive and
+/// increasing, or other joints than ideal ones are asked for; else as verify.
+[[nodiscard]] StiffenedVerification verify_stiffened(
+    const scene::Scene& scene, const scene::BuiltScene& built,
+    const std::vector<double>& factors, const VerificationOptions& options,
+    const Progress& progress = {});
+
 }  // namespace limber::reference

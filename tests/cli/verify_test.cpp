@@ -34,10 +34,33 @@ TEST(VerifyCommand, TellsDifferencesByBodyAndTheirOrder) {
             1e-12);
 }
 
+TEST(VerifyCommand, ShowsHowStiffenedJointsBecomeIdealAndDrawsIt) {
+  const Workspace place;
+  const CommandResult result = place.limber(
+      "verify '" LIMBER_SOURCE_DIR
+      "/examples/joint_chain.toml' --duration 0.1 --stiffen 10,100,1000 "
+      "--out shown --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["joints"], "ideal");
+  ASSERT_EQ(json["stiffened"].size(), 3U);
+  EXPECT_EQ(json["stiffened"][1]["factor"], 100.0);
+  EXPECT_NEAR(json["stiffened"][2]["order"].get<double>(), 1.0, 0.05);
+  EXPECT_EQ(json["first_order"], nlohmann::json::parse("[10.0, 1000.0]"));
+  EXPECT_FALSE(json.contains("floor"));
+  EXPECT_EQ(nlohmann::json::parse(
+                read_text(place.folder() / "shown/verification.json")),
+            json);
+  EXPECT_THAT(read_text(place.folder() / "shown/stiffness.png"),
+              ::testing::StartsWith("\x89PNG"));
+}
+
 TEST(VerifyCommand, RefusesUnknownWords) {
   const Workspace place;
-  for (const char* words : {"--joints welded", "--integrator leapfrog",
-                            "--accuracy 2", "--step -1", "--refine x"}) {
+  for (const char* words :
+       {"--joints welded", "--integrator leapfrog", "--accuracy 2", "--step -1",
+        "--refine x", "--stiffen 1", "--stiffen 10,1", "--stiffen 0,1",
+        "--stiffen 1,10 --joints bushings"}) {
     const CommandResult result =
         place.limber("verify '" + kExample + "' " + words);
     EXPECT_EQ(result.status, 2) << words;

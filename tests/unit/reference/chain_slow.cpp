@@ -71,26 +71,5 @@ TEST(HingedChain, EqualLawsAgreeAtSecondOrderByGeneralizedAlpha) {
   EXPECT_NEAR(std::log2(r[2] / r[3]), 2.0, 0.2);
 }
 
-// The joints' strain is load / k; their vibration since the start is gone by
-// the first output.
-TEST(HingedChain, StiffeningConvergesToSimbodysHingesAtFirstOrder) {
-  std::vector<Magnitudes> difference;
-  for (const double k : {1e6, 1e7, 1e8}) {
-    difference.push_back(run(k, 0.5, make_fall(0.5, 2e-5, "generalized-alpha"),
-                             {{JointModel::ideal, 1e-12}, 0})
-                             .runs[0]
-                             .largest);
-  }
-  for (const std::size_t i : {1U, 2U}) {
-    const auto order = [&](double Magnitudes::*quantity) {
-      return std::log10(difference[i - 1].*quantity / difference[i].*quantity);
-    };
-    EXPECT_NEAR(order(&Magnitudes::position), 1.0, 0.1);
-    EXPECT_NEAR(order(&Magnitudes::rotation), 1.0, 0.1);
-    EXPECT_NEAR(order(&Magnitudes::velocity), 1.0, 0.1);
-    EXPECT_NEAR(order(&Magnitudes::angular_velocity), 1.0, 0.1);
-  }
-}
-
 }  // namespace
 }  // namespace limber::reference

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/order_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "results/gnuplot.hpp"
+
+namespace limber::results {
+namespace {
+
+// Colours that stay apart for every kind of sight (Okabe and Ito, 2008).
+constexpr std::array<const char*, 4> kColours = {"#0072B2", "#D55E00",
+                                                 "#009E73", "#CC79A7"};
+constexpr std::array<int, 4> kMarkers = {7, 5, 9, 13};
+
+bool is_drawable(double y) { return y > 0.0 && std::isfinite(y); }
+
+/// The line's points, then what the slope expects from the first of them on.
+void add_block(GnuplotScript& script, std::size_t index, const OrderLine& line,
+               double slope) {
+  script.add(fmt::format("$line{} << EOD", index));
+  double first_x = 0.0;
+  double first_y = 0.0;
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    if (!is_drawable(line.y[i])) continue;
+    if (first_x == 0.0) {
+      first_x = line.x[i];
+      first_y = line.y[i];
+    }
+    script.add(fmt::format("{:.6g} {:.6g} {:.6g}", line.x[i], line.y[i],
+                           first_y * std::pow(line.x[i] / first_x, slope)));
+  }
+  script.add("EOD");
+}
+
+}  // namespace
+
+std::string draw_order(const std::filesystem::path& file,
+                       const std::string& title, const std::string& x_label,
+                       const std::string& y_label, double slope,
+                       const std::vector<OrderLine>& lines) {
+  GnuplotScript script(file, 900, 700);
+  std::string plot;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (std::none_of(lines[i].y.begin(), lines[i].y.end(), is_drawable)) {
+      continue;
+    }
+    add_block(script, i, lines[i], slope);
+    const char* colour = kColours[i % kColours.size()];
+    plot += fmt::format(
+        "{}$line{} using 1:3 with lines lc rgb '#aaaaaa' dt 2 title {}, "
+        "$line{} using 1:2 with linespoints pt {} ps 1.2 lc rgb '{}' title {}",
+        plot.empty() ? "plot " : ", ", i,
+        plot.empty() ? quote(fmt::format("slope {:g}", slope)) : "''", i,
+        kMarkers[i % kMarkers.size()], colour, quote(lines[i].name));
+  }
+  if (plot.empty()) return "there is nothing above zero to draw";
+  script.add("set title " + quote(title) + " font 'sans,16'");
+  script.add("set logscale xy");
+  script.add("set format xy '%.0e'");
+  script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
+  script.add("set border lc rgb '#555555' lw 0.7");
+  script.add("set tics nomirror");
+  script.add("set key bottom left samplen 2");
+  script.add("set offsets graph 0.02, graph 0.02, graph 0.05, graph 0.05");
+  script.add("set xlabel " + quote(x_label));
+  script.add("set ylabel " + quote(y_label));
+  script.add(plot);
+  return script.run();
+}
+
+}  // namespace limber::results
