@@ -13,7 +13,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 const std::string kBeam = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
-const std::string kArm = LIMBER_SOURCE_DIR "/examples/struck_finger.toml";
+const std::string kArm =
+    LIMBER_SOURCE_DIR "/bench/trade/scenes/struck_finger.toml";
 
 /// The report's beam, alone, spinning.
 void write_spin(const Workspace& place, double omega,

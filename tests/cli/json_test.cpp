@@ -57,7 +57,7 @@ TEST(Json, OfRunHasThePromisedKeysAndLeavesResults) {
   expect_keys(run["energy"], {"initial", "final", "dissipated", "work", "drift",
                               "throughput", "relative_drift"});
   expect_keys(run["probes"]["A.ux"], {"final", "peak", "unit"});
-  EXPECT_EQ(run["steps"], 5000);
+  EXPECT_EQ(run["steps"], 12500);
   for (const char* name : {"summary.json", "probes.csv", "results.h5"}) {
     EXPECT_TRUE(std::filesystem::exists(place.folder() / "results" / name))
         << name;

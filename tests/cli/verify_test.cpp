@@ -16,8 +16,9 @@ const std::string kExample = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
 
 TEST(VerifyCommand, TellsDifferencesByBodyAndTheirOrder) {
   const Workspace place;
-  const CommandResult result = place.limber(
-      "verify '" + kExample + "' --duration 0.05 --refine 1 --json");
+  const CommandResult result =
+      place.limber("verify '" + kExample +
+                   "' --duration 0.05 --step 1e-4 --refine 1 --json");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_THAT(json["witness"].get<std::string>(), HasSubstr("Simbody"));

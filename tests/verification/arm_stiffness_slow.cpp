@@ -10,8 +10,8 @@
 #include "flexbody/reduce.hpp"
 #include "scene/scene.hpp"
 
-/// The capture arm of examples/struck_finger.toml at its step of 1 ms, its
-/// joints from soft to stiffer than any material.
+/// The capture arm of examples/struck_finger.toml at a step of 1 ms, its joints
+/// from soft to stiffer than any material.
 namespace limber {
 namespace {
 
@@ -23,6 +23,8 @@ scene::Scene load_arm(double stiffness) {
     joint.coupler.translational_stiffness = stiffness;
     joint.coupler.rotational_stiffness = stiffness;
   }
+  scene.scenario.settings.step = 1e-3;
+  scene.scenario.settings.step_changes.clear();
   return scene;
 }
 
@@ -35,7 +37,6 @@ class CaptureArm : public ::testing::Test {
         load_arm(stiffness),
         [](const flexbody::Recipe& recipe) { return flexbody::reduce(recipe); },
         cache_);
-    ASSERT_EQ(built.settings.step, 1e-3);
     dynamics::SystemState state = built.initial;
     dynamics::EnergyBalance last;
     const auto statistics = dynamics::simulate(

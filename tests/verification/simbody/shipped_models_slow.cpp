@@ -43,6 +43,7 @@ class ShippedModel : public ::testing::TestWithParam<Example> {
     dynamics::SimulationSettings& settings = scene.scenario.settings;
     settings.integrator = dynamics::IntegratorKind::runge_kutta_4;
     settings.step = step;
+    settings.step_changes.clear();
     settings.end_time = duration;
     std::erase_if(settings.output_times,
                   [end = duration](double t) { return t > end; });
@@ -79,6 +80,7 @@ scene::Scene load_arm(double k) {
   }
   dynamics::SimulationSettings& settings = scene.scenario.settings;
   settings.step = 1e-5;
+  settings.step_changes.clear();
   settings.end_time = 0.03;
   settings.output_times = {0.009, 0.019, 0.03};
   return scene;
