@@ -17,6 +17,7 @@ void add_verify(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);
 void add_frequencies(CLI::App& app, Action& action);
 void add_static(CLI::App& app, Action& action);
+void add_operate(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_reduce(CLI::App& app, Action& action);
 void add_wobble(CLI::App& app, Action& action);

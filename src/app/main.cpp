@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   limber::app::add_modes(app, action);
   limber::app::add_frequencies(app, action);
   limber::app::add_static(app, action);
+  limber::app::add_operate(app, action);
   limber::app::add_reduce(app, action);
   limber::app::add_info(app, action);
   limber::app::add_wobble(app, action);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -59,5 +60,18 @@ struct Mark {
                                             const dynamics::SystemState& start,
                                             const dynamics::SystemState& state,
                                             double exaggeration);
+
+/// Points and the triangles between them.
+struct Surface {
+  Matrix3X points;  ///< 3 x n [m]
+  std::vector<std::array<std::size_t, 3>> triangles;
+};
+/// One body, undeformed and with displacements u (3 x n [m]), drawn
+/// `exaggeration` times.
+[[nodiscard]] std::string draw_deformation(const std::filesystem::path& file,
+                                           const std::string& title,
+                                           const Surface& surface,
+                                           const Matrix3X& u,
+                                           double exaggeration);
 
 }  // namespace limber::results

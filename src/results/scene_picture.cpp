@@ -30,16 +30,23 @@ struct Bounds {
   }
 };
 
-// A state to draw: what is displaced from `base` is drawn so many times.
-struct Pose3d {
+// What is drawn in one colour.
+struct Shot {
   std::string name;
-  const SystemState& state;
-  const SystemState& base;
+  std::vector<Surface> surfaces;
+  std::vector<Vector3> marks;
+  std::vector<std::pair<Vector3, Vector3>> lines;
+};
+
+// Places what moved from one state to another, so many times as far.
+struct Displacement {
+  const SystemState& from;
+  const SystemState& to;
   double exaggeration = 1.0;
 
   template <typename Points>
-  [[nodiscard]] Points place(const Points& from, const Points& to) const {
-    return from + exaggeration * (to - from);
+  [[nodiscard]] Points place(const Points& start, const Points& end) const {
+    return start + exaggeration * (end - start);
   }
 };
 
@@ -53,72 +60,80 @@ Matrix3X find_rows(const SystemModel& model, std::size_t b,
   return p_WP.reshaped(3, x_B.cols());
 }
 
-Matrix3X place_rows(const SystemModel& model, std::size_t b,
-                    const Pose3d& pose) {
-  return pose.place<Matrix3X>(find_rows(model, b, pose.base),
-                              find_rows(model, b, pose.state));
-}
-
-std::size_t count_triangles(const SystemModel& model) {
-  std::size_t count = 0;
-  for (const BodyModel& body : model.bodies) {
-    if (body.reduced) count += body.reduced->triangles.size();
-  }
-  return count;
-}
-
-// One polygon block for all surfaces at one state.
-void add_surfaces(GnuplotScript& script, const std::string& block,
-                  const SystemModel& model, const Pose3d& pose,
-                  std::size_t stride, Bounds& bounds) {
-  script.add(fmt::format("${} << EOD", block));
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    if (!body.reduced) continue;
-    const Matrix3X points = place_rows(model, b, pose);
-    const auto& triangles = body.reduced->triangles;
-    for (std::size_t t = 0; t < triangles.size(); t += stride) {
-      for (const std::size_t corner : triangles[t]) {
-        const Vector3 p = points.col(static_cast<Eigen::Index>(corner));
-        bounds.include(p);
-        script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
-      }
-      script.add("");
-    }
-  }
-  script.add("EOD");
-}
-
 // Rigid bodies have no shape: a mark at the centre of mass, lines to what
 // their couplers hold.
-void add_rigid_bodies(GnuplotScript& script, const std::string& block,
-                      const SystemModel& model, const Pose3d& pose,
-                      Bounds& bounds) {
+void add_rigid_bodies(const SystemModel& model, const Displacement& moved,
+                      Shot& shot) {
   const auto center = [&](std::size_t b) {
-    return pose.place<Vector3>(pose.base.bodies[b].p_WB,
-                               pose.state.bodies[b].p_WB);
+    return moved.place<Vector3>(moved.from.bodies[b].p_WB,
+                                moved.to.bodies[b].p_WB);
   };
-  const auto line = [&](const Vector3& p) {
-    bounds.include(p);
-    script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
-  };
-  script.add(fmt::format("${}_marks << EOD", block));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].reduced) line(center(b));
+    if (!model.bodies[b].reduced) shot.marks.push_back(center(b));
   }
-  script.add("EOD");
-  script.add(fmt::format("${}_lines << EOD", block));
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
     const int b = model.attachments[i].body;
     if (b == dynamics::kWorld ||
         model.bodies[static_cast<std::size_t>(b)].reduced) {
       continue;
     }
-    line(center(static_cast<std::size_t>(b)));
     const auto frame = [&](const SystemState& state) {
       return find_frame_motion(model, state, static_cast<int>(i)).X_WF.p;
     };
-    line(pose.place<Vector3>(frame(pose.base), frame(pose.state)));
+    shot.lines.emplace_back(
+        center(static_cast<std::size_t>(b)),
+        moved.place<Vector3>(frame(moved.from), frame(moved.to)));
+  }
+}
+
+Shot take_shot(const std::string& name, const SystemModel& model,
+               const Displacement& moved) {
+  Shot shot{name, {}, {}, {}};
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].reduced) continue;
+    shot.surfaces.push_back(
+        {moved.place<Matrix3X>(find_rows(model, b, moved.from),
+                               find_rows(model, b, moved.to)),
+         model.bodies[b].reduced->triangles});
+  }
+  add_rigid_bodies(model, moved, shot);
+  return shot;
+}
+
+std::size_t count_triangles(const std::vector<Shot>& shots) {
+  std::size_t count = 0;
+  for (const Shot& shot : shots) {
+    for (const Surface& surface : shot.surfaces) {
+      count += surface.triangles.size();
+    }
+  }
+  return count;
+}
+
+// Blocks of polygons, marks and lines of one shot.
+void add_blocks(GnuplotScript& script, const std::string& block,
+                const Shot& shot, std::size_t stride, Bounds& bounds) {
+  const auto point = [&](const Vector3& p) {
+    bounds.include(p);
+    script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
+  };
+  script.add(fmt::format("${} << EOD", block));
+  for (const Surface& surface : shot.surfaces) {
+    for (std::size_t t = 0; t < surface.triangles.size(); t += stride) {
+      for (const std::size_t corner : surface.triangles[t]) {
+        point(surface.points.col(static_cast<Eigen::Index>(corner)));
+      }
+      script.add("");
+    }
+  }
+  script.add("EOD");
+  script.add(fmt::format("${}_marks << EOD", block));
+  for (const Vector3& mark : shot.marks) point(mark);
+  script.add("EOD");
+  script.add(fmt::format("${}_lines << EOD", block));
+  for (const auto& [from, to] : shot.lines) {
+    point(from);
+    point(to);
     script.add("");
     script.add("");
   }
@@ -147,31 +162,30 @@ void set_view(GnuplotScript& script, const Bounds& bounds) {
 }
 
 std::string draw(const std::filesystem::path& file, const std::string& heading,
-                 const SystemModel& model, const std::vector<Pose3d>& poses) {
-  if (poses.empty()) return "no picture: there is no state to draw";
+                 const std::vector<Shot>& shots) {
+  if (shots.empty()) return "no picture: there is no state to draw";
   GnuplotScript script(file, 1200, 1000);
-  const std::size_t total = count_triangles(model) * poses.size();
+  const std::size_t total = count_triangles(shots);
   const std::size_t stride =
       std::max<std::size_t>(1, (total + kMostTriangles - 1) / kMostTriangles);
   Bounds bounds;
   std::string plot;
-  for (std::size_t s = 0; s < poses.size(); ++s) {
+  for (std::size_t s = 0; s < shots.size(); ++s) {
     const std::string block = fmt::format("s{}", s);
     const char* colour = kColours[s % kColours.size()];
     const char* separator = s == 0 ? "splot " : ", ";
+    add_blocks(script, block, shots[s], stride, bounds);
     if (total > 0) {
-      add_surfaces(script, block, model, poses[s], stride, bounds);
       plot += fmt::format(
           "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle",
           separator, block, s == 0 ? 0.25 : 0.8, colour);
       separator = ", ";
     }
-    add_rigid_bodies(script, block, model, poses[s], bounds);
     plot += fmt::format(
         "{}${}_lines with lines lc rgb '{}' lw 2.5 notitle, ${}_marks with "
         "points pt 7 ps 1.6 lc rgb '{}' notitle, NaN with lines lw 6 lc rgb "
         "'{}' title {}",
-        separator, block, colour, block, colour, colour, quote(poses[s].name));
+        separator, block, colour, block, colour, colour, quote(shots[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
   set_view(script, bounds);
@@ -179,16 +193,22 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
   return script.run();
 }
 
+std::string head(const std::string& title, double exaggeration) {
+  if (exaggeration == 1.0) return title;
+  return fmt::format("{} (displacement x {:g})", title, exaggeration);
+}
+
 }  // namespace
 
 std::string draw_scene(const std::filesystem::path& file,
                        const std::string& title, const SystemModel& model,
                        const std::vector<SystemState>& states) {
-  std::vector<Pose3d> poses;
+  std::vector<Shot> shots;
   for (const SystemState& state : states) {
-    poses.push_back({fmt::format("t = {:g} s", state.t), state, state});
+    shots.push_back(
+        take_shot(fmt::format("t = {:g} s", state.t), model, {state, state}));
   }
-  return draw(file, title, model, poses);
+  return draw(file, title, shots);
 }
 
 std::string draw_displacement(const std::filesystem::path& file,
@@ -196,13 +216,18 @@ std::string draw_displacement(const std::filesystem::path& file,
                               const SystemModel& model,
                               const SystemState& start,
                               const SystemState& state, double exaggeration) {
-  std::string heading = title;
-  if (exaggeration != 1.0) {
-    heading += fmt::format(" (displacement x {:g})", exaggeration);
-  }
+  return draw(file, head(title, exaggeration),
+              {take_shot("start", model, {start, start}),
+               take_shot("equilibrium", model, {start, state, exaggeration})});
+}
+
+std::string draw_deformation(const std::filesystem::path& file,
+                             const std::string& title, const Surface& surface,
+                             const Matrix3X& u, double exaggeration) {
+  const Surface deformed{surface.points + exaggeration * u, surface.triangles};
   return draw(
-      file, heading, model,
-      {{"start", start, start}, {"equilibrium", state, start, exaggeration}});
+      file, head(title, exaggeration),
+      {{"undeformed", {surface}, {}, {}}, {"deformed", {deformed}, {}, {}}});
 }
 
 }  // namespace limber::results
