@@ -17,6 +17,8 @@ constexpr double kProbe = 1e-7;
 constexpr double kLongest = 0.2;
 // A correction leaves this share of the error to the next one.
 constexpr double kLinear = 1e-4;
+// One that leaves more is none: the matrix is singular.
+constexpr double kSolved = 0.1;
 constexpr int kKrylovVectors = 60;
 constexpr int kKrylovIterations = 240;
 
@@ -158,13 +160,25 @@ VectorX StaticNewton::apply(const SystemState& state,
   return (changed - base_) / share;
 }
 
-void StaticNewton::correct(const SystemState& state, const VectorX& target) {
-  const VectorX right = target - calc_forces_left(state);
+void StaticNewton::factor(const SystemState& state) {
   set_applied(wrenches_, terms_);
   calc_forces(model_, state, Side::right, terms_, WrenchSource::iterate);
   calc_residual(model_, no_acceleration_, terms_, base_);
   matrix_.factor(model_, state, terms_, no_turn_, {slowness_, 0.0}, true);
   set_applied(laws_, terms_);  // so that it solves for forces alone
+}
+
+double StaticNewton::measure_slow_step(const SystemState& state) {
+  const VectorX left = calc_forces_left(state);
+  wrenches_ = laws_;
+  factor(state);
+  matrix_.solve(model_, terms_, left, correction_);
+  return measure(correction_);
+}
+
+bool StaticNewton::correct(const SystemState& state, const VectorX& target) {
+  const VectorX right = target - calc_forces_left(state);
+  factor(state);
   // Unknowns are lengths, so that norms are means over the system.
   const VectorX scale =
       (weights_.array() > 0.0).select(weights_.cwiseInverse(), 1.0);
@@ -181,6 +195,7 @@ void StaticNewton::correct(const SystemState& state, const VectorX& target) {
   solver.setMaxIterations(kKrylovIterations);
   solver.setTolerance(kLinear);
   correction_ = scale.cwiseProduct(VectorX(solver.solve(right)));
+  return solver.error() <= kSolved && correction_.allFinite();
 }
 
 bool StaticNewton::solve(const VectorX& target, const Settings& settings,
@@ -190,9 +205,8 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
   double last = 0.0;
   for (int i = 0; i < settings.max_iterations; ++i) {
     ++iterations_;
-    correct(state, target);
+    if (!correct(state, target)) return false;
     const double length = measure(correction_);
-    if (!std::isfinite(length)) return false;
     const double share = std::min(1.0, kLongest * extent_ / length);
     matrix_.find_wrench_changes(terms_, correction_, changes_);
     wrenches_ += share * (laws_ - wrenches_ + changes_);

@@ -27,6 +27,10 @@ class StaticNewton {
   /// Root mean square acceleration that such forces cause [m/s^2].
   [[nodiscard]] double measure_acceleration(const VectorX& residual) const;
 
+  /// Length of what the preconditioner alone would correct at `state`: of the
+  /// size of round-off if nothing pushes there [m].
+  [[nodiscard]] double measure_slow_step(const SystemState& state);
+
   /// Moves `state` to where calc_forces_left is `target`.
   /// @returns whether it converged; if not, `state` is of no use.
   bool solve(const VectorX& target, const Settings& settings,
@@ -44,7 +48,8 @@ class StaticNewton {
  private:
   void evaluate(const SystemState& state, WrenchSource source,
                 SystemTerms& terms, VectorX& residual) const;
-  void correct(const SystemState& state, const VectorX& target);
+  void factor(const SystemState& state);
+  bool correct(const SystemState& state, const VectorX& target);
   VectorX apply(const SystemState& state, const VectorX& direction);
 
   const SystemModel& model_;

@@ -91,6 +91,31 @@ TEST(Static, WithoutALoadSaysThatTheAnswerIsTrivial) {
                               HasSubstr("trivial equilibrium")));
 }
 
+// Round-off of stiff couplers is no load.
+TEST(Static, ExamplesWithoutALoadAtTheirStartAreTrivial) {
+  for (const char* name : {"four_bar", "slew"}) {
+    const Workspace place;
+    const CommandResult r = place.limber(
+        fmt::format("static " LIMBER_SOURCE_DIR
+                    "/examples/{}.toml --fidelity rigid --out o --cache c",
+                    name));
+    EXPECT_EQ(r.status, kBadInput) << r.out;
+    EXPECT_THAT(r.errors, HasSubstr("trivial equilibrium"));
+  }
+}
+
+// Four rods of 0.5 m, from along x; their hinges give way by some um.
+TEST(Static, ChainRelaxesUntilItHangs) {
+  const Workspace place;
+  const CommandResult r = place.limber(
+      "static " LIMBER_SOURCE_DIR
+      "/examples/pendulum_chain.toml --fidelity rigid --method relaxation "
+      "--out o --cache c");
+  ASSERT_EQ(r.status, 0) << r.errors;
+  EXPECT_NEAR(probe(read_summary(place), "tip.ux"), -2.0, 1e-5);
+  EXPECT_NEAR(probe(read_summary(place), "tip.uz"), -2.0, 1e-5);
+}
+
 TEST(Static, FreeBodyThatIsTurnedIsRefusedWithTheDirection) {
   const Workspace place;
   place.write("s.toml",

@@ -252,7 +252,7 @@ struct Arm {
           make_hinge(1e7, {{0, joints::Drive(hold)}}), at,
           builder.attach_interface(std::string(name) + "_near", b, near,
                                    {Matrix3::Identity(), near.p_B}));
-      origins.push_back(p - near.p_B);
+      origins.emplace_back(p - near.p_B);
       p += far.p_B - near.p_B;
       at = builder.attach_interface(std::string(name) + "_far", b, far,
                                     {Matrix3::Identity(), far.p_B});
