@@ -169,6 +169,37 @@ TEST_P(Power, EnergyOfADepartureIsTheWorkOfItsLoad) {
   }
 }
 
+/// A departure beside rigid motion: the model has no x'^T D q'.
+TEST_P(Power, PowerOfADepartureClosesUnderRayleighDampingAndNotUnderDrag) {
+  const Matrix3X load = testing::make_load(body_);
+  const VectorX F = take_rows(load.reshaped(), body_.support.free_nodes);
+  const MatrixX& R = body_.support.R;
+  const auto find_power = [&](const Friction& friction) {
+    const DepartureModel model =
+        make_departure_model(body_, load.reshaped(), 3, friction);
+    const MatrixX& Phi = model.basis.Phi;
+    const VectorX& lambda = model.basis.lambda;
+    const VectorX r = 0.5 * model.calc_static();
+    const VectorX rdot = lambda.cwiseSqrt().cwiseProduct(r);
+    const VectorX rddot = model.Q - model.C * rdot - lambda.cwiseProduct(r);
+    const VectorX qdot = R * VectorX::Constant(R.cols(), rdot.norm());
+    const VectorX Dq = multiply_damping(body_, friction, qdot);
+    return calc_power(body_, F,
+                      {qdot, R * (R.transpose() * (F - Dq)), Phi * r,
+                       Phi * rdot, Phi * rddot},
+                      friction);
+  };
+  const PowerBalance rayleigh =
+      find_power({.mass_rate = 50.0, .stiffness_time = 1e-5});
+  EXPECT_GT(rayleigh.dissipated(), 1e-3 * sum_sizes(rayleigh));
+  EXPECT_NEAR(rayleigh.residual(), 0.0, 1e-10 * sum_sizes(rayleigh));
+  const PowerBalance drag = find_power({.surface = 1e5});
+  if (GetParam())
+    EXPECT_NEAR(drag.residual(), 0.0, 1e-10 * sum_sizes(drag));
+  else
+    EXPECT_GT(std::abs(drag.residual()), 1e-6 * sum_sizes(drag));
+}
+
 TEST_P(Power, RefusesALoadThatIsNotFinite) {
   VectorX F = draw();
   F[3] = std::numeric_limits<double>::quiet_NaN();
