@@ -138,7 +138,7 @@ void write_table(Page& page, const std::vector<Beam>& beams) {
 void introduce(Page& page, const std::vector<Beam>& beams) {
   page.text("# A smooth pulse on the report's beam");
   page.text(fmt::format(
-      "Written by `scripts/departure`, program and words alike; do not edit. "
+      "Written by `bench_departure`, program and words alike; do not edit. "
       "Theory: [operating states]"
       "(../../../docs/theory/operating_states.md#departures). Beam of 1 x 1 x "
       "5 m, `meshes/beam579.msh`, E = 200 GPa, Poisson's ratio 0, 8000 "
