@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "app/commands.hpp"
 #include "app/mesh_options.hpp"
@@ -9,6 +10,7 @@
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "app/validators.hpp"
+#include "common/errors.hpp"
 #include "scene/nodal_forces.hpp"
 
 namespace limber::app {
@@ -19,8 +21,33 @@ struct Options {
   std::vector<std::string> clamps;
   std::vector<std::string> forces;
   int count = 10;
+  std::optional<int> static_terms;
+  std::vector<std::string> interfaces;
   bool json = false;
 };
+
+void add_static_modes(const Options& options, flexbody::Recipe& recipe) {
+  const bool has_source =
+      !options.forces.empty() || !options.interfaces.empty();
+  if (options.static_terms && !has_source) {
+    throw InputError(
+        "--static lists static-deformation modes; name what they come from by "
+        "--force or --interface");
+  }
+  if (!options.static_terms && !options.interfaces.empty()) {
+    throw InputError("--interface goes with --static");
+  }
+  if (!options.static_terms && options.count == 0) {
+    throw InputError("--count is 0; expected 1 or more without --static");
+  }
+  recipe.basis.terms = options.static_terms.value_or(1);
+  for (const std::string& group : options.interfaces) {
+    flexbody::InterfaceRequest request;
+    request.name = group;
+    request.nodes = flexbody::GroupNodes{group};
+    recipe.interfaces.push_back(request);
+  }
+}
 
 void find_modes(const Options& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
@@ -29,7 +56,9 @@ void find_modes(const Options& options) {
   for (const std::string& file : options.forces) {
     recipe.nodal_forces.push_back(scene::read_load_cases(file));
   }
-  const flexbody::ModeStudy study = run_mode_study(recipe, make_progress_bar());
+  add_static_modes(options, recipe);
+  const flexbody::ModeStudy study = run_mode_study(
+      recipe, options.static_terms.has_value(), make_progress_bar());
   clear_progress_bar();
   if (options.json) {
     fmt::print("{}\n", to_text(to_json(study)));
@@ -53,7 +82,16 @@ void add_modes(CLI::App& app, Action& action) {
                       "Force file whose columns are load cases; may be given "
                       "again");
   command->add_option("--count", options->count, "Number of elastic modes")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--static", options->static_terms,
+                   "The whole basis instead: these eigenmodes and the "
+                   "static-deformation modes of --force and --interface, with "
+                   "so many Krylov terms x, K^+ M x, ... of each")
       ->check(make_positive());
+  command->add_option("--interface", options->interfaces,
+                      "Group whose static-deformation modes --static lists; "
+                      "may be given again");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { find_modes(*options); }; });

@@ -43,6 +43,10 @@ void check(const OperatingRequest& request) {
          "--load goes with driven-spin, where friction balances it");
   refuse(!rubs && has_friction,
          "--drag-rate and --surface-drag go with drifting and driven-spin");
+  refuse(request.after && request.kind != OperatingKind::drifting,
+         "--after goes with drifting");
+  refuse(request.after && !(*request.after >= 0.0),
+         "--after is a time of 0 or more");
   if (!problems.empty()) throw InputError(problems);
 }
 
@@ -72,7 +76,9 @@ OperatingState solve(const MeshedBody& body, const OperatingRequest& request) {
   const flexbody::SpinAxis axis{request.axis, request.point};
   switch (request.kind) {
     case OperatingKind::drifting:
-      return find_drifting_state(body, load, friction);
+      return request.after ? find_slow_change(body, load, friction)
+                                 .at(*request.after, body)
+                           : find_drifting_state(body, load, friction);
     case OperatingKind::spinning:
       return find_spinning_state(body, axis, request.speed);
     case OperatingKind::driven_spin:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct OperatingRequest {
   double speed = 0.0;               ///< of a spin [rad/s]
   double drag_rate = 0.0;           ///< Rayleigh's alpha [1/s]
   double surface_drag = 0.0;        ///< a speed and area [N s/m^3]
+  /// Of a drift: so long after it was at rest [s]; none: for ever.
+  std::optional<double> after = {};
 };
 
 /// A flexbody::OperatingState in figures, and its fields.

@@ -124,6 +124,9 @@ void add_operate(CLI::App& app, Action& action) {
                       "Friction a mass and speed, Rayleigh's alpha [1/s]");
   command->add_option("--surface-drag", options->request.surface_drag,
                       "Friction a surface and speed [N s/m^3]");
+  command->add_option("--after", options->request.after,
+                      "Of a drift: so long after it was at rest, slowly "
+                      "enough to bend along (for ever) [s]");
   command->add_option("--out", options->out,
                       "Folder for state.h5, summary.json and a picture");
   command->add_flag("--json", options->json, "Print one JSON object");

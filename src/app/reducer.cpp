@@ -25,8 +25,9 @@ scene::FullMaker make_full_maker(const Progress& progress) {
 }
 
 flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
-                                   const Progress& progress) {
-  return flexbody::study_modes(recipe, progress);
+                                   bool has_static, const Progress& progress) {
+  return has_static ? flexbody::study_basis(recipe, progress)
+                    : flexbody::study_modes(recipe, progress);
 }
 
 #else
@@ -50,7 +51,7 @@ scene::Reducer make_reducer(const Progress&) {
 
 scene::FullMaker make_full_maker(const Progress&) { return {}; }
 
-flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
+flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe, bool,
                                    const Progress&) {
   refuse(recipe);
 }

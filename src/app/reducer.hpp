@@ -13,8 +13,10 @@ namespace limber::app {
 /// flexbody::make_full_body, or nothing in a build without Gmsh and CHOLMOD.
 [[nodiscard]] scene::FullMaker make_full_maker(const Progress& progress);
 
-/// flexbody::study_modes, or the same refusal.
+/// flexbody::study_modes (study_basis if its recipe `has_static` modes), or the
+/// same refusal.
 [[nodiscard]] flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
+                                                 bool has_static,
                                                  const Progress& progress);
 
 }  // namespace limber::app

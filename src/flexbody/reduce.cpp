@@ -7,7 +7,6 @@
 #include "flexbody/reduce_rows.hpp"
 #include "flexbody/reduce_selection.hpp"
 #include "flexbody/reduce_static_modes.hpp"
-#include "flexbody/reduced_basis.hpp"
 #include "flexbody/shape_integrals.hpp"
 
 namespace limber::flexbody {
@@ -26,16 +25,6 @@ void add_tables(const std::vector<Interface>& interfaces,
   }
 }
 
-ReducedBasis find_basis(const Recipe& recipe, const Support& support,
-                        const fem::Eigenmodes& eigenmodes,
-                        const StaticModes& modes) {
-  MatrixX vectors(support.matrices.dof_count(),
-                  eigenmodes.Phi.cols() + modes.vectors.cols());
-  vectors << eigenmodes.Phi, modes.vectors;
-  return make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
-                            support.R, recipe.basis.drop_tolerance);
-}
-
 }  // namespace
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
@@ -46,7 +35,7 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
   report(progress, "static-deformation modes", 0.0);
   const StaticModes modes = find_static_modes(meshed, recipe);
   const ReducedBasis basis =
-      find_basis(recipe, meshed.support, chosen.eigenmodes, modes);
+      join_basis(meshed, chosen.eigenmodes, modes, recipe.basis.drop_tolerance);
   const MatrixX Phi =
       put_rows(basis.Phi, meshed.support.free_nodes, mesh.x.cols());
 

@@ -3,6 +3,7 @@
 
 #include "flexbody/mode_selection.hpp"
 #include "flexbody/reduce_selection.hpp"
+#include "flexbody/reduce_static_modes.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -43,27 +44,45 @@ BaseMotionStudy study_base(const MeshedBody& body,
           participation.rigid_mass.head<3>()};
 }
 
+fem::Eigenmodes find_eigenmodes(const MeshedBody& body, const Recipe& recipe,
+                                const Progress& progress) {
+  const int count = recipe.basis.eigenmodes;
+  if (count > 0) return fem::find_eigenmodes(body.inverse, count, progress);
+  return {VectorX(), MatrixX(body.support.matrices.dof_count(), 0)};
+}
+
+ModeStudy study(const MeshedBody& body, const Recipe& recipe,
+                const fem::Eigenmodes& modes, const Progress& progress) {
+  const fem::MassProperties inertia =
+      fem::calc_mass_properties(body.M_s, body.mesh.x);
+  ModeStudy result;
+  result.mesh_nodes = body.mesh.node_count();
+  result.mesh_elements = body.mesh.element_count();
+  result.mesh_boundary_nodes = body.mesh.boundary_nodes.size();
+  result.clamped = body.support.is_clamped;
+  result.mass = inertia.mass;
+  result.p_MoBcm_M = inertia.center;
+  result.inertia = inertia.S0.trace() * Matrix3::Identity() - inertia.S0;
+  result.lambda = modes.lambda;
+  result.cases = study_loads(body, recipe, modes, progress);
+  if (result.clamped) result.base = study_base(body, modes);
+  report(progress, "studied", 1.0);
+  return result;
+}
+
 }  // namespace
 
 ModeStudy study_modes(const Recipe& recipe, const Progress& progress) {
   const MeshedBody body(recipe, progress);
-  const fem::Eigenmodes modes =
-      fem::find_eigenmodes(body.inverse, recipe.basis.eigenmodes, progress);
-  const fem::MassProperties inertia =
-      fem::calc_mass_properties(body.M_s, body.mesh.x);
-  ModeStudy study;
-  study.mesh_nodes = body.mesh.node_count();
-  study.mesh_elements = body.mesh.element_count();
-  study.mesh_boundary_nodes = body.mesh.boundary_nodes.size();
-  study.clamped = body.support.is_clamped;
-  study.mass = inertia.mass;
-  study.p_MoBcm_M = inertia.center;
-  study.inertia = inertia.S0.trace() * Matrix3::Identity() - inertia.S0;
-  study.lambda = modes.lambda;
-  study.cases = study_loads(body, recipe, modes, progress);
-  if (study.clamped) study.base = study_base(body, modes);
-  report(progress, "studied", 1.0);
-  return study;
+  return study(body, recipe, find_eigenmodes(body, recipe, progress), progress);
+}
+
+ModeStudy study_basis(const Recipe& recipe, const Progress& progress) {
+  const MeshedBody body(recipe, progress);
+  const ReducedBasis basis =
+      join_basis(body, find_eigenmodes(body, recipe, progress),
+                 find_static_modes(body, recipe), recipe.basis.drop_tolerance);
+  return study(body, recipe, {basis.lambda, basis.Phi}, progress);
 }
 
 }  // namespace limber::flexbody

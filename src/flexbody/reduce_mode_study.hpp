@@ -27,7 +27,7 @@ struct BaseMotionStudy {
   Vector3 total = Vector3::Zero();  ///< over all modes: of free nodes [kg]
 };
 
-/// A body's eigenmodes and what they are good for.
+/// A body's modes and what they are good for.
 struct ModeStudy {
   std::size_t mesh_nodes = 0;
   std::size_t mesh_elements = 0;
@@ -46,6 +46,13 @@ struct ModeStudy {
 /// @throws InputError naming the file, group or value; NumericalError if an
 /// eigenpair or a solve misses its tolerance.
 [[nodiscard]] ModeStudy study_modes(const Recipe& recipe,
+                                    const Progress& progress = {});
+
+/// The same of the recipe's whole basis: the span of `recipe.basis.eigenmodes`
+/// lowest modes and of the static-deformation modes of its interfaces and
+/// loads, each with its Krylov terms, in the one form that bodies have. Its
+/// eigenvalues are those that the basis gives, not lower than the mesh's.
+[[nodiscard]] ModeStudy study_basis(const Recipe& recipe,
                                     const Progress& progress = {});
 
 }  // namespace limber::flexbody

@@ -107,4 +107,15 @@ StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
   return modes;
 }
 
+ReducedBasis join_basis(const MeshedBody& body,
+                        const fem::Eigenmodes& eigenmodes,
+                        const StaticModes& modes, double drop_tolerance) {
+  const Support& support = body.support;
+  MatrixX vectors(support.matrices.dof_count(),
+                  eigenmodes.Phi.cols() + modes.vectors.cols());
+  vectors << eigenmodes.Phi, modes.vectors;
+  return make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
+                            support.R, drop_tolerance);
+}
+
 }  // namespace limber::flexbody

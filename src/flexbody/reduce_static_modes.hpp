@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "fem/eigenmodes.hpp"
 #include "flexbody/load_modes_record.hpp"
 #include "flexbody/reduce_meshed_body.hpp"
+#include "flexbody/reduced_basis.hpp"
 
 /// Static answers that enter a basis. Part of limber_reduction.
 namespace limber::flexbody {
@@ -32,5 +34,11 @@ struct StaticModes {
 /// @throws InputError for nodal forces of another number of rows.
 [[nodiscard]] StaticModes find_static_modes(const MeshedBody& body,
                                             const Recipe& recipe);
+
+/// Eigenmodes and static-deformation modes as one basis.
+[[nodiscard]] ReducedBasis join_basis(const MeshedBody& body,
+                                      const fem::Eigenmodes& eigenmodes,
+                                      const StaticModes& modes,
+                                      double drop_tolerance);
 
 }  // namespace limber::flexbody

@@ -116,6 +116,39 @@ TEST_F(Modes, OfAFreeBodyHaveNoBaseMotion) {
   EXPECT_FALSE(free.contains("load_cases"));
 }
 
+// A static-deformation mode answers its load whole; Rayleigh and Ritz: what
+// joins the lowest eigenmodes lies above them, and they stay.
+TEST_F(Modes, OfABasisWithStaticDeformationAnswerTheLoadWhole) {
+  place_.write("shear.txt", shear_file());
+  const std::string load = "--clamp root --force shear.txt --json ";
+  const json alone = json::parse(modes(load + "--count 3").out);
+  for (const int terms : {1, 3}) {
+    const CommandResult r =
+        modes(load + fmt::format("--count 2 --static {}", terms));
+    ASSERT_EQ(r.status, 0) << r.errors;
+    const json basis = json::parse(r.out);
+    const json& values = basis["eigenvalues"];
+    ASSERT_EQ(values.size(), 2U + static_cast<std::size_t>(terms));
+    for (const std::size_t i : {0U, 1U}) {
+      const double eigenvalue = alone["eigenvalues"][i];
+      EXPECT_NEAR(values[i], eigenvalue, 1e-8 * eigenvalue);
+    }
+    EXPECT_GT(values[2], alone["eigenvalues"][2]);
+    const json& shares =
+        basis["load_cases"][0]["compliance_cumulative_percent"];
+    EXPECT_NEAR(shares.back(), 100.0, 1e-7);
+    EXPECT_LT(alone["load_cases"][0]["compliance_cumulative_percent"].back(),
+              99.9);
+  }
+}
+
+TEST_F(Modes, RefuseStaticDeformationOfNothing) {
+  for (const char* more :
+       {"--static 2", "--interface tip", "--count 0 --clamp root"}) {
+    EXPECT_EQ(modes(more).status, 2) << more;
+  }
+}
+
 TEST_F(Modes, PrintTablesForPeople) {
   place_.write("shear.txt", shear_file());
   const CommandResult result =

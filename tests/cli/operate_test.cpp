@@ -65,6 +65,17 @@ TEST(Operate, DriftHasTheSpeedAtWhichFrictionBalances) {
   EXPECT_NEAR(state.at("motion").at("velocity")[2].get<double>(), 1.0, 1e-9);
 }
 
+// From rest: v = f / (alpha m) (1 - exp(-alpha t)), a = f / m exp(-alpha t).
+TEST(Operate, DriftFromRestApproachesThatSpeedExponentially) {
+  const json motion =
+      answer("--state drifting --load tip 0 0 8e4 --drag-rate 2 --after 0.3")
+          .at("motion");
+  EXPECT_NEAR(motion.at("velocity")[2].get<double>(), 1.0 - std::exp(-0.6),
+              1e-9);
+  EXPECT_NEAR(motion.at("acceleration")[2].get<double>(), 2.0 * std::exp(-0.6),
+              1e-9);
+}
+
 TEST(Operate, LeavesFieldsFiguresAndAPicture) {
   const Workspace place;
   const CommandResult r =

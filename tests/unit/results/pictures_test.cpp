@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <stdlib.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): POSIX
 
 #include <cmath>
 #include <cstdint>
