@@ -37,7 +37,8 @@ CouplerAssembly::CouplerAssembly(const Scene& scene, const BodyPlans& plans,
       mounts_(mounts),
       builder_(builder),
       warnings_(warnings),
-      at_zero_(find_motions_at_zero(scene.robot, scene.scenario)) {}
+      at_zero_(find_motions_at_zero(scene.robot, scene.scenario)),
+      starts_(find_joint_starts(scene.robot, scene.scenario)) {}
 
 void CouplerAssembly::add_all() {
   const Robot& robot = scene_.robot;
@@ -230,19 +231,19 @@ void CouplerAssembly::add_tendon(const Tendon& tendon) {
 }
 
 void CouplerAssembly::check_start(const Gear& gear) {
-  const auto start = [&](const std::string& joint) {
-    const auto given = scene_.scenario.joints.find(joint);
-    if (given == scene_.scenario.joints.end()) return 0.0;
-    const std::vector<double>& position = given->second.position;
-    return position.empty() ? 0.0 : position.front();
+  const auto joint = starts_.find(gear.joint);
+  const auto with = starts_.find(gear.with);
+  if (joint == starts_.end() || with == starts_.end()) return;  // of a loop
+  const auto place = [](const JointStart& start) {
+    return start.position.empty() ? 0.0 : start.position.front();
   };
-  const double needed = gear.ratio * start(gear.with) + gear.offset;
-  const double excess = start(gear.joint) - needed;
+  const double needed = gear.ratio * place(with->second) + gear.offset;
+  const double excess = place(joint->second) - needed;
   if (std::abs(excess) <= kStretched * (1.0 + std::abs(needed))) return;
   warnings_.push_back(fmt::format(
       "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, "
       "and joint '{}' asks for {:g}",
-      gear.name, excess, gear.joint, start(gear.joint), gear.with, needed));
+      gear.name, excess, gear.joint, place(joint->second), gear.with, needed));
 }
 
 void CouplerAssembly::add_gear(const Gear& gear) {

@@ -63,6 +63,7 @@ class CouplerAssembly {
   dynamics::SystemBuilder& builder_;
   std::vector<std::string>& warnings_;
   std::vector<LinkMotion> at_zero_;  ///< links where all joints are at zero
+  std::map<std::string, JointStart> starts_;  ///< of the tree, gears followed
   std::map<std::string, Geared> geared_;
 };
 

@@ -282,10 +282,14 @@ TEST(CouplerAssembly, GearThatStartsOutOfPlaceIsToldOnce) {
   EXPECT_TRUE(warnings("[initial.joints]\nj={position=-0.1}\n"
                        "k={position=0.3}\n")
                   .empty());
-  EXPECT_THAT(warnings(""),
+  EXPECT_THAT(warnings("[initial.joints]\nj={position=0}\nk={position=0}\n"),
               ::testing::ElementsAre("gear 'g' starts strained by -0.5: joint "
                                      "'j' is at 0, and joint 'k' asks for "
                                      "0.5"));
+  // A joint without a start is put where its gear has it.
+  EXPECT_TRUE(warnings("").empty());
+  EXPECT_TRUE(warnings("[initial.joints]\nk={position=0.3}\n").empty());
+  EXPECT_TRUE(warnings("[initial.joints]\nj={position=0.3}\n").empty());
 }
 
 TEST(CouplerAssembly, LatchHoldsLikeAFixedJointUntilItsRelease) {
