@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "app/commands.hpp"
 #include "app/run_scene.hpp"
@@ -15,6 +16,8 @@ struct Options {
   std::string fidelity;
   std::string out;
   std::string cache;
+  std::optional<double> checkpoint_interval;
+  bool resumes = false;
   bool json = false;
   bool xdmf = false;
 };
@@ -34,9 +37,15 @@ void run(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scenario, overrides);
   const std::filesystem::path folder = find_folder(options, scene.scenario);
   check_output_folder(folder);
-  const Run result = run_scene(scene, options.cache);
-  finish_run(result, folder, options.json,
-             options.xdmf || scene.scenario.output.xdmf);
+  const CheckpointPlan checkpoints = {
+      folder / "checkpoint.h5",
+      options.checkpoint_interval.value_or(
+          scene.scenario.output.checkpoint_interval),
+      options.resumes};
+  const Run result = run_scene(scene, options.cache, checkpoints);
+  write_run(result, folder, options.xdmf || scene.scenario.output.xdmf);
+  remove_checkpoint(checkpoints);
+  finish_run(result, folder, options.json);
 }
 
 }  // namespace
@@ -52,6 +61,12 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>)");
   command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  command->add_flag("--resume", options->resumes,
+                    "Go on from the checkpoint in the results folder");
+  command
+      ->add_option("--checkpoint-interval", options->checkpoint_interval,
+                   "Wall time between checkpoints [s] (default: 60)")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
   command->callback(

@@ -35,6 +35,17 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("online  {:.3g} s, {} steps, {} Newton iterations\n",
              run.statistics.seconds, run.statistics.steps,
              run.statistics.newton_iterations);
+  if (run.statistics.passes > 0) {
+    fmt::print(
+        "error   {:.2g} m at most, estimated from {} passes; tolerance {:g} "
+        "m\n",
+        run.statistics.estimated_error, run.statistics.passes,
+        run.built.settings.tolerance);
+  }
+  if (run.statistics.halved_steps > 0) {
+    fmt::print("        steps were halved {} times\n",
+               run.statistics.halved_steps);
+  }
   if (!run.history.energies.empty()) {
     const dynamics::EnergyBalance& last = run.history.energies.back();
     fmt::print("energy  {:.6g} J, work {:.6g} J, dissipated {:.6g} J{}\n",
@@ -57,9 +68,8 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
 
 }  // namespace
 
-void finish_run(const Run& run, const std::filesystem::path& folder, bool json,
-                bool xdmf) {
-  write_run(run, folder, xdmf);
+void finish_run(const Run& run, const std::filesystem::path& folder,
+                bool json) {
   print_warnings(find_level_warnings(run.levels));
   if (run.failure) std::rethrow_exception(run.failure);
   if (json) {

@@ -30,14 +30,15 @@ void observe(const scene::BuiltScene& built, const dynamics::SystemState& state,
 
 void simulate(const scene::BuiltScene& built, const Progress& progress,
               results::History& history,
-              dynamics::SimulationStatistics& statistics) {
+              dynamics::SimulationStatistics& statistics,
+              const dynamics::Continuation& continuation = {}) {
   dynamics::SystemState state = built.initial;
   const auto observer = [&](const dynamics::SystemState& now,
                             const dynamics::EnergyBalance& energy) {
     observe(built, now, energy, history);
   };
   dynamics::simulate(built.model, state, built.settings, observer, progress,
-                     statistics);
+                     statistics, continuation);
 }
 
 void add_columns(Run& run) {
@@ -98,16 +99,18 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 }  // namespace
 
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
-                   const std::filesystem::path& cache,
-                   const Progress& progress) {
+                   const std::filesystem::path& cache, const Progress& progress,
+                   const CheckpointPlan& checkpoints) {
   Run run;
   run.scene = scene;
   run.built = scene::build_system(
       scene, reducer, cache.empty() ? flexbody::default_cache_folder() : cache,
       make_full_maker(progress));
   add_columns(run);
+  const dynamics::Continuation continuation =
+      make_continuation(checkpoints, run.built, run.history);
   try {
-    simulate(run.built, progress, run.history, run.statistics);
+    simulate(run.built, progress, run.history, run.statistics, continuation);
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
@@ -122,11 +125,14 @@ double time_again(const Run& run) {
   return statistics.seconds;
 }
 
-Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache) {
+Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
+              const CheckpointPlan& checkpoints) {
   const Progress progress = make_progress_bar();
-  Run run = simulate_scene(scene, make_reducer(progress), cache, progress);
+  Run run = simulate_scene(scene, make_reducer(progress), cache, progress,
+                           checkpoints);
   clear_progress_bar();
   print_warnings(run.built.warnings);
+  print_warnings(run.statistics.warnings);
   run.levels = judge_run(scene, run.built, run.history, cache);
   return run;
 }
@@ -156,6 +162,13 @@ Json summarize(const Run& run) {
   json["modes_exact"] = run.statistics.exact_modes;
   json["steps"] = run.statistics.steps;
   json["newton_iterations"] = run.statistics.newton_iterations;
+  json["steps_halved"] = run.statistics.halved_steps;
+  if (run.built.settings.tolerance > 0.0) {
+    json["steps_rejected"] = run.statistics.rejected_steps;
+    json["passes"] = run.statistics.passes;
+    json["tolerance"] = run.built.settings.tolerance;
+    json["estimated_error"] = run.statistics.estimated_error;
+  }
   // 0: not looked for; infinite: nothing vibrates.
   const double stable_step = run.statistics.stable_step;
   if (stable_step > 0.0 && std::isfinite(stable_step)) {
@@ -173,6 +186,9 @@ Json summarize(const Run& run) {
     json["levels"].push_back(to_json(level));
   }
   json["warnings"] = run.built.warnings;
+  for (const std::string& text : run.statistics.warnings) {
+    json["warnings"].push_back(text);
+  }
   return json;
 }
 

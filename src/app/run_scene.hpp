@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "app/checkpoints.hpp"
 #include "app/json.hpp"
 #include "app/levels.hpp"
 #include "common/progress.hpp"
@@ -29,11 +30,13 @@ struct Run {
 [[nodiscard]] Run simulate_scene(const scene::Scene& scene,
                                  const scene::Reducer& reducer,
                                  const std::filesystem::path& cache,
-                                 const Progress& progress);
+                                 const Progress& progress,
+                                 const CheckpointPlan& checkpoints = {});
 
 /// The same with a progress bar, warnings and the judgement of levels.
 [[nodiscard]] Run run_scene(const scene::Scene& scene,
-                            const std::filesystem::path& cache);
+                            const std::filesystem::path& cache,
+                            const CheckpointPlan& checkpoints = {});
 
 /// Wall time that simulating the run once more takes, outputs included [s].
 [[nodiscard]] double time_again(const Run& run);
@@ -45,10 +48,10 @@ void check_output_folder(const std::filesystem::path& folder);
 /// The run in figures: steps, times, energy, probes (name -> final, peak).
 [[nodiscard]] Json summarize(const Run& run);
 
-/// Writes the run's files and prints its summary, as JSON or as text.
-/// @throws NumericalError, after writing, if the run ended early.
-void finish_run(const Run& run, const std::filesystem::path& folder, bool json,
-                bool xdmf);
+/// Prints the run's summary, as JSON or as text.
+/// @param folder where its files are
+/// @throws NumericalError if the run ended early.
+void finish_run(const Run& run, const std::filesystem::path& folder, bool json);
 
 /// Writes results.h5, probes.csv, summary.json and what the scenario asks for.
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf);

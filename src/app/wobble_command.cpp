@@ -116,7 +116,8 @@ void wobble(const Options& options) {
                           : std::filesystem::path(options.out);
   check_output_folder(folder);
   const Run result = run_scene(scene, options.cache);
-  finish_run(result, folder, options.json, options.xdmf);
+  write_run(result, folder, options.xdmf);
+  finish_run(result, folder, options.json);
 }
 
 }  // namespace

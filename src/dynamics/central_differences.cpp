@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/rotation.hpp"
+#include "dynamics/archives.hpp"
 #include "dynamics/finite_check.hpp"
 
 namespace limber::dynamics {
@@ -21,6 +22,12 @@ void CentralDifferences::start(const SystemState& state) {
   solve_accelerations(model_, terms_, a_);
   power_load_ = terms_.load_power;
   power_loss_ = terms_.dissipated_power;
+}
+
+void CentralDifferences::exchange_memory(Archive& archive,
+                                         const SystemState& state) {
+  archive(a_, power_load_, power_loss_);
+  if (archive.reads()) next_ = state;
 }
 
 // Motion to the end, and velocities there as unchanged accelerations have

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/archive.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/step_result.hpp"
 
@@ -28,6 +29,9 @@ class CentralDifferences {
   /// the motion is no longer finite or an element is inside out; `state` is
   /// then unchanged.
   StepResult step(SystemState& state, double h, double end);
+
+  /// What it knows between steps, of which the last left `state`.
+  void exchange_memory(Archive& archive, const SystemState& state);
 
   /// At the last evaluation of the last step.
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }

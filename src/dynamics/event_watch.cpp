@@ -145,6 +145,12 @@ EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
   return change;
 }
 
+void EventWatch::exchange_memory(Archive& archive) {
+  for (Switch& s : switches_) {
+    archive(s.is_up, s.last.value, s.last.rate);
+  }
+}
+
 void EventWatch::accept() {
   for (Switch& s : switches_) s.last = s.now;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "dynamics/event.hpp"
 #include "dynamics/system_state.hpp"
 #include "joints/switches.hpp"
@@ -41,6 +42,9 @@ class EventWatch {
   /// the start of the next step; or another one.
   void accept();
   void accept(const SystemState& state);
+
+  /// What it knows between steps.
+  void exchange_memory(Archive& archive);
 
  private:
   struct Switch {

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/archives.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -54,6 +55,49 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       x_(VectorX::Zero(NewtonMatrix::size(model))) {
   next_fresh_steps_ = kFewestFreshSteps;
   a_ = a_next_ = vdot_ = vdot_next_ = inc_ = make_rates(model);
+  if (settings.estimates_error) scale_.emplace(model);
+}
+
+void GeneralizedAlpha::refresh() {
+  factored_step_ = 0.0;
+  renews_full_ = true;
+  fresh_steps_ = 0;
+  next_fresh_steps_ = kFewestFreshSteps;
+}
+
+void GeneralizedAlpha::exchange_memory(Archive& archive,
+                                       const SystemState& state) {
+  archive(a_, vdot_, memory_step_, power_load_, power_loss_);
+  for (CouplerTerms& coupler : terms_.couplers) archive(coupler.applied);
+  for (TransmissionTerms& t : terms_.transmissions) archive(t.applied);
+  if (archive.reads()) next_ = state;
+}
+
+// a_n as steps of `h` have it.
+void GeneralizedAlpha::fit_memory(double h) {
+  constexpr double kSame = 1e-9;
+  // More than this would multiply round-off more than it mends.
+  constexpr double kMostGrowth = 4.0;
+  const double ratio = memory_step_ > 0.0 ? h / memory_step_ : 1.0;
+  memory_step_ = h;
+  if (std::abs(ratio - 1.0) <= kSame) return;
+  const double share = ratio <= kMostGrowth ? ratio : 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    a_.translation[b] = vdot_.translation[b] +
+                        share * (a_.translation[b] - vdot_.translation[b]);
+    a_.rotation[b] =
+        vdot_.rotation[b] + share * (a_.rotation[b] - vdot_.rotation[b]);
+  }
+  a_.modes = vdot_.modes + share * (a_.modes - vdot_.modes);
+  a_.nodes = vdot_.nodes + share * (a_.nodes - vdot_.nodes);
+}
+
+void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
+  const double constant = 1.0 / 6.0 - beta_ - 0.5 * (am_ - af_);
+  const MotionScale::Largest largest =
+      scale_->measure_change(a_, a_next_, constant * h * h);
+  result.error = largest.displacement;
+  result.error_body = largest.body;
 }
 
 void GeneralizedAlpha::set_coefficients(double h) {
@@ -63,7 +107,8 @@ void GeneralizedAlpha::set_coefficients(double h) {
 
 void GeneralizedAlpha::refactor(bool renews_full) {
   matrix_.factor(model_, next_, terms_, inc_.rotation, coefficients_,
-                 renews_full);
+                 renews_full || renews_full_);
+  renews_full_ = false;
 }
 
 // Accelerations that the residual calls for: M^-1 of it for motion that the
@@ -100,6 +145,7 @@ void GeneralizedAlpha::start(const SystemState& state, double h) {
   a_.modes.setZero();
   a_.nodes.setZero();
   vdot_ = vdot_next_ = a_;
+  memory_step_ = 0.0;
   next_ = state;
   set_coefficients(h);
   calc_terms(model_, next_, Side::right, terms_);
@@ -279,6 +325,7 @@ void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
 
 StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   set_coefficients(h);
+  fit_memory(h);
   // Predict unchanged accelerations.
   const double p_v = 1.0 / (1.0 - am_);
   const double p_a = am_ / (1.0 - am_);
@@ -341,6 +388,9 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   plan_factors(keeps, slowest);
   result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
   result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power);
+  result.begin = {power_load_, power_loss_};
+  result.end = {terms_.load_power, terms_.dissipated_power};
+  if (scale_) estimate_error(h, result);
   last_power_load_ = power_load_;
   last_power_loss_ = power_loss_;
   power_load_ = terms_.load_power;

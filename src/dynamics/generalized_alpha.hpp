@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "dynamics/equations.hpp"
+#include "dynamics/motion_scale.hpp"
 #include "dynamics/newton_matrix.hpp"
 #include "dynamics/residual.hpp"
 #include "dynamics/step_result.hpp"
@@ -21,9 +24,14 @@ namespace limber::dynamics {
 ///            gamma = 1/2 + af - am, beta = (1/2 + gamma)^2 / 4.
 ///            Implicit Euler: inc = h v_n+1, v_n+1 = v_n + h a_n+1, am = af = 0
 ///            and so beta = gamma = 1 but for the share of a_n in inc.
+///            a_n is about vdot(t_n + (am - af) h): where steps change their
+///            length, a_n - vdot_n changes with them.
+///            Error of a step: (1/6 - beta - (am - af) / 2) h^2 (a_n+1 - a_n).
 /// Source     Bruls and Cardona, "On the use of Lie group time integrators in
 ///            multibody dynamics", J. Comput. Nonlinear Dyn. 5, 2010, eqs.
-///            17-22; parameters of Chung and Hulbert, J. Appl. Mech. 60, 1993.
+///            17-22; parameters of Chung and Hulbert, J. Appl. Mech. 60, 1993;
+///            the error as Zienkiewicz and Xie, Earthquake Eng. Struct. Dyn.
+///            20, 1991, have Newmark's [@zienkiewicz1991].
 class GeneralizedAlpha {
  public:
   struct Settings {
@@ -31,6 +39,7 @@ class GeneralizedAlpha {
     double tolerance = 1e-12;  ///< of a step's motion [-]
     int max_iterations = 20;
     bool implicit_euler = false;  ///< then rho_inf is not looked at
+    bool estimates_error = false;
   };
 
   GeneralizedAlpha(const SystemModel& model, const Settings& settings);
@@ -51,11 +60,19 @@ class GeneralizedAlpha {
   /// the caller has kept.
   void undo();
 
+  /// Drops factors of earlier steps.
+  void refresh();
+  /// What it knows between steps, of which the last left `state`, but for
+  /// those.
+  void exchange_memory(Archive& archive, const SystemState& state);
+
   /// At the last evaluation of the last step.
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }
 
  private:
   void set_coefficients(double h);
+  void fit_memory(double h);
+  void estimate_error(double h, StepResult& result) const;
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h);
   void add_quasi_static_accelerations();
@@ -77,10 +94,12 @@ class GeneralizedAlpha {
   const SystemModel& model_;
   Settings settings_;
   double am_, af_, gamma_, beta_;
-  double lag_;  // share of h^2 a_n in a step's motion
+  double lag_;                        // share of h^2 a_n in a step's motion
+  std::optional<MotionScale> scale_;  // to estimate errors
   NewtonMatrix matrix_;
   NewtonMatrix::Coefficients coefficients_;
   double factored_step_ = 0.0;  // h of the factors held, 0: none
+  bool renews_full_ = false;    // those of unreduced bodies, too
   int fresh_steps_ = 0;         // how many more steps factor anew
   int next_fresh_steps_ = 0;    // after keeping factors fails again
   double power_load_ = 0.0;     // at the last state, for the audit
@@ -90,7 +109,8 @@ class GeneralizedAlpha {
 
   SystemState next_;
   SystemTerms terms_;
-  Rates a_;  // the algorithm's accelerations at n
+  double memory_step_ = 0.0;  // h that a_ is of, 0: of any
+  Rates a_;                   // the algorithm's accelerations at n
   Rates a_next_;
   Rates vdot_;  // accelerations at n
   Rates vdot_next_;

@@ -4,9 +4,8 @@
 namespace limber::dynamics {
 namespace {
 
-// Parts of a step that end at events, at most; what happens after them is
-// noted at the step's end.
-constexpr int kMostParts = 32;
+// Steps in a row that end at events, at most.
+constexpr int kMostCut = 32;
 // Of a step: nearer than this, an event is where the step begins or ends.
 constexpr double kSame = 1e-9;
 
@@ -22,32 +21,32 @@ Marcher::Marcher(const SystemModel& model, const SimulationSettings& settings,
       if (coordinates[i].kind == Kind::angle) angles_.push_back({c, i});
     }
   }
+  keeps_before_ = settings.tolerance > 0.0 || !watch_.is_empty();
 }
 
 void Marcher::start(SystemState& state, double h) {
   watch_.start(state, events_);
   stepper_.start(state, h);
-  if (!watch_.is_empty()) before_ = state;  // so that no step allocates
+  if (keeps_before_) before_ = state;  // so that no step allocates
 }
 
 void Marcher::cross_jump(const SystemState& state, double h) {
   stepper_.cross_jump(state, h);
 }
 
-void Marcher::add(const StepResult& result) {
-  totals_.iterations += result.iterations;
-  totals_.factorizations += result.factorizations;
-  totals_.load_work += result.load_work;
-  totals_.dissipated += result.dissipated;
+void Marcher::add_last() {
+  totals_.iterations += last_.iterations;
+  totals_.factorizations += last_.factorizations;
+  totals_.load_work += last_.load_work;
+  totals_.dissipated += last_.dissipated;
 }
 
-// A step; the costs of steps that were taken back stay in `result`.
-void Marcher::advance(SystemState& state, double h, double end,
-                      StepResult& result) {
+// A step; the costs of one that was taken back stay in `last_`.
+void Marcher::advance(SystemState& state, double h, double end) {
   StepResult next = stepper_.step(state, h, end);
-  next.iterations += result.iterations;
-  next.factorizations += result.factorizations;
-  result = next;
+  next.iterations += last_.iterations;
+  next.factorizations += last_.factorizations;
+  last_ = next;
   for (const Angle& angle : angles_) {
     double& near = state.memory[angle.coupler].near[angle.coordinate];
     const auto& law = model_.couplers[angle.coupler].law;
@@ -57,7 +56,14 @@ void Marcher::advance(SystemState& state, double h, double end,
   }
 }
 
-void Marcher::go_back(SystemState& state) {
+void Marcher::attempt(SystemState& state, double h, double end) {
+  if (keeps_before_) before_ = state;
+  last_ = {};
+  h_ = h;
+  advance(state, h, end);
+}
+
+void Marcher::take_back(SystemState& state) {
   state = before_;
   stepper_.undo(state);
 }
@@ -77,43 +83,36 @@ void Marcher::pass_all_at_end(SystemState& state, double h) {
   watch_.accept();
 }
 
-void Marcher::step(SystemState& state, double h, double end) {
+void Marcher::settle(SystemState& state, double nominal_h) {
   if (watch_.is_empty()) {
-    StepResult result;
-    advance(state, h, end, result);
-    add(result);
+    add_last();
     return;
   }
-  double left = h;
-  for (int part = 0; part < kMostParts; ++part) {
-    before_ = state;
-    StepResult result;
-    advance(state, left, end, result);
-    const auto crossing = watch_.find_first(state, left);
-    if (!crossing || crossing->share > 1.0 - kSame) {
-      add(result);
-      pass_all_at_end(state, h);
-      return;
-    }
-    go_back(state);
-    if (crossing->share > kSame) {
-      const double until = crossing->share * left;
-      advance(state, until, state.t + until, result);
-    } else {
-      result.load_work = result.dissipated = 0.0;
-    }
-    add(result);
-    pass(*crossing, state, h);
-    left = end - state.t;
-    if (left <= kSame * h) {
-      state.t = end;
-      return;
-    }
+  const auto crossing = watch_.find_first(state, h_);
+  if (!crossing || crossing->share > 1.0 - kSame || cut_ == kMostCut) {
+    cut_ = 0;
+    add_last();
+    pass_all_at_end(state, nominal_h);
+    return;
   }
-  StepResult result;
-  advance(state, left, end, result);
-  add(result);
-  pass_all_at_end(state, h);
+  ++cut_;
+  take_back(state);
+  if (crossing->share > kSame) {
+    const double until = crossing->share * h_;
+    advance(state, until, state.t + until);
+  } else {
+    last_.load_work = last_.dissipated = 0.0;
+  }
+  add_last();
+  pass(*crossing, state, nominal_h);
+}
+
+void Marcher::exchange_memory(Archive& archive, const SystemState& state) {
+  stepper_.exchange_memory(archive, state);
+  watch_.exchange_memory(archive);
+  archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
+          totals_.dissipated);
+  if (keeps_before_) before_ = state;
 }
 
 }  // namespace limber::dynamics

@@ -8,9 +8,8 @@
 
 namespace limber::dynamics {
 
-/// Takes steps, in parts where something happens at a coupler within one, and
-/// keeps what couplers remember. Without switches and angles it adds nothing to
-/// a step.
+/// Takes steps, ends them where something happens at a coupler, and keeps what
+/// couplers remember. Without switches and angles it adds nothing to a step.
 ///
 /// Equation   what a switch does to a law is held through a step, so that the
 ///            motion is smooth within one, and changes where the step is cut.
@@ -18,7 +17,8 @@ namespace limber::dynamics {
 ///            a step [@hairer1993, sec. II.6], whose error is smaller than that
 ///            of the integrators.
 /// Limits     a joint turns less than half a turn a step; of two changes of
-///            sign of one switch within a step neither is seen.
+///            sign of one switch within a step neither is seen; after 32 steps
+///            that were cut in a row, what happens is noted at a step's end.
 class Marcher {
  public:
   /// @param events what happens is added here
@@ -30,30 +30,50 @@ class Marcher {
   void start(SystemState& state, double h);
   /// After a step that ended where a load jumps.
   void cross_jump(const SystemState& state, double h);
-  /// Advances `state` by h, to the time `end` [s].
-  /// @throws NumericalError naming the body or coupler and the time.
-  void step(SystemState& state, double h, double end);
 
+  /// Advances `state` by h [s], to the time `end` [s], as if nothing happened
+  /// within. Then either `take_back` or `settle`.
+  /// @throws NumericalError naming the body or coupler and the time; `state` is
+  /// unchanged.
+  void attempt(SystemState& state, double h, double end);
+  /// @throws NumericalError as above, with the step taken back.
+  void settle(SystemState& state, double nominal_h);
+  void take_back(SystemState& state);
+
+  /// The step that was attempted last.
+  [[nodiscard]] const StepResult& last() const { return last_; }
+  /// Where it began; kept if there are switches or `settings.tolerance` asks
+  /// for steps that may be taken back.
+  [[nodiscard]] const SystemState& before() const { return before_; }
   /// Of all steps so far.
   [[nodiscard]] const StepResult& totals() const { return totals_; }
+
+  /// Drops what it could keep to be faster: what follows depends on the state
+  /// and on `exchange_memory` alone.
+  void refresh() { stepper_.refresh(); }
+  /// What it knows between steps, but for what refresh() drops.
+  void exchange_memory(Archive& archive, const SystemState& state);
 
  private:
   struct Angle {
     std::size_t coupler;
     std::size_t coordinate;
   };
-  void advance(SystemState& state, double h, double end, StepResult& result);
-  void go_back(SystemState& state);
+  void advance(SystemState& state, double h, double end);
   void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
   void pass_all_at_end(SystemState& state, double h);
-  void add(const StepResult& result);
+  void add_last();
 
   const SystemModel& model_;
   Stepper stepper_;
   EventWatch watch_;
   std::vector<Angle> angles_;
   std::vector<Event>& events_;
+  bool keeps_before_ = false;
   SystemState before_;
+  double h_ = 0.0;  // of the step that was attempted
+  int cut_ = 0;     // steps in a row
+  StepResult last_;
   StepResult totals_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/archives.hpp"
 #include "dynamics/finite_check.hpp"
 
 namespace limber::dynamics {
@@ -58,6 +59,11 @@ RungeKutta4::RungeKutta4(const SystemModel& model)
   const VectorX modes = VectorX::Zero(model.modal_count);
   const VectorX nodes = VectorX::Zero(model.nodal_count);
   slopes_.fill({zero, zero, zero, zero, modes, modes, nodes, nodes});
+}
+
+void RungeKutta4::exchange_memory(Archive& archive, const SystemState& state) {
+  archive(carry_);
+  if (archive.reads()) left_ = state;
 }
 
 void RungeKutta4::calc_slope(const SystemState& at,

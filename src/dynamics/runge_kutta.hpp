@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/step_result.hpp"
 
@@ -25,6 +26,9 @@ class RungeKutta4 {
   /// a sum puts a step's end beyond a load's edge).
   /// @throws NumericalError if the motion is no longer finite.
   StepResult step(SystemState& state, double h, double end);
+
+  /// What it knows between steps, of which the last left `state`.
+  void exchange_memory(Archive& archive, const SystemState& state);
 
   /// At the last evaluation of the last step.
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/progress.hpp"
+#include "dynamics/checkpoint.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/event.hpp"
 #include "dynamics/system_model.hpp"
@@ -36,8 +38,12 @@ struct StepChange {
 
 struct SimulationSettings {
   IntegratorKind integrator = IntegratorKind::generalized_alpha;
-  double end_time = 0.0;                      ///< > start [s]
-  double step = 0.0;                          ///< longest step, > 0 [s]
+  double end_time = 0.0;  ///< > start [s]
+  double step = 0.0;      ///< longest step, > 0 [s]
+  /// Steps of any length up to `step`, such that no point of a body is farther
+  /// from where it should be than this at any output time; 0: steps of `step`
+  /// [m]. By generalized_alpha alone.
+  double tolerance = 0.0;
   std::vector<StepChange> step_changes = {};  ///< at increasing times
   std::vector<double> output_times = {};  ///< increasing, in [start, end] [s]
   double rho_inf = 0.9;                   ///< spectral radius at infinity [0,1]
@@ -50,12 +56,18 @@ struct SimulationSettings {
 
 struct SimulationStatistics {
   long steps = 0;
+  long rejected_steps = 0;  ///< of a tolerance
+  long halved_steps = 0;    ///< that did not go through whole
+  int passes = 0;           ///< over the whole time, of a tolerance
+  /// Of a tolerance: how far a point is from where it should be, at most [m].
+  double estimated_error = 0.0;
   long newton_iterations = 0;
   long factorizations = 0;
   int exact_modes = 0;        ///< modes answered in closed form
   double stable_step = 0.0;   ///< of central differences, if found [s]
   double seconds = 0.0;       ///< wall time of the stepping [s]
   std::vector<Event> events;  ///< in the order of time
+  std::vector<std::string> warnings;
 };
 
 /// Called at every output time with the state and the balance so far.
@@ -73,10 +85,22 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
                               const Observer& observer,
                               const Progress& progress = {});
 
+/// A run that leaves checkpoints, or goes on from one.
+struct Continuation {
+  CheckpointKeeper keeper = {};
+  /// Made with the same model, state and settings.
+  std::optional<Checkpoint> from = {};
+};
+
 /// The same, adding to `statistics`, which tells the cost also of a run that
-/// ends in a NumericalError.
+/// ends in a NumericalError. With `continuation.from` the observer is not
+/// called again for the outputs before it; of steps to a tolerance it is, all
+/// at the end.
+/// @param state that at the start in every case
+/// @throws InputError also for a checkpoint that is damaged.
 void simulate(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
-              const Progress& progress, SimulationStatistics& statistics);
+              const Progress& progress, SimulationStatistics& statistics,
+              const Continuation& continuation = {});
 
 }  // namespace limber::dynamics

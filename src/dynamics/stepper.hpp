@@ -42,6 +42,22 @@ class Stepper {
       central->start(before);
     }
   }
+  /// Drops what it could keep to be faster.
+  void refresh() {
+    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) alpha->refresh();
+  }
+  /// What it knows between steps, of which the last left `state`.
+  void exchange_memory(Archive& archive, const SystemState& state) {
+    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
+      alpha->exchange_memory(archive, state);
+    }
+    if (auto* central = std::get_if<CentralDifferences>(&scheme_)) {
+      central->exchange_memory(archive, state);
+    }
+    if (auto* runge_kutta = std::get_if<RungeKutta4>(&scheme_)) {
+      runge_kutta->exchange_memory(archive, state);
+    }
+  }
   /// At about the last step's end.
   [[nodiscard]] const SystemTerms& terms() const {
     return std::visit(
@@ -72,7 +88,8 @@ class Stepper {
     return GeneralizedAlpha(
         model, {settings.rho_inf, settings.newton_tolerance,
                 settings.newton_iterations,
-                settings.integrator == IntegratorKind::implicit_euler});
+                settings.integrator == IntegratorKind::implicit_euler,
+                settings.tolerance > 0.0});
   }
   Scheme scheme_;
 };

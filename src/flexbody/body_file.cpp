@@ -2,21 +2,18 @@
 #include "flexbody/body_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-#include <xxhash.h>
 
-#include <atomic>
 #include <charconv>
 #include <fstream>
-#include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "common/digest.hpp"
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "common/whole_file.hpp"
 #include "flexbody/body_file_reader.hpp"
 #include "flexbody/body_file_records.hpp"
 
@@ -37,19 +34,13 @@ std::string make_seal(int version, const std::string& digest) {
 
 // Digest of all bytes from where `in` stands.
 std::string calc_digest(std::istream& in) {
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(
-      XXH3_createState(), XXH3_freeState);
-  if (!state || XXH3_128bits_reset(state.get()) != XXH_OK) {
-    throw std::bad_alloc();
-  }
+  Digest digest;
   std::vector<char> block(std::size_t{1} << 20);
   do {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    XXH3_128bits_update(state.get(), block.data(),
-                        static_cast<std::size_t>(in.gcount()));
+    digest.add_bytes(block.data(), static_cast<std::size_t>(in.gcount()));
   } while (in);
-  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return digest.text();
 }
 
 // The version that a seal names, or nothing if it is no seal.
@@ -256,14 +247,6 @@ void check_seal(const std::filesystem::path& file) {
   }
 }
 
-// A name beside `file` that no other writer uses at the same time.
-std::filesystem::path make_part_name(const std::filesystem::path& file) {
-  static std::atomic<unsigned> count{0};
-  std::filesystem::path part = file;
-  part += fmt::format(".part{}-{}", getpid(), count++);
-  return part;
-}
-
 }  // namespace
 
 void seal_body_file(const std::filesystem::path& file) {
@@ -285,17 +268,14 @@ void seal_body_file(const std::filesystem::path& file) {
 }
 
 void write_body(const ReducedBody& body, const std::filesystem::path& file) {
-  // Whole or not at all: write beside it, then rename.
-  const std::filesystem::path part = make_part_name(file);
   try {
-    Hdf5File out = Hdf5File::create(part, kSealSize);
-    write_content(out, body);
-    out.close();
-    seal_body_file(part);
-    std::filesystem::rename(part, file);
+    write_whole(file, [&](const std::filesystem::path& part) {
+      Hdf5File out = Hdf5File::create(part, kSealSize);
+      write_content(out, body);
+      out.close();
+      seal_body_file(part);
+    });
   } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
     throw InputError(fmt::format("the reduced body '{}' cannot be written: {}",
                                  file.string(), error.what()));
   }

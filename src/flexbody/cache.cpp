@@ -2,7 +2,6 @@
 #include "flexbody/cache.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <cstdlib>
 #include <exception>
@@ -14,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "common/digest.hpp"
 #include "common/errors.hpp"
 #include "common/overloaded.hpp"
 #include "flexbody/body_file.hpp"
@@ -23,47 +23,6 @@ namespace {
 
 // Raise when the reduction itself changes: it makes old entries unknown.
 constexpr int kReductionVersion = 2;
-
-// Feeds values to the hash so that no two different recipes look alike: every
-// text and list is preceded by its length.
-class Digest {
- public:
-  Digest() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
-  Digest(const Digest&) = delete;
-  Digest& operator=(const Digest&) = delete;
-  ~Digest() { XXH3_freeState(state_); }
-
-  template <typename T>
-  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void add(const T& value) {
-    XXH3_128bits_update(state_, &value, sizeof(value));
-  }
-  void add(const std::string& text) {
-    add(text.size());
-    XXH3_128bits_update(state_, text.data(), text.size());
-  }
-  void add(const Vector3& v) {
-    for (const double x : v) add(x);
-  }
-  void add(const MatrixX& values) {
-    add(values.rows());
-    add(values.cols());
-    XXH3_128bits_update(
-        state_, values.data(),
-        sizeof(double) * static_cast<std::size_t>(values.size()));
-  }
-  void add(const std::vector<double>& values) {
-    add(values.size());
-    for (const double x : values) add(x);
-  }
-  [[nodiscard]] std::string text() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(state_);
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-  }
-
- private:
-  XXH3_state_t* state_;
-};
 
 std::string read_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "common/errors.hpp"
+#include "common/whole_file.hpp"
 
 namespace limber::results {
 namespace {
@@ -22,11 +23,7 @@ std::string make_field(const std::string& text) {
   return field + '"';
 }
 
-}  // namespace
-
-void write_probes_csv(const std::filesystem::path& file,
-                      const History& history) {
-  std::ofstream out(file);
+void write_table(std::ostream& out, const History& history) {
   fmt::print(out, "time [s]");
   for (const ProbeColumn& column : history.columns) {
     out << ',' << make_field(fmt::format("{} [{}]", column.name, column.unit));
@@ -39,12 +36,21 @@ void write_probes_csv(const std::filesystem::path& file,
     }
     out << '\n';
   }
-  out.flush();
-  if (!out) {
+}
+
+}  // namespace
+
+void write_probes_csv(const std::filesystem::path& file,
+                      const History& history) {
+  write_whole(file, [&](const std::filesystem::path& part) {
+    std::ofstream out(part);
+    write_table(out, history);
+    out.flush();
+    if (out) return;
     throw InputError(fmt::format(
         "'{}' cannot be written; does its folder exist, and is there room?",
         file.string()));
-  }
+  });
 }
 
 }  // namespace limber::results

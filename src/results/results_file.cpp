@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "common/whole_file.hpp"
 #include "results/path_step.hpp"
 
 namespace limber::results {
@@ -125,11 +126,8 @@ std::vector<std::string> list_names(const Hdf5File& in, const char* group) {
   return names;
 }
 
-}  // namespace
-
-void write_results(const std::filesystem::path& file,
-                   const dynamics::SystemModel& model, const History& history) {
-  Hdf5File out = Hdf5File::create(file);
+void write_content(Hdf5File& out, const dynamics::SystemModel& model,
+                   const History& history) {
   out.write("format", kFormat, "what this file is");
   out.write("version", std::vector<std::int64_t>{kResultsFileVersion}, "1",
             "layout of this file");
@@ -144,7 +142,17 @@ void write_results(const std::filesystem::path& file,
   write_probes(out, history);
   write_energies(out, history);
   write_events(out, history);
-  out.close();
+}
+
+}  // namespace
+
+void write_results(const std::filesystem::path& file,
+                   const dynamics::SystemModel& model, const History& history) {
+  write_whole(file, [&](const std::filesystem::path& part) {
+    Hdf5File out = Hdf5File::create(part);
+    write_content(out, model, history);
+    out.close();
+  });
 }
 
 bool is_results_file(const std::filesystem::path& file) {

@@ -138,6 +138,7 @@ struct OutputSpec {
   std::filesystem::path folder;  ///< empty: out/<scenario name>
   bool xdmf = false;
   bool pictures = true;
+  double checkpoint_interval = 60.0;  ///< of wall time, >= 0 [s]
 };
 
 struct Scenario {

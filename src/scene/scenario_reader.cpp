@@ -201,6 +201,8 @@ OutputSpec read_output(TomlTable& table) {
   output.folder = table.text("folder").value_or("");
   output.xdmf = table.boolean("xdmf").value_or(false);
   output.pictures = table.boolean("pictures").value_or(true);
+  output.checkpoint_interval = table.number("checkpoint_interval", kNonNegative)
+                                   .value_or(output.checkpoint_interval);
   return output;
 }
 

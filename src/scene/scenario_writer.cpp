@@ -107,6 +107,7 @@ void set_step(toml::table& root, double step) {
     time.insert_or_assign("output_interval", std::max(old, step));
   }
   time.erase("steps");
+  time.erase("tolerance");
   time.insert_or_assign("step", step);
 }
 

@@ -24,6 +24,7 @@ void apply(const Overrides& overrides, Scene& scene) {
   }
   if (overrides.step) {
     scene.scenario.settings.step = *overrides.step;
+    scene.scenario.settings.tolerance = 0.0;
     scene.scenario.settings.step_changes.clear();
   }
   if (overrides.integrator) {

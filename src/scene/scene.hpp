@@ -32,8 +32,8 @@ struct Overrides {
   std::optional<dynamics::Fidelity> fidelity = {};  ///< for every flexible link
   /// Over the file's [basis] for every flexible link, key by key.
   BasisChoice basis = {};
-  /// Longest step, from the start to the end [s]. Output times stay those that
-  /// the file asks for.
+  /// Fixed step from the start to the end, in place of the file's steps or
+  /// tolerance [s]. Output times stay those that the file asks for.
   std::optional<double> step = {};
   std::optional<dynamics::IntegratorKind> integrator = {};
   std::optional<flexbody::KeptRows> rows = {};  ///< of every link with a mesh

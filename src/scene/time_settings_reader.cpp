@@ -13,6 +13,8 @@ namespace {
 
 /// Most output times that a scenario may ask for: they stay in memory.
 constexpr double kMostOutputs = 1e7;
+/// Outputs of a run to a tolerance, whose steps are not known, by default.
+constexpr double kOutputsOfTolerance = 200.0;
 
 std::vector<double> even_times(double end, double interval) {
   std::vector<double> times;
@@ -65,6 +67,9 @@ std::vector<double> read_output_times(
   if (times && interval) {
     table.fail("has both 'output_times' and 'output_interval'; keep one");
   }
+  if (!times && !interval && settings.tolerance > 0.0) {
+    return even_times(end, end / kOutputsOfTolerance);
+  }
   if (!times) {
     const double count = interval ? end / *interval : count_steps(settings);
     if (count > kMostOutputs) {
@@ -86,10 +91,16 @@ std::vector<double> read_output_times(
   return *times;
 }
 
-/// One `step`, or `steps = { from = [...], size = [...] }`: from each time on
-/// the step of that size, the first from the start.
+/// A `tolerance`, with the longest step if there is one; one `step`; or `steps
+/// = { from = [...], size = [...] }`: from each time on the step of that size,
+/// the first from the start.
 void read_steps(TomlTable& table, dynamics::SimulationSettings& settings) {
   const toml::table* steps = table.table("steps");
+  settings.tolerance = table.number("tolerance", kPositive).value_or(0.0);
+  if (steps == nullptr && settings.tolerance > 0.0) {
+    settings.step = table.number("step", kPositive).value_or(settings.end_time);
+    return;
+  }
   if (steps == nullptr) {
     settings.step = table.required_number("step", kPositive);
     return;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/linear_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "common/errors.hpp"
+#include "dynamics/body_model.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr double kLarge = 0.1;     // of the body's size: worth a warning
+constexpr double kAbsurd = 1.0;    // of it: no result
+constexpr double kHarmless = 0.5;  // of the lowest frequency
+
+// The mode that moves points most.
+Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
+                               const VectorX& eta) {
+  Eigen::Index k = 0;
+  measure.mode_sizes().cwiseProduct(eta.cwiseAbs()).maxCoeff(&k);
+  return k;
+}
+
+}  // namespace
+
+double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
+  if (body.modes == 0 || body.clamped || body.fidelity != Fidelity::coupled) {
+    return 0.0;
+  }
+  const double lowest = body.lambda.minCoeff();
+  if (!(w_WB_B.squaredNorm() > kHarmless * kHarmless * lowest)) return 0.0;
+  const Vector6 half_w_squared = half_square(w_WB_B);
+  const VectorX scale = body.lambda.cwiseSqrt().cwiseInverse();
+  MatrixX B(body.modes, body.modes);
+  for (int k = 0; k < body.modes; ++k) {
+    for (int l = 0; l < body.modes; ++l) {
+      B(k, l) = scale[k] * scale[l] *
+                half_w_squared.dot(body.J2.block<6, 1>(6 * k, l));
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(B,
+                                                      Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().maxCoeff();
+}
+
+std::optional<std::string> describe_softening(const BodyModel& body,
+                                              const Vector3& w_WB_B) {
+  const double mu = find_softening(body, w_WB_B);
+  if (!(mu >= 1.0)) return std::nullopt;
+  const double speed = w_WB_B.norm();
+  return fmt::format(
+      "body '{}' turns at {:.4g} rad/s, above its critical speed of {:.4g} "
+      "rad/s in linear elasticity: its effective stiffness is below zero and "
+      "its deformation grows without bound; level full has the stiffening that "
+      "holds a real body",
+      body.name, speed, speed / std::sqrt(mu));
+}
+
+LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    if (body.modes == 0 || !body.reduced) continue;
+    bodies_.push_back(
+        {b, body.reduced->size.maxCoeff(), DisplacementMeasure(body)});
+  }
+}
+
+void LinearLimit::check_deformation(const SystemState& state, Body& body,
+                                    std::vector<std::string>& warnings) const {
+  const BodyModel& model = model_.bodies[body.index];
+  const VectorX eta = state.eta.segment(model.offset, model.modes);
+  const double bound = body.measure.mode_sizes().dot(eta.cwiseAbs());
+  if (bound <= kLarge * body.size || body.size == 0.0) return;
+  const double deformation = body.measure.calc_displacement(eta);
+  if (deformation <= kLarge * body.size) return;
+  const Eigen::Index mode = find_largest_mode(body.measure, eta);
+  const std::string what = fmt::format(
+      "body '{}' at t = {:.9g} s: deformed by {:.3g} m, {:.3g} % of its size "
+      "({:.3g} m), most in mode {} ({:.4g} Hz)",
+      model.name, state.t, deformation, 100.0 * deformation / body.size,
+      body.size, mode + 1,
+      std::sqrt(model.lambda[mode]) / (2.0 * std::numbers::pi));
+  if (!(deformation <= kAbsurd * body.size)) {
+    const auto soft =
+        describe_softening(model, state.bodies[body.index].w_WB_B);
+    throw NumericalError(
+        what + ": linear elasticity has no answer there" +
+        (soft ? "; " + *soft
+              : "; smaller loads, a stiffer body or level full may help"));
+  }
+  if (body.was_told_large) return;
+  body.was_told_large = true;
+  warnings.push_back(what +
+                     ": beyond 10 % linear elasticity is not to be trusted; "
+                     "level full has large deformations");
+}
+
+void LinearLimit::check_speed(const SystemState& state, Body& body,
+                              std::vector<std::string>& warnings) const {
+  if (body.was_told_soft) return;
+  const auto text = describe_softening(model_.bodies[body.index],
+                                       state.bodies[body.index].w_WB_B);
+  if (!text) return;
+  body.was_told_soft = true;
+  warnings.push_back(fmt::format("at t = {:.9g} s {}", state.t, *text));
+}
+
+void LinearLimit::check(const SystemState& state,
+                        std::vector<std::string>& warnings) {
+  for (Body& body : bodies_) {
+    check_speed(state, body, warnings);
+    check_deformation(state, body, warnings);
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/motion_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/rotation.hpp"
+#include "dynamics/displacement_measure.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+void include(double squared, std::size_t body, MotionScale::Largest& largest) {
+  // So that what is not a number is the largest.
+  if (!(squared <= largest.displacement)) largest = {squared, body};
+}
+
+MotionScale::Largest take_root(MotionScale::Largest largest) {
+  largest.displacement = std::sqrt(largest.displacement);
+  return largest;
+}
+
+}  // namespace
+
+double find_reach(const SystemModel& model, BodyIndex b) {
+  const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
+  double reach = std::sqrt(0.5 * body.J0.trace() / body.mass);
+  if (body.reduced && body.reduced->rows.x_B.cols() > 0) {
+    reach = std::max(reach, body.reduced->rows.x_B.colwise().norm().maxCoeff());
+  }
+  for (const Attachment& attachment : model.attachments) {
+    if (attachment.body == b) reach = std::max(reach, attachment.p_BF.norm());
+  }
+  return reach;
+}
+
+MotionScale::MotionScale(const SystemModel& model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    Body scale;
+    scale.moves = body.has_rigid_motion();
+    scale.offset = body.offset;
+    scale.reach = find_reach(model, static_cast<BodyIndex>(b));
+    if (body.modes > 0) scale.sizes = DisplacementMeasure(body).mode_sizes();
+    bodies_.push_back(std::move(scale));
+  }
+  for (const FullModel& full : model.full_bodies) {
+    full_.push_back(
+        {static_cast<std::size_t>(full.body), full.first, full.dofs()});
+  }
+}
+
+MotionScale::Largest MotionScale::measure_change(const Rates& a, const Rates& b,
+                                                 double factor) const {
+  Largest largest;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    double squared = 0.0;
+    if (body.moves) {
+      squared += (b.translation[i] - a.translation[i]).squaredNorm() +
+                 body.reach * body.reach *
+                     (b.rotation[i] - a.rotation[i]).squaredNorm();
+    }
+    for (Eigen::Index k = 0; k < body.sizes.size(); ++k) {
+      const Eigen::Index at = body.offset + k;
+      const double moved = body.sizes[k] * (b.modes[at] - a.modes[at]);
+      squared += moved * moved;
+    }
+    include(factor * factor * squared, i, largest);
+  }
+  for (const Nodes& full : full_) {
+    for (Eigen::Index i = full.first; i < full.first + full.dofs; i += 3) {
+      include(factor * factor *
+                  (b.nodes.segment<3>(i) - a.nodes.segment<3>(i)).squaredNorm(),
+              full.body, largest);
+    }
+  }
+  return take_root(largest);
+}
+
+MotionScale::Largest MotionScale::measure_distance(const SystemState& a,
+                                                   const SystemState& b) const {
+  Largest largest;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    double squared = 0.0;
+    if (body.moves) {
+      const Quaternion turn =
+          a.bodies[i].quat_WB.conjugate() * b.bodies[i].quat_WB;
+      const double angle =
+          2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+      squared += (b.bodies[i].p_WB - a.bodies[i].p_WB).squaredNorm() +
+                 body.reach * body.reach * angle * angle;
+    }
+    for (Eigen::Index k = 0; k < body.sizes.size(); ++k) {
+      const Eigen::Index at = body.offset + k;
+      const double moved = body.sizes[k] * (b.eta[at] - a.eta[at]);
+      squared += moved * moved;
+    }
+    include(squared, i, largest);
+  }
+  for (const Nodes& full : full_) {
+    for (Eigen::Index i = full.first; i < full.first + full.dofs; i += 3) {
+      include((b.u_H.segment<3>(i) - a.u_H.segment<3>(i)).squaredNorm(),
+              full.body, largest);
+    }
+  }
+  return take_root(largest);
+}
+
+}  // namespace limber::dynamics

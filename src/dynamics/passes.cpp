@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/passes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "dynamics/archives.hpp"
+#include "dynamics/motion_scale.hpp"
+#include "dynamics/single_run.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr int kMostPasses = 8;
+constexpr double kFirst = 64.0;  // of the tolerance: errors of the first pass
+constexpr double kSecond = 16.0;
+constexpr double kSafety = 0.5;  // of the tolerance: what later ones aim at
+
+// What a pass leaves at its outputs.
+struct Record {
+  std::vector<SystemState> states;
+  std::vector<EnergyBalance> balances;
+};
+
+void exchange(Archive& archive, Record& record) {
+  archive(record.states, record.balances);
+}
+
+// Between two passes, and of what a checkpoint holds.
+struct Course {
+  int pass = 0;
+  double errors = 0.0;  // the sum that the steps of this pass may err [m]
+  double errors_before = 0.0;  // of the pass before
+  double estimate = 0.0;       // error of the pass before [m]
+  Record before;
+  Record now;
+};
+
+void exchange(Archive& archive, Course& course) {
+  archive(course.pass, course.errors, course.errors_before, course.estimate,
+          course.before, course.now);
+}
+
+double measure_distance(const MotionScale& scale, const Record& a,
+                        const Record& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < std::min(a.states.size(), b.states.size()); ++i) {
+    largest = std::max(
+        largest, scale.measure_distance(a.states[i], b.states[i]).displacement);
+  }
+  return largest;
+}
+
+void add_costs(const SimulationStatistics& pass,
+               SimulationStatistics& statistics) {
+  statistics.steps += pass.steps;
+  statistics.rejected_steps += pass.rejected_steps;
+  statistics.halved_steps += pass.halved_steps;
+  statistics.newton_iterations += pass.newton_iterations;
+  statistics.factorizations += pass.factorizations;
+}
+
+class Passes {
+ public:
+  Passes(const SystemModel& model, const SystemState& start,
+         const SimulationSettings& settings, const Progress& progress,
+         SimulationStatistics& statistics, const Continuation& continuation)
+      : model_(model),
+        start_(start),
+        settings_(settings),
+        progress_(progress),
+        statistics_(statistics),
+        scale_(model) {
+    keeper_.interval = continuation.keeper.interval;
+    if (continuation.keeper.keep) {
+      keeper_.keep = [this, keep = continuation.keeper.keep](
+                         const Checkpoint& inner) { keep(wrap(inner)); };
+    }
+    course_.errors = kFirst * settings.tolerance;
+    if (continuation.from) unwrap(*continuation.from);
+  }
+
+  // Leaves the last pass's end in `state`.
+  void run(SystemState& state) {
+    while (true) {
+      run_pass(state);
+      if (is_good_enough()) return;
+      plan_next();
+    }
+  }
+
+  [[nodiscard]] const Record& record() const { return course_.now; }
+
+ private:
+  void run_pass(SystemState& state) {
+    SimulationSettings settings = settings_;
+    settings.tolerance = course_.errors;
+    const Observer observer = [this](const SystemState& at,
+                                     const EnergyBalance& balance) {
+      course_.now.states.push_back(at);
+      course_.now.balances.push_back(balance);
+    };
+    Continuation continuation{keeper_, std::move(inner_)};
+    inner_.reset();
+    SimulationStatistics pass;
+    state = start_;
+    const auto finish = [&] {
+      add_costs(pass, statistics_);
+      statistics_.exact_modes = pass.exact_modes;
+      statistics_.events = std::move(pass.events);
+      statistics_.warnings = std::move(pass.warnings);
+      statistics_.passes = ++course_.pass;
+    };
+    try {
+      run_once(model_, state, settings, observer, progress_, pass,
+               continuation);
+    } catch (const NumericalError&) {
+      finish();
+      throw;
+    }
+    finish();
+  }
+
+  // Estimates the pass that ended.
+  bool is_good_enough() {
+    if (course_.pass < 2) return false;
+    const double distance =
+        measure_distance(scale_, course_.before, course_.now);
+    course_.estimate =
+        distance * course_.errors / (course_.errors_before - course_.errors);
+    statistics_.estimated_error = course_.estimate;
+    if (course_.estimate <= settings_.tolerance) return true;
+    if (course_.pass < kMostPasses) return false;
+    statistics_.warnings.push_back(fmt::format(
+        "after {} passes positions are still uncertain by {:.3g} m, more than "
+        "the tolerance of {:.3g} m: the motion magnifies small errors; a "
+        "shorter time or a larger tolerance can be held",
+        kMostPasses, course_.estimate, settings_.tolerance));
+    return true;
+  }
+
+  void plan_next() {
+    double next = kSecond * settings_.tolerance;
+    if (course_.pass >= 2) {
+      const double wanted = kSafety * settings_.tolerance / course_.estimate;
+      next = course_.errors * std::clamp(wanted, 1e-4, 0.5);
+    }
+    course_.errors_before = course_.errors;
+    course_.errors = next;
+    course_.before = std::move(course_.now);
+    course_.now = {};
+  }
+
+  Checkpoint wrap(const Checkpoint& inner) {
+    Archive archive;
+    std::vector<double> numbers = inner.numbers;
+    archive(numbers, course_, statistics_.steps, statistics_.rejected_steps,
+            statistics_.halved_steps, statistics_.newton_iterations,
+            statistics_.factorizations);
+    return {inner.time, archive.numbers()};
+  }
+
+  void unwrap(const Checkpoint& checkpoint) {
+    Archive archive(checkpoint.numbers);
+    inner_.emplace();
+    inner_->time = checkpoint.time;
+    archive(inner_->numbers, course_, statistics_.steps,
+            statistics_.rejected_steps, statistics_.halved_steps,
+            statistics_.newton_iterations, statistics_.factorizations);
+  }
+
+  const SystemModel& model_;
+  const SystemState start_;
+  const SimulationSettings& settings_;
+  const Progress& progress_;
+  SimulationStatistics& statistics_;
+  MotionScale scale_;
+  CheckpointKeeper keeper_;
+  std::optional<Checkpoint> inner_;  // of the pass that goes on
+  Course course_;
+};
+
+}  // namespace
+
+void run_to_tolerance(const SystemModel& model, SystemState& state,
+                      const SimulationSettings& settings,
+                      const Observer& observer, const Progress& progress,
+                      SimulationStatistics& statistics,
+                      const Continuation& continuation) {
+  Passes passes(model, state, settings, progress, statistics, continuation);
+  const auto tell = [&] {
+    if (!observer) return;
+    for (std::size_t i = 0; i < passes.record().states.size(); ++i) {
+      observer(passes.record().states[i], passes.record().balances[i]);
+    }
+  };
+  try {
+    passes.run(state);
+  } catch (const NumericalError&) {
+    tell();
+    throw;
+  }
+  tell();
+}
+
+}  // namespace limber::dynamics

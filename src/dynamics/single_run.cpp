@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/single_run.hpp"
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "dynamics/driver.hpp"
+#include "dynamics/exact_modes.hpp"
+#include "dynamics/linear_limit.hpp"
+#include "dynamics/modal_loads.hpp"
+#include "dynamics/stable_step.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// Steps no longer than central differences are stable for.
+SimulationSettings limit_step(const SystemModel& model,
+                              const SystemState& state,
+                              const SimulationSettings& asked,
+                              SimulationStatistics& statistics) {
+  if (asked.integrator != IntegratorKind::central_differences) return asked;
+  SimulationSettings settings = asked;
+  statistics.stable_step = find_stable_step(model, state);
+  const double longest = kStableShare * statistics.stable_step;
+  settings.step = std::min(asked.step, longest);
+  for (StepChange& change : settings.step_changes) {
+    change.step = std::min(change.step, longest);
+  }
+  return settings;
+}
+
+// Everything that one run goes by.
+struct Job {
+  const SimulationSettings& settings;
+  const Progress& progress;
+  SimulationStatistics& statistics;
+  const Continuation& continuation;
+};
+
+void integrate(const SystemModel& model, SystemState& state, const Job& job,
+               const Driver::Visit& visit) {
+  Driver driver(model, job.settings, state, job.statistics);
+  if (job.continuation.from) driver.resume(*job.continuation.from, state);
+  driver.run(state, visit, job.progress, job.continuation.keeper);
+}
+
+// Nothing is left that needs steps.
+void pass_time(SystemState& state, const std::vector<double>& times, double end,
+               const Driver::Visit& visit) {
+  for (const double t : times) {
+    state.t = t;
+    visit(state, {});
+  }
+  state.t = end;
+}
+
+bool has_exact_modes(const SystemModel& model,
+                     const SimulationSettings& settings) {
+  if (!settings.exact_modes ||
+      settings.integrator == IntegratorKind::explicit_euler) {
+    return false;
+  }
+  for (BodyIndex b = 0; b < std::ssize(model.bodies); ++b) {
+    if (has_closed_modal_loads(model, b)) return true;
+  }
+  return false;
+}
+
+// Modes in closed form beside steps for the rest.
+void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
+                                const std::vector<double>& times,
+                                const Job& job, const Driver::Visit& visit) {
+  job.statistics.exact_modes = exact.count();
+  exact.prepare(times);
+  SystemState rest = exact.take_rest(state);
+  SystemState whole = state;
+  const Driver::Visit visit_whole = [&](const SystemState& now,
+                                        const Losses& losses) {
+    const auto i = static_cast<std::size_t>(
+        std::lower_bound(times.begin(), times.end(), now.t) - times.begin());
+    exact.join(now, i, whole);
+    const ExactModes::Losses own = exact.losses(i);
+    visit(whole, {losses.work + own.work, losses.dissipated + own.dissipated});
+  };
+  const auto leave = [&] {
+    exact.prepare({rest.t});
+    exact.join(rest, 0, state);
+  };
+  try {
+    if (exact.has_motion_left()) {
+      integrate(exact.rest(), rest, job, visit_whole);
+    } else {
+      pass_time(rest, times, job.settings.end_time, visit_whole);
+    }
+  } catch (const NumericalError&) {
+    leave();
+    throw;
+  }
+  leave();
+}
+
+}  // namespace
+
+void run_once(const SystemModel& model, SystemState& state,
+              const SimulationSettings& asked, const Observer& observer,
+              const Progress& progress, SimulationStatistics& statistics,
+              const Continuation& continuation) {
+  SystemTerms terms = make_terms(model);
+  SystemState framed;
+  LinearLimit limit(model);
+  const Driver::Visit visit = [&](const SystemState& at, const Losses& losses) {
+    limit.check(at, statistics.warnings);
+    if (!observer) return;
+    if (!model.full_bodies.empty()) {
+      framed = at;
+      update_mean_frames(model, framed);
+    }
+    const SystemState& now = model.full_bodies.empty() ? at : framed;
+    EnergyBalance balance = calc_energy(model, now, terms);
+    balance.dissipated = losses.dissipated;
+    balance.work = losses.work;
+    observer(now, balance);
+  };
+  const SimulationSettings settings =
+      limit_step(model, state, asked, statistics);
+  const Job job{settings, progress, statistics, continuation};
+  const double start = state.t;
+  const auto finish = [&] {
+    update_mean_frames(model, state);
+    add_load_edges(model, start, state.t, statistics.events);
+  };
+  try {
+    if (has_exact_modes(model, settings)) {
+      ExactModes exact(model, state);
+      integrate_with_exact_modes(exact, state,
+                                 find_visited_times(model, state.t, settings),
+                                 job, visit);
+    } else {
+      integrate(model, state, job, visit);
+    }
+  } catch (const NumericalError&) {
+    finish();
+    throw;
+  }
+  finish();
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/step_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limber::dynamics {
+namespace {
+
+constexpr double kFirstShare = 1e-4;  // of the span: the first step
+constexpr double kSafety = 0.8;
+constexpr double kWorthGrowing = 1.5;
+constexpr double kMostGrowth = 4.0;
+constexpr double kMostShrinking = 0.1;
+constexpr double kMostTurn = 1.0;  // [rad]
+
+}  // namespace
+
+StepControl::StepControl(double tolerance, double span, double longest)
+    : tolerance_rate_(tolerance / span),
+      longest_(longest),
+      h_(std::min(longest, kFirstShare * span)) {}
+
+double StepControl::propose(const SystemState& state, double left) const {
+  double h = std::min(h_, longest_);
+  for (const BodyState& body : state.bodies) {
+    const double spin = body.w_WB_B.norm();
+    if (spin * h > kMostTurn) h = kMostTurn / spin;
+  }
+  // Two equal steps rather than a whole one and a short one.
+  if (h >= left) return left;
+  return 2.0 * h > left ? 0.5 * left : h;
+}
+
+bool StepControl::accepts(double h, double error) {
+  const double allowed = tolerance_rate_ * h;
+  // The square root of what is not a number is none either: clamped below.
+  const double factor =
+      error == 0.0 ? kMostGrowth : std::sqrt(kSafety * allowed / error);
+  const bool accepted = error <= allowed;
+  if (!accepted) {
+    h_ = h * (factor > kMostShrinking ? std::min(factor, 0.9) : kMostShrinking);
+  } else if (factor < 1.0) {
+    h_ = std::min(h_, h * factor);
+  } else if (h >= 0.99 * h_ && !was_rejected_ && factor >= kWorthGrowing) {
+    h_ = h * std::min(factor, kMostGrowth);
+  }
+  was_rejected_ = !accepted;
+  return accepted;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/trouble.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/errors.hpp"
+#include "dynamics/equations.hpp"
+#include "dynamics/linear_limit.hpp"
+#include "dynamics/stable_step.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr double kMostTurn = 1.0;  // of a body within a step [rad]
+
+bool is_explicit(IntegratorKind integrator) {
+  return integrator == IntegratorKind::runge_kutta_4 ||
+         integrator == IntegratorKind::explicit_euler;
+}
+
+std::string describe_stability(const SystemModel& model,
+                               const SystemState& state, double h) {
+  const double stable = find_stable_step(model, state);
+  // The limit of Runge-Kutta is 1.4 times that of central differences.
+  if (!(h > 1.5 * stable)) return {};
+  return fmt::format(
+      "the step of {:.3g} s is too long for an explicit scheme, which is "
+      "stable "
+      "up to about {:.3g} s here",
+      h, stable);
+}
+
+std::string describe_turn(const SystemModel& model, const SystemState& state,
+                          double h) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double turn = h * state.bodies[b].w_WB_B.norm();
+    if (turn > kMostTurn) {
+      return fmt::format(
+          "body '{}' turns at {:.4g} rad/s, {:.3g} rad within a step of {:.3g} "
+          "s",
+          model.bodies[b].name, state.bodies[b].w_WB_B.norm(), turn, h);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string find_cause(const SystemModel& model, const SystemState& state,
+                       IntegratorKind integrator, double h) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto soft =
+        describe_softening(model.bodies[b], state.bodies[b].w_WB_B);
+    if (soft) return *soft;
+  }
+  if (is_explicit(integrator)) {
+    try {
+      const std::string text = describe_stability(model, state, h);
+      if (!text.empty()) return text;
+    } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
+      // The state is too far gone to be asked.
+    }
+  }
+  return describe_turn(model, state, h);
+}
+
+std::string find_most_energy(const SystemModel& model,
+                             const SystemState& state) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  double most = -1.0;
+  std::string where;
+  const auto offer = [&](double energy, const auto& name) {
+    if (energy <= most) return;
+    most = energy;
+    where = name();
+  };
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const BodyState& rigid = state.bodies[b];
+    offer(0.5 * body.mass * rigid.v_WB_W.squaredNorm() +
+              0.5 * rigid.w_WB_B.dot(terms.bodies[b].J * rigid.w_WB_B),
+          [&] { return fmt::format("the motion of body '{}'", body.name); });
+    for (int k = 0; k < body.modes; ++k) {
+      const double eta = state.eta[body.offset + k];
+      const double etadot = state.etadot[body.offset + k];
+      offer(0.5 * (body.lambda[k] * eta * eta + etadot * etadot), [&] {
+        return fmt::format("mode {} ({:.4g} Hz) of body '{}'", k + 1,
+                           std::sqrt(body.lambda[k]) / (2.0 * std::numbers::pi),
+                           body.name);
+      });
+    }
+  }
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    offer(terms.couplers[c].response.energy,
+          [&] { return fmt::format("coupler '{}'", model.couplers[c].name); });
+  }
+  return where;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs that go on from a checkpoint are those that never stopped, to the bit.
+#include "dynamics/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/archive.hpp"
+#include "common/errors.hpp"
+#include "dynamics/archives.hpp"
+#include "support/chain.hpp"
+#include "support/lattice_chain.hpp"
+#include "support/sliding_masses.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+struct Scene {
+  SystemModel model;
+  SystemState state;
+};
+
+struct Trace {
+  std::vector<SystemState> states;
+  std::vector<EnergyBalance> energies;
+  SystemState end;
+  SimulationStatistics statistics;
+};
+
+std::vector<double> to_numbers(SystemState state) {
+  Archive archive;
+  archive(state);
+  return archive.numbers();
+}
+
+std::vector<double> to_numbers(EnergyBalance energy) {
+  Archive archive;
+  archive(energy);
+  return archive.numbers();
+}
+
+/// Checkpoint with how many outputs there were before it.
+struct Kept {
+  Checkpoint checkpoint;
+  std::size_t outputs = 0;
+};
+
+Trace run(const Scene& scene, const SimulationSettings& settings,
+          std::vector<Kept>* kept, const Checkpoint* from) {
+  Trace trace;
+  trace.end = scene.state;
+  Continuation continuation;
+  continuation.keeper.interval = 0.0;
+  if (kept != nullptr) {
+    continuation.keeper.keep = [&](const Checkpoint& c) {
+      kept->push_back({c, trace.states.size()});
+    };
+  }
+  if (from != nullptr) continuation.from = *from;
+  simulate(
+      scene.model, trace.end, settings,
+      [&](const SystemState& state, const EnergyBalance& energy) {
+        trace.states.push_back(state);
+        trace.energies.push_back(energy);
+      },
+      {}, trace.statistics, continuation);
+  return trace;
+}
+
+void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
+  ASSERT_EQ(whole.states.size(), rest.states.size() + outputs);
+  for (std::size_t i = 0; i < rest.states.size(); ++i) {
+    ASSERT_EQ(to_numbers(whole.states[outputs + i]), to_numbers(rest.states[i]))
+        << "at t = " << rest.states[i].t;
+    ASSERT_EQ(to_numbers(whole.energies[outputs + i]),
+              to_numbers(rest.energies[i]));
+  }
+  EXPECT_EQ(to_numbers(whole.end), to_numbers(rest.end));
+  EXPECT_EQ(whole.statistics.steps, rest.statistics.steps);
+  EXPECT_EQ(whole.statistics.newton_iterations,
+            rest.statistics.newton_iterations);
+  EXPECT_EQ(whole.statistics.factorizations, rest.statistics.factorizations);
+  EXPECT_EQ(whole.statistics.events, rest.statistics.events);
+}
+
+void expect_runs_go_on(const Scene& scene, const SimulationSettings& settings) {
+  std::vector<Kept> kept;
+  const Trace whole = run(scene, settings, &kept, nullptr);
+  ASSERT_GE(kept.size(), 2U);
+  for (const Kept& k : kept) {
+    const Trace rest = run(scene, settings, nullptr, &k.checkpoint);
+    const bool tells_all_at_the_end = settings.tolerance > 0.0;
+    expect_same(whole, rest, tells_all_at_the_end ? 0 : k.outputs);
+  }
+}
+
+std::vector<double> sample(double end, int count) {
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i) times.push_back(end * i / count);
+  return times;
+}
+
+SimulationSettings make_settings(IntegratorKind kind, double end, double step) {
+  SimulationSettings settings;
+  settings.integrator = kind;
+  settings.end_time = end;
+  settings.step = step;
+  settings.output_times = sample(end, 7);
+  return settings;
+}
+
+Scene make_spinning_chain() {
+  testing::Chain chain =
+      testing::make_chain({.bodies = 3,
+                           .modes = 4,
+                           .stiffness = 1e5,
+                           .damping = 10.0,
+                           .joint = joints::JointKind::revolute});
+  chain.builder.set_gravity({0.0, 0.0, -9.81});
+  Scene scene{chain.builder.build(), chain.state};
+  for (BodyState& body : scene.state.bodies) body.w_WB_B.x() = 2.0;
+  return scene;
+}
+
+class EveryScheme : public ::testing::TestWithParam<int> {};
+
+TEST_P(EveryScheme, GoesOnFromACheckpointToTheBit) {
+  expect_runs_go_on(
+      make_spinning_chain(),
+      make_settings(static_cast<IntegratorKind>(GetParam()), 0.12, 1e-4));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , EveryScheme,
+    ::testing::Range(0, static_cast<int>(integrator_names().size())),
+    [](const auto& scheme) {
+      std::string name =
+          integrator_names()[static_cast<std::size_t>(scheme.param)];
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
+
+TEST(Checkpoint, KeepsWhatCouplersRememberAndWhatHasHappened) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "ball", 2.0);
+  testing::add_rail(
+      builder, mass, "rail",
+      {{0, joints::EndStop({.lower = -0.2, .upper = 0.2, .stiffness = 2e4})}});
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.bodies[0].v_WB_W.x() = 3.0;
+  expect_runs_go_on(
+      scene, make_settings(IntegratorKind::generalized_alpha, 1.1, 1e-3));
+}
+
+TEST(Checkpoint, OfUnreducedBodiesGoesOnToTheBit) {
+  for (const IntegratorKind kind : {IntegratorKind::generalized_alpha,
+                                    IntegratorKind::central_differences}) {
+    testing::LatticeChain chain;
+    chain.add(Fidelity::full);
+    chain.add(Fidelity::coupled, 6);
+    Scene scene{chain.builder.build(), {}};
+    scene.state = chain.place(scene.model, 1e-4, {1.0, 0.0, 0.2}, 1e-4);
+    expect_runs_go_on(scene, make_settings(kind, 0.06, 1e-4));
+  }
+}
+
+TEST(Checkpoint, OfStepsToAToleranceGoesOnInItsPass) {
+  SimulationSettings settings =
+      make_settings(IntegratorKind::generalized_alpha, 0.5, 0.5);
+  settings.tolerance = 1e-6;
+  expect_runs_go_on(make_spinning_chain(), settings);
+}
+
+TEST(Checkpoint, ThatIsCutShortIsRefused) {
+  const Scene scene = make_spinning_chain();
+  const SimulationSettings settings =
+      make_settings(IntegratorKind::generalized_alpha, 0.12, 1e-4);
+  std::vector<Kept> kept;
+  run(scene, settings, &kept, nullptr);
+  Checkpoint damaged = kept[0].checkpoint;
+  damaged.numbers.resize(damaged.numbers.size() / 2);
+  EXPECT_THROW(run(scene, settings, nullptr, &damaged), InputError);
+}
+
+}  // namespace
+}  // namespace limber::dynamics

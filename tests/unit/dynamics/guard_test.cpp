@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run does when it gets into trouble.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/errors.hpp"
+#include "dynamics/energy_watch.hpp"
+#include "dynamics/linear_limit.hpp"
+#include "dynamics/simulation.hpp"
+#include "dynamics/step_control.hpp"
+#include "support/chain.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::make_point_mass_body;
+using testing::PointMassBody;
+using testing::share;
+
+struct Scene {
+  SystemModel model;
+  SystemState state;
+};
+
+Scene make_spinning_body(double speed, Fidelity fidelity = Fidelity::coupled) {
+  PointMassBody body = make_point_mass_body(24, 4, 4.0, 1.0, 60.0, 42);
+  body.reduced.size = {0.3, 0.3, 1.0};
+  SystemBuilder builder;
+  builder.add_flexible_body("blade", share(body), fidelity, {});
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.bodies[0].w_WB_B.x() = speed;
+  return scene;
+}
+
+SimulationSettings make_settings(double end, double step) {
+  SimulationSettings settings;
+  settings.end_time = end;
+  settings.step = step;
+  settings.output_times = {0.0, end};
+  return settings;
+}
+
+std::string run_into_trouble(const Scene& scene,
+                             const SimulationSettings& settings) {
+  SystemState state = scene.state;
+  try {
+    simulate(scene.model, state, settings, {});
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  return "it ended well";
+}
+
+// The largest eigenvalue of the centrifugal softening by differences of the
+// forces on the modes, without the packed tables that the code under test uses.
+double find_critical_speed(const PointMassBody& body, const Vector3& axis) {
+  const auto& r = body.reduced;
+  const int m = r.mode_count();
+  MatrixX B = MatrixX::Zero(m, m);
+  const Matrix3 across = Matrix3::Identity() - axis * axis.transpose();
+  for (Eigen::Index n = 0; n < body.masses.size(); ++n) {
+    const auto phi = r.rows.Phi_B.middleRows<3>(3 * n);
+    B += body.masses[n] * phi.transpose() * across * phi;
+  }
+  const MatrixX Lambda = r.lambda.asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(B, Lambda);
+  return 1.0 / std::sqrt(solver.eigenvalues().maxCoeff());
+}
+
+TEST(Softening, IsOneAtTheCriticalSpeedOfThePointMasses) {
+  const PointMassBody body = make_point_mass_body(24, 4, 4.0, 1.0, 60.0, 42);
+  const Scene scene = make_spinning_body(0.0);
+  for (const Vector3& axis : {Vector3(1.0, 0.0, 0.0), Vector3(0.0, 0.6, 0.8)}) {
+    const double critical = find_critical_speed(body, axis);
+    EXPECT_NEAR(find_softening(scene.model.bodies[0], critical * axis), 1.0,
+                1e-10);
+    EXPECT_NEAR(find_softening(scene.model.bodies[0], 2.0 * critical * axis),
+                4.0, 1e-9);
+  }
+}
+
+TEST(Guard, NamesACriticalSpeedThatIsPassed) {
+  const PointMassBody body = make_point_mass_body(24, 4, 4.0, 1.0, 60.0, 42);
+  const double critical = find_critical_speed(body, Vector3::UnitX());
+  Scene scene = make_spinning_body(0.97 * critical);
+  SystemState state = scene.state;
+  EXPECT_THAT(
+      simulate(scene.model, state, make_settings(1e-3, 1e-3), {}).warnings,
+      ::testing::Each(::testing::Not(HasSubstr("critical speed"))));
+  scene = make_spinning_body(1.03 * critical);
+  state = scene.state;
+  const auto warnings =
+      simulate(scene.model, state, make_settings(1e-3, 1e-3), {}).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("'blade'"));
+  EXPECT_THAT(warnings[0], HasSubstr("critical speed"));
+}
+
+TEST(Guard, SaysWhyABodyPastItsCriticalSpeedHasNoAnswer) {
+  const std::string text =
+      run_into_trouble(make_spinning_body(200.0), make_settings(1.0, 1e-3));
+  EXPECT_THAT(text, HasSubstr("body 'blade' at t = "));
+  EXPECT_THAT(text, HasSubstr("critical speed"));
+  EXPECT_THAT(text, HasSubstr("mode "));
+}
+
+TEST(Guard, TellsOnceOfADeformationBeyondATenthOfTheBody) {
+  Scene scene = make_spinning_body(0.0);
+  const double size = scene.model.bodies[0].reduced->size.maxCoeff();
+  const DisplacementMeasure measure(scene.model.bodies[0]);
+  scene.state.eta[1] = 0.11 * size / measure.mode_sizes()[1];
+  SystemState state = scene.state;
+  SimulationSettings settings = make_settings(0.1, 1e-3);
+  settings.output_times = {0.0, 0.02, 0.05, 0.1};
+  const auto warnings = simulate(scene.model, state, settings, {}).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("'blade'"));
+  EXPECT_THAT(warnings[0], HasSubstr("11 % of its size"));
+  scene.state.eta[1] = 0.09 * size / measure.mode_sizes()[1];
+  state = scene.state;
+  EXPECT_TRUE(simulate(scene.model, state, settings, {}).warnings.empty());
+}
+
+TEST(Guard, StopsAtADeformationAsLargeAsTheBody) {
+  Scene scene = make_spinning_body(0.0);
+  scene.state.eta[0] = 1e3;
+  EXPECT_THAT(run_into_trouble(scene, make_settings(0.1, 1e-3)),
+              HasSubstr("linear elasticity has no answer there"));
+}
+
+TEST(Guard, StopsAnExplicitSchemeThatBlowsUpLongBeforeItOverflows) {
+  Scene scene = make_spinning_body(0.0);
+  scene.state.eta[3] = 1e-3;
+  SimulationSettings settings = make_settings(10.0, 0.0);
+  settings.integrator = IntegratorKind::runge_kutta_4;
+  // Stable up to 2.83 / omega.
+  settings.step = 4.0 / std::sqrt(scene.model.bodies[0].lambda[3]);
+  SystemState state = scene.state;
+  EXPECT_THAT(
+      run_into_trouble(scene, settings),
+      AllOf(HasSubstr("blows up"), HasSubstr("mode 4"), HasSubstr("'blade'"),
+            HasSubstr("too long for an explicit scheme")));
+  settings.step = 2.0 / std::sqrt(scene.model.bodies[0].lambda[3]);
+  EXPECT_EQ(run_into_trouble(scene, settings), "it ended well");
+}
+
+TEST(Guard, HalvesAStepThatDoesNotGoThrough) {
+  // Newton's method has two iterations to turn a heavy chain by a large angle.
+  testing::Chain chain = testing::make_chain(
+      {.bodies = 3, .modes = 2, .joint = joints::JointKind::revolute});
+  chain.builder.set_gravity({0.0, -9.81, 0.0});
+  Scene scene{chain.builder.build(), chain.state};
+  for (BodyState& body : scene.state.bodies) body.w_WB_B.x() = 3.0;
+  SimulationSettings settings = make_settings(0.2, 0.02);
+  settings.newton_iterations = 4;
+  SystemState state = scene.state;
+  const SimulationStatistics statistics =
+      simulate(scene.model, state, settings, {});
+  EXPECT_GT(statistics.halved_steps, 0);
+  EXPECT_EQ(statistics.steps, 10);
+  // The answer is that of short steps, not of none.
+  settings.newton_iterations = 20;
+  settings.step = 1e-4;
+  SystemState fine = scene.state;
+  simulate(scene.model, fine, settings, {});
+  EXPECT_LT((state.bodies[2].p_WB - fine.bodies[2].p_WB).norm(), 2e-2);
+}
+
+TEST(Guard, GivesUpHalvingAndSaysSo) {
+  Scene scene = make_spinning_body(10.0);
+  scene.state.bodies[0].w_WB_B.y() = 1.0;
+  SimulationSettings settings = make_settings(0.1, 1e-3);
+  settings.newton_iterations = 1;
+  settings.newton_tolerance = 1e-15;
+  EXPECT_THAT(run_into_trouble(scene, settings),
+              AllOf(HasSubstr("'blade'"), HasSubstr("t = "),
+                    HasSubstr("halved 10 times")));
+}
+
+TEST(Guard, TellsAStartFromWhichNothingMoves) {
+  Scene scene = make_spinning_body(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THAT(run_into_trouble(scene, make_settings(0.1, 1e-3)),
+              AllOf(HasSubstr("'blade'"), HasSubstr("t = 0 s")));
+}
+
+TEST(EnergyWatch, LooksAwayFromWhatLoadsSupplied) {
+  EnergyWatch watch(1.0);
+  EXPECT_FALSE(watch.is_blown_up(9.0));
+  watch.add(5.0);
+  EXPECT_FALSE(watch.is_blown_up(50.0));
+  watch.add(-5.0);
+  EXPECT_FALSE(watch.is_blown_up(100.0));
+}
+
+TEST(EnergyWatch, SeesGrowthWithoutASourceAtTheSecondLook) {
+  EnergyWatch watch(1.0);
+  EXPECT_FALSE(watch.is_blown_up(20.0));
+  EXPECT_FALSE(watch.is_blown_up(19.0));  // it falls again
+  EXPECT_TRUE(watch.is_blown_up(30.0));
+}
+
+TEST(EnergyWatch, SeesWhatIsNoNumberAndWhatIsFarOffAtOnce) {
+  EXPECT_TRUE(EnergyWatch(1.0).is_blown_up(std::nan("")));
+  EXPECT_TRUE(EnergyWatch(1.0).is_blown_up(2000.0));
+}
+
+TEST(StepControl, AddsUpToTheTolerance) {
+  // A scheme whose steps err by c h^3: the steps settle where that is their
+  // share of the tolerance.
+  const double c = 3.0;
+  const double span = 2.0;
+  const double tolerance = 1e-6;
+  StepControl control(tolerance, span, span);
+  SystemState state;
+  double total = 0.0;
+  int rejected = 0;
+  while (state.t < span) {
+    const double h = control.propose(state, span - state.t);
+    const double error = c * h * h * h;
+    if (!control.accepts(h, error)) {
+      ++rejected;
+      continue;
+    }
+    total += error;
+    state.t = h == span - state.t ? span : state.t + h;
+  }
+  EXPECT_LE(total, tolerance);
+  EXPECT_GT(total, 0.3 * tolerance);
+  EXPECT_LT(rejected, 3);
+}
+
+TEST(StepControl, ShortensAStepWhoseErrorIsNoNumber) {
+  StepControl control(1e-6, 1.0, 1.0);
+  const double h = control.step();
+  EXPECT_FALSE(control.accepts(h, std::nan("")));
+  EXPECT_LT(control.step(), 0.2 * h);
+}
+
+TEST(StepControl, TurnsNoBodyByMoreThanARadian) {
+  StepControl control(1.0, 1.0, 1.0);
+  for (int i = 0; i < 20; ++i) {
+    SystemState state;
+    state.bodies.resize(1);
+    state.bodies[0].w_WB_B = {0.0, 300.0, 400.0};
+    const double h = control.propose(state, 1.0);
+    EXPECT_LE(500.0 * h, 1.0 + 1e-12);
+    EXPECT_TRUE(control.accepts(h, 0.0));
+  }
+}
+
+}  // namespace
+}  // namespace limber::dynamics
