@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace limber::bench {
+
+/// How a piece of work ended that was done in a process of its own.
+struct Ending {
+  enum class Kind {
+    done,
+    crashed,  ///< by a signal, or without a word
+    hung,     ///< longer than it was given
+  };
+  Kind kind = Kind::done;
+  std::string answer;    ///< of work that was done
+  double seconds = 0.0;  ///< wall time
+};
+
+/// Does pieces of work, each in a process of its own, so many at a time, and
+/// tells how each ended, in their order.
+/// @param limit wall time for each [s]
+/// @param tell called after each, with how many are done; may be empty
+[[nodiscard]] std::vector<Ending> do_isolated(
+    const std::vector<std::function<std::string()>>& work, double limit,
+    int at_a_time, const std::function<void(std::size_t)>& tell);
+
+}  // namespace limber::bench
