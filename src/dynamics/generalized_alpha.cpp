@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/newton_measures.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -21,15 +21,6 @@ constexpr int kFewestFreshSteps = 8;
 constexpr int kMostFreshSteps = 512;
 // Factor anew within a step when it is slower than this.
 constexpr double kPoorContraction = 0.3;
-// Round-off of a position, relative to its distance from the world origin.
-constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
-// Forces of a whole mesh are differences of large ones: what round-off makes of
-// them moves its soft modes by this factor more.
-constexpr double kNodalNoise = 100.0;
-
-double radius_of_gyration_squared(const BodyModel& body) {
-  return 0.5 * body.J0.trace() / body.mass;
-}
 
 }  // namespace
 
@@ -194,69 +185,6 @@ void GeneralizedAlpha::apply_increments(double h) {
   }
 }
 
-// Of a body's nodes; zero if it is reduced.
-double GeneralizedAlpha::mean_square(
-    const BodyModel& body, const Eigen::Ref<const VectorX>& nodes) const {
-  if (body.full < 0) return 0.0;
-  const FullModel& full =
-      model_.full_bodies[static_cast<std::size_t>(body.full)];
-  return 3.0 * nodes.segment(full.first, full.dofs()).squaredNorm() /
-         static_cast<double>(full.dofs());
-}
-
-// Length [m] of the increments, mass-weighted within a body; largest body.
-GeneralizedAlpha::Size GeneralizedAlpha::measure_increments() const {
-  Size largest;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
-    const double squared =
-        Eigen::Map<const Vector3>(x).squaredNorm() +
-        radius_of_gyration_squared(body) *
-            Eigen::Map<const Vector3>(x + 3).squaredNorm() +
-        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass +
-        mean_square(body, x_.tail(model_.nodal_count));
-    if (!(squared <= largest.value)) {
-      largest = {squared, b};
-      if (!std::isfinite(squared)) break;
-    }
-  }
-  largest.value = std::sqrt(largest.value);
-  return largest;
-}
-
-// The step's motion on the same scale [m].
-double GeneralizedAlpha::measure_motion() const {
-  double largest = 0.0;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const double squared =
-        inc_.translation[b].squaredNorm() +
-        radius_of_gyration_squared(body) * inc_.rotation[b].squaredNorm() +
-        inc_.modes.segment(body.offset, body.modes).squaredNorm() / body.mass +
-        mean_square(body, inc_.nodes);
-    largest = std::max(largest, squared);
-  }
-  return std::sqrt(largest);
-}
-
-// Below this [m] corrections are made of round-off alone.
-double GeneralizedAlpha::measure_roundoff() const {
-  double reach = 0.0;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    if (body.full >= 0) {
-      const double noise = kNodalNoise * kNodalNoise;
-      reach = std::max(reach, noise * (mean_square(body, next_.u_H) +
-                                       radius_of_gyration_squared(body)));
-      continue;
-    }
-    reach = std::max(reach, next_.bodies[b].p_WB.squaredNorm() +
-                                radius_of_gyration_squared(body));
-  }
-  return kRoundoff * std::sqrt(reach);
-}
-
 void GeneralizedAlpha::fail(double t, std::size_t body, const char* what,
                             double size) const {
   throw NumericalError(fmt::format(
@@ -295,7 +223,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   advance(state, h, end);
   double last = 0.0;
   double slowest = 0.0;  // contraction with the factors held
-  const double roundoff = measure_roundoff();
+  const double roundoff = measure_roundoff(model_, next_);
   const bool keeps = fresh_steps_ == 0 && factored_step_ > 0.0 &&
                      std::abs(h - factored_step_) <= 1e-9 * h;
   bool needs_factors = !keeps;
@@ -310,7 +238,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
       needs_factors = false;
     }
     matrix_.solve(model_, terms_, residual_, x_);
-    const Size correction = measure_increments();
+    const CorrectionSize correction = measure_correction(model_, x_);
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
       factored_step_ = 0.0;
@@ -319,7 +247,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
     }
     apply_increments(h);
     advance(state, h, end);
-    const double limit = settings_.tolerance * measure_motion();
+    const double limit = settings_.tolerance * measure_motion(model_, inc_);
     const double contraction =
         result.iterations > 1 ? correction.value / last : 1.0;
     last = correction.value;

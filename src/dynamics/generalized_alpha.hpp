@@ -59,15 +59,6 @@ class GeneralizedAlpha {
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h);
   void add_quasi_static_accelerations();
-  struct Size {
-    double value = 0.0;
-    std::size_t body = 0;
-  };
-  [[nodiscard]] double mean_square(
-      const BodyModel& body, const Eigen::Ref<const VectorX>& nodes) const;
-  [[nodiscard]] Size measure_increments() const;
-  [[nodiscard]] double measure_motion() const;
-  [[nodiscard]] double measure_roundoff() const;
   void refactor(bool renews_full = false);
   // Decides from a step's slowest contraction whether the next keep factors.
   void plan_factors(bool kept, double slowest);
