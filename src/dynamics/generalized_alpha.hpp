@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "dynamics/equations.hpp"
+#include "dynamics/exact_correction.hpp"
 #include "dynamics/newton_matrix.hpp"
+#include "dynamics/newton_measures.hpp"
 #include "dynamics/residual.hpp"
 #include "dynamics/step_result.hpp"
 
@@ -59,17 +61,26 @@ class GeneralizedAlpha {
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h);
   void add_quasi_static_accelerations();
+  void predict(const SystemState& from, double h, double end);
+  void keep_wrenches();
+  void restore_wrenches();
+  [[nodiscard]] Roundoff measure_wrench_noise();
+  void correct(bool exactly);
+  double converge(const SystemState& from, double h, double end, bool keeps,
+                  bool exactly, StepResult& result);
   void refactor(bool renews_full = false);
   // Decides from a step's slowest contraction whether the next keep factors.
   void plan_factors(bool kept, double slowest);
-  [[noreturn]] void fail(double t, std::size_t body, const char* what,
-                         double size) const;
+  [[noreturn]] void fail(const SystemState& from, double h,
+                         const CorrectionSize& correction,
+                         const char* what) const;
 
   const SystemModel& model_;
   Settings settings_;
   double am_, af_, gamma_, beta_;
   double lag_;  // share of h^2 a_n in a step's motion
   NewtonMatrix matrix_;
+  ExactCorrection exact_;
   NewtonMatrix::Coefficients coefficients_;
   double factored_step_ = 0.0;  // h of the factors held, 0: none
   int fresh_steps_ = 0;         // how many more steps factor anew
@@ -88,6 +99,8 @@ class GeneralizedAlpha {
   Rates inc_;  // motion over the step
   VectorX residual_;
   VectorX x_;
+  std::vector<Vector6> kept_wrenches_;
+  std::vector<Vector6> gaps_;
 };
 
 }  // namespace limber::dynamics

@@ -37,18 +37,24 @@ CorrectionSize measure_correction(const SystemModel& model,
     const BodyModel& body = model.bodies[b];
     const double* x =
         increments.data() + 6 * b + static_cast<std::size_t>(body.offset);
-    const double squared =
+    const double rigid =
         Eigen::Map<const Vector3>(x).squaredNorm() +
         radius_of_gyration_squared(body) *
             Eigen::Map<const Vector3>(x + 3).squaredNorm() +
-        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass +
         mean_square(model, body, increments.tail(model.nodal_count));
-    if (!(squared <= largest.value)) {
-      largest = {squared, b};
-      if (!std::isfinite(squared)) break;
+    const double modal =
+        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass;
+    largest.rigid = std::max(largest.rigid, rigid);
+    largest.modal = std::max(largest.modal, modal);
+    if (!(rigid + modal <= largest.value)) {
+      largest.value = rigid + modal;
+      largest.body = b;
+      if (!std::isfinite(largest.value)) break;
     }
   }
   largest.value = std::sqrt(largest.value);
+  largest.rigid = std::sqrt(largest.rigid);
+  largest.modal = std::sqrt(largest.modal);
   return largest;
 }
 
@@ -67,8 +73,9 @@ double measure_motion(const SystemModel& model, const Rates& motion) {
   return std::sqrt(largest);
 }
 
-double measure_roundoff(const SystemModel& model, const SystemState& state) {
+Roundoff measure_roundoff(const SystemModel& model, const SystemState& state) {
   double reach = 0.0;
+  double bend = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     if (body.full >= 0) {
@@ -79,8 +86,42 @@ double measure_roundoff(const SystemModel& model, const SystemState& state) {
     }
     reach = std::max(reach, state.bodies[b].p_WB.squaredNorm() +
                                 radius_of_gyration_squared(body));
+    bend = std::max(
+        bend,
+        state.eta.segment(body.offset, body.modes).squaredNorm() / body.mass);
   }
-  return kRoundoff * std::sqrt(reach);
+  return {kRoundoff * std::sqrt(reach), kRoundoff * std::sqrt(bend)};
+}
+
+void find_roundoff_gaps(const SystemModel& model, const SystemTerms& terms,
+                        double velocity, std::vector<Vector6>& gaps) {
+  const auto motion_of = [&](AttachmentIndex i) -> const AttachmentMotion& {
+    return terms.attachments[static_cast<std::size_t>(i)];
+  };
+  gaps.resize(model.couplers.size() + model.transmissions.size());
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const AttachmentMotion& F = motion_of(model.couplers[c].frame_F);
+    const AttachmentMotion& M = motion_of(model.couplers[c].frame_M);
+    const joints::CouplerResponse& response = terms.couplers[c].response;
+    // Signs as they may fall: alike for no two neighbours.
+    const double sign = c % 2 == 0 ? kRoundoff : -kRoundoff;
+    const double p = sign * (F.p_WF.norm() + F.arm_B.norm() + M.arm_B.norm());
+    const double v = sign * (F.v_WF_W.norm() + M.v_WF_W.norm());
+    const double w = sign * (F.w_WF_W.norm() + M.w_WF_W.norm());
+    Vector6 position;
+    Vector6 rate;
+    position << p, -p, p, -sign, sign, sign;
+    rate << v, -v, v, -w, w, w;
+    gaps[c] = (response.stiffness + velocity * response.damping) * position +
+              response.damping * rate;
+  }
+  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
+    const TransmissionTerms& t = terms.transmissions[i];
+    gaps[model.couplers.size() + i]
+        << kRoundoff * (t.response.stiffness * t.motion.z +
+                        t.response.damping * t.motion.rate),
+        0.0, 0.0, 0.0, 0.0, 0.0;
+  }
 }
 
 }  // namespace limber::dynamics
