@@ -68,6 +68,40 @@ Matrix3 left_jacobian(const Vector3& theta) {
   return Matrix3::Identity() + a * s + b * s * s;
 }
 
+Matrix3 left_jacobian_derivative(const Vector3& theta,
+                                 const Vector3& direction) {
+  // J_l = 1 + a S + b S S with a = (1 - cos) / angle^2, b = (angle - sin) /
+  // angle^3; slopes are by the squared angle, times two.
+  const double x = theta.squaredNorm();
+  double a = 0.0;
+  double b = 0.0;
+  double a_slope = 0.0;
+  double b_slope = 0.0;
+  if (x < 0.1) {  // closed forms of the slopes cancel to 1e-11 at small angles
+    a = 0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0)));
+    b = 1.0 / 6.0 -
+        x / 120.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0)));
+    a_slope =
+        -1.0 / 12.0 *
+        (1.0 - x / 15.0 * (1.0 - 1.5 * x / 56.0 * (1.0 - 4.0 * x / 270.0)));
+    b_slope =
+        -1.0 / 60.0 *
+        (1.0 - x / 21.0 * (1.0 - 1.5 * x / 72.0 * (1.0 - 4.0 * x / 330.0)));
+  } else {
+    const double angle = std::sqrt(x);
+    const double sine = std::sin(angle);
+    const double half = std::sin(0.5 * angle);
+    a = 2.0 * half * half / x;
+    b = (angle - sine) / (x * angle);
+    a_slope = (sine / angle - 2.0 * a) / x;
+    b_slope = (a - 3.0 * b) / x;
+  }
+  const Matrix3 s = skew(theta);
+  const Matrix3 d = skew(direction);
+  const double along = theta.dot(direction);
+  return a * d + b * (s * d + d * s) + along * (a_slope * s + b_slope * s * s);
+}
+
 Matrix3 right_jacobian(const Vector3& theta) { return left_jacobian(-theta); }
 
 Matrix3 right_jacobian_inverse(const Vector3& theta) {

@@ -26,6 +26,10 @@ namespace limber {
 /// J_l(theta) thetadot.
 [[nodiscard]] Matrix3 left_jacobian(const Vector3& theta);
 
+/// Derivative of left_jacobian at `theta` along `direction`.
+[[nodiscard]] Matrix3 left_jacobian_derivative(const Vector3& theta,
+                                               const Vector3& direction);
+
 /// Right Jacobian J_r(theta) = J_l(-theta): angular velocity in the inner
 /// (rotated) frame.
 [[nodiscard]] Matrix3 right_jacobian(const Vector3& theta);

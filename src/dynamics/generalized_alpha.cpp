@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/generalized_alpha.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "dynamics/archives.hpp"
+#include "dynamics/newton_failure.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -22,15 +20,9 @@ constexpr int kFewestFreshSteps = 8;
 constexpr int kMostFreshSteps = 512;
 // Factor anew within a step when it is slower than this.
 constexpr double kPoorContraction = 0.3;
-// Round-off of a position, relative to its distance from the world origin.
-constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
-// Forces of a whole mesh are differences of large ones: what round-off makes of
-// them moves its soft modes by this factor more.
-constexpr double kNodalNoise = 100.0;
-
-double radius_of_gyration_squared(const BodyModel& body) {
-  return 0.5 * body.J0.trace() / body.mass;
-}
+// So many corrections that are slower with fresh factors call for the exact
+// derivative.
+constexpr int kSlowCorrections = 2;
 
 }  // namespace
 
@@ -49,10 +41,14 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
                                     : 0.25 * (0.5 + gamma_) * (0.5 + gamma_)),
       lag_(settings.implicit_euler ? 0.0 : 0.5 - beta_),
       matrix_(model),
+      exact_(model),
       next_(make_state(model)),
       terms_(make_terms(model)),
       residual_(VectorX::Zero(NewtonMatrix::size(model))),
-      x_(VectorX::Zero(NewtonMatrix::size(model))) {
+      x_(VectorX::Zero(NewtonMatrix::size(model))),
+      kept_wrenches_(model.couplers.size() + model.transmissions.size(),
+                     Vector6::Zero()),
+      gaps_(kept_wrenches_) {
   next_fresh_steps_ = kFewestFreshSteps;
   a_ = a_next_ = vdot_ = vdot_next_ = inc_ = make_rates(model);
   if (settings.estimates_error) scale_.emplace(model);
@@ -240,76 +236,12 @@ void GeneralizedAlpha::apply_increments(double h) {
   }
 }
 
-// Of a body's nodes; zero if it is reduced.
-double GeneralizedAlpha::mean_square(
-    const BodyModel& body, const Eigen::Ref<const VectorX>& nodes) const {
-  if (body.full < 0) return 0.0;
-  const FullModel& full =
-      model_.full_bodies[static_cast<std::size_t>(body.full)];
-  return 3.0 * nodes.segment(full.first, full.dofs()).squaredNorm() /
-         static_cast<double>(full.dofs());
-}
-
-// Length [m] of the increments, mass-weighted within a body; largest body.
-GeneralizedAlpha::Size GeneralizedAlpha::measure_increments() const {
-  Size largest;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
-    const double squared =
-        Eigen::Map<const Vector3>(x).squaredNorm() +
-        radius_of_gyration_squared(body) *
-            Eigen::Map<const Vector3>(x + 3).squaredNorm() +
-        Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass +
-        mean_square(body, x_.tail(model_.nodal_count));
-    if (!(squared <= largest.value)) {
-      largest = {squared, b};
-      if (!std::isfinite(squared)) break;
-    }
-  }
-  largest.value = std::sqrt(largest.value);
-  return largest;
-}
-
-// The step's motion on the same scale [m].
-double GeneralizedAlpha::measure_motion() const {
-  double largest = 0.0;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const double squared =
-        inc_.translation[b].squaredNorm() +
-        radius_of_gyration_squared(body) * inc_.rotation[b].squaredNorm() +
-        inc_.modes.segment(body.offset, body.modes).squaredNorm() / body.mass +
-        mean_square(body, inc_.nodes);
-    largest = std::max(largest, squared);
-  }
-  return std::sqrt(largest);
-}
-
-// Below this [m] corrections are made of round-off alone.
-double GeneralizedAlpha::measure_roundoff() const {
-  double reach = 0.0;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    if (body.full >= 0) {
-      const double noise = kNodalNoise * kNodalNoise;
-      reach = std::max(reach, noise * (mean_square(body, next_.u_H) +
-                                       radius_of_gyration_squared(body)));
-      continue;
-    }
-    reach = std::max(reach, next_.bodies[b].p_WB.squaredNorm() +
-                                radius_of_gyration_squared(body));
-  }
-  return kRoundoff * std::sqrt(reach);
-}
-
-void GeneralizedAlpha::fail(double t, std::size_t body, const char* what,
-                            double size) const {
-  throw NumericalError(fmt::format(
-      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, "
-      "tolerance {:.3g} of the step's motion); a smaller step or "
-      "more damping may help",
-      model_.bodies[body].name, t, what, size, settings_.tolerance));
+void GeneralizedAlpha::fail(const SystemState& from, double h,
+                            const CorrectionSize& correction,
+                            const char* what) const {
+  throw NumericalError(describe(
+      {model_, from, terms_, x_, correction, h, next_.t, settings_.tolerance},
+      what));
 }
 
 void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
@@ -323,10 +255,8 @@ void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
   }
 }
 
-StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
-  set_coefficients(h);
-  fit_memory(h);
-  // Predict unchanged accelerations.
+// Unchanged accelerations, and the step's end that they imply.
+void GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   const double p_v = 1.0 / (1.0 - am_);
   const double p_a = am_ / (1.0 - am_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -336,54 +266,138 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   }
   a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
   a_next_.nodes = p_v * vdot_.nodes - p_a * a_.nodes;
+  next_.memory = from.memory;
+  advance(from, h, end);
+}
 
-  StepResult result;
-  next_.memory = state.memory;
-  advance(state, h, end);
-  double last = 0.0;
-  double slowest = 0.0;  // contraction with the factors held
-  const double roundoff = measure_roundoff();
-  const bool keeps = fresh_steps_ == 0 && factored_step_ > 0.0 &&
-                     std::abs(h - factored_step_) <= 1e-9 * h;
+// The wrenches that act at the last state, to begin with once more.
+void GeneralizedAlpha::keep_wrenches() {
+  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
+    kept_wrenches_[c] = terms_.couplers[c].applied;
+  }
+  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
+    kept_wrenches_[model_.couplers.size() + i][0] =
+        terms_.transmissions[i].applied;
+  }
+}
+
+void GeneralizedAlpha::restore_wrenches() {
+  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
+    terms_.couplers[c].applied = kept_wrenches_[c];
+  }
+  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
+    terms_.transmissions[i].applied =
+        kept_wrenches_[model_.couplers.size() + i][0];
+  }
+  factored_step_ = 0.0;
+}
+
+// What round-off of stiff wrenches does to the motion, with the factors held.
+Roundoff GeneralizedAlpha::measure_wrench_noise() {
+  find_roundoff_gaps(model_, terms_, coefficients_.velocity, gaps_);
+  residual_.setZero();
+  matrix_.solve(model_, terms_, residual_, gaps_, x_);
+  const CorrectionSize noise = measure_correction(model_, x_);
+  return {noise.rigid, noise.modal};
+}
+
+void GeneralizedAlpha::correct(bool exactly) {
+  if (exactly) {
+    exact_.solve({next_, terms_, vdot_next_, inc_.rotation, coefficients_},
+                 residual_, matrix_, x_);
+  } else {
+    matrix_.solve(model_, terms_, residual_, x_);
+  }
+}
+
+// Newton's method, from the prediction on. @returns its slowest contraction.
+double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
+                                  bool keeps, bool exactly,
+                                  StepResult& result) {
+  predict(from, h, end);
+  Roundoff roundoff = measure_roundoff(model_, next_);
+  bool knows_noise = false;
   bool needs_factors = !keeps;
-  while (true) {
+  CorrectionSize correction;
+  double slowest = 0.0;
+  int slow_corrections = 0;  // with factors of their own
+  for (int iteration = 1;; ++iteration) {
     calc_terms(model_, next_, Side::left, terms_, WrenchSource::iterate);
     calc_residual(model_, vdot_next_, terms_, residual_);
+    const bool is_fresh = needs_factors;
     if (needs_factors) {
       // What new frames do not mend, new stiffnesses may.
-      refactor(result.factorizations > 0);
+      try {
+        refactor(result.factorizations > 0);
+      } catch (const NumericalError&) {
+        fail(from, h, correction, "Newton's method diverged");
+      }
       ++result.factorizations;
       factored_step_ = h;
-      needs_factors = false;
     }
-    matrix_.solve(model_, terms_, residual_, x_);
-    const Size correction = measure_increments();
+    correct(exactly);
+    const double last = correction.value;
+    correction = measure_correction(model_, x_);
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
-      factored_step_ = 0.0;
-      fail(end, correction.body, "its motion is no longer finite",
-           correction.value);
+      fail(from, h, correction, "its motion is no longer finite");
     }
     apply_increments(h);
-    advance(state, h, end);
-    const double limit = settings_.tolerance * measure_motion();
-    const double contraction =
-        result.iterations > 1 ? correction.value / last : 1.0;
-    last = correction.value;
+    advance(from, h, end);
+    const double limit = settings_.tolerance * measure_motion(model_, inc_);
+    const double contraction = iteration > 1 ? correction.value / last : 1.0;
     // What is left after this correction, if the contraction goes on.
-    const double left =
-        contraction < 0.5 ? correction.value * contraction / (1.0 - contraction)
-                          : correction.value;
-    if (result.iterations > 1 && correction.value > roundoff) {
+    const double share =
+        contraction < 0.5 ? contraction / (1.0 - contraction) : 1.0;
+    const auto is_done = [&](double size, double noise) {
+      return share * size <= limit || size <= noise;
+    };
+    const auto has_converged = [&] {
+      return is_done(correction.rigid, roundoff.rigid) &&
+             is_done(correction.modal, roundoff.modal);
+    };
+    const bool is_slow = iteration > 1 && contraction > kPoorContraction;
+    if (!has_converged() && !knows_noise &&
+        (is_slow || correction.rigid <= roundoff.rigid)) {
+      const Roundoff noise = measure_wrench_noise();
+      roundoff.rigid = std::max(roundoff.rigid, noise.rigid);
+      roundoff.modal = std::max(roundoff.modal, noise.modal);
+      knows_noise = true;
+    }
+    const bool is_above_noise =
+        correction.rigid > roundoff.rigid || correction.modal > roundoff.modal;
+    if (iteration > 1 && is_above_noise) {
       slowest = std::max(slowest, contraction);
     }
-    if (left <= limit || correction.value <= roundoff) break;
-    if (result.iterations >= settings_.max_iterations) {
-      factored_step_ = 0.0;
-      fail(end, correction.body, "Newton's method did not converge",
-           correction.value);
+    if (has_converged()) return slowest;
+    if (iteration >= settings_.max_iterations) {
+      fail(from, h, correction, "Newton's method did not converge");
     }
-    needs_factors = result.iterations > 1 && contraction > kPoorContraction;
+    if (is_slow && is_fresh) ++slow_corrections;
+    exactly = exactly || slow_corrections >= kSlowCorrections;
+    needs_factors = exactly || is_slow;
+  }
+}
+
+StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
+  set_coefficients(h);
+  fit_memory(h);
+  StepResult result;
+  const bool keeps = fresh_steps_ == 0 && factored_step_ > 0.0 &&
+                     std::abs(h - factored_step_) <= 1e-9 * h;
+  double slowest = 1.0;  // contraction with the factors held
+  keep_wrenches();
+  try {
+    slowest = converge(state, h, end, keeps, false, result);
+  } catch (const NumericalError&) {
+    // The factors alone have thrown it off; their complement may not.
+    restore_wrenches();
+    try {
+      converge(state, h, end, false, true, result);
+    } catch (const NumericalError&) {
+      restore_wrenches();
+      throw;
+    }
   }
   plan_factors(keeps, slowest);
   result.load_work = 0.5 * h * (power_load_ + terms_.load_power);

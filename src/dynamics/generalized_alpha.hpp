@@ -6,8 +6,10 @@
 
 #include "common/archive.hpp"
 #include "dynamics/equations.hpp"
+#include "dynamics/exact_correction.hpp"
 #include "dynamics/motion_scale.hpp"
 #include "dynamics/newton_matrix.hpp"
+#include "dynamics/newton_measures.hpp"
 #include "dynamics/residual.hpp"
 #include "dynamics/step_result.hpp"
 
@@ -76,20 +78,19 @@ class GeneralizedAlpha {
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h);
   void add_quasi_static_accelerations();
-  struct Size {
-    double value = 0.0;
-    std::size_t body = 0;
-  };
-  [[nodiscard]] double mean_square(
-      const BodyModel& body, const Eigen::Ref<const VectorX>& nodes) const;
-  [[nodiscard]] Size measure_increments() const;
-  [[nodiscard]] double measure_motion() const;
-  [[nodiscard]] double measure_roundoff() const;
+  void predict(const SystemState& from, double h, double end);
+  void keep_wrenches();
+  void restore_wrenches();
+  [[nodiscard]] Roundoff measure_wrench_noise();
+  void correct(bool exactly);
+  double converge(const SystemState& from, double h, double end, bool keeps,
+                  bool exactly, StepResult& result);
   void refactor(bool renews_full = false);
   // Decides from a step's slowest contraction whether the next keep factors.
   void plan_factors(bool kept, double slowest);
-  [[noreturn]] void fail(double t, std::size_t body, const char* what,
-                         double size) const;
+  [[noreturn]] void fail(const SystemState& from, double h,
+                         const CorrectionSize& correction,
+                         const char* what) const;
 
   const SystemModel& model_;
   Settings settings_;
@@ -97,6 +98,7 @@ class GeneralizedAlpha {
   double lag_;                        // share of h^2 a_n in a step's motion
   std::optional<MotionScale> scale_;  // to estimate errors
   NewtonMatrix matrix_;
+  ExactCorrection exact_;
   NewtonMatrix::Coefficients coefficients_;
   double factored_step_ = 0.0;  // h of the factors held, 0: none
   bool renews_full_ = false;    // those of unreduced bodies, too
@@ -117,6 +119,8 @@ class GeneralizedAlpha {
   Rates inc_;  // motion over the step
   VectorX residual_;
   VectorX x_;
+  std::vector<Vector6> kept_wrenches_;
+  std::vector<Vector6> gaps_;
 };
 
 }  // namespace limber::dynamics

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
+#include <limits>
+
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "dynamics/nodal_jacobian.hpp"
@@ -50,17 +53,27 @@ Matrix6 find_stiffness(const SystemTerms& terms, std::size_t link,
   return K;
 }
 
-// The law's wrench less the one that acts.
-Vector6 find_gap(const SystemTerms& terms, std::size_t link) {
-  if (link < terms.couplers.size()) {
-    const CouplerTerms& coupler = terms.couplers[link];
-    return coupler.response.wrench - coupler.applied;
+// Of a block's largest row: a smaller one is round-off of the stiffness.
+constexpr double kFree = 64.0 * std::numeric_limits<double>::epsilon();
+
+// Turns K's rows, forces and moments apart, to where those of directions that
+// are free vanish. Left among the rows of held ones, what a free direction says
+// would be lost in their round-off, and elimination would spread it.
+// @returns the turn; its rows are those of the new K
+Matrix6 separate_free_rows(Matrix6& K) {
+  Matrix6 turn = Matrix6::Zero();
+  for (const int first : {0, 3}) {
+    const Eigen::Matrix<double, 3, 6> rows = K.middleRows<3>(first);
+    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 6>> qr(rows);
+    const Matrix3 Q = qr.householderQ();
+    turn.block<3, 3>(first, first) = Q.transpose();
+    K.middleRows<3>(first) = Q.transpose() * rows;
+    const double noise = kFree * rows.cwiseAbs().maxCoeff();
+    for (int i = first; i < first + 3; ++i) {
+      if (K.row(i).cwiseAbs().maxCoeff() <= noise) K.row(i).setZero();
+    }
   }
-  const TransmissionTerms& t =
-      terms.transmissions[link - terms.couplers.size()];
-  Vector6 gap = Vector6::Zero();
-  gap[0] = t.response.force - t.applied;
-  return gap;
+  return turn;
 }
 
 // The motion of an end's frame per node, both in body axes: 3N x 6.
@@ -84,8 +97,9 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
       couplers_(model.couplers.size()) {
   const std::size_t links = couplers_ + model.transmissions.size();
   scaled_stiffness_.resize(links);
-  scale_.resize(links);
+  rows_.resize(links);
   wrenches_.resize(links);
+  gaps_.resize(links);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const int m = model.bodies[b].modes;
     bodies_[b].coupling = Matrix3X::Zero(3, m);
@@ -270,19 +284,21 @@ void NewtonMatrix::assemble(const SystemTerms& terms, const Coefficients& c) {
       }
     }
   }
-  // Rows become I + K A, each scaled to the size of its own diagonal entry.
-  std::vector<Vector6>& scale = scale_;
-  for (std::size_t i = 0; i < scale.size(); ++i) {
-    const Matrix6 K = find_stiffness(terms, i, c.velocity);
+  // Rows become T (I + K A), T a turn that is scaled to the size of each row.
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Matrix6& A = lu_.block(static_cast<int>(i), static_cast<int>(i));
-    scale[i] = (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
-                   .cwiseInverse();
-    scaled_stiffness_[i] = scale[i].asDiagonal() * K;
+    Matrix6 K = find_stiffness(terms, i, c.velocity);
+    const Matrix6 turn = separate_free_rows(K);
+    const Vector6 scale =
+        (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
+            .cwiseInverse();
+    rows_[i] = scale.asDiagonal() * turn;
+    scaled_stiffness_[i] = scale.asDiagonal() * K;
   }
-  for (std::size_t i = 0; i < scale.size(); ++i) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int row = static_cast<int>(i);
     lu_.scale_row(row, scaled_stiffness_[i]);
-    lu_.block(row, row).diagonal() += scale[i];
+    lu_.block(row, row) += rows_[i];
   }
 }
 
@@ -322,8 +338,28 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
   }
 }
 
+Vector6 NewtonMatrix::find_gap(const SystemTerms& terms, std::size_t link) {
+  if (link < terms.couplers.size()) {
+    const CouplerTerms& coupler = terms.couplers[link];
+    return coupler.response.wrench - coupler.applied;
+  }
+  const TransmissionTerms& t =
+      terms.transmissions[link - terms.couplers.size()];
+  Vector6 gap = Vector6::Zero();
+  gap[0] = t.response.force - t.applied;
+  return gap;
+}
+
 void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
                          const VectorX& residual, VectorX& increments) {
+  for (std::size_t i = 0; i < gaps_.size(); ++i) gaps_[i] = find_gap(terms, i);
+  solve(model, terms, residual, gaps_, increments);
+}
+
+void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
+                         const VectorX& residual,
+                         const std::vector<Vector6>& gaps,
+                         VectorX& increments) {
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -343,8 +379,8 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
     for (Eigen::Index k = 0; k < end.G.cols(); ++k) w += end.G.col(k) * x[k];
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    const Vector6 right = scaled_stiffness_[i] * wrenches_[i] +
-                          scale_[i].cwiseProduct(find_gap(terms, i));
+    const Vector6 right =
+        scaled_stiffness_[i] * wrenches_[i] + rows_[i] * gaps[i];
     wrenches_[i] = right;
   }
   lu_.solve(wrenches_);
@@ -365,13 +401,13 @@ void NewtonMatrix::find_wrench_changes(const SystemTerms& terms,
     const auto couplers = static_cast<Eigen::Index>(couplers_);
     return link < couplers ? 6 * link : 6 * couplers + (link - couplers);
   };
-  std::vector<Vector6> motions(scale_.size(), Vector6::Zero());
+  std::vector<Vector6> motions(rows_.size(), Vector6::Zero());
   for (const End& end : ends_) {
     motions[index(end.link)] +=
         end.G * increments.segment(end.row, end.G.cols());
   }
-  changes.resize(row(static_cast<int>(scale_.size())));
-  for (int link = 0; link < static_cast<int>(scale_.size()); ++link) {
+  changes.resize(row(static_cast<int>(rows_.size())));
+  for (int link = 0; link < static_cast<int>(rows_.size()); ++link) {
     const Vector6 change =
         -find_stiffness(terms, index(link), 0.0) * motions[index(link)];
     const bool is_coupler = index(link) < couplers_;

@@ -28,9 +28,10 @@ namespace limber::dynamics {
 ///            A transmission is a coupler of any number of ends and one
 ///            unknown, the first of six; its other five rows are the identity.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
-/// Limits     leaves out geometric stiffness of couplers and velocity
-///            derivatives of the modal inertial forces: they cost iterations,
-///            never accuracy.
+/// Limits     leaves out what ResidualDerivative adds: geometric stiffness of
+///            couplers and loads, and derivatives of inertial forces by modes
+///            and, for modes, by velocities. They cost iterations, never
+///            accuracy.
 ///
 /// Increments x_b: translation in world axes [m] (so that old factors, too,
 /// pass equal and opposite forces on), rotation in body axes [rad], modal
@@ -58,6 +59,15 @@ class NewtonMatrix {
   /// the couplers' s. The wrench increments are then in wrench_increments().
   void solve(const SystemModel& model, const SystemTerms& terms,
              const VectorX& residual, VectorX& increments);
+  /// The same for any s, one a coupler, then one a transmission, in the first
+  /// entry.
+  void solve(const SystemModel& model, const SystemTerms& terms,
+             const VectorX& residual, const std::vector<Vector6>& gaps,
+             VectorX& increments);
+
+  /// The law's wrench less the one that acts: s of the equation.
+  [[nodiscard]] static Vector6 find_gap(const SystemTerms& terms,
+                                        std::size_t link);
 
   /// Of the last solve, one a coupler [N, N m], then one a transmission, whose
   /// force is the first entry.
@@ -120,9 +130,10 @@ class NewtonMatrix {
   std::vector<End> ends_;
   std::vector<std::vector<int>> ends_of_body_;
   std::size_t couplers_ = 0;
-  std::vector<Matrix6> scaled_stiffness_;  // diag(s) K per link
-  std::vector<Vector6> scale_;
+  std::vector<Matrix6> rows_;              // T: turned and scaled, per link
+  std::vector<Matrix6> scaled_stiffness_;  // T K
   std::vector<Vector6> wrenches_;
+  std::vector<Vector6> gaps_;
   BlockLu lu_;
 };
 

@@ -15,6 +15,8 @@ namespace {
 
 // Relative slack for symmetry and for eigenvalues that should be zero.
 constexpr double kRoundoff = 1e-12;
+// Of the largest principal value: what is smaller is round-off of the matrix.
+constexpr double kFree = 1e-14;
 
 template <typename Matrix>
 void check_semidefinite(const Matrix& m, const std::string& what) {
@@ -60,34 +62,100 @@ Vector3 vee(const Matrix3& A) {
   return {A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)};
 }
 
-}  // namespace
+Matrix3 find_chordal(const Matrix3& rotational_stiffness) {
+  return 0.5 * rotational_stiffness.trace() * Matrix3::Identity() -
+         rotational_stiffness;
+}
 
-Bushing::Bushing(const Parameters& parameters) : parameters_(parameters) {
-  const Parameters& p = parameters_;
+// Checked before anything is made of it.
+const Bushing::Parameters& check(const Bushing::Parameters& p) {
   check_form(p.translational_stiffness, p.rotational_stiffness,
              p.coupling_stiffness, "stiffness");
   check_form(p.translational_damping, p.rotational_damping, p.coupling_damping,
              "damping");
-  D_ = 0.5 * p.rotational_stiffness.trace() * Matrix3::Identity() -
-       p.rotational_stiffness;
-  is_coupled_ =
-      !p.coupling_stiffness.isZero(0.0) || !p.coupling_damping.isZero(0.0);
+  return p;
+}
+
+}  // namespace
+
+Bushing::PrincipalForm::PrincipalForm(const Matrix3& m) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(m);
+  values = solver.eigenvalues();
+  axes = solver.eigenvectors();
+  const double least = kFree * values.cwiseAbs().maxCoeff();
+  values = (values.array().abs() <= least).select(0.0, values);
+}
+
+Bushing::Bushing(const Parameters& parameters)
+    : parameters_(check(parameters)),
+      D_(find_chordal(parameters.rotational_stiffness)),
+      principal_D_(D_),
+      principal_Kt_(parameters.translational_stiffness),
+      principal_Ct_(parameters.translational_damping),
+      principal_Cr_(parameters.rotational_damping),
+      is_coupled_(!parameters.coupling_stiffness.isZero(0.0) ||
+                  !parameters.coupling_damping.isZero(0.0)) {
+  if (is_coupled_) return;
+  // A spring moment is normal to the axis of a D of rank one.
+  const auto& Kt = principal_Kt_;
+  const Eigen::Array3i held = (principal_D_.values.array() != 0.0).cast<int>();
+  const bool is_hinge = held.sum() == 1;
+  free_translations_ = find_free_axes(
+      Kt.axes, (Kt.values.array() == 0.0).cast<int>(), principal_Ct_);
+  free_rotations_ =
+      find_free_axes(principal_D_.axes,
+                     is_hinge ? held : Eigen::Array3i::Zero(), principal_Cr_);
+}
+
+// Those of which damping makes no force across them.
+std::vector<Bushing::FreeAxis> Bushing::find_free_axes(
+    const Matrix3& axes, const Eigen::Array3i& is_free,
+    const PrincipalForm& damping) {
+  std::vector<FreeAxis> free;
+  const double round = kFree * damping.values.cwiseAbs().maxCoeff();
+  for (int i = 0; i < 3; ++i) {
+    if (is_free[i] == 0) continue;
+    const Vector3 axis = axes.col(i);
+    const Vector3 force = damping.apply(axis);
+    const double along = axis.dot(force);
+    if ((force - along * axis).norm() > round) continue;
+    free.push_back({axis, along > round ? along : 0.0});
+  }
+  return free;
+}
+
+Vector3 Bushing::clear(const std::vector<FreeAxis>& free, const Vector3& rate,
+                       const Vector3& force) {
+  Vector3 cleared = force;
+  for (const auto& [axis, damping] : free) {
+    cleared -= (axis.dot(cleared) + damping * axis.dot(rate)) * axis;
+  }
+  return cleared;
 }
 
 CouplerResponse Bushing::evaluate(const RelativeMotion& motion) const {
   const Parameters& p = parameters_;
-  const Vector3 spring_force = p.translational_stiffness * motion.p_FM_F;
-  const Vector3 damper_force = p.translational_damping * motion.v_FM_F;
-  const Vector3 damper_moment = p.rotational_damping * motion.w_FM_F;
-  const Matrix3 RD = motion.R_FM * D_;
+  const Vector3 spring_force = principal_Kt_.apply(motion.p_FM_F);
+  const Vector3 damper_force = principal_Ct_.apply(motion.v_FM_F);
+  const Vector3 damper_moment = principal_Cr_.apply(motion.w_FM_F);
 
   CouplerResponse response;
   response.wrench.head<3>() = -spring_force - damper_force;
-  response.wrench.tail<3>() = -vee(RD) - damper_moment;
-  // tr(D (I - R)) = tr((I - R) D (I - R)') / 2: no cancellation at R = I.
-  const Matrix3 gap = Matrix3::Identity() - motion.R_FM;
-  response.energy = 0.5 * motion.p_FM_F.dot(spring_force) +
-                    0.5 * (gap * D_ * gap.transpose()).trace();
+  response.wrench.tail<3>() = -damper_moment;
+  response.energy = 0.5 * motion.p_FM_F.dot(spring_force);
+  // The gap first: no cancellation at R = I, and none across its axis.
+  const Matrix3 gaps = motion.R_FM * principal_D_.axes - principal_D_.axes;
+  for (int i = 0; i < 3; ++i) {
+    const double D = principal_D_.values[i];
+    const Vector3 gap = gaps.col(i);
+    response.wrench.tail<3>() -= D * principal_D_.axes.col(i).cross(gap);
+    response.energy += 0.5 * D * gap.squaredNorm();
+  }
+  response.wrench.head<3>() =
+      clear(free_translations_, motion.v_FM_F, response.wrench.head<3>());
+  response.wrench.tail<3>() =
+      clear(free_rotations_, motion.w_FM_F, response.wrench.tail<3>());
+  const Matrix3 RD = motion.R_FM * D_;
   response.dissipation =
       motion.v_FM_F.dot(damper_force) + motion.w_FM_F.dot(damper_moment);
   response.stiffness.topLeftCorner<3, 3>() = p.translational_stiffness;

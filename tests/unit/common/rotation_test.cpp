@@ -140,6 +140,21 @@ TEST(Rotation, JacobiansAreDerivativesOfExp) {
   }
 }
 
+TEST(Rotation, JacobianDerivativeIsThatOfDifferences) {
+  const Vector3 direction(0.3, -0.7, 0.5);
+  for (const Vector3& axis : make_axes()) {
+    for (const double angle : {0.0, 1e-6, 1e-3, 0.1, 0.3, 0.32, 1.0, 3.0}) {
+      const Vector3 theta = angle * axis;
+      const Matrix3 slope = (left_jacobian(theta + kStep * direction) -
+                             left_jacobian(theta - kStep * direction)) /
+                            (2.0 * kStep);
+      EXPECT_LE((left_jacobian_derivative(theta, direction) - slope).norm(),
+                kDifference)
+          << angle;
+    }
+  }
+}
+
 TEST(Rotation, JacobiansDifferByTheRotation) {
   for (const Vector3& axis : make_axes()) {
     for (const double angle : kAngles) {

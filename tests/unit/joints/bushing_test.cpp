@@ -87,5 +87,39 @@ TEST(Bushing, AnAxisWithoutStiffnessStaysFreeBesideACoupling) {
   }
 }
 
+// Springs and dampers of a skew hinge pull against each other, each at 1e9.
+TEST(Bushing, AFreeAxisFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
+  const Vector3 axis = Vector3(1, 2, 2) / 3.0;
+  const Vector3 tilt = Vector3(2, 1, -2) / 3.0;
+  constexpr double kStiffness = 1e14;
+  constexpr double kFreeDamping = 5.0;
+  const Bushing hinge =
+      make_joint_bushing(JointKind::revolute, axis,
+                         {.translational_stiffness = kStiffness,
+                          .rotational_stiffness = kStiffness,
+                          .translational_damping = 1e-3 * kStiffness,
+                          .rotational_damping = 1e-3 * kStiffness});
+  const Bushing slider =
+      make_joint_bushing(JointKind::prismatic, axis,
+                         {.translational_stiffness = kStiffness,
+                          .rotational_stiffness = kStiffness,
+                          .translational_damping = 1e9,
+                          .rotational_damping = 1e9,
+                          .free_damping = kFreeDamping});
+  for (double turn = -20.0; turn < 20.0; turn += 0.7) {
+    RelativeMotion motion;
+    motion.R_FM = exp_rotation(1e-5 * tilt) * exp_rotation(turn * axis);
+    motion.w_FM_F = -1e-2 * tilt + 8.0 * axis;
+    EXPECT_LT(std::abs(hinge.evaluate(motion).wrench.tail<3>().dot(axis)),
+              1e-5);
+    motion = {};
+    motion.p_FM_F = turn * axis;
+    motion.v_FM_F = 3.0 * axis;
+    EXPECT_NEAR(slider.evaluate(motion).wrench.head<3>().dot(axis),
+                -3.0 * kFreeDamping, 1e-6 * kFreeDamping);
+    EXPECT_LT(slider.evaluate(motion).energy, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace limber::joints

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/newton_failure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/newton_matrix.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// A body that turns by more in a step is not followed [rad].
+constexpr double kFastTurn = 0.5;
+// That a step may turn it by, to be safe [rad].
+constexpr double kGoodTurn = 0.1;
+
+std::string describe_turn(const NewtonFailure& f) {
+  double fastest = 0.0;
+  std::size_t body = 0;
+  for (std::size_t b = 0; b < f.model.bodies.size(); ++b) {
+    const double turn = f.step * f.start.bodies[b].w_WB_B.norm();
+    if (turn > fastest) {
+      fastest = turn;
+      body = b;
+    }
+  }
+  if (!(fastest > kFastTurn)) return {};
+  return fmt::format(
+      "body '{}' turns by {:.2g} rad in the step of {:.3g} s; a step of {:.1g} "
+      "s "
+      "follows it",
+      f.model.bodies[body].name, fastest, f.step, f.step * kGoodTurn / fastest);
+}
+
+std::string describe_mode(const NewtonFailure& f) {
+  if (!(f.correction.modal > f.correction.rigid)) return {};
+  const BodyModel& body = f.model.bodies[f.correction.body];
+  if (body.modes == 0) return {};
+  Eigen::Index mode = 0;
+  f.increments
+      .segment(
+          6 * static_cast<Eigen::Index>(f.correction.body) + body.offset + 6,
+          body.modes)
+      .cwiseAbs()
+      .maxCoeff(&mode);
+  return fmt::format(
+      "mode {} of it, of {:.3g} Hz, moves most; a smaller step, or damping of "
+      "that mode, may help",
+      mode + 1, std::sqrt(body.lambda[mode]) / (2.0 * std::numbers::pi));
+}
+
+std::string describe_coupler(const NewtonFailure& f) {
+  const std::size_t couplers = f.model.couplers.size();
+  const std::size_t links = couplers + f.model.transmissions.size();
+  double largest = 0.0;
+  std::size_t link = links;
+  for (std::size_t i = 0; i < links; ++i) {
+    const double gap = NewtonMatrix::find_gap(f.terms, i).norm();
+    if (gap > largest) {
+      largest = gap;
+      link = i;
+    }
+  }
+  if (link == links) return "a smaller step may help";
+  const std::string& name = link < couplers
+                                ? f.model.couplers[link].name
+                                : f.model.transmissions[link - couplers].name;
+  return fmt::format(
+      "the force of coupler '{}' changes most between iterations, by {:.2g} N "
+      "or "
+      "N m; a smaller step, or more damping in it, may help",
+      name, largest);
+}
+
+}  // namespace
+
+std::string describe(const NewtonFailure& failure, const char* what) {
+  std::string cause = describe_turn(failure);
+  if (cause.empty()) cause = describe_mode(failure);
+  if (cause.empty()) cause = describe_coupler(failure);
+  return fmt::format(
+      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
+      "{:.3g} of the step's motion): {}",
+      failure.model.bodies[failure.correction.body].name, failure.end, what,
+      failure.correction.value, failure.tolerance, cause);
+}
+
+}  // namespace limber::dynamics

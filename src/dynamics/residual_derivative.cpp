@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/residual_derivative.hpp"
+
+#include "common/rotation.hpp"
+#include "dynamics/body_model.hpp"
+#include "dynamics/nodal_jacobian.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Eigen::Index first_row(const BodyModel& body, std::size_t b) {
+  return 6 * static_cast<Eigen::Index>(b) + body.offset;
+}
+
+// A body's share of increments. Its frame rests if it is clamped.
+struct BodyIncrement {
+  BodyIncrement(const BodyModel& body, std::size_t b, const VectorX& x)
+      : eta(x.data() + first_row(body, b) + 6) {
+    if (!body.has_rigid_motion()) return;
+    p = x.segment<3>(first_row(body, b));
+    theta = x.segment<3>(first_row(body, b) + 3);
+  }
+  Vector3 p = Vector3::Zero();
+  Vector3 theta = Vector3::Zero();
+  const double* eta;
+};
+
+// Change of half_square along dw.
+Vector6 change_half_square(const Vector3& w, const Vector3& dw) {
+  Vector6 q;
+  q << w[0] * dw[0], w[1] * dw[1], w[2] * dw[2], w[0] * dw[1] + w[1] * dw[0],
+      w[0] * dw[2] + w[2] * dw[0], w[1] * dw[2] + w[2] * dw[1];
+  return q;
+}
+
+// A wrench's change where its axes turn.
+Vector6 turn(const Vector3& phi, const Vector6& wrench) {
+  Vector6 turned;
+  turned << phi.cross(wrench.head<3>()), phi.cross(wrench.tail<3>());
+  return turned;
+}
+
+}  // namespace
+
+ResidualDerivative::ResidualDerivative(const SystemModel& model)
+    : model_(model),
+      frames_(model.attachments.size()),
+      motions_(model.couplers.size()) {}
+
+void ResidualDerivative::set_point(
+    const SystemState& state, const SystemTerms& terms,
+    const Rates& acceleration, const std::vector<Vector3>& rotation_increments,
+    const NewtonMatrix::Coefficients& coefficients) {
+  state_ = &state;
+  terms_ = &terms;
+  acceleration_ = &acceleration;
+  rotation_increments_ = &rotation_increments;
+  c_ = coefficients;
+}
+
+// All but what NewtonMatrix has: M, gyroscopic terms of J, oscillators.
+void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
+                                        VectorX& r) const {
+  const BodyModel& body = model_.bodies[b];
+  if (body.modes == 0 || !body.has_rigid_motion()) return;
+  const BodyTerms& t = terms_->bodies[b];
+  const BodyIncrement d(body, b, x);
+  const Vector3& w = state_->bodies[b].w_WB_B;
+  const Vector3& wdot = acceleration_->rotation[b];
+  const Vector3 d_w =
+      c_.velocity *
+      (right_jacobian_inverse((*rotation_increments_)[b]) * d.theta);
+  const Vector6 d_w_squared = change_half_square(w, d_w);
+  auto r_modes = r.segment(first_row(body, b) + 6, body.modes);
+  if (body.fidelity == Fidelity::one_way) {
+    r_modes -= body.J1.transpose() * d_w_squared;
+  }
+  if (body.fidelity != Fidelity::coupled) return;
+
+  const Eigen::Map<const VectorX> d_eta(d.eta, body.modes);
+  const double* etadot = state_->etadot.data() + body.offset;
+  const double* etaddot = acceleration_->modes.data() + body.offset;
+  const VectorX d_J2 = body.J2 * d_eta;
+  const VectorX d_beta = body.beta * d_eta;
+  const Vector6 w_squared = half_square(w);
+  Vector6 Jdot = Vector6::Zero();
+  Vector6 d_J = Vector6::Zero();
+  Vector6 d_Jdot = Vector6::Zero();
+  Vector3 h = Vector3::Zero();  // H etadot
+  Vector3 d_h = Vector3::Zero();
+  Vector3 d_H_etaddot = Vector3::Zero();
+  for (int k = 0; k < body.modes; ++k) {
+    const Vector6 J_k = body.J1.col(k) + t.scratch_J2.segment<6>(6 * k);
+    const Vector6 d_J_k = d_J2.segment<6>(6 * k);
+    const Vector3 d_H = d_beta.segment<3>(3 * k);
+    const double d_etadot = c_.velocity * d_eta[k];
+    Jdot += J_k * etadot[k];
+    d_J += J_k * d_eta[k];
+    d_Jdot += d_J_k * etadot[k] + J_k * d_etadot;
+    h += t.H.col(k) * etadot[k];
+    d_h += d_H * etadot[k] + t.H.col(k) * d_etadot;
+    d_H_etaddot += d_H * etaddot[k];
+    r_modes[k] += d_H.dot(wdot) +
+                  2.0 * d_w.dot(t.scratch_b2.segment<3>(3 * k)) +
+                  2.0 * c_.velocity * w.dot(d_H) - d_w_squared.dot(J_k) -
+                  w_squared.dot(d_J_k);
+  }
+  const Matrix3 d_inertia = unpack_symmetric(d_J);
+  r.segment<3>(first_row(body, b) + 3) +=
+      d_inertia * wdot + d_H_etaddot + unpack_symmetric(d_Jdot) * w +
+      unpack_symmetric(Jdot) * d_w + d_w.cross(h) +
+      w.cross(d_inertia * w + d_h);
+}
+
+ResidualDerivative::FrameChange ResidualDerivative::change_frame(
+    const Attachment& attachment, const AttachmentMotion& motion,
+    const VectorX& x) const {
+  FrameChange change;
+  if (attachment.body == kWorld) return change;
+  const auto b = index(attachment.body);
+  const BodyModel& body = model_.bodies[b];
+  const BodyIncrement d(body, b, x);
+  const Matrix3& R = motion.R_WB;
+  const Vector3& w = state_->bodies[b].w_WB_B;
+  const Vector3 d_w =
+      c_.velocity *
+      (right_jacobian_inverse((*rotation_increments_)[b]) * d.theta);
+  Vector3 u = Vector3::Zero();  // change of the arm
+  Vector3 udot = Vector3::Zero();
+  Vector3 turned = Vector3::Zero();  // J_psi Psi d_eta
+  Vector3 w_frame = w;
+  Vector3 d_w_frame = d_w;
+  if (body.modes > 0) {
+    const double* etadot = state_->etadot.data() + body.offset;
+    const Vector3 psi =
+        combine(attachment.Psi_B, state_->eta.data() + body.offset);
+    const Vector3 psidot = combine(attachment.Psi_B, etadot);
+    const Vector3 d_psi = combine(attachment.Psi_B, d.eta);
+    u = combine(attachment.Phi_B, d.eta);
+    udot = combine(attachment.Phi_B, etadot);
+    turned = motion.J_psi * d_psi;
+    w_frame += motion.J_psi * psidot;
+    d_w_frame +=
+        left_jacobian_derivative(psi, d_psi) * psidot + c_.velocity * turned;
+  }
+  const Vector3 v = w.cross(motion.arm_B) + udot;
+  change.p = d.p + R * (d.theta.cross(motion.arm_B) + u);
+  change.phi = R * (d.theta + turned);
+  change.v =
+      c_.velocity * d.p + R * (d.theta.cross(v) + d_w.cross(motion.arm_B) +
+                               w.cross(u) + c_.velocity * u);
+  change.w = R * (d.theta.cross(w_frame) + d_w_frame);
+  return change;
+}
+
+ResidualDerivative::FrameChange ResidualDerivative::change_nodal_frame(
+    const Attachment& attachment, const AttachmentMotion& motion,
+    const VectorX& x) const {
+  const BodyModel& body = model_.bodies[index(attachment.body)];
+  const FullModel& full = model_.full_bodies[index(body.full)];
+  const Matrix3& R_WH = state_->X_WH[index(body.full)].R;
+  Matrix6X G(6, full.dofs());
+  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_WH, G);
+  const Vector6 moved =
+      G *
+      x.segment(NewtonMatrix::first_node_row(model_) + full.first, full.dofs());
+  return {moved.head<3>(), moved.tail<3>(), c_.velocity * moved.head<3>(),
+          c_.velocity * moved.tail<3>()};
+}
+
+void ResidualDerivative::change_frames(const VectorX& x) {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const Attachment& attachment = model_.attachments[i];
+    const AttachmentMotion& motion = terms_->attachments[i];
+    frames_[i] = attachment.nodal ? change_nodal_frame(attachment, motion, x)
+                                  : change_frame(attachment, motion, x);
+  }
+}
+
+// Of dynamics/kinematics' relate, all in F.
+ResidualDerivative::MotionChange ResidualDerivative::relate(
+    const Coupler& coupler, const CouplerTerms& terms) const {
+  const AttachmentMotion& F = terms_->attachments[index(coupler.frame_F)];
+  const AttachmentMotion& M = terms_->attachments[index(coupler.frame_M)];
+  const FrameChange& dF = frames_[index(coupler.frame_F)];
+  const FrameChange& dM = frames_[index(coupler.frame_M)];
+  const Matrix3 R_FW = F.R_WF.transpose();
+  const Vector3 phi = R_FW * dF.phi;
+  const Vector3& p = terms.motion.p_FM_F;
+  const Vector3 w_F = R_FW * F.w_WF_W;
+  const Vector3 d_w_F = R_FW * dF.w - phi.cross(w_F);
+  const Vector3 d_p = R_FW * (dM.p - dF.p) - phi.cross(p);
+  MotionChange change;
+  change.position << d_p, R_FW * (dM.phi - dF.phi);
+  change.velocity.head<3>() = R_FW * (dM.v - dF.v) -
+                              phi.cross(R_FW * (M.v_WF_W - F.v_WF_W)) -
+                              d_w_F.cross(p) - w_F.cross(d_p);
+  change.velocity.tail<3>() = R_FW * dM.w - phi.cross(R_FW * M.w_WF_W) - d_w_F;
+  return change;
+}
+
+void ResidualDerivative::change_wrench(AttachmentIndex attachment,
+                                       const Vector3& force,
+                                       const Vector3& moment,
+                                       const Vector3& d_force,
+                                       const Vector3& d_moment,
+                                       const VectorX& x, VectorX& r) const {
+  const Attachment& a = model_.attachments[index(attachment)];
+  if (a.body == kWorld || a.nodal) return;
+  const auto b = index(a.body);
+  const BodyModel& body = model_.bodies[b];
+  const AttachmentMotion& motion = terms_->attachments[index(attachment)];
+  const BodyIncrement d(body, b, x);
+  const Matrix3 R_BW = motion.R_WB.transpose();
+  const Vector3 force_B = R_BW * force;
+  const Vector3 moment_B = R_BW * moment;
+  const Vector3 d_force_B = R_BW * d_force - d.theta.cross(force_B);
+  const Vector3 d_moment_B = R_BW * d_moment - d.theta.cross(moment_B);
+  Vector3 d_arm = Vector3::Zero();
+  if (body.modes > 0) {
+    d_arm = combine(a.Phi_B, d.eta);
+    const Vector3 psi = combine(a.Psi_B, state_->eta.data() + body.offset);
+    const Vector3 d_psi = combine(a.Psi_B, d.eta);
+    const Vector3 d_twist =
+        left_jacobian_derivative(psi, d_psi).transpose() * moment_B +
+        motion.J_psi.transpose() * d_moment_B;
+    r.segment(first_row(body, b) + 6, body.modes) -=
+        a.Phi_B.transpose() * d_force_B + a.Psi_B.transpose() * d_twist;
+  }
+  if (!body.has_rigid_motion()) return;
+  r.segment<3>(first_row(body, b)) -= d_force;
+  r.segment<3>(first_row(body, b) + 3) -=
+      d_arm.cross(force_B) + motion.arm_B.cross(d_force_B) + d_moment_B;
+}
+
+// Of coupler_forces' add_pair, where the wrench in F changes by d_wrench.
+void ResidualDerivative::change_pair(const Coupler& coupler,
+                                     const CouplerTerms& terms,
+                                     const MotionChange& change,
+                                     const Vector6& wrench,
+                                     const Vector6& d_wrench, const VectorX& x,
+                                     VectorX& r) const {
+  const Matrix3& R_WF = terms_->attachments[index(coupler.frame_F)].R_WF;
+  const Vector3& p = terms.motion.p_FM_F;
+  const Vector3 force_F = wrench.head<3>();
+  const Vector3 d_force_F = d_wrench.head<3>();
+  Vector6 on_F;  // about Fo
+  on_F << force_F, wrench.tail<3>() + p.cross(force_F);
+  Vector6 d_on_F;
+  d_on_F << d_force_F, d_wrench.tail<3>() + p.cross(d_force_F) +
+                           Vector3(change.position.head<3>()).cross(force_F);
+  const Vector3 phi = R_WF.transpose() * frames_[index(coupler.frame_F)].phi;
+  const Vector6 d_M = d_wrench + turn(phi, wrench);
+  const Vector6 d_F = d_on_F + turn(phi, on_F);
+  change_wrench(coupler.frame_M, R_WF * force_F, R_WF * wrench.tail<3>(),
+                R_WF * d_M.head<3>(), R_WF * d_M.tail<3>(), x, r);
+  change_wrench(coupler.frame_F, -(R_WF * force_F), -(R_WF * on_F.tail<3>()),
+                -(R_WF * d_F.head<3>()), -(R_WF * d_F.tail<3>()), x, r);
+}
+
+void ResidualDerivative::change_couplers(const VectorX& x, VectorX& r,
+                                         std::vector<Vector6>& laws) {
+  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
+    const Coupler& coupler = model_.couplers[c];
+    const CouplerTerms& terms = terms_->couplers[c];
+    motions_[c] = relate(coupler, terms);
+    change_pair(coupler, terms, motions_[c], terms.applied, Vector6::Zero(), x,
+                r);
+    laws[c] = -terms.response.damping *
+              (motions_[c].velocity - c_.velocity * motions_[c].position);
+  }
+  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
+    const TransmissionTerms& terms = terms_->transmissions[i];
+    Vector6& law = laws[model_.couplers.size() + i];
+    law.setZero();
+    const auto& coordinate = model_.transmissions[i].coordinate;
+    if (const auto* path = std::get_if<PathCoordinate>(&coordinate)) {
+      change_path(*path, terms, x, r, law);
+    } else {
+      change_sum(std::get<JointSum>(coordinate), terms, x, r, law);
+    }
+  }
+}
+
+void ResidualDerivative::change_path(const PathCoordinate& path,
+                                     const TransmissionTerms& terms,
+                                     const VectorX& x, VectorX& r,
+                                     Vector6& law) const {
+  double d_z = 0.0;
+  double d_rate = 0.0;
+  Vector3 d_before = Vector3::Zero();  // of the direction of the last stretch
+  const std::size_t count = path.points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Vector3 d_after = Vector3::Zero();
+    if (i + 1 < count) {
+      const auto from = index(path.points[i]);
+      const auto to = index(path.points[i + 1]);
+      const AttachmentMotion& a = terms_->attachments[from];
+      const AttachmentMotion& b = terms_->attachments[to];
+      const double length = (b.p_WF - a.p_WF).norm();
+      const Vector3 direction = (b.p_WF - a.p_WF) / length;
+      const Vector3 d_p = frames_[to].p - frames_[from].p;
+      d_after = (d_p - direction * direction.dot(d_p)) / length;
+      d_z += direction.dot(d_p);
+      d_rate += d_after.dot(b.v_WF_W - a.v_WF_W) +
+                direction.dot(frames_[to].v - frames_[from].v);
+    }
+    change_wrench(path.points[i], terms.applied * terms.gradients[i].head<3>(),
+                  Vector3::Zero(), terms.applied * (d_before - d_after),
+                  Vector3::Zero(), x, r);
+    d_before = d_after;
+  }
+  law[0] = -terms.response.damping * (d_rate - c_.velocity * d_z);
+}
+
+void ResidualDerivative::change_sum(const JointSum& sum,
+                                    const TransmissionTerms& terms,
+                                    const VectorX& x, VectorX& r,
+                                    Vector6& law) const {
+  double d_z = 0.0;
+  double d_rate = 0.0;
+  for (std::size_t i = 0; i < sum.terms.size(); ++i) {
+    const JointSum::Term& term = sum.terms[i];
+    const auto c = index(term.coupler);
+    const Coupler& coupler = model_.couplers[c];
+    const CouplerTerms& at = terms_->couplers[c];
+    const joints::CoordinateValue value = joints::evaluate(
+        joints::coordinates_of(coupler.law)[index(term.coordinate)], at.motion,
+        state_->memory[c].near[index(term.coordinate)]);
+    const MotionChange& change = motions_[c];
+    Vector6 d_gradient = Vector6::Zero();
+    d_gradient.tail<3>() =
+        term.factor * (value.hessian * change.position.tail<3>());
+    d_z += terms.gradients[i].dot(change.position);
+    d_rate += terms.gradients[i].dot(change.velocity) +
+              d_gradient.tail<3>().dot(at.motion.w_FM_F);
+    change_pair(coupler, at, change, terms.applied * terms.gradients[i],
+                terms.applied * d_gradient, x, r);
+  }
+  law[0] = -terms.response.damping * (d_rate - c_.velocity * d_z);
+}
+
+void ResidualDerivative::change_load(const Load& load, const VectorX& x,
+                                     VectorX& r) const {
+  const Attachment& a = model_.attachments[index(load.where)];
+  if (a.body == kWorld || a.nodal) return;
+  const double factor = evaluate(load.function, state_->t, Side::left);
+  if (factor == 0.0) return;
+  const auto b = index(a.body);
+  const BodyModel& body = model_.bodies[b];
+  const Matrix3& R_WB = terms_->bodies[b].R_WB;
+  const BodyIncrement d(body, b, x);
+  const Vector3 force = factor * load.force;
+  const Vector3 moment = factor * load.moment;
+  if (body.fidelity == Fidelity::coupled) {
+    if (load.in_world) {
+      change_wrench(load.where, force, moment, Vector3::Zero(), Vector3::Zero(),
+                    x, r);
+    } else {
+      change_wrench(load.where, R_WB * force, R_WB * moment,
+                    R_WB * d.theta.cross(force), R_WB * d.theta.cross(moment),
+                    x, r);
+    }
+    return;
+  }
+  if (!body.has_rigid_motion()) return;
+  if (!load.in_world) {
+    r.segment<3>(first_row(body, b)) -= R_WB * d.theta.cross(force);
+    return;
+  }
+  const Vector3 d_force_B = -d.theta.cross(R_WB.transpose() * force);
+  const Vector3 d_moment_B = -d.theta.cross(R_WB.transpose() * moment);
+  r.segment<3>(first_row(body, b) + 3) -= a.p_BF.cross(d_force_B) + d_moment_B;
+  r.segment(first_row(body, b) + 6, body.modes) -=
+      a.Phi_B.leftCols(body.modes).transpose() * d_force_B +
+      a.Psi_B.leftCols(body.modes).transpose() * d_moment_B;
+}
+
+void ResidualDerivative::change_body_load(const BodyLoad& load,
+                                          const VectorX& x, VectorX& r) const {
+  const auto b = index(load.body);
+  const BodyModel& body = model_.bodies[b];
+  if (!body.has_rigid_motion()) return;
+  const flexbody::NodalLoad& history = load.history;
+  const Eigen::Index i = find_interval(history.times, state_->t, Side::left);
+  if (i < 0) return;
+  const BodyIncrement d(body, b, x);
+  const Vector3 force = history.force.col(i);
+  r.segment<3>(first_row(body, b)) -=
+      terms_->bodies[b].R_WB * d.theta.cross(force);
+  if (body.fidelity != Fidelity::coupled) return;
+  for (int k = 0; k < body.modes; ++k) {
+    r.segment<3>(first_row(body, b) + 3) -=
+        history.moment_by_mode.col(i * body.modes + k) * d.eta[k];
+  }
+}
+
+void ResidualDerivative::apply_rest(const VectorX& increments,
+                                    VectorX& residual,
+                                    std::vector<Vector6>& laws) {
+  residual.setZero(increments.size());
+  laws.resize(model_.couplers.size() + model_.transmissions.size());
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    change_inertia(b, increments, residual);
+  }
+  change_frames(increments);
+  change_couplers(increments, residual, laws);
+  for (const Load& load : model_.loads) {
+    change_load(load, increments, residual);
+  }
+  for (const BodyLoad& load : model_.body_loads) {
+    change_body_load(load, increments, residual);
+  }
+}
+
+}  // namespace limber::dynamics

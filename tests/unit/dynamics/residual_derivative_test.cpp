@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exact derivative of a step's residual, through the factors that it
+// completes, against central differences.
+#include "dynamics/residual_derivative.hpp"
+
+#include <gtest/gtest.h>
+
+#include "dynamics/equations.hpp"
+#include "support/differences.hpp"
+#include "support/linked_bodies.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using testing::differentiate;
+using testing::LinkedBodies;
+using testing::make_all_links;
+using testing::make_linked_bodies;
+using testing::Margin;
+
+constexpr double kGradient = 1e-8;
+// Of a step of 0.1 s: what the factors leave out weighs much.
+constexpr NewtonMatrix::Coefficients kCoefficients{400.0, 20.0};
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : generator_(seed) {}
+  double number() { return uniform_(generator_); }
+  Vector3 vector() { return {number(), number(), number()}; }
+  VectorX vector(Eigen::Index size) {
+    VectorX v(size);
+    for (double& x : v) x = number();
+    return v;
+  }
+
+ private:
+  std::mt19937 generator_;
+  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+};
+
+// A step's end, and the wrenches of Newton's iterate there.
+struct Point {
+  SystemState state;
+  Rates acceleration;
+  std::vector<Vector3> rotation_increments;
+  std::vector<Vector6> wrenches;
+};
+
+Point make_point(const SystemModel& model, const SystemState& state,
+                 unsigned seed) {
+  Random random(seed);
+  Point point{state, make_rates(model), {}, {}};
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    point.acceleration.translation[b] = 5.0 * random.vector();
+    point.acceleration.rotation[b] = 5.0 * random.vector();
+    point.rotation_increments.push_back(random.vector());
+  }
+  point.acceleration.modes = 5.0 * random.vector(model.modal_count);
+  const std::size_t links = model.couplers.size() + model.transmissions.size();
+  for (std::size_t i = 0; i < links; ++i) {
+    point.wrenches.emplace_back(20.0 * random.vector(6));
+  }
+  return point;
+}
+
+// What increments and wrench increments make of it.
+Point move(const SystemModel& model, const Point& from, const VectorX& x,
+           const std::vector<Vector6>& dw, double h) {
+  const auto [a, v] = kCoefficients;
+  Point to = from;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Eigen::Index row = 6 * static_cast<Eigen::Index>(b) + body.offset;
+    const VectorX eta = h * x.segment(row + 6, body.modes);
+    to.state.eta.segment(body.offset, body.modes) += eta;
+    to.state.etadot.segment(body.offset, body.modes) += v * eta;
+    to.acceleration.modes.segment(body.offset, body.modes) += a * eta;
+    if (body.clamped) continue;
+    const Vector3 p = h * x.segment<3>(row);
+    const Vector3 theta = h * x.segment<3>(row + 3);
+    const Vector3 inc =
+        right_jacobian_inverse(from.rotation_increments[b]) * theta;
+    BodyState& s = to.state.bodies[b];
+    s.p_WB += p;
+    s.quat_WB = s.quat_WB * exp_quaternion(theta);
+    s.v_WB_W += v * p;
+    s.w_WB_B += v * inc;
+    to.acceleration.translation[b] += a * p;
+    to.acceleration.rotation[b] += a * inc;
+  }
+  for (std::size_t i = 0; i < dw.size(); ++i) to.wrenches[i] += h * dw[i];
+  return to;
+}
+
+void evaluate(const SystemModel& model, const Point& point, SystemTerms& terms,
+              VectorX& residual) {
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    terms.couplers[c].applied = point.wrenches[c];
+  }
+  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
+    terms.transmissions[i].applied =
+        point.wrenches[model.couplers.size() + i][0];
+  }
+  calc_terms(model, point.state, Side::left, terms, WrenchSource::iterate);
+  residual.setZero(NewtonMatrix::size(model));
+  calc_residual(model, point.acceleration, terms, residual);
+}
+
+// Differences of residual and gaps along (x, dw), solved with factors and
+// derivative, must give (x, dw) back.
+void compare(const SystemModel& model, const Point& point, unsigned seed,
+             Margin& margin, double& rest) {
+  Random random(seed);
+  VectorX x = random.vector(NewtonMatrix::size(model));
+  const std::size_t links = model.couplers.size() + model.transmissions.size();
+  std::vector<Vector6> dw(links);
+  for (std::size_t i = 0; i < links; ++i) {
+    dw[i] = 20.0 * random.vector(6);
+    if (i >= model.couplers.size()) dw[i].tail<5>().setZero();
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Eigen::Index row =
+        6 * static_cast<Eigen::Index>(b) + model.bodies[b].offset;
+    if (model.bodies[b].clamped) x.segment<6>(row).setZero();
+  }
+  SystemTerms terms = make_terms(model);
+  VectorX residual;
+  const VectorX slope = differentiate([&](double h) {
+    evaluate(model, move(model, point, x, dw, h), terms, residual);
+    VectorX all(residual.size() + 6 * static_cast<Eigen::Index>(links));
+    all.head(residual.size()) = residual;
+    for (std::size_t i = 0; i < links; ++i) {
+      all.segment<6>(residual.size() + 6 * static_cast<Eigen::Index>(i)) =
+          NewtonMatrix::find_gap(terms, i);
+    }
+    return all;
+  });
+
+  evaluate(model, point, terms, residual);
+  NewtonMatrix matrix(model);
+  matrix.factor(model, point.state, terms, point.rotation_increments,
+                kCoefficients);
+  ResidualDerivative derivative(model);
+  derivative.set_point(point.state, terms, point.acceleration,
+                       point.rotation_increments, kCoefficients);
+  VectorX right;
+  std::vector<Vector6> gaps;
+  derivative.apply_rest(x, right, gaps);
+  rest = std::max(rest, right.norm() / slope.head(right.size()).norm());
+  right -= slope.head(right.size());
+  for (std::size_t i = 0; i < links; ++i) {
+    gaps[i] -=
+        slope.segment<6>(right.size() + 6 * static_cast<Eigen::Index>(i));
+  }
+  VectorX solved;
+  matrix.solve(model, terms, right, gaps, solved);
+  margin.add((solved - x).norm(), x.norm());
+  for (std::size_t i = 0; i < links; ++i) {
+    margin.add((matrix.wrench_increments()[i] - dw[i]).norm(), dw[i].norm());
+  }
+}
+
+class ResidualDerivativeOf : public ::testing::TestWithParam<int> {
+ protected:
+  [[nodiscard]] static LinkedBodies make(std::array<bool, 3> flexible,
+                                         unsigned seed) {
+    const auto links = make_all_links(2.0);
+    return make_linked_bodies(links.at(static_cast<std::size_t>(GetParam())),
+                              flexible, seed, 1.0);
+  }
+};
+
+TEST_P(ResidualDerivativeOf, LinksIsThatOfDifferences) {
+  Margin margin;
+  double rest = 0.0;
+  for (const auto flexible :
+       {std::array{true, true, true}, std::array{true, false, true}}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const LinkedBodies linked = make(flexible, seed);
+      compare(linked.model, make_point(linked.model, linked.state, seed),
+              seed + 50, margin, rest);
+    }
+  }
+  margin.expect_below(kGradient);
+  EXPECT_GT(rest, 0.01);  // the factors alone are far from it
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ResidualDerivativeOf,
+    ::testing::Range(0, static_cast<int>(make_all_links(0.0).size())),
+    [](const auto& param) {
+      return make_all_links(0.0)[static_cast<std::size_t>(param.param)].name;
+    });
+
+// On the far end of every body: forces and moments in either axes.
+void add_loads(const LinkedBodies& linked, SystemModel& model) {
+  for (int i = 0; i < static_cast<int>(linked.model.attachments.size()); ++i) {
+    model.loads.push_back({.name = "load",
+                           .where = i,
+                           .force = {3, -2, 4},
+                           .moment = {1, 5, -2},
+                           .in_world = i % 2 == 0,
+                           .function = Constant{}});
+  }
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const int m = model.bodies[static_cast<std::size_t>(b)].modes;
+    Random random(7);
+    flexbody::NodalLoad history;
+    history.times = {-1.0};
+    history.force = 5.0 * random.vector();
+    history.moment = 5.0 * random.vector();
+    history.moment_by_mode = 5.0 * random.vector(3 * m).reshaped(3, m);
+    history.modal = random.vector(m);
+    model.body_loads.push_back({"nodal", b, history, {}});
+  }
+}
+
+TEST(ResidualDerivative, IsThatOfDifferencesAtEveryLevelUnderLoads) {
+  const auto links = make_all_links(2.0);
+  for (const Fidelity level : {Fidelity::rigid, Fidelity::uncoupled,
+                               Fidelity::one_way, Fidelity::coupled}) {
+    for (const bool clamped : {false, true}) {
+      Margin margin;
+      double rest = 0.0;
+      for (unsigned seed = 1; seed <= 4; ++seed) {
+        const bool flexible = level != Fidelity::rigid;
+        const LinkedBodies linked =
+            make_linked_bodies(links[1], {flexible, true, flexible}, seed, 1.0);
+        SystemModel model = linked.model;
+        add_loads(linked, model);
+        model.gravity_W = {1, -9, 2};
+        model.bodies[0].fidelity = model.bodies[2].fidelity = level;
+        if (clamped) {
+          BodyModel& first = model.bodies[0];
+          first.clamped = true;
+          first.P = Matrix3X::Constant(3, first.modes, 0.3);
+        }
+        SystemState state = linked.state;
+        if (clamped) {
+          state.bodies[0].v_WB_W.setZero();
+          state.bodies[0].w_WB_B.setZero();
+        }
+        compare(model, make_point(model, state, seed), seed + 50, margin, rest);
+      }
+      SCOPED_TRACE(static_cast<int>(level));
+      margin.expect_below(kGradient);
+      EXPECT_GT(rest, 0.01);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace limber::dynamics
