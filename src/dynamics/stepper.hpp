@@ -4,10 +4,12 @@
 #include <variant>
 
 #include "dynamics/central_differences.hpp"
+#include "dynamics/energy_conserving.hpp"
 #include "dynamics/explicit_euler.hpp"
 #include "dynamics/generalized_alpha.hpp"
 #include "dynamics/runge_kutta.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/splitting.hpp"
 
 namespace limber::dynamics {
 
@@ -55,7 +57,7 @@ class Stepper {
 
  private:
   using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler,
-                              CentralDifferences>;
+                              CentralDifferences, EnergyConserving, Splitting>;
   static Scheme make(const SystemModel& model,
                      const SimulationSettings& settings) {
     switch (settings.integrator) {
@@ -65,6 +67,11 @@ class Stepper {
         return ExplicitEuler(model);
       case IntegratorKind::central_differences:
         return CentralDifferences(model);
+      case IntegratorKind::energy_conserving:
+        return EnergyConserving(
+            model, {settings.newton_tolerance, settings.newton_iterations});
+      case IntegratorKind::splitting:
+        return Splitting(model);
       case IntegratorKind::generalized_alpha:
       case IntegratorKind::implicit_euler:
         break;
