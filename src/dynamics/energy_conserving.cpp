@@ -17,6 +17,8 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Round-off of a position, relative to its distance from the world origin.
 constexpr double kRoundoff = 4.0 * kEpsilon;
+// Small inertias and nearly still coordinates make this much more of it.
+constexpr double kNoise = 100.0;
 // Factor anew when an iteration leaves more than this of a correction: it takes
 // many to come to round-off. Fresh factors, only if they leave yet more.
 constexpr double kPoorContraction = 0.05;
@@ -270,14 +272,13 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     const double left =
         contraction < 0.5 ? correction.value * contraction / (1.0 - contraction)
                           : correction.value;
-    const double enough = settings_.tolerance * motion;
+    const double noise =
+        std::max(kNoise * roundoff, settings_.tolerance * motion);
     if (left <= 0.25 * kEpsilon * motion) break;
     // Corrections that no longer shrink are round-off.
-    if (contraction > 0.5 && correction.value <= std::max(roundoff, enough)) {
-      break;
-    }
+    if (contraction > 0.5 && correction.value <= noise) break;
     if (result.iterations >= settings_.max_iterations) {
-      if (left <= enough) break;
+      if (left <= noise) break;
       fail(correction, "Newton's method did not converge");
     }
     needs_factors =
