@@ -14,7 +14,7 @@
 ///            law of one coordinate z has force = -(E_1 - E_0) / (z_1 - z_0)
 ///            for its elastic share, and an angle's gradient g is changed
 ///            along w so that h g . w = z_1 - z_0.
-/// Source     discrete gradients: [@gonzalez1996, eq. 4.6]
+/// Source     discrete gradients: [@gonzalez1996]
 /// Limits     a drive's force is that at the mean; what is left of the balance
 ///            counts as supplied.
 namespace limber::dynamics {

@@ -18,7 +18,7 @@
 ///            A coupler sees p_FM1 = p_FM0 + h v_FM, R_FM1 = cay(h w_FM)
 ///            R_FM0, v_FM = R_F' (v_M - v_F - w_F x (p_M - p_F)),
 ///            w_FM = R_F^-1 (w_M - w_F) / (1 + h^2 w_F . w_M / 4).
-/// Source     Cayley's transform: [@simo1991, sec. 3], composed by Rodrigues'
+/// Source     Cayley's transform: [@simo1991], composed by Rodrigues'
 ///            formula; the rest follows from d(AB) = dA B + A dB.
 namespace limber::dynamics {
 
