@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
 #include "dynamics/full_terms.hpp"
 #include "dynamics/transmission.hpp"
 
@@ -84,18 +83,13 @@ void apply_transmission(const SystemModel& model, const SystemState& state,
   }
 }
 
-// Runs `work`; a NumericalError is told with the coupler's name and the time.
-template <typename Work>
-void name_coupler(const std::string& name, double t, const Work& work) {
-  try {
-    work();
-  } catch (const NumericalError& error) {
-    throw NumericalError(
-        fmt::format("coupler '{}' at t = {:.9g} s: {}", name, t, error.what()));
-  }
-}
-
 }  // namespace
+
+void throw_named(const std::string& name, double t,
+                 const NumericalError& error) {
+  throw NumericalError(
+      fmt::format("coupler '{}' at t = {:.9g} s: {}", name, t, error.what()));
+}
 
 void add_wrench(const SystemModel& model, AttachmentIndex attachment,
                 const Vector3& force_W, const Vector3& moment_W,

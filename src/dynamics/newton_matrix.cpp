@@ -212,36 +212,50 @@ void NewtonMatrix::solve_body(const BodyModel& body, const BodyFactor& factor,
   }
 }
 
+// The axes in which an end's motion is told: those of F, or the world's.
+Matrix3 NewtonMatrix::find_R_FW(const SystemModel& model,
+                                const SystemTerms& terms,
+                                const End& end) const {
+  if (end.coupler < 0) return Matrix3::Identity();
+  const Coupler& coupler = model.couplers[index(end.coupler)];
+  return terms.attachments[index(coupler.frame_F)].R_WF.transpose();
+}
+
+// Makes of rows of this end's frame those of M in F; of a transmission one row
+// is left, in place of six.
+void NewtonMatrix::finish_rows(const SystemTerms& terms, const End& end,
+                               Matrix6X& rows) const {
+  if (!end.is_M) {
+    reflect(terms.couplers[index(end.coupler)].motion.p_FM_F, rows);
+  }
+  if (end.term < 0) return;
+  const auto& transmission = terms.transmissions[index(end.link) - couplers_];
+  contract(transmission.gradients[index(end.term)], rows);
+}
+
+void NewtonMatrix::calc_modal_rows(const SystemModel& model,
+                                   const SystemTerms& terms, End& end) const {
+  const auto i = index(end.attachment);
+  calc_modal_jacobian(model.attachments[i], terms.attachments[i],
+                      find_R_FW(model, terms, end), end.G);
+  finish_rows(terms, end, end.G);
+}
+
 void NewtonMatrix::factor_end(const SystemModel& model,
                               const SystemState& state,
                               const SystemTerms& terms, End& end) const {
   const Attachment& attachment = model.attachments[index(end.attachment)];
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
   const BodyModel& body = model.bodies[index(end.body)];
-  Matrix3 R_FW = Matrix3::Identity();
-  Vector3 p = Vector3::Zero();
-  if (end.coupler >= 0) {
-    const Coupler& coupler = model.couplers[index(end.coupler)];
-    R_FW = terms.attachments[index(coupler.frame_F)].R_WF.transpose();
-    p = terms.couplers[index(end.coupler)].motion.p_FM_F;
-  }
-  // Of a transmission one row is left, in place of six.
-  const auto finish = [&](Matrix6X& rows) {
-    if (!end.is_M) reflect(p, rows);
-    if (end.term < 0) return;
-    const auto& transmission = terms.transmissions[index(end.link) - couplers_];
-    contract(transmission.gradients[index(end.term)], rows);
-  };
-  // Motion of this end's frame, in F: translation over rotation.
   if (!attachment.nodal) {
-    calc_modal_jacobian(attachment, motion, R_FW, end.G);
-    finish(end.G);
+    calc_modal_rows(model, terms, end);
     solve_end(body, end);
     return;
   }
+  const Matrix3 R_FW = find_R_FW(model, terms, end);
   const Pose& X_WH = state.X_WH[index(body.full)];
   calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_FW * X_WH.R, end.G);
-  finish(end.G);
+  finish_rows(terms, end, end.G);
   const Matrix3& R_HB = full_[index(body.full)].R_HB();
   const Matrix3 R_FB = R_FW * X_WH.R * R_HB;
   for (Eigen::Index i = 0; i < end.Zt.cols(); i += 3) {
@@ -250,7 +264,7 @@ void NewtonMatrix::factor_end(const SystemModel& model,
     end.Zt.block<3, 3>(3, i) =
         R_FB * end.Zt_B.block<3, 3>(3, i) * R_HB.transpose();
   }
-  finish(end.Zt);
+  finish_rows(terms, end, end.Zt);
 }
 
 // Columns of D^-1 G', a row of G at a time, through D's arrow shape.
@@ -324,13 +338,17 @@ void NewtonMatrix::factor_full(const SystemModel& model,
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           SystemTerms& terms,
                           const std::vector<Vector3>& rotation_increments,
-                          const Coefficients& coefficients, bool renews_full) {
+                          const Coefficients& coefficients, bool renews_full,
+                          const SystemTerms* end_terms) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     factor_body(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
                 rotation_increments[b], coefficients, bodies_[b]);
   }
   factor_full(model, state, terms, coefficients, renews_full);
-  for (End& end : ends_) factor_end(model, state, terms, end);
+  for (End& end : ends_) {
+    factor_end(model, state, terms, end);
+    if (end_terms != nullptr) calc_modal_rows(model, *end_terms, end);
+  }
   assemble(terms, coefficients);
   if (!lu_.factor()) {
     throw NumericalError(

@@ -50,10 +50,13 @@ class NewtonMatrix {
   /// one a body [rad]. Unreduced bodies keep their sparse factors, in body
   /// axes, until the acceleration coefficient changes or `renews_full` asks for
   /// new ones. @throws NumericalError naming the coupler or body.
+  /// @param end_terms where couplers see the increments, if wrenches do not act
+  /// there but at `terms` (no bodies at level `full` then)
   void factor(const SystemModel& model, const SystemState& state,
               SystemTerms& terms,
               const std::vector<Vector3>& rotation_increments,
-              const Coefficients& coefficients, bool renews_full = false);
+              const Coefficients& coefficients, bool renews_full = false,
+              const SystemTerms* end_terms = nullptr);
 
   /// Increments for a residual: solves with -r (sizes 6 bodies + modes) and
   /// the couplers' s. The wrench increments are then in wrench_increments().
@@ -119,6 +122,14 @@ class NewtonMatrix {
                    SystemTerms& terms, const Coefficients& c, bool renews);
   void factor_end(const SystemModel& model, const SystemState& state,
                   const SystemTerms& terms, End& end) const;
+  [[nodiscard]] Matrix3 find_R_FW(const SystemModel& model,
+                                  const SystemTerms& terms,
+                                  const End& end) const;
+  void finish_rows(const SystemTerms& terms, const End& end,
+                   Matrix6X& rows) const;
+  // G of an end on a reduced body.
+  void calc_modal_rows(const SystemModel& model, const SystemTerms& terms,
+                       End& end) const;
   void solve_end(const BodyModel& body, End& end) const;
   // x := D^-1 x for one body's 6 + m rows.
   void solve_body(const BodyModel& body, const BodyFactor& factor,

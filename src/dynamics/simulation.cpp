@@ -16,6 +16,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Those that know no bodies at level `full`.
+bool needs_modes(IntegratorKind kind) {
+  return kind == IntegratorKind::explicit_euler ||
+         kind == IntegratorKind::energy_conserving ||
+         kind == IntegratorKind::splitting;
+}
+
 void check_settings(const SystemModel& model, const SystemState& state,
                     const SimulationSettings& settings) {
   const auto refuse = [](const std::string& text) { throw InputError(text); };
@@ -55,13 +62,12 @@ void check_settings(const SystemModel& model, const SystemState& state,
   if (!(settings.newton_tolerance > 0.0) || settings.newton_iterations < 1) {
     refuse("newton_tolerance and newton_iterations must be > 0");
   }
-  if (settings.integrator == IntegratorKind::explicit_euler &&
-      !model.full_bodies.empty()) {
+  if (needs_modes(settings.integrator) && !model.full_bodies.empty()) {
     refuse(fmt::format(
-        "body '{}' is at level full, which explicit-euler does not integrate; "
-        "use central-differences or an implicit integrator",
-        model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)]
-            .name));
+        "body '{}' is at level full, which {} does not integrate; use "
+        "generalized-alpha, implicit-euler or central-differences",
+        model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)].name,
+        integrator_names()[static_cast<std::size_t>(settings.integrator)]));
   }
 }
 
@@ -84,8 +90,10 @@ class Stopwatch {
 
 const std::vector<std::string>& integrator_names() {
   static const std::vector<std::string> names = {
-      "generalized-alpha", "runge-kutta-4", "explicit-euler",
-      "central-differences", "implicit-euler"};
+      "generalized-alpha", "runge-kutta-4",
+      "explicit-euler",    "central-differences",
+      "implicit-euler",    "energy-conserving",
+      "splitting"};
   return names;
 }
 

@@ -22,10 +22,12 @@ enum class IntegratorKind {
   explicit_euler,
   central_differences,  ///< divides steps that are too long to be stable
   implicit_euler,
+  energy_conserving,
+  splitting,
 };
 
 /// "generalized-alpha", "runge-kutta-4", "explicit-euler",
-/// "central-differences", "implicit-euler".
+/// "central-differences", "implicit-euler", "energy-conserving", "splitting".
 [[nodiscard]] const std::vector<std::string>& integrator_names();
 /// @throws InputError naming the nearest integrator.
 [[nodiscard]] IntegratorKind parse_integrator(std::string_view name);

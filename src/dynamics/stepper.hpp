@@ -4,10 +4,12 @@
 #include <variant>
 
 #include "dynamics/central_differences.hpp"
+#include "dynamics/energy_conserving.hpp"
 #include "dynamics/explicit_euler.hpp"
 #include "dynamics/generalized_alpha.hpp"
 #include "dynamics/runge_kutta.hpp"
 #include "dynamics/simulation.hpp"
+#include "dynamics/splitting.hpp"
 
 namespace limber::dynamics {
 
@@ -45,6 +47,9 @@ class Stepper {
   /// Drops what it could keep to be faster.
   void refresh() {
     if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) alpha->refresh();
+    if (auto* conserving = std::get_if<EnergyConserving>(&scheme_)) {
+      conserving->refresh();
+    }
   }
   /// What it knows between steps, of which the last left `state`.
   void exchange_memory(Archive& archive, const SystemState& state) {
@@ -71,7 +76,7 @@ class Stepper {
 
  private:
   using Scheme = std::variant<GeneralizedAlpha, RungeKutta4, ExplicitEuler,
-                              CentralDifferences>;
+                              CentralDifferences, EnergyConserving, Splitting>;
   static Scheme make(const SystemModel& model,
                      const SimulationSettings& settings) {
     switch (settings.integrator) {
@@ -81,6 +86,11 @@ class Stepper {
         return ExplicitEuler(model);
       case IntegratorKind::central_differences:
         return CentralDifferences(model);
+      case IntegratorKind::energy_conserving:
+        return EnergyConserving(
+            model, {settings.newton_tolerance, settings.newton_iterations});
+      case IntegratorKind::splitting:
+        return Splitting(model);
       case IntegratorKind::generalized_alpha:
       case IntegratorKind::implicit_euler:
         break;

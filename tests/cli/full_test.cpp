@@ -137,11 +137,14 @@ TEST(FullRun, NamesTheNearestLaw) {
   expect_refused(place, "neo-hookean");
 }
 
-TEST(FullRun, RefusesExplicitEuler) {
-  const Workspace place;
-  write_scene(place, {.time_more = "integrator = 'explicit-euler'",
-                      .more = "[fidelity]\ndefault = 'full'"});
-  expect_refused(place, "explicit-euler does not integrate");
+TEST(FullRun, RefusesIntegratorsThatKnowModesAlone) {
+  for (const std::string name :
+       {"explicit-euler", "energy-conserving", "splitting"}) {
+    const Workspace place;
+    write_scene(place, {.time_more = "integrator = '" + name + "'",
+                        .more = "[fidelity]\ndefault = 'full'"});
+    expect_refused(place, name + " does not integrate");
+  }
 }
 
 TEST(FullRun, RefusesASavedReducedBody) {

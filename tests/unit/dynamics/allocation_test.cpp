@@ -3,8 +3,10 @@
 // worth of malloc of its own; left out under sanitizers, which replace it too.
 #include <gtest/gtest.h>
 
+#include "dynamics/energy_conserving.hpp"
 #include "dynamics/generalized_alpha.hpp"
 #include "dynamics/runge_kutta.hpp"
+#include "dynamics/splitting.hpp"
 #include "support/chain.hpp"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -82,6 +84,32 @@ TEST(Allocation, AStepOfRungeKuttaMakesNone) {
   scheme.step(state, 1e-6, state.t + 1e-6);
   const long before = allocations;
   for (int i = 0; i < 100; ++i) scheme.step(state, 1e-6, state.t + 1e-6);
+  EXPECT_EQ(allocations - before, 0);
+}
+
+TEST(Allocation, AStepOfTheEnergyConservingSchemeMakesNone) {
+  SystemState state;
+  const SystemModel model = loaded_chain(state);
+  EnergyConserving scheme(model, {});
+  scheme.step(state, 1e-3, state.t + 1e-3);
+  const long before = allocations;
+  int factorizations = 0;
+  for (int i = 0; i < 100; ++i) {
+    factorizations += scheme.step(state, 1e-3, state.t + 1e-3).factorizations;
+  }
+  factorizations += scheme.step(state, 5e-4, state.t + 5e-4).factorizations;
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(factorizations, 0);
+}
+
+TEST(Allocation, AStepOfTheSplittingSchemeMakesNone) {
+  SystemState state;
+  const SystemModel model = loaded_chain(state);
+  Splitting scheme(model);
+  scheme.step(state, 1e-6, state.t + 1e-6);
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) scheme.step(state, 1e-6, state.t + 1e-6);
+  scheme.step(state, 5e-7, state.t + 5e-7);
   EXPECT_EQ(allocations - before, 0);
 }
 

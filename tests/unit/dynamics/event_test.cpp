@@ -193,7 +193,9 @@ INSTANTIATE_TEST_SUITE_P(
     All, EventIn,
     ::testing::Values(IntegratorKind::generalized_alpha,
                       IntegratorKind::runge_kutta_4,
-                      IntegratorKind::central_differences),
+                      IntegratorKind::central_differences,
+                      IntegratorKind::energy_conserving,
+                      IntegratorKind::splitting),
     [](const auto& param) {
       std::string name =
           integrator_names()[static_cast<std::size_t>(param.param)];

@@ -150,7 +150,9 @@ INSTANTIATE_TEST_SUITE_P(
     AllSchemes, HeavyTopScheme,
     ::testing::Values(Scheme{IntegratorKind::generalized_alpha, 2.0, 5e-4},
                       Scheme{IntegratorKind::runge_kutta_4, 4.0, 5e-4},
-                      Scheme{IntegratorKind::explicit_euler, 1.0, 2e-5}));
+                      Scheme{IntegratorKind::explicit_euler, 1.0, 2e-5},
+                      Scheme{IntegratorKind::energy_conserving, 2.0, 5e-4},
+                      Scheme{IntegratorKind::splitting, 2.0, 5e-5}));
 
 }  // namespace
 }  // namespace limber::dynamics

@@ -179,7 +179,9 @@ INSTANTIATE_TEST_SUITE_P(
     Steps, PulseImpulse,
     ::testing::Combine(::testing::Values(1e-3, 3.1e-3, 0.5e-3, 0.7e-4),
                        ::testing::Values(IntegratorKind::generalized_alpha,
-                                         IntegratorKind::runge_kutta_4)));
+                                         IntegratorKind::runge_kutta_4,
+                                         IntegratorKind::energy_conserving,
+                                         IntegratorKind::splitting)));
 
 // One mode of a clamped body under a step load: eta = F/w^2 (1 - cos w t).
 TEST(Simulation, ClampedModeUnderAStepLoadConvergesToTheClosedForm) {

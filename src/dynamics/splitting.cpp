@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/splitting.hpp"
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+#include "dynamics/finite_check.hpp"
+
+namespace limber::dynamics {
+
+Splitting::Splitting(const SystemModel& model)
+    : model_(model),
+      terms_(make_terms(model)),
+      kick_(make_accelerations(model)),
+      next_(make_state(model)),
+      middle_(make_state(model)) {
+  for (const BodyModel& body : model.bodies) {
+    for (int k = 0; k < body.modes; ++k) {
+      oscillators_.emplace_back(body.lambda[k], body.damping[k]);
+    }
+  }
+  responses_.resize(oscillators_.size());
+  LIMBER_EXPECT(model.full_bodies.empty());
+}
+
+void Splitting::set_half(double half) {
+  if (half == half_) return;
+  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+    responses_[i] = oscillators_[i].find_free_response(half);
+  }
+  half_ = half;
+}
+
+void Splitting::drift(SystemState& state, double& dissipated) const {
+  for (BodyState& body : state.bodies) {
+    body.p_WB += half_ * body.v_WB_W;
+    body.quat_WB = body.quat_WB * exp_quaternion(half_ * body.w_WB_B);
+    body.quat_WB.normalize();
+  }
+  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double lambda = oscillators_[i].lambda();
+    const flexbody::FreeResponse& r = responses_[i];
+    const double eta = state.eta[k];
+    const double etadot = state.etadot[k];
+    state.eta[k] = r.stay * eta + r.impulse * etadot;
+    state.etadot[k] = -lambda * r.impulse * eta + r.keep * etadot;
+    if (oscillators_[i].damping() == 0.0) continue;
+    dissipated += 0.5 * (etadot * etadot - state.etadot[k] * state.etadot[k] +
+                         lambda * (eta * eta - state.eta[k] * state.eta[k]));
+  }
+}
+
+// At middle_.
+void Splitting::calc_kick() {
+  calc_terms(model_, middle_, Side::right, terms_);
+  solve_accelerations(model_, terms_, kick_);
+  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    kick_.etaddot[k] += oscillators_[i].lambda() * middle_.eta[k] +
+                        oscillators_[i].damping() * middle_.etadot[k];
+  }
+}
+
+void Splitting::kick(const SystemState& from, double h, SystemState& to) const {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    to.bodies[b].v_WB_W = from.bodies[b].v_WB_W + h * kick_.a_WB_W[b];
+    to.bodies[b].w_WB_B = from.bodies[b].w_WB_B + h * kick_.dw_WB_B[b];
+  }
+  to.etadot = from.etadot + h * kick_.etaddot;
+}
+
+StepResult Splitting::step(SystemState& state, double h, double end) {
+  set_half(0.5 * h);
+  StepResult result;
+  next_ = state;
+  next_.t = end;
+  drift(next_, result.dissipated);
+  middle_ = next_;
+  middle_.t = state.t + half_;
+  calc_kick();
+  kick(next_, half_, middle_);
+  calc_kick();
+  kick(next_, h, next_);
+  result.load_work = h * terms_.load_power;
+  result.dissipated += h * terms_.dissipated_power;
+  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+    const double rate = middle_.etadot[static_cast<Eigen::Index>(i)];
+    result.dissipated -= h * oscillators_[i].damping() * rate * rate;
+  }
+  drift(next_, result.dissipated);
+  require_finite(model_, next_, h);
+  std::swap(state, next_);
+  return result;
+}
+
+}  // namespace limber::dynamics

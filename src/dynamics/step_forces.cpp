@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/step_forces.hpp"
+
+#include "dynamics/coupler_forces.hpp"
+#include "dynamics/transmission.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// All that the functions below look at.
+struct Step {
+  const SystemModel& model;
+  const SystemState& begin;
+  const SystemState& middle;
+  const SystemTerms& begin_terms;
+  const SystemTerms& end_terms;
+  const StepTimes& times;
+  const StepMotion& motion;
+};
+
+// Moments are gathered in world axes, and turned at the end.
+void add_wrench(const Step& step, AttachmentIndex attachment,
+                const Vector3& force_W, const Vector3& moment_W,
+                SystemTerms& terms) {
+  const Attachment& a = step.model.attachments[index(attachment)];
+  if (a.body == kWorld) return;
+  const auto b = index(a.body);
+  const FrameStep& frame = step.motion.frames[index(attachment)];
+  BodyTerms& t = terms.bodies[b];
+  t.force_W += force_W;
+  t.moment_B += frame.arm_W.cross(force_W) + moment_W;
+  if (step.model.bodies[b].modes == 0) return;
+  const Vector3 force_B = step.motion.bodies[b].dual_R.transpose() * force_W;
+  const Vector3 twist = frame.twist.transpose() * moment_W;
+  for (int k = 0; k < step.model.bodies[b].modes; ++k) {
+    t.modal_force[k] += a.Phi_B.col(k).dot(force_B) + a.Psi_B.col(k).dot(twist);
+  }
+}
+
+// On M, and its reaction on F.
+void add_pair(const Step& step, CouplerIndex coupler, const Vector6& wrench_F,
+              SystemTerms& terms) {
+  const Coupler& c = step.model.couplers[index(coupler)];
+  const CouplerStep& along = step.motion.couplers[index(coupler)];
+  const Vector3 force = along.force_R * wrench_F.head<3>();
+  const Vector3 moment = along.moment_R * wrench_F.tail<3>();
+  add_wrench(step, c.frame_M, force, moment, terms);
+  add_wrench(step, c.frame_F, -force, -moment - along.arm_W.cross(force),
+             terms);
+}
+
+MotionStep motion_of(const Step& step, std::size_t coupler) {
+  return {step.begin_terms.couplers[coupler].motion,
+          step.end_terms.couplers[coupler].motion,
+          step.motion.couplers[coupler].mean};
+}
+
+template <typename Response>
+void add_powers(const Response& response, SystemTerms& terms) {
+  terms.dissipated_power += response.dissipation;
+  terms.load_power += response.supplied;
+}
+
+void apply_coupler(const Step& step, std::size_t c, SystemTerms& terms) {
+  CouplerTerms& out = terms.couplers[c];
+  const MotionStep motion = motion_of(step, c);
+  out.motion = motion.mean;
+  out.response = evaluate_over_step(step.model.couplers[c].law, motion,
+                                    step.begin.memory[c], step.times);
+  add_powers(out.response, terms);
+  out.response.wrench *= 2.0;
+  add_pair(step, static_cast<CouplerIndex>(c), 0.5 * out.applied, terms);
+}
+
+CoordinateStep find_path_step(const Step& step, const PathCoordinate& path,
+                              std::vector<Vector6>& gradients) {
+  CoordinateStep coordinate;
+  for (Vector6& gradient : gradients) gradient.setZero();
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const auto from = index(path.points[i]);
+    const auto to = index(path.points[i + 1]);
+    const auto line = [&](const SystemTerms& at) {
+      return (at.attachments[to].p_WF - at.attachments[from].p_WF).eval();
+    };
+    const Vector3 first = line(step.begin_terms);
+    const Vector3 last = line(step.end_terms);
+    const double length0 = first.norm();
+    const double length1 = last.norm();
+    const Vector3 direction = (first + last) / (length0 + length1);
+    coordinate.z0 += length0;
+    coordinate.z1 += length1;
+    coordinate.rate += direction.dot(step.motion.frames[to].v_W -
+                                     step.motion.frames[from].v_W);
+    gradients[i].head<3>() -= direction;
+    gradients[i + 1].head<3>() += direction;
+  }
+  return coordinate;
+}
+
+CoordinateStep find_sum_step(const Step& step, const JointSum& sum,
+                             std::vector<Vector6>& gradients) {
+  CoordinateStep coordinate;
+  coordinate.z0 = coordinate.z1 = -sum.offset;
+  for (std::size_t i = 0; i < sum.terms.size(); ++i) {
+    const JointSum::Term& term = sum.terms[i];
+    const auto c = index(term.coupler);
+    const auto j = index(term.coordinate);
+    const CoordinateStep own = find_coordinate_step(
+        joints::coordinates_of(step.model.couplers[c].law)[j],
+        motion_of(step, c), step.begin.memory[c].near[j], step.times.h);
+    coordinate.z0 += term.factor * own.z0;
+    coordinate.z1 += term.factor * own.z1;
+    coordinate.rate += term.factor * own.rate;
+    gradients[i] = term.factor * own.gradient;
+  }
+  return coordinate;
+}
+
+void apply_transmission(const Step& step, std::size_t i, SystemTerms& terms) {
+  const Transmission& transmission = step.model.transmissions[i];
+  const joints::CouplerMemory& memory =
+      step.begin.memory[step.model.couplers.size() + i];
+  TransmissionTerms& out = terms.transmissions[i];
+  const auto* path = std::get_if<PathCoordinate>(&transmission.coordinate);
+  const auto* sum = std::get_if<JointSum>(&transmission.coordinate);
+  const CoordinateStep coordinate =
+      path ? find_path_step(step, *path, out.gradients)
+           : find_sum_step(step, *sum, out.gradients);
+  out.motion = {0.5 * (coordinate.z0 + coordinate.z1), coordinate.rate};
+  out.response = {};
+  std::size_t first = 0;  // of a law's switches
+  for (const joints::ScalarLaw& law : transmission.laws) {
+    out.response += evaluate_over_step(
+        law, coordinate, step.times,
+        {memory.switches[first], memory.switches[first + 1]});
+    first += index(joints::switch_count(law));
+  }
+  add_powers(out.response, terms);
+  out.response.force *= 2.0;
+  const double force = 0.5 * out.applied;
+  for (std::size_t k = 0; k < out.gradients.size(); ++k) {
+    if (path) {
+      add_wrench(step, path->points[k], force * out.gradients[k].head<3>(),
+                 Vector3::Zero(), terms);
+    } else {
+      add_pair(step, sum->terms[k].coupler, force * out.gradients[k], terms);
+    }
+  }
+}
+
+// A force and a moment on a whole body, and their power.
+void add_to_body(const Step& step, std::size_t b, const Vector3& force_W,
+                 const Vector3& moment_W, SystemTerms& terms) {
+  if (!step.model.bodies[b].has_rigid_motion()) return;
+  terms.bodies[b].force_W += force_W;
+  terms.bodies[b].moment_B += moment_W;
+  terms.load_power += force_W.dot(step.motion.bodies[b].v_W) +
+                      moment_W.dot(step.motion.bodies[b].w_W);
+}
+
+void add_to_mode(const Step& step, std::size_t b, int k, double force,
+                 SystemTerms& terms) {
+  terms.bodies[b].modal_force[k] += force;
+  terms.load_power +=
+      force * step.middle.etadot[step.model.bodies[b].offset + k];
+}
+
+void apply_load(const Step& step, const Load& load, SystemTerms& terms) {
+  const double factor =
+      evaluate(load.function, step.times.middle(), Side::right);
+  const Attachment& a = step.model.attachments[index(load.where)];
+  if (factor == 0.0 || a.body == kWorld) return;
+  const auto b = index(a.body);
+  const BodyModel& body = step.model.bodies[b];
+  const Matrix3& R_WB = step.motion.bodies[b].middle_R_WB;
+  const Matrix3 R = load.in_world ? Matrix3(Matrix3::Identity()) : R_WB;
+  const Vector3 force_W = R * (factor * load.force);
+  const Vector3 moment_W = R * (factor * load.moment);
+  if (body.fidelity == Fidelity::coupled) {
+    const FrameStep& frame = step.motion.frames[index(load.where)];
+    add_wrench(step, load.where, force_W, moment_W, terms);
+    terms.load_power += force_W.dot(frame.v_W) + moment_W.dot(frame.w_W);
+    return;
+  }
+  // What a level without feedback sees: the undeformed body.
+  const Vector3 force_B = R_WB.transpose() * force_W;
+  const Vector3 moment_B = R_WB.transpose() * moment_W;
+  for (int k = 0; k < body.modes; ++k) {
+    add_to_mode(step, b, k,
+                a.Phi_B.col(k).dot(force_B) + a.Psi_B.col(k).dot(moment_B),
+                terms);
+  }
+  add_to_body(step, b, force_W, (R_WB * a.p_BF).cross(force_W) + moment_W,
+              terms);
+}
+
+void apply_body_load(const Step& step, const BodyLoad& load,
+                     SystemTerms& terms) {
+  const flexbody::NodalLoad& history = load.history;
+  const Eigen::Index i =
+      find_interval(history.times, step.times.middle(), Side::right);
+  if (i < 0) return;
+  const auto b = index(load.body);
+  const BodyModel& body = step.model.bodies[b];
+  Vector3 moment_B = history.moment.col(i);
+  for (int k = 0; k < body.modes; ++k) {
+    if (body.fidelity == Fidelity::coupled) {
+      moment_B += history.moment_by_mode.col(i * body.modes + k) *
+                  step.middle.eta[body.offset + k];
+    }
+    add_to_mode(step, b, k, history.modal(k, i), terms);
+  }
+  const Matrix3& R_WB = step.motion.bodies[b].middle_R_WB;
+  add_to_body(step, b, R_WB * history.force.col(i), R_WB * moment_B, terms);
+}
+
+void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
+  const BodyModel& body = step.model.bodies[b];
+  const Vector3& gravity_W = step.model.gravity_W;
+  BodyTerms& t = terms.bodies[b];
+  t.R_WB = step.motion.bodies[b].middle_R_WB;
+  t.J = step.end_terms.bodies[b].J;
+  t.H = step.end_terms.bodies[b].H;
+  t.force_W.setZero();
+  t.moment_B.setZero();
+  t.modal_force.setZero();
+  for (int k = 0; k < body.modes; ++k) {
+    const double rate = step.middle.etadot[body.offset + k];
+    terms.dissipated_power += body.damping[k] * rate * rate;
+    if (!body.clamped) continue;
+    const Vector3 P_W = t.R_WB * body.P.col(k);
+    add_to_mode(step, b, k, P_W.dot(gravity_W), terms);
+  }
+  add_to_body(step, b, body.mass * gravity_W, Vector3::Zero(), terms);
+}
+
+// As NewtonMatrix wants them.
+void set_attachment(const Step& step, std::size_t i, SystemTerms& terms) {
+  const Attachment& a = step.model.attachments[i];
+  AttachmentMotion& out = terms.attachments[i];
+  out = step.end_terms.attachments[i];
+  out.R_WF = step.motion.frames[i].R_WF;
+  out.p_WF = step.motion.frames[i].p_WF;
+  if (a.body == kWorld) return;
+  out.R_WB = step.motion.bodies[index(a.body)].middle_R_WB;
+  out.arm_B = out.R_WB.transpose() * step.motion.frames[i].arm_W;
+}
+
+}  // namespace
+
+void calc_step_forces(const SystemModel& model, const SystemState& begin,
+                      const SystemState& middle, const SystemTerms& begin_terms,
+                      const SystemTerms& end_terms, const StepTimes& times,
+                      const StepMotion& motion, SystemTerms& terms) {
+  const Step step{model, begin, middle, begin_terms, end_terms, times, motion};
+  terms.load_power = 0.0;
+  terms.dissipated_power = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    reset_body(step, b, terms);
+  }
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    set_attachment(step, i, terms);
+  }
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    name_coupler(model.couplers[c].name, times.end,
+                 [&] { apply_coupler(step, c, terms); });
+  }
+  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
+    name_coupler(model.transmissions[i].name, times.end,
+                 [&] { apply_transmission(step, i, terms); });
+  }
+  for (const Load& load : model.loads) apply_load(step, load, terms);
+  for (const BodyLoad& load : model.body_loads) {
+    apply_body_load(step, load, terms);
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    BodyTerms& t = terms.bodies[b];
+    t.moment_B = motion.bodies[b].dual_R.transpose() * t.moment_B.eval();
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/energy_conserving.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/errors.hpp"
+#include "dynamics/simulation.hpp"
+#include "support/free_chain.hpp"
+#include "support/linked_bodies.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using testing::FreeChain;
+using testing::make_free_chain;
+
+// --- A free chain -----------------------------------------------------------
+
+constexpr double kTwentyTimes = 20.0;  // the explicit limit of its modes
+
+TEST(EnergyConserving, KeepsAFreeChainsEnergyAtTwentyTimesTheExplicitLimit) {
+  const FreeChain chain = make_free_chain(1e7, 1.0, 0.1);
+  const testing::KeptDrift drift = testing::find_energy_conserving_drift(
+      chain, kTwentyTimes * chain.shortest, 2000);
+  EXPECT_LT(drift.energy, 1e-11);
+  EXPECT_LT(drift.linear, 1e-14);
+  EXPECT_LT(drift.angular, 1e-12);
+}
+
+// What round-off of positions, times the hinges' force, leaves.
+TEST(EnergyConserving, KeepsAFreeChainsEnergyWhateverItsHingesStiffness) {
+  for (const double stiffness : {1e5, 1e9, 1e11, 1e13}) {
+    const FreeChain chain = make_free_chain(stiffness, 1.0, 0.1);
+    const testing::KeptDrift drift =
+        testing::find_energy_conserving_drift(chain, 1e-3, 200);
+    EXPECT_LT(drift.energy, 1e-15 * std::sqrt(stiffness) * std::sqrt(200.0))
+        << stiffness;
+    EXPECT_LT(drift.linear, 1e-14) << stiffness;
+    EXPECT_LT(drift.angular, 1e-12) << stiffness;
+  }
+}
+
+// --- Every law --------------------------------------------------------------
+
+struct Gap {
+  double energy;   ///< of the audit, relative to the energy at the start
+  double angular;  ///< change of the angular momentum, relative
+  double dissipated;
+};
+
+// Switches stand as the motion has them; the balance across an event is that of
+// the event's time.
+Gap find_gap(const SystemModel& model, SystemState state, double h, int steps) {
+  // Joints that turn fast under large forces take many.
+  EnergyConserving scheme(model, {.max_iterations = 60});
+  const EnergyBalance start = calc_energy(model, state);
+  double work = 0.0;
+  double dissipated = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const StepResult step = scheme.step(state, h, state.t + h);
+    work += step.load_work;
+    dissipated += step.dissipated;
+    for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+      const auto& coordinates = coordinates_of(model.couplers[c].law);
+      for (std::size_t k = 0; k < coordinates.size(); ++k) {
+        double& near = state.memory[c].near[k];
+        near = find_position(coordinates[k], scheme.terms().couplers[c].motion,
+                             near);
+      }
+    }
+  }
+  const EnergyBalance end = calc_energy(model, state);
+  return {(end.total() - start.total() + dissipated - work) / start.total(),
+          (end.angular_momentum - start.angular_momentum).norm() /
+              start.angular_momentum.norm(),
+          dissipated};
+}
+
+class EnergyConservingLink : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(EnergyConservingLink, ClosesTheBalanceAndKeepsMomentumToRoundOff) {
+  for (const double damping : {0.0, 0.5}) {
+    const auto link = testing::make_all_links(damping).at(GetParam());
+    for (const std::array<bool, 3> flexible :
+         {std::array{true, true, true}, std::array{false, true, false}}) {
+      const auto bodies = testing::make_linked_bodies(link, flexible, 3, 1.0);
+      const Gap gap = find_gap(bodies.model, bodies.state, 0.004, 45);
+      EXPECT_LT(std::abs(gap.energy), 1e-12) << damping;
+      EXPECT_LT(gap.angular, 1e-12) << damping;
+      if (damping > 0.0) {
+        EXPECT_GT(gap.dissipated, 0.0);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, EnergyConservingLink,
+    ::testing::Range<std::size_t>(0, testing::make_all_links(0.0).size()),
+    [](const auto& i) { return testing::make_all_links(0.0)[i.param].name; });
+
+// --- Loads and losses -------------------------------------------------------
+
+TEST(EnergyConserving, AuditOfLoadsDampersAndFrictionClosesToRoundOff) {
+  testing::Chain chain =
+      testing::make_chain({.bodies = 3,
+                           .stiffness = 1e4,
+                           .damping = 5.0,
+                           .joint = joints::JointKind::revolute});
+  chain.builder.add_load("push", chain.last_interfaces.back(), {0, 5, 0},
+                         {0.3, 0, 0}, LoadFrame::body,
+                         Sinusoid{.frequency = 3.0});
+  chain.builder.add_load("pull", chain.last_interfaces.front(), {1, 0, 2},
+                         {0, 0.2, 0}, LoadFrame::world, Constant{});
+  chain.builder.add_path(
+      "rubbed", {chain.last_interfaces[0], chain.last_interfaces[2]},
+      {joints::Friction({.coulomb = 0.5, .viscous = 0.1, .speed = 0.01})});
+  chain.builder.set_gravity({0, 0, -1.0});
+  const SystemModel model = chain.builder.build();
+  SystemState state = chain.state;
+  for (BodyState& body : state.bodies) body.w_WB_B = Vector3(1.0, 0.2, 0.1);
+  std::vector<EnergyBalance> energies;
+  simulate(model, state,
+           {.integrator = IntegratorKind::energy_conserving,
+            .end_time = 0.5,
+            .step = 2e-3,
+            .output_times = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5}},
+           [&](const SystemState&, const EnergyBalance& energy) {
+             energies.push_back(energy);
+           });
+  ASSERT_EQ(energies.size(), 6U);
+  for (const EnergyBalance& e : energies) {
+    EXPECT_NEAR(e.total() - energies[0].total() - e.work + e.dissipated, 0.0,
+                1e-12 * (energies[0].total() + std::abs(e.work)));
+  }
+  EXPECT_GT(energies.back().dissipated, 1e-3);
+}
+
+// --- Failures ---------------------------------------------------------------
+
+TEST(EnergyConserving, LeavesTheStateAsItWasWhenNewtonFails) {
+  const FreeChain chain = make_free_chain(1e7, 1.0, 0.1);
+  SystemState state = chain.state;
+  EnergyConserving scheme(chain.model, {.max_iterations = 2});
+  try {
+    scheme.step(state, 0.5, 0.5);
+    FAIL() << "two iterations were called enough";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("body 'link"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("t = 0.5 s"), std::string::npos);
+  }
+  EXPECT_EQ(state.t, 0.0);
+  EXPECT_EQ(state.etadot, chain.state.etadot);
+  EXPECT_EQ(state.bodies[1].p_WB, chain.state.bodies[1].p_WB);
+}
+
+}  // namespace
+}  // namespace limber::dynamics
