@@ -17,11 +17,27 @@ endif()
 # Gmsh exports its own copies of Eigen's templates: ours, if visible, would take
 # their place inside it, built with other options.
 target_compile_options(limber_options INTERFACE -fvisibility=hidden)
+if(LIMBER_SANITIZE MATCHES "^(ON|address)$")
+  set(limber_sanitizers address,undefined)
+elseif(LIMBER_SANITIZE STREQUAL "thread")
+  set(limber_sanitizers thread)
+elseif(LIMBER_SANITIZE)
+  message(FATAL_ERROR "LIMBER_SANITIZE is '${LIMBER_SANITIZE}'; expected "
+    "address (or ON), thread or OFF")
+endif()
 if(LIMBER_SANITIZE)
   target_compile_options(limber_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=undefined
+    -fsanitize=${limber_sanitizers} -fno-sanitize-recover=undefined
     -fno-omit-frame-pointer)
-  target_link_options(limber_options INTERFACE -fsanitize=address,undefined)
+  target_link_options(limber_options INTERFACE -fsanitize=${limber_sanitizers})
+endif()
+# libFuzzer follows the paths that an input takes; a double that its integer
+# cannot hold is of no sanitizer's default.
+if(LIMBER_FUZZ)
+  target_compile_options(limber_options INTERFACE
+    -fsanitize=fuzzer-no-link,float-cast-overflow
+    -fno-sanitize-recover=float-cast-overflow)
+  target_link_options(limber_options INTERFACE -fsanitize=float-cast-overflow)
 endif()
 
 # limber_layer(NAME [EXCLUDE file...]): a static library of all sources in the

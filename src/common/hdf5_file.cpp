@@ -160,12 +160,21 @@ void check_class(hid_t set, H5T_class_t expected, const std::string& name,
   }
 }
 
-std::vector<hsize_t> shape_of(hid_t set) {
+std::vector<hsize_t> shape_of(hid_t set, const std::string& name) {
   const Handle space(H5Dget_space(set), H5Sclose);
   const int rank = checked(H5Sget_simple_extent_ndims(space.get()));
   std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
   if (rank > 0) {
     checked(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr));
+  }
+  // Beside an extent of 0 any other fits the file, but not a matrix's index.
+  for (const hsize_t n : shape) {
+    if (n > hsize_t{std::numeric_limits<Eigen::Index>::max()}) {
+      throw Failure(
+          fmt::format("'{}' claims {} entries along one axis; it is "
+                      "damaged",
+                      name, n));
+    }
   }
   return shape;
 }
@@ -212,7 +221,7 @@ void read_dataset(hid_t set, hid_t type, void* out, const std::string& name) {
 MatrixX read_matrix_of(hid_t file, const std::string& name) {
   const Handle set = open_dataset(file, name);
   check_class(set.get(), H5T_FLOAT, name, "a matrix of numbers");
-  const std::vector<hsize_t> shape = shape_of(set.get());
+  const std::vector<hsize_t> shape = shape_of(set.get(), name);
   if (shape.size() != 2) {
     throw Failure(fmt::format("'{}' is not a matrix", name));
   }
@@ -229,7 +238,7 @@ std::vector<std::int64_t> read_integers_of(hid_t file,
                                            const std::string& name) {
   const Handle set = open_dataset(file, name);
   check_class(set.get(), H5T_INTEGER, name, "a list of integers");
-  const std::vector<hsize_t> shape = shape_of(set.get());
+  const std::vector<hsize_t> shape = shape_of(set.get(), name);
   if (shape.size() != 1) {
     throw Failure(fmt::format("'{}' is not a list", name));
   }
@@ -245,7 +254,7 @@ std::string read_text_of(hid_t file, const std::string& name) {
   const Handle set = open_dataset(file, name);
   check_class(set.get(), H5T_STRING, name, "a text");
   const Handle type(H5Dget_type(set.get()), H5Tclose);
-  const std::vector<hsize_t> shape = shape_of(set.get());
+  const std::vector<hsize_t> shape = shape_of(set.get(), name);
   if (!shape.empty() || checked(H5Tis_variable_str(type.get())) > 0) {
     throw Failure(fmt::format("'{}' is not one text of fixed length", name));
   }

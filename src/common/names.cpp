@@ -12,6 +12,22 @@
 namespace limber {
 namespace {
 
+// A file may have thousands of names, and as many unknown ones.
+constexpr std::size_t kMostCompared = 1000;
+constexpr std::size_t kMostListed = 30;
+
+std::string list_names(const std::vector<std::string>& names) {
+  if (names.empty()) return "none";
+  const auto listed =
+      static_cast<std::ptrdiff_t>(std::min(names.size(), kMostListed));
+  const std::string more =
+      names.size() > kMostListed
+          ? fmt::format(" and {} more", names.size() - kMostListed)
+          : "";
+  return fmt::format(
+      "{}{}", fmt::join(names.begin(), names.begin() + listed, ", "), more);
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -31,6 +47,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_name(std::string_view unknown,
                          const std::vector<std::string>& known) {
+  if (known.size() > kMostCompared) return "";
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, unknown.size() / 2);
   for (const std::string& name : known) {
@@ -49,9 +66,8 @@ std::string describe_unknown(std::string_view kind, std::string_view name,
   const std::string nearest = nearest_name(name, known);
   const std::string hint =
       nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  return fmt::format(
-      "unknown {} '{}'{} (known: {})", kind, name, hint,
-      known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
+  return fmt::format("unknown {} '{}'{} (known: {})", kind, name, hint,
+                     list_names(known));
 }
 
 std::size_t find_name(std::string_view kind, std::string_view name,

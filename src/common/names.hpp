@@ -12,7 +12,8 @@ namespace limber {
 [[nodiscard]] std::string nearest_name(std::string_view unknown,
                                        const std::vector<std::string>& known);
 
-/// "unknown KIND 'NAME'" with a suggestion and the list of known names.
+/// "unknown KIND 'NAME'" with a suggestion and the list of known names, or the
+/// first of very many.
 [[nodiscard]] std::string describe_unknown(
     std::string_view kind, std::string_view name,
     const std::vector<std::string>& known);

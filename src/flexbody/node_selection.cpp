@@ -26,10 +26,10 @@ std::string to_point(const Vector3& v) {
 
 PlaneNodes make_plane(const Vector3& point, const Vector3& normal,
                       double tolerance) {
-  if (!(normal.norm() > 0.0)) {
+  if (normal.isZero(0.0)) {
     throw InputError("the plane's normal is zero; give it a direction");
   }
-  return {point, normal.normalized(), tolerance};
+  return {point, normal.stableNormalized(), tolerance};
 }
 
 CylinderNodes make_cylinder(const Vector3& from, const Vector3& to,

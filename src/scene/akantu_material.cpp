@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -88,7 +91,8 @@ class Parser {
                 const Range& range) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != '\0' || !range.contains(value)) {
+    if (text.empty() || end != text.c_str() + text.size() ||
+        !std::isfinite(value) || !range.contains(value)) {
       fail(fmt::format("{} is '{}'; expected a number {}", key, text,
                        range.text()));
     }

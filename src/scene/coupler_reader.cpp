@@ -42,7 +42,7 @@ std::optional<JointKind> read_kind(XmlElement& element, const std::string& name,
 Vector3 read_direction(XmlElement& element, const std::string& name,
                        const Vector3& usual) {
   const Vector3 axis = element.vector(name).value_or(usual);
-  if (axis.norm() > 0.0) return axis.normalized();
+  if (!axis.isZero(0.0)) return axis.stableNormalized();
   element.fail(fmt::format("{}: it has no length, so no direction", name));
   return usual;
 }

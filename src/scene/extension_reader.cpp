@@ -27,6 +27,13 @@ Named* find_named(std::vector<Named>& all, const std::string& name) {
 }
 
 template <typename Named>
+std::map<std::string, std::size_t> index_names(const std::vector<Named>& all) {
+  std::map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < all.size(); ++i) index.emplace(all[i].name, i);
+  return index;
+}
+
+template <typename Named>
 void add_names(const std::vector<Named>& all, std::vector<std::string>& names) {
   for (const Named& one : all) names.push_back(one.name);
 }
@@ -34,7 +41,10 @@ void add_names(const std::vector<Named>& all, std::vector<std::string>& names) {
 class ExtensionReader {
  public:
   ExtensionReader(Robot& robot, Problems& problems)
-      : robot_(robot), problems_(problems) {
+      : robot_(robot),
+        problems_(problems),
+        index_of_link_(index_names(robot.links)),
+        index_of_joint_(index_names(robot.joints)) {
     add_names(robot.links, links_);
     add_names(robot.joints, joints_);
     for (const std::string& name : joints_) couplers_.insert(name);
@@ -75,10 +85,21 @@ class ExtensionReader {
     }
   }
 
+  Link* find_link(const std::string& name) {
+    const auto found = index_of_link_.find(name);
+    if (found == index_of_link_.end()) return nullptr;
+    return &robot_.links[found->second];
+  }
+  Joint* find_joint(const std::string& name) {
+    const auto found = index_of_joint_.find(name);
+    if (found == index_of_joint_.end()) return nullptr;
+    return &robot_.joints[found->second];
+  }
+
   void add_flexible(XmlElement& element) {
     const std::string name = element.required_text("link");
     FlexibleLink flexible = read_flexible(element, robot_.file.parent_path());
-    Link* link = find_named(robot_.links, name);
+    Link* link = find_link(name);
     if (link == nullptr) {
       element.fail(describe_unknown("link", name, links_));
       return;
@@ -91,7 +112,7 @@ class ExtensionReader {
   }
 
   void check_joint(const XmlElement& element, const std::string& name) {
-    if (find_named(robot_.joints, name) != nullptr) return;
+    if (find_joint(name) != nullptr) return;
     element.fail(describe_unknown("joint", name, joints_));
   }
 
@@ -99,7 +120,7 @@ class ExtensionReader {
     const std::string name = element.required_text("joint");
     check_joint(element, name);
     Joint unknown;
-    Joint* joint = find_named(robot_.joints, name);
+    Joint* joint = find_joint(name);
     read_coupler(element, joint != nullptr ? *joint : unknown);
     if (!tuned_.insert(name).second) {
       element.fail("for joint '" + name + "' is given twice");
@@ -138,7 +159,7 @@ class ExtensionReader {
   }
 
   void check_geared(const XmlElement& element, const std::string& name) {
-    const Joint* joint = find_named(robot_.joints, name);
+    const Joint* joint = find_joint(name);
     const Loop* loop = find_named(robot_.loops, name);
     if (joint == nullptr && loop == nullptr) {
       std::vector<std::string> known = joints_;
@@ -164,12 +185,14 @@ class ExtensionReader {
 
   void check_end(const XmlElement& element, const ConnectorEnd& end) {
     const std::string& link = end.where.link;
-    if (link == "world" || find_named(robot_.links, link) != nullptr) return;
+    if (link == "world" || find_link(link) != nullptr) return;
     element.fail(describe_unknown("link", link, links_));
   }
 
   Robot& robot_;
   Problems& problems_;
+  std::map<std::string, std::size_t> index_of_link_;
+  std::map<std::string, std::size_t> index_of_joint_;
   std::vector<std::string> links_;
   std::vector<std::string> joints_;
   std::set<std::string> couplers_;

@@ -12,6 +12,7 @@
 #include "scene/extension_reader.hpp"
 #include "scene/urdf_joints.hpp"
 #include "scene/urdf_tree.hpp"
+#include "scene/xml_depth.hpp"
 
 namespace limber::scene {
 namespace {
@@ -99,7 +100,7 @@ Joint to_joint(const urdf::Joint& source, int parent, int child) {
   joint.child = child;
   joint.X_PJ = to_pose(source.parent_to_joint_origin_transform);
   if (joints::needs_axis(joint.kind)) {
-    joint.axis_J = to_vector(source.axis).normalized();
+    joint.axis_J = to_vector(source.axis).stableNormalized();
   }
   add_actions(source, joint);
   return joint;
@@ -115,20 +116,37 @@ Gear to_gear(const urdf::Joint& source) {
   return gear;
 }
 
-/// Adds a link and all below it, parents first.
-void add_branch(const urdf::Link& source, Robot& robot) {
-  const int parent = static_cast<int>(robot.links.size());
+Link to_link(const urdf::Link& source) {
   Link link;
   link.name = source.name;
   if (source.inertial) link.inertia = to_inertia(*source.inertial);
-  robot.links.push_back(link);
-  for (const urdf::JointSharedPtr& joint : source.child_joints) {
+  return link;
+}
+
+/// Adds all links, branch by branch, parents first. (Without recursion: a
+/// chain may have more links than the stack has room for.)
+void add_links(const urdf::ModelInterface& model, Robot& robot) {
+  struct Branch {
+    const urdf::Joint* joint;
+    int parent;
+  };
+  std::vector<Branch> left;
+  const auto add_link = [&](const urdf::Link& source) {
+    const auto& joints = source.child_joints;
+    const int parent = static_cast<int>(robot.links.size());
+    robot.links.push_back(to_link(source));
+    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+      left.push_back({joint->get(), parent});
+    }
+  };
+  add_link(*model.getRoot());
+  while (!left.empty()) {
+    const auto [joint, parent] = left.back();
+    left.pop_back();
     const int child = static_cast<int>(robot.links.size());
     robot.joints.push_back(to_joint(*joint, parent, child));
     if (joint->mimic) robot.gears.push_back(to_gear(*joint));
-    for (const urdf::LinkSharedPtr& next : source.child_links) {
-      if (next->name == joint->child_link_name) add_branch(*next, robot);
-    }
+    add_link(*model.getLink(joint->child_link_name));
   }
 }
 
@@ -141,7 +159,7 @@ void read_standard_part(const std::string& xml, Robot& robot,
     if (problems.empty()) problems.add(0, "not a URDF robot");
     return;
   }
-  add_branch(*model->getRoot(), robot);
+  add_links(*model, robot);
 }
 
 std::string read_text(const std::filesystem::path& file) {
@@ -151,7 +169,14 @@ std::string read_text(const std::filesystem::path& file) {
     throw InputError(
         fmt::format("{}: cannot read this robot file", file.string()));
   }
-  return text.str();
+  const std::string xml = text.str();
+  if (xml.find('\0') != std::string::npos) {
+    throw InputError(fmt::format(
+        "{}: holds a byte 0, so it is not the text of a robot; save it as "
+        "UTF-8",
+        file.string()));
+  }
+  return xml;
 }
 
 const TiXmlElement& parse_root(TiXmlDocument& document, const std::string& xml,
@@ -175,6 +200,8 @@ const TiXmlElement& parse_root(TiXmlDocument& document, const std::string& xml,
 Robot read_robot(const std::filesystem::path& file) {
   const std::string xml = read_text(file);
   Problems problems(file.string());
+  check_xml_depth(xml, problems);
+  problems.raise();
   TiXmlDocument document;
   const TiXmlElement& root = parse_root(document, xml, problems);
   check_urdf_tree(root, problems);

@@ -122,7 +122,10 @@ void read_steps(TomlTable& table, dynamics::SimulationSettings& settings) {
   }
   settings.step = size->front();
   for (std::size_t i = 1; i < from->size(); ++i) {
-    if ((*from)[i] <= (*from)[i - 1]) changes.fail("from", "must increase");
+    if ((*from)[i] <= (*from)[i - 1]) {
+      changes.fail("from", "must increase");
+      return;
+    }
     settings.step_changes.push_back({(*from)[i], (*size)[i]});
   }
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/errors.hpp"
+#include "scene/key_depth.hpp"
 
 namespace limber::scene {
 
@@ -17,8 +18,15 @@ toml::table parse_toml_file(const std::filesystem::path& file) {
     throw InputError(
         fmt::format("{}: cannot read this scenario file", file.string()));
   }
+  const std::string toml = text.str();
+  if (const auto line = find_overlong_key(toml)) {
+    throw InputError(
+        fmt::format("{}:{}: a key of more than {} parts; no key of a scenario "
+                    "has so many dots",
+                    file.string(), *line, kMostKeyParts));
+  }
   try {
-    return toml::parse(text.str());
+    return toml::parse(toml);
   } catch (const toml::parse_error& error) {
     throw InputError(fmt::format("{}:{}: not valid TOML: {}", file.string(),
                                  error.source().begin.line,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,20 +23,28 @@ class JointChecks {
          joint != nullptr; joint = joint->NextSiblingElement("joint")) {
       joints_.push_back(joint);
       names_.push_back(text(*joint, "name"));
-      by_name_[names_.back()] = joint;
+      index_.emplace(names_.back(), joints_.size() - 1);
+    }
+    for (const TiXmlElement* joint : joints_) {
+      const TiXmlElement* mimic = joint->FirstChildElement("mimic");
+      const auto found =
+          mimic == nullptr ? index_.end() : index_.find(text(*mimic, "joint"));
+      mimicked_.push_back(found == index_.end() ? kNone : found->second);
     }
   }
 
   void run() {
-    for (const TiXmlElement* joint : joints_) {
-      check_axis(*joint);
-      check_limit(*joint);
-      check_dynamics(*joint);
-      check_mimic(*joint);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      check_axis(*joints_[i]);
+      check_limit(*joints_[i]);
+      check_dynamics(*joints_[i]);
+      check_mimic(i);
     }
   }
 
  private:
+  static constexpr auto kNone = static_cast<std::size_t>(-1);
+
   static std::string text(const TiXmlElement& element, const char* name) {
     const char* value = element.Attribute(name);
     return value == nullptr ? "" : value;
@@ -59,7 +68,7 @@ class JointChecks {
     if (axis == nullptr || !needs_axis) return;
     const std::optional<Vector3> xyz =
         XmlElement(*axis, problems_).vector("xyz");
-    if (xyz && !(xyz->norm() > 0.0)) {
+    if (xyz && xyz->isZero(0.0)) {
       fail(*axis, joint, "its axis has no length, so no direction");
     }
   }
@@ -93,7 +102,8 @@ class JointChecks {
     }
   }
 
-  void check_mimic(const TiXmlElement& joint) {
+  void check_mimic(std::size_t index) {
+    const TiXmlElement& joint = *joints_[index];
     const TiXmlElement* mimic = joint.FirstChildElement("mimic");
     if (mimic == nullptr) return;
     XmlElement element(*mimic, problems_);
@@ -101,39 +111,38 @@ class JointChecks {
       fail(*mimic, joint, "<mimic> multiplies by 0; make the joint fixed");
     }
     (void)element.number("offset");
-    const std::string name = text(*mimic, "joint");
-    const auto other = by_name_.find(name);
-    if (other == by_name_.end()) {
+    if (mimicked_[index] == kNone) {
       fail(*mimic, joint,
-           "<mimic>: " + describe_unknown("joint", name, names_));
+           "<mimic>: " +
+               describe_unknown("joint", text(*mimic, "joint"), names_));
       return;
     }
-    for (const TiXmlElement* end : {&joint, other->second}) {
+    const TiXmlElement* other = joints_[mimicked_[index]];
+    for (const TiXmlElement* end : {&joint, other}) {
       if (has_one_coordinate(*end)) continue;
       fail(*mimic, joint,
            fmt::format("<mimic> needs joints with one coordinate; joint '{}' "
                        "is {}",
                        text(*end, "name"), text(*end, "type")));
     }
-    check_cycle(*mimic, joint);
+    check_cycle(*mimic, index);
   }
 
   // Who mimics whom comes back to this joint: told once, at the first of them.
-  void check_cycle(const TiXmlElement& mimic, const TiXmlElement& joint) {
-    std::string path = text(joint, "name");
-    const TiXmlElement* at = &joint;
+  void check_cycle(const TiXmlElement& mimic, std::size_t start) {
+    std::size_t at = start;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      const TiXmlElement* next = at->FirstChildElement("mimic");
-      const auto found = next == nullptr ? by_name_.end()
-                                         : by_name_.find(text(*next, "joint"));
-      if (found == by_name_.end()) return;
-      at = found->second;
-      path += " -> " + text(*at, "name");
-      if (at == &joint) break;
-      if (at->Row() < joint.Row()) return;
+      at = mimicked_[at];
+      if (at == kNone || at < start) return;
+      if (at == start) break;
     }
-    if (at != &joint) return;
-    fail(mimic, joint,
+    if (at != start) return;
+    std::string path = names_[start];
+    do {
+      at = mimicked_[at];
+      path += " -> " + names_[at];
+    } while (at != start);
+    fail(mimic, *joints_[start],
          fmt::format("<mimic> goes in a circle ({}); leave one of them free",
                      path));
   }
@@ -141,7 +150,8 @@ class JointChecks {
   Problems& problems_;
   std::vector<const TiXmlElement*> joints_;
   std::vector<std::string> names_;
-  std::map<std::string, const TiXmlElement*> by_name_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::size_t> mimicked_;  ///< by each joint, or none
 };
 
 }  // namespace

@@ -21,6 +21,10 @@ std::string attribute(const TiXmlElement* element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
+/// More links than any robot has, and so many that urdfdom, which lets go of a
+/// chain link inside link, has stack for it.
+constexpr std::size_t kMostLinks = 10000;
+
 /// Links and joints by name, gathered while the file is checked.
 class TreeCheck {
  public:
@@ -37,19 +41,28 @@ class TreeCheck {
   }
 
  private:
+  static constexpr auto kNone = static_cast<std::size_t>(-1);
+
   void add_links(const TiXmlElement& robot) {
     for (const TiXmlElement* link = robot.FirstChildElement("link");
          link != nullptr; link = link->NextSiblingElement("link")) {
       const std::string name = attribute(link, "name");
       if (name.empty()) {
         problems_.add(link->Row(), "<link> needs a 'name'");
-      } else if (!line_of_link_.emplace(name, link->Row()).second) {
+      } else if (!index_of_link_.emplace(name, names_.size()).second) {
         problems_.add(link->Row(),
                       fmt::format("link '{}' is given twice", name));
       }
       names_.push_back(name);
     }
+    parent_.assign(names_.size(), kNone);
     if (names_.empty()) problems_.add(robot.Row(), "the robot has no <link>");
+    if (names_.size() > kMostLinks) {
+      problems_.add(robot.Row(),
+                    fmt::format("the robot has {} links; at most {} are read",
+                                names_.size(), kMostLinks));
+      problems_.raise();
+    }
   }
 
   void add_joint(const TiXmlElement& joint) {
@@ -60,9 +73,9 @@ class TreeCheck {
                     fmt::format("joint '{}' is given twice", name));
     }
     check_parts(joint, name);
-    const std::string parent = end_of(joint, name, "parent");
-    const std::string child = end_of(joint, name, "child");
-    if (parent.empty() || child.empty()) return;
+    const std::size_t parent = end_of(joint, name, "parent");
+    const std::size_t child = end_of(joint, name, "child");
+    if (parent == kNone || child == kNone) return;
     add_edge(joint, name, parent, child);
   }
 
@@ -77,48 +90,47 @@ class TreeCheck {
     }
   }
 
-  /// Name of the link at one end, or nothing if there is a problem with it.
-  std::string end_of(const TiXmlElement& joint, const std::string& name,
+  /// Index of the link at one end, or none if there is a problem with it.
+  std::size_t end_of(const TiXmlElement& joint, const std::string& name,
                      const char* tag) {
-    std::string link = attribute(joint.FirstChildElement(tag), "link");
-    if (line_of_link_.count(link) != 0) return link;
+    const std::string link = attribute(joint.FirstChildElement(tag), "link");
+    const auto found = index_of_link_.find(link);
+    if (found != index_of_link_.end()) return found->second;
     problems_.add(joint.Row(),
                   fmt::format("joint '{}', <{}>: {}", name, tag,
                               describe_unknown("link", link, names_)));
-    return "";
+    return kNone;
   }
 
   void add_edge(const TiXmlElement& joint, const std::string& name,
-                const std::string& parent, const std::string& child) {
-    for (std::string at = parent; !at.empty(); at = parent_of(at)) {
+                std::size_t parent, std::size_t child) {
+    for (std::size_t at = parent; at != kNone; at = parent_[at]) {
       if (at != child) continue;
       problems_.add(
           joint.Row(),
           fmt::format("joint '{}' closes a loop (link '{}' is its own "
                       "ancestor); URDF describes trees: join the ends of the "
                       "loop by a <loop> instead",
-                      name, child));
+                      name, names_[child]));
       return;
     }
-    const auto [known, fresh] = parent_.emplace(child, parent);
-    if (fresh) return;
+    if (parent_[child] == kNone) {
+      parent_[child] = parent;
+      return;
+    }
     problems_.add(
         joint.Row(),
         fmt::format("joint '{}': link '{}' has two parents ('{}' and '{}'), a "
                     "loop that URDF cannot have; join the second by a "
                     "<loop> instead",
-                    name, child, known->second, parent));
-  }
-
-  std::string parent_of(const std::string& link) const {
-    const auto found = parent_.find(link);
-    return found == parent_.end() ? "" : found->second;
+                    name, names_[child], names_[parent_[child]],
+                    names_[parent]));
   }
 
   void check_roots(const TiXmlElement& robot) {
     std::vector<std::string> roots;
-    for (const std::string& name : names_) {
-      if (parent_.count(name) == 0) roots.push_back(name);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (parent_[i] == kNone) roots.push_back(names_[i]);
     }
     if (roots.size() == 1) return;
     problems_.add(robot.Row(),
@@ -130,9 +142,9 @@ class TreeCheck {
 
   Problems& problems_;
   std::vector<std::string> names_;
-  std::map<std::string, int> line_of_link_;
+  std::map<std::string, std::size_t> index_of_link_;
   std::map<std::string, int> line_of_joint_;
-  std::map<std::string, std::string> parent_;
+  std::vector<std::size_t> parent_;
 };
 
 }  // namespace

@@ -219,7 +219,8 @@ TEST_F(Hdf5FileTest, RefusesAShapeLargerThanItsStorageBeforeTakingMemory) {
         {huge, 41},
         {huge, huge},
         {std::uint64_t{1} << 63, 2},
-        {most, 41}}) {
+        {most, 41},
+        {most, 0}}) {
     Hdf5File out = Hdf5File::create(file());
     out.write("matrix", MatrixX(MatrixX::Ones(37, 41)), "m", "");
     out.close();

@@ -46,5 +46,14 @@ TEST(Names, DescriptionDoesNotGuessWildly) {
   EXPECT_THAT(describe_unknown("group", "tip", {}), HasSubstr("known: none"));
 }
 
+TEST(Names, DescriptionOfVeryManyNamesStaysShort) {
+  std::vector<std::string> many;
+  for (int i = 0; i < 5000; ++i) many.push_back("name" + std::to_string(i));
+  const std::string text = describe_unknown("link", "nam1", many);
+  EXPECT_THAT(text, HasSubstr("known: name0, name1, "));
+  EXPECT_THAT(text, HasSubstr(" and 4970 more"));
+  EXPECT_LT(text.size(), 500U);
+}
+
 }  // namespace
 }  // namespace limber

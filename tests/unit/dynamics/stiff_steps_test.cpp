@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -45,8 +46,9 @@ SystemBuilder hang(const joints::Joint& joint, const Vector3& arm) {
 TEST(StiffJoint, LeavesAFreeMotionItsVelocity) {
   constexpr double kSpeed = 7.0;       // [rad/s], [m/s]
   constexpr double kRoundoff = 1e-11;  // of some 40 steps
-  for (const JointKind kind : {JointKind::revolute, JointKind::prismatic,
-                               JointKind::universal, JointKind::ball}) {
+  constexpr std::array kKinds = {JointKind::revolute, JointKind::prismatic,
+                                 JointKind::universal, JointKind::ball};
+  for (const JointKind kind : kKinds) {
     for (const double k : {1e2, 1e6, 1e10, 1e14}) {
       for (const double ratio : {0.0, 1e-5, 1e-3}) {
         for (const double h : {1e-6, 1e-4, 1e-3, 1e-2}) {

@@ -57,6 +57,10 @@ TEST(AkantuMaterial, RefusesValuesOutOfRange) {
               HasSubstr("nu"));
   EXPECT_THAT(error_of("material elastic [ rho = 1 E = many ]"),
               HasSubstr("many"));
+  EXPECT_THAT(error_of("material elastic [ rho = 1 E = inf ]"),
+              HasSubstr("inf"));
+  EXPECT_THAT(error_of(std::string("material elastic [rho=1 E=1\0 ]", 32)),
+              HasSubstr("E [Pa]"));
 }
 
 TEST(AkantuMaterial, RefusesASectionThatIsNotWhole) {

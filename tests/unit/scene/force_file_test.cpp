@@ -51,6 +51,11 @@ TEST(ForceFile, RefusesWhatIsNoFiniteNumber) {
   EXPECT_THAT(error_of("0 1\n1 x\n"), HasSubstr("'x' is not a number"));
 }
 
+TEST(ForceFile, RefusesAZeroByteInPlaceOfPassingOverWhatFollows) {
+  EXPECT_THAT(error_of(std::string("0 1\n1 2\0003\n", 9)),
+              AllOf(HasSubstr("force.txt:2"), HasSubstr("a byte 0")));
+}
+
 TEST(ForceFile, RefusesAnEmptyOrMissingFile) {
   EXPECT_THAT(error_of(""), HasSubstr("no times"));
   EXPECT_THAT(input_error([] { (void)read_force_file("gone.txt"); }),

@@ -55,6 +55,52 @@ TEST(RobotReader, OrdersLinksParentsFirstAndNormalisesAxes) {
   EXPECT_TRUE(robot.warnings.empty());
 }
 
+TEST(RobotReader, NormalisesAxesWhoseSquareIsNoNumber) {
+  for (const char* length : {"1e-200", "1e200"}) {
+    const Robot robot = read(
+        links("ab") +
+        "<joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
+        "<axis xyz='0 0 " +
+        length + "'/></joint>");
+    EXPECT_EQ(robot.joints.at(0).axis_J, Vector3::UnitZ()) << length;
+  }
+}
+
+TEST(RobotReader, RefusesElementsNestedTooDeepForItsStack) {
+  std::string deep;
+  for (int i = 0; i < 300000; ++i) deep += "<a x='>' y=\"/>\">";
+  EXPECT_THAT(error_of("\n<!--></a>-->" + deep),
+              HasSubstr("robot.urdf:3: elements are nested more than 200"));
+  std::string wide = links("a");
+  for (int i = 0; i < 1000; ++i) wide += "<a x='/>'/><b><![CDATA[<c>]]></b>";
+  EXPECT_EQ(read(wide).links.size(), 1U);
+}
+
+// A chain, root first, as links of equally long names.
+std::string chain(int count) {
+  const auto name = [](int i) { return "l" + std::to_string(100000 + i); };
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "<link name='" + name(i) + "'/>\n";
+  for (int i = 1; i < count; ++i) {
+    text += joint("j" + std::to_string(i), name(i - 1), name(i));
+  }
+  return text;
+}
+
+TEST(RobotReader, ReadsLongChainsAndRefusesThoseForWhichThereIsNoStack) {
+  const Robot robot = read(chain(3000));
+  ASSERT_EQ(robot.links.size(), 3000U);
+  EXPECT_EQ(robot.links.back().name, "l102999");
+  EXPECT_EQ(robot.joints.back().parent, 2998);
+  EXPECT_THAT(error_of(chain(10001)),
+              HasSubstr("10001 links; at most 10000 are read"));
+}
+
+TEST(RobotReader, RefusesAZeroByteInPlaceOfPassingOverWhatFollows) {
+  EXPECT_THAT(error_of(links("a") + std::string("\0<nonsense", 10)),
+              HasSubstr("a byte 0"));
+}
+
 TEST(RobotReader, TurnsInertiaIntoLinkAxes) {
   const Robot robot = read(
       "<link name='a'><inertial><origin xyz='1 2 3' rpy='0 0 "

@@ -157,6 +157,37 @@ dynamics::TimeFunction read_function(const std::string& time) {
   return read(with_load_time(time)).loads.at(0).time;
 }
 
+// Tables inside tables, for which toml++ would run out of stack.
+TEST(ScenarioReader, RefusesKeysOfVeryManyParts) {
+  const auto repeat = [](const std::string& text, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+  };
+  for (const std::string part : {"a.", "'a,'.", "\"\\\"\" . "}) {
+    const std::string keys = repeat(part, 100000) + "a";
+    EXPECT_THAT(error_of(kStart + keys + " = 1"),
+                HasSubstr("toml:5: a key of"));
+    EXPECT_THAT(error_of(kStart + "[" + keys + "]"),
+                HasSubstr("toml:5: a key"));
+    EXPECT_THAT(error_of(kStart + "x = [{s=\"\"\"'\n\"\"\", " + keys + "=1}]"),
+                HasSubstr("toml:6: a key of"));
+  }
+}
+
+TEST(ScenarioReader, CountsNoDotsOfTextsAndNumbersAsKeys) {
+  std::string numbers;
+  for (int i = 0; i < 100; ++i) numbers += "0.5, ";
+  const Scenario scenario = read("# " + std::string(100, '.') + "\nrobot = '" +
+                                 std::string(100, '.') +
+                                 "'\n[time]\nduration = 1.0\nstep = 0.1\n"
+                                 "[[load]]\nname = 'l'\nlink = 'a'\n"
+                                 "force = [ 0.5 , 0.5\t, 0.5 ]\n");
+  EXPECT_EQ(scenario.robot.filename(), std::string(100, '.'));
+  EXPECT_THAT(error_of(kStart + "output_times = [ " + numbers + "]"),
+              HasSubstr("must increase"));
+}
+
 TEST(ScenarioReader, StepsMayChangeAndOutputsFollowThem) {
   const Scenario scenario = read(
       "robot='r.urdf'\n[time]\nduration=1.0\n"
@@ -174,6 +205,8 @@ TEST(ScenarioReader, RefusesStepsThatDoNotBeginAtTheStart) {
   EXPECT_THAT(error_of(time + "steps={from=[0.1],size=[0.01]}"),
               HasSubstr("begin with 0"));
   EXPECT_THAT(error_of(time + "steps={from=[0,0.5,0.5],size=[1,1,1]}"),
+              HasSubstr("must increase"));
+  EXPECT_THAT(error_of(time + "steps={from=[0,0.5,0.2],size=[1e-9,1,1e-9]}"),
               HasSubstr("must increase"));
   EXPECT_THAT(error_of(time + "step=0.1\nsteps={from=[0],size=[0.1]}"),
               HasSubstr("keep one"));

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz/readers.hpp"
+
+#include "common/errors.hpp"
+#include "flexbody/body_file.hpp"
+#include "fuzz/body_edits.hpp"
+#include "scene/akantu_material.hpp"
+#include "scene/force_file.hpp"
+#include "scene/robot_reader.hpp"
+#include "scene/scenario_reader.hpp"
+#include "scene/series_file.hpp"
+#include "unit/flexbody/files.hpp"
+
+namespace limber::fuzz {
+namespace {
+
+using flexbody::test::TemporaryFolder;
+using flexbody::test::write_bytes;
+
+// Where the input lies, with neighbours that it can name.
+class Place {
+ public:
+  Place() {
+    write_bytes(folder_.path() / "series.csv", "0 0\n1 2\n2 1\n3 0\n");
+    write_bytes(folder_.path() / "material.dat",
+                "material elastic [ rho = 1 E = 1 ]\n");
+  }
+  std::filesystem::path write(std::string_view bytes) const {
+    const std::filesystem::path file = folder_.path() / "input";
+    write_bytes(file, std::string(bytes));
+    return file;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+std::filesystem::path write_input(std::string_view bytes) {
+  static const Place place;
+  return place.write(bytes);
+}
+
+void read_scenario(std::string_view bytes) {
+  (void)scene::read_scenario(write_input(bytes));
+}
+
+void read_robot(std::string_view bytes) {
+  (void)scene::read_robot(write_input(bytes));
+}
+
+void read_forces(std::string_view bytes) {
+  (void)scene::read_force_file(write_input(bytes));
+}
+
+void read_field(std::string_view bytes) {
+  (void)scene::read_nodal_field(write_input(bytes));
+}
+
+void read_series(std::string_view bytes) {
+  (void)scene::read_series(write_input(bytes));
+}
+
+void read_material(std::string_view bytes) {
+  (void)scene::read_akantu_materials(write_input(bytes));
+}
+
+void read_body(std::string_view bytes) {
+  (void)flexbody::read_body(write_input(bytes));
+}
+
+void read_edited_body(std::string_view edits) {
+  const std::filesystem::path file = write_input(find_body_bytes());
+  apply_edits(edits, file);
+  flexbody::seal_body_file(file);
+  (void)flexbody::read_body(file);
+}
+
+}  // namespace
+
+const std::vector<Reader>& all_readers() {
+  static const std::vector<Reader> readers = {
+      {"scenario", read_scenario}, {"robot", read_robot},
+      {"forces", read_forces},     {"field", read_field},
+      {"series", read_series},     {"material", read_material},
+      {"body", read_body},         {"body_content", read_edited_body},
+  };
+  return readers;
+}
+
+bool takes(const Reader& reader, std::string_view bytes) {
+  try {
+    reader.read(bytes);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace limber::fuzz
