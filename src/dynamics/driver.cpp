@@ -15,6 +15,9 @@ namespace limber::dynamics {
 namespace {
 
 constexpr int kMostHalvings = 10;
+// Shares of halved steps, at most: so many a step, and some more.
+constexpr long kMostShares = 10;
+constexpr long kFreeShares = 2000;
 constexpr double kSame = 1e-9;  // of a step: where it ends
 constexpr long kStepsBetweenProgress = 64;
 constexpr long kStepsBetweenLooks = 32;         // at the energy
@@ -65,7 +68,7 @@ Losses Driver::losses() const {
 
 void Driver::exchange_memory(Archive& archive, SystemState& state) {
   archive(state, has_started_, mark_, part_, parts_, origin_, h_, at_jump_,
-          depth_, output_);
+          depth_, shares_, output_);
   marcher_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   watch_.exchange_memory(archive);
@@ -160,6 +163,17 @@ void Driver::enter_mark(SystemState& state) {
   has_started_ = true;
 }
 
+// A run that is halved on and on takes a thousand times as long as was asked
+// for.
+void Driver::count_share(const SystemState& state) {
+  if (++shares_ <= kFreeShares + kMostShares * statistics_.steps) return;
+  fail(state, std::ldexp(h_, -depth_),
+       fmt::format("at t = {:.9g} s: steps of {:.3g} s go through only when "
+                   "they are halved again and again, {} times by now; ask for "
+                   "shorter steps or for a tolerance",
+                   state.t, h_, statistics_.halved_steps));
+}
+
 // One of equal steps, in parts where something happens or it must be halved.
 void Driver::take_planned_step(SystemState& state) {
   // Times come from the landmark, not from a sum of steps.
@@ -177,6 +191,7 @@ void Driver::take_planned_step(SystemState& state) {
       marcher_.settle(state, h_);
     });
     is_whole = is_whole && !has_moved;
+    if (has_moved && !is_last) count_share(state);
   }
   state.t = end;
   if (depth_ > 0) --depth_;

@@ -55,6 +55,7 @@ class Driver {
   template <typename Work>
   bool goes_through(const SystemState& state, double h, const Work& work);
   void halve(const SystemState& state, double h, const std::string& why);
+  void count_share(const SystemState& state);
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
   void count_step(const StepResult& since);
@@ -88,6 +89,7 @@ class Driver {
   double h_ = 0.0;          // planned step [s]
   bool at_jump_ = false;    // there, a load jumped
   int depth_ = 0;           // how often steps are halved now
+  long shares_ = 0;         // of halved steps, so far
   std::size_t output_ = 0;  // next of outputs_
   Clock::time_point kept_;  // when the last checkpoint was
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/single_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/errors.hpp"
@@ -13,6 +15,9 @@
 namespace limber::dynamics {
 namespace {
 
+// A run takes so many steps for one that was asked for, at most.
+constexpr double kMostParts = 1e3;
+
 // Steps no longer than central differences are stable for.
 SimulationSettings limit_step(const SystemModel& model,
                               const SystemState& state,
@@ -22,6 +27,13 @@ SimulationSettings limit_step(const SystemModel& model,
   SimulationSettings settings = asked;
   statistics.stable_step = find_stable_step(model, state);
   const double longest = kStableShare * statistics.stable_step;
+  if (asked.step > kMostParts * longest) {
+    throw InputError(fmt::format(
+        "central-differences is stable up to {:.3g} s here, {:.3g} times less "
+        "than the step of {:.3g} s; ask for a step near that, or take an "
+        "implicit integrator",
+        longest, asked.step / longest, asked.step));
+  }
   settings.step = std::min(asked.step, longest);
   for (StepChange& change : settings.step_changes) {
     change.step = std::min(change.step, longest);
