@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <string>
 #include <system_error>
+
+#include "common/errors.hpp"
 
 namespace limber {
 namespace {
@@ -23,15 +26,25 @@ std::filesystem::path make_part_name(const std::filesystem::path& file) {
 void write_whole(
     const std::filesystem::path& file,
     const std::function<void(const std::filesystem::path&)>& write) {
+  std::error_code unknown;
+  if (std::filesystem::is_other(file, unknown)) {
+    write(file);
+    return;
+  }
   const std::filesystem::path part = make_part_name(file);
+  std::error_code error;
   try {
     write(part);
-    std::filesystem::rename(part, file);
+    std::filesystem::rename(part, file, error);
   } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+    std::filesystem::remove(part, error);
     throw;
   }
+  if (!error) return;
+  const std::string why = error.message();
+  std::filesystem::remove(part, error);
+  throw InputError(
+      fmt::format("'{}' cannot be written: {}", file.string(), why));
 }
 
 }  // namespace limber

@@ -7,9 +7,10 @@
 namespace limber {
 
 /// A file is there whole or not at all: `write` makes it beside its place, to
-/// where it is moved when it is done. What stood there stays until then.
+/// where it is moved when it is done. What stood there stays until then. A
+/// device or pipe is written to as it is.
 /// @param write gets the path to write to, and throws on failure
-/// @throws what `write` throws; std::filesystem::filesystem_error
+/// @throws what `write` throws; InputError if it cannot be moved
 void write_whole(
     const std::filesystem::path& file,
     const std::function<void(const std::filesystem::path&)>& write);
