@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostHalvings = 10;
 // Shares of halved steps, at most: so many a step, and some more.
 constexpr long kMostShares = 10;
-constexpr long kFreeShares = 2000;
+constexpr long kFreeShares = 1000;
 constexpr double kSame = 1e-9;  // of a step: where it ends
 constexpr long kStepsBetweenProgress = 64;
 constexpr long kStepsBetweenLooks = 32;         // at the energy
@@ -122,8 +122,9 @@ void Driver::halve(const SystemState& state, double h, const std::string& why) {
   ++statistics_.halved_steps;
   if (++depth_ <= kMostHalvings) return;
   fail(state, h,
-       fmt::format("{}; a step of {:.3g} s, halved {} times, did not help", why,
-                   h, kMostHalvings));
+       fmt::format("{}; at t = {:.9g} s a step of {:.3g} s, halved {} times, "
+                   "did not help",
+                   why, state.t, h, kMostHalvings));
 }
 
 // Does a step's work; if it fails, steps are halved.

@@ -12,8 +12,8 @@ namespace {
 
 // Share of the error that a correction may leave: the next is quadratic.
 constexpr double kLinear = 1e-6;
+// More would cost more than a shorter step.
 constexpr Eigen::Index kKrylovVectors = 60;
-constexpr Eigen::Index kKrylovIterations = 240;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void ExactCorrection::solve(const Point& point, const VectorX& residual,
   });
   Eigen::GMRES<MatrixFree, Eigen::IdentityPreconditioner> solver(map);
   solver.set_restart(std::min(kKrylovVectors, right.size()));
-  solver.setMaxIterations(std::min(kKrylovIterations, 2 * right.size()));
+  solver.setMaxIterations(std::min(kKrylovVectors, right.size()));
   solver.setTolerance(kLinear);
   const VectorX x = VectorX(solver.solve(right)).cwiseQuotient(lengths_);
   derivative_.apply_rest(x, rest, laws);

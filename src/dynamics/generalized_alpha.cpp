@@ -23,6 +23,8 @@ constexpr double kPoorContraction = 0.3;
 // So many corrections that are slower with fresh factors call for the exact
 // derivative.
 constexpr int kSlowCorrections = 2;
+// Exact corrections in a row that grow: there is no convergence.
+constexpr int kMostGrowing = 4;
 
 }  // namespace
 
@@ -321,6 +323,7 @@ double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
   CorrectionSize correction;
   double slowest = 0.0;
   int slow_corrections = 0;  // with factors of their own
+  int growing = 0;           // corrections in a row
   for (int iteration = 1;; ++iteration) {
     calc_terms(model_, next_, Side::left, terms_, WrenchSource::iterate);
     calc_residual(model_, vdot_next_, terms_, residual_);
@@ -372,6 +375,10 @@ double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     if (has_converged()) return slowest;
     if (iteration >= settings_.max_iterations) {
       fail(from, h, correction, "Newton's method did not converge");
+    }
+    growing = contraction > 1.0 ? growing + 1 : 0;
+    if (exactly && growing >= kMostGrowing) {
+      fail(from, h, correction, "Newton's method diverged");
     }
     if (is_slow && is_fresh) ++slow_corrections;
     exactly = exactly || slow_corrections >= kSlowCorrections;

@@ -18,14 +18,23 @@ constexpr double kMostTurn = 1.0;  // of a body within a step [rad]
 
 bool is_explicit(IntegratorKind integrator) {
   return integrator == IntegratorKind::runge_kutta_4 ||
-         integrator == IntegratorKind::explicit_euler;
+         integrator == IntegratorKind::explicit_euler ||
+         integrator == IntegratorKind::splitting;
 }
 
 std::string describe_stability(const SystemModel& model,
-                               const SystemState& state, double h) {
+                               const SystemState& state,
+                               IntegratorKind integrator, double h) {
   const double stable = find_stable_step(model, state);
   // The limit of Runge-Kutta is 1.4 times that of central differences.
   if (!(h > 1.5 * stable)) return {};
+  if (integrator == IntegratorKind::splitting) {
+    return fmt::format(
+        "the step of {:.3g} s may be too long for the couplers, which "
+        "splitting "
+        "takes explicitly; one of {:.3g} s resolves all motion",
+        h, stable);
+  }
   return fmt::format(
       "the step of {:.3g} s is too long for an explicit scheme, which is "
       "stable "
@@ -51,18 +60,18 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
 
 std::string find_cause(const SystemModel& model, const SystemState& state,
                        IntegratorKind integrator, double h) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const auto soft =
-        describe_softening(model.bodies[b], state.bodies[b].w_WB_B);
-    if (soft) return *soft;
-  }
   if (is_explicit(integrator)) {
     try {
-      const std::string text = describe_stability(model, state, h);
+      const std::string text = describe_stability(model, state, integrator, h);
       if (!text.empty()) return text;
     } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
       // The state is too far gone to be asked.
     }
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto soft =
+        describe_softening(model.bodies[b], state.bodies[b].w_WB_B);
+    if (soft) return *soft;
   }
   return describe_turn(model, state, h);
 }
