@@ -85,8 +85,8 @@ class SceneDraw {
           name + "_near", body, {Matrix3::Identity(), {0, 0, -0.5 * length}});
       far = builder_.attach_frame(name + "_far", body,
                                   {Matrix3::Identity(), {0, 0, 0.5 * length}});
-      near_.push_back(Vector3(0.0, 0.0, -0.5 * length));
-      far_.push_back(Vector3(0.0, 0.0, 0.5 * length));
+      near_.emplace_back(0.0, 0.0, -0.5 * length);
+      far_.emplace_back(0.0, 0.0, 0.5 * length);
     } else {
       const int modes = draw_int(1, 8);
       PointMassBody points = make_point_mass_body(
@@ -122,7 +122,7 @@ class SceneDraw {
     const Vector3 at =
         parent < 0 ? Vector3(Vector3::Zero())
                    : Vector3(p_WB_[index(parent)] + far_[index(parent)]);
-    p_WB_.push_back(at - near_.back());
+    p_WB_.emplace_back(at - near_.back());
   }
 
   void join(int b, const std::string& name, int near) {
