@@ -59,13 +59,12 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
 void GeneralizedAlpha::refresh() {
   factored_step_ = 0.0;
   renews_full_ = true;
-  fresh_steps_ = 0;
-  next_fresh_steps_ = kFewestFreshSteps;
 }
 
 void GeneralizedAlpha::exchange_memory(Archive& archive,
                                        const SystemState& state) {
-  archive(a_, vdot_, memory_step_, power_load_, power_loss_);
+  archive(a_, vdot_, memory_step_, power_load_, power_loss_, fresh_steps_,
+          next_fresh_steps_);
   for (CouplerTerms& coupler : terms_.couplers) archive(coupler.applied);
   for (TransmissionTerms& t : terms_.transmissions) archive(t.applied);
   if (archive.reads()) next_ = state;
@@ -339,7 +338,7 @@ double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
       factored_step_ = h;
     }
     correct(exactly);
-    const double last = correction.value;
+    const CorrectionSize last = correction;
     correction = measure_correction(model_, x_);
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
@@ -348,16 +347,19 @@ double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     apply_increments(h);
     advance(from, h, end);
     const double limit = settings_.tolerance * measure_motion(model_, inc_);
-    const double contraction = iteration > 1 ? correction.value / last : 1.0;
-    // What is left after this correction, if the contraction goes on.
-    const double share =
-        contraction < 0.5 ? contraction / (1.0 - contraction) : 1.0;
-    const auto is_done = [&](double size, double noise) {
-      return share * size <= limit || size <= noise;
+    const double contraction =
+        iteration > 1 ? correction.value / last.value : 1.0;
+    // What a correction leaves, if its own contraction goes on.
+    const auto find_rest = [&](double size, double before) {
+      const double c = iteration > 1 && before > 0.0 ? size / before : 1.0;
+      return c < 0.5 ? size * c / (1.0 - c) : size;
+    };
+    const auto is_done = [&](double size, double before, double noise) {
+      return find_rest(size, before) <= limit || size <= noise;
     };
     const auto has_converged = [&] {
-      return is_done(correction.rigid, roundoff.rigid) &&
-             is_done(correction.modal, roundoff.modal);
+      return is_done(correction.rigid, last.rigid, roundoff.rigid) &&
+             is_done(correction.modal, last.modal, roundoff.modal);
     };
     const bool is_slow = iteration > 1 && contraction > kPoorContraction;
     if (!has_converged() && !knows_noise &&

@@ -28,6 +28,7 @@ void write_scenario(const Workspace& place) {
   };
   replace("../models/", LIMBER_SOURCE_DIR "/models/");
   replace("duration = 1.2", "duration = 0.4");
+  replace("step = 1.5e-5", "step = 6e-5");
   place.write("claw.toml", text + "\n[output]\npictures = false\n");
 }
 

@@ -27,9 +27,13 @@ std::vector<fs::path> find_examples() {
   return files;
 }
 
-/// The largest drift at any output over the throughput [-]; steps are
-/// `share` of the scenario's.
-double find_drift(const fs::path& file, double share) {
+struct Audit {
+  double drift = 0.0;  ///< the largest at any output over the throughput [-]
+  bool has_latched = false;
+};
+
+/// Steps are `share` of the scenario's.
+Audit audit(const fs::path& file, double share) {
   static const results::test::TemporaryFolder cache;  // reduces once
   scene::Scene scene = scene::load_scene(file);
   dynamics::SimulationSettings& settings = scene.scenario.settings;
@@ -40,23 +44,29 @@ double find_drift(const fs::path& file, double share) {
   const app::Run run =
       app::simulate_scene(scene, app::make_reducer({}), cache.path(), {});
   EXPECT_FALSE(run.failure);
-  return results::audit_energy(run.history).relative_largest().value_or(1.0);
+  const auto& events = run.history.events;
+  return {
+      results::audit_energy(run.history).relative_largest().value_or(1.0),
+      std::any_of(events.begin(), events.end(), [](const dynamics::Event& e) {
+        return e.what == "latched";
+      })};
 }
 
 // Half the step leaves a quarter of the drift where dampers or large rotations
 // count, an eighth where only the default rho_inf = 0.9 takes energy from
-// vibration, as of the report's beam: its damping ratio is of third order.
+// vibration, as of the report's beam: its damping ratio is of third order. A
+// latch's damper begins with a jump in mid-step: first order at least.
 TEST(ExampleAudit, ClosesToAMillionthAtEveryScenariosStepAndAtSecondOrder) {
   constexpr double kRoundOff = 1e-10;
   const std::vector<fs::path> files = find_examples();
   ASSERT_GE(files.size(), 6U);
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename());
-    const double drift = find_drift(file, 1.0);
+    const auto [drift, has_latched] = audit(file, 1.0);
     EXPECT_LE(drift, 1e-6);
     if (drift < kRoundOff) continue;
-    const double ratio = drift / find_drift(file, 0.5);
-    EXPECT_GE(ratio, 3.0);
+    const double ratio = drift / audit(file, 0.5).drift;
+    EXPECT_GE(ratio, has_latched ? 1.8 : 3.0);
     EXPECT_LE(ratio, 9.0);
   }
 }
