@@ -26,8 +26,9 @@ using Kind = Class;
 using Work = std::vector<std::function<std::string()>>;
 
 constexpr int kAtATime = 2;
-constexpr double kLimit = 60.0;       // wall time of a cell [s]
-constexpr double kLongLimit = 900.0;  // of a run of 1e7 steps [s]
+constexpr double kLimit = 60.0;           // wall time of a cell [s]
+constexpr double kReferenceLimit = 30.0;  // [s]
+constexpr double kLongLimit = 900.0;      // of a run of 1e7 steps [s]
 
 struct Sweep {
   Map map;
@@ -59,7 +60,6 @@ std::vector<Cell> list_cells(const Map& map) {
 }
 
 std::map<std::string, Reference> find_references(const std::vector<Cell>& cells,
-                                                 const std::string& name,
                                                  const Beams& beams) {
   std::map<std::string, Cell> scenes;
   for (const Cell& cell : cells) scenes.emplace(name_reference(cell), cell);
@@ -67,7 +67,7 @@ std::map<std::string, Reference> find_references(const std::vector<Cell>& cells,
   for (const auto& [key, cell] : scenes) {
     work.emplace_back([&, cell = cell] { return run_reference(cell, beams); });
   }
-  const auto endings = work_through(name + ", references", work, kLimit);
+  const auto endings = work_through("references", work, kReferenceLimit);
   std::map<std::string, Reference> references;
   std::size_t i = 0;
   for (const auto& [key, cell] : scenes) {
@@ -76,29 +76,39 @@ std::map<std::string, Reference> find_references(const std::vector<Cell>& cells,
   return references;
 }
 
-Sweep sweep(const Map& map, Beams& beams) {
-  const std::vector<Cell> cells = list_cells(map);
-  for (const Cell& cell : cells) beams.prepare(cell);
-  const auto references = find_references(cells, map.name, beams);
+std::vector<Ending> judge_all(const std::vector<Cell>& cells,
+                              const Beams& beams) {
+  const auto references = find_references(cells, beams);
   Work work;
   for (const Cell& cell : cells) {
     work.emplace_back([&, reference = &references.at(name_reference(cell))] {
       return judge(cell, beams, *reference);
     });
   }
-  const auto endings = work_through(map.name, work, kLimit);
-  Sweep result{map, {}};
+  return work_through("cells", work, kLimit);
+}
+
+std::vector<Sweep> sweep(const std::vector<Map>& maps, Beams& beams) {
+  std::vector<Cell> cells;
+  for (const Map& map : maps) {
+    for (const Cell& cell : list_cells(map)) cells.push_back(cell);
+  }
+  for (const Cell& cell : cells) beams.prepare(cell);
+  const std::vector<Ending> endings = judge_all(cells, beams);
+  std::vector<Sweep> sweeps;
   std::size_t i = 0;
-  for (std::size_t k = 0; k < map.integrators.size(); ++k) {
-    Verdicts verdicts(map.y.values.size());
-    for (auto& row : verdicts) {
-      for (std::size_t x = 0; x < map.x.values.size(); ++x) {
-        row.push_back(read_verdict(endings[i++]));
+  for (const Map& map : maps) {
+    Sweep& one = sweeps.emplace_back(Sweep{map, {}});
+    for (std::size_t k = 0; k < map.integrators.size(); ++k) {
+      Verdicts& verdicts = one.verdicts.emplace_back(map.y.values.size());
+      for (auto& row : verdicts) {
+        for (std::size_t x = 0; x < map.x.values.size(); ++x) {
+          row.push_back(read_verdict(endings[i++]));
+        }
       }
     }
-    result.verdicts.push_back(std::move(verdicts));
   }
-  return result;
+  return sweeps;
 }
 
 /// Calls with every cell and its verdict.
@@ -357,10 +367,10 @@ void introduce(Page& page) {
 void write_page(const std::filesystem::path& folder, bool full,
                 const std::optional<std::string>& only, Page& page) {
   Beams beams;
-  std::vector<Sweep> sweeps;
-  for (const Map& map : make_maps(full)) {
-    if (!only || *only == map.name) sweeps.push_back(sweep(map, beams));
-  }
+  std::vector<Map> maps = make_maps(full);
+  std::erase_if(maps,
+                [&](const Map& map) { return only && *only != map.name; });
+  const std::vector<Sweep> sweeps = sweep(maps, beams);
   std::vector<Duration> durations;
   if (!only || *only == "duration") durations = run_durations(full, beams);
   if (sweeps.empty() && durations.empty()) {

@@ -16,7 +16,7 @@ using results::quote;
 
 constexpr int kSquare = 46;  // width of a cell [pixels]
 constexpr int kRow = 34;     // its height
-constexpr int kLeft = 90;    // room for labels
+constexpr int kLeft = 115;   // room for labels
 constexpr int kBottom = 70;
 constexpr int kTop = 40;
 constexpr int kKey = 40;
@@ -104,7 +104,7 @@ std::string draw(const Map& map, const std::vector<Verdicts>& verdicts,
   const int inner_height = kRow * static_cast<int>(map.y.values.size());
   const int panel_width = kLeft + inner_width + 20;
   const int panel_height = kTop + inner_height + kBottom;
-  const double width = std::max(560, panel_width * columns);
+  const double width = std::max(660, panel_width * columns);
   const double height = panel_height * rows + kKey;
   GnuplotScript script(file, static_cast<int>(width), static_cast<int>(height));
   script.add("set border 0");
