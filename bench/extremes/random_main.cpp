@@ -8,6 +8,7 @@
 #include <map>
 
 #include "isolated.hpp"
+#include "refusals.hpp"
 #include "support/run_random_scene.hpp"
 
 /// Runs random scenes, each in a process of its own, and tells how they ended.
@@ -21,18 +22,6 @@ std::string run_seed(unsigned seed) {
   const RandomOutcome outcome = testing::run_random_scene(seed);
   return fmt::format("{} {} {}", static_cast<int>(outcome.kind), outcome.steps,
                      outcome.text);
-}
-
-/// Words of a refusal that tell its kind: names and numbers left out.
-std::string find_kind(const std::string& text) {
-  std::string kind;
-  bool is_quoted = false;
-  for (const char c : text) {
-    if (c == '\'') is_quoted = !is_quoted;
-    if (is_quoted || c == '\'' || (c >= '0' && c <= '9')) continue;
-    kind += c == '\n' ? ' ' : c;
-  }
-  return kind.substr(0, 72);
 }
 
 struct Tally {

@@ -67,8 +67,12 @@ void Page::table(const std::vector<std::string>& header,
 void Page::figure(const Plot& plot, const std::string& name,
                   const std::string& caption) {
   write_csv(plot, folder_ / "data" / (name + ".csv"));
-  const std::string why = draw(plot, folder_ / (name + ".png"));
-  if (!why.empty()) trouble_ = why;
+  picture(draw(plot, folder_ / (name + ".png")), name, caption);
+}
+
+void Page::picture(const std::string& trouble, const std::string& name,
+                   const std::string& caption) {
+  if (!trouble.empty()) trouble_ = trouble;
   body_ += fmt::format("![{0}]({1}.png)\n\n*{0}*\n\n", caption, name);
 }
 

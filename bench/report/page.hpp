@@ -25,6 +25,10 @@ class Page {
   /// Draws `plot` as name.png and writes data/name.csv.
   void figure(const Plot& plot, const std::string& name,
               const std::string& caption);
+  /// A picture name.png that was drawn already.
+  /// @param trouble why it was not, if so
+  void picture(const std::string& trouble, const std::string& name,
+               const std::string& caption);
   /// Tells whether a claim holds in this run; a failure is counted.
   void check(bool holds, const std::string& claim);
 

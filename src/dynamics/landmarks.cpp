@@ -7,6 +7,38 @@
 namespace limber::dynamics {
 namespace {
 
+// Steps that see a half sine at their ends alone miss its impulse: none is left
+// of it in one step, 1.3 % of it is lost in 8 and 0.3 % in 16.
+constexpr int kLeastSteps = 16;
+
+bool has_longer_steps(const SimulationSettings& settings, double from,
+                      double until, double length) {
+  if (find_longest_step(settings, from) > length) return true;
+  return std::any_of(settings.step_changes.begin(), settings.step_changes.end(),
+                     [&](const StepChange& change) {
+                       return change.from < until && change.step > length;
+                     });
+}
+
+// Those within a pulse that steps are too long for. Of steps to a tolerance it
+// is not known: an impulse that every pass misses alike is in no estimate.
+std::vector<double> find_inner_times(const TimeFunction& function,
+                                     const SimulationSettings& settings) {
+  const auto* pulse = std::get_if<Pulse>(&function);
+  if (pulse == nullptr || pulse->shape != PulseShape::half_sine) return {};
+  const double part = pulse->duration / kLeastSteps;
+  if (settings.tolerance == 0.0 &&
+      !has_longer_steps(settings, pulse->start, pulse->start + pulse->duration,
+                        part)) {
+    return {};
+  }
+  std::vector<double> times;
+  for (int i = 1; i < kLeastSteps; ++i) {
+    times.push_back(pulse->start + i * part);
+  }
+  return times;
+}
+
 std::vector<Landmark> gather(const SystemModel& model, double start,
                              const SimulationSettings& settings) {
   std::vector<Landmark> marks;
@@ -21,6 +53,9 @@ std::vector<Landmark> gather(const SystemModel& model, double start,
   }
   for (const Load& load : model.loads) {
     for (const double t : break_times(load.function)) add(t, true);
+    for (const double t : find_inner_times(load.function, settings)) {
+      add(t, false);
+    }
   }
   for (const Coupler& coupler : model.couplers) {
     for (const double t : joints::break_times(coupler.law)) add(t, true);

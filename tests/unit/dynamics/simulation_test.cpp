@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
 
 #include "common/errors.hpp"
@@ -427,6 +428,35 @@ TEST(Simulation, OutputTimesAreMetExactly) {
     EXPECT_EQ(r.states[i].t, times[i]);
   }
   EXPECT_EQ(r.state.t, 0.04);
+}
+
+TEST(Simulation, AHalfSineShorterThanAStepGivesItsImpulse) {
+  constexpr double kMass = 2.0;        // [kg]
+  constexpr double kForce = 30.0;      // [N]
+  constexpr double kDuration = 1e-4;   // [s]
+  constexpr double kSixteenth = 4e-3;  // the trapezoidal rule's error is 0.3 %
+  const double speed = 2.0 / std::numbers::pi * kForce * kDuration / kMass;
+  for (const std::string& name : integrator_names()) {
+    SystemBuilder builder;
+    const int body =
+        builder.add_rigid_body("ball", {kMass, Matrix3::Identity()});
+    const int centre = builder.attach_frame("centre", body, {});
+    builder.add_load("blow", centre, kForce * Vector3::UnitX(), Vector3::Zero(),
+                     LoadFrame::world,
+                     Pulse{PulseShape::half_sine, 0.002, kDuration});
+    const SystemModel model = builder.build();
+    for (const double step : {1e-3, 1.0}) {
+      SystemState state = make_state(model);
+      simulate(model, state,
+               {.integrator = parse_integrator(name),
+                .end_time = 1.0,
+                .step = step,
+                .output_times = {}},
+               {});
+      EXPECT_NEAR(state.bodies[0].v_WB_W[0] / speed, 1.0, kSixteenth)
+          << name << ", steps of " << step << " s";
+    }
+  }
 }
 
 TEST(Simulation, SameRunTwiceIsTheSameToTheBit) {

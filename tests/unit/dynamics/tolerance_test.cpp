@@ -92,6 +92,22 @@ TEST(Tolerance, MakesStepsShortOnlyWhereTheyMustBe) {
   EXPECT_LT(r.statistics.steps, 10000);
 }
 
+TEST(Tolerance, IsKeptAfterABlowFarShorterThanSteps) {
+  // Every pass takes as few steps over the blow as it may.
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
+  builder.add_load("hit", mass.frame, {4000.0, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world, Pulse{PulseShape::half_sine, 0.1, 1e-3});
+  const SystemModel model = builder.build();
+  const double speed = 2.0 / std::numbers::pi * 4000.0 * 1e-3 / 2.0;
+  for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
+    const RunOutcome r =
+        run_from(model, make_state(model), to_tolerance(tolerance, 1.0, 10));
+    EXPECT_NEAR(r.state.bodies[0].p_WB.x(), speed * (1.0 - 0.1005), tolerance)
+        << tolerance;
+  }
+}
+
 TEST(Tolerance, OfAnUnknownSchemeIsRefused) {
   const Oscillator o = make_oscillator();
   SimulationSettings settings = to_tolerance(1e-3, 1.0, 2);
