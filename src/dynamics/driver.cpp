@@ -212,8 +212,8 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
   if (left - h_ < kSame * h_) h_ = left;
   if (!(h_ > kShortest * (settings_.end_time - start_))) {
     fail(state, h_,
-         fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
-                     "step may have asks for steps below {:.3g} s",
+         fmt::format("body '{}' at t = {:.9g} s: the tolerance of {:.3g} m "
+                     "asks for steps below {:.3g} s",
                      model_.bodies[marcher_.last().error_body].name, state.t,
                      settings_.tolerance, h_));
   }
@@ -230,8 +230,6 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
   depth_ = 0;
   if (!counts) {
     ++statistics_.rejected_steps;
-    statistics_.newton_iterations += marcher_.last().iterations;
-    statistics_.factorizations += marcher_.last().factorizations;
     return false;
   }
   count_step(before);

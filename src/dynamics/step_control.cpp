@@ -16,8 +16,8 @@ constexpr double kMostTurn = 1.0;  // [rad]
 
 }  // namespace
 
-StepControl::StepControl(double allowed, double span, double longest)
-    : allowed_(allowed),
+StepControl::StepControl(double tolerance, double span, double longest)
+    : tolerance_rate_(tolerance / span),
       longest_(longest),
       h_(std::min(longest, kFirstShare * span)) {}
 
@@ -33,10 +33,11 @@ double StepControl::propose(const SystemState& state, double left) const {
 }
 
 bool StepControl::accepts(double h, double error) {
-  // The root of what is not a number is none either: clamped below.
+  const double allowed = tolerance_rate_ * h;
+  // The square root of what is not a number is none either: clamped below.
   const double factor =
-      error == 0.0 ? kMostGrowth : std::cbrt(kSafety * allowed_ / error);
-  const bool accepted = error <= allowed_;
+      error == 0.0 ? kMostGrowth : std::sqrt(kSafety * allowed / error);
+  const bool accepted = error <= allowed;
   if (!accepted) {
     h_ = h * (factor > kMostShrinking ? std::min(factor, 0.9) : kMostShrinking);
   } else if (factor < 1.0) {

@@ -6,22 +6,19 @@
 
 namespace limber::dynamics {
 
-/// Chooses steps that all err alike.
+/// Chooses steps such that their errors add up to no more than a tolerance.
 ///
-/// Equation   the error of a second-order scheme's step grows as h^3, so that
-///            the next one is h cbrt(0.8 allowed / error)
-/// Source     error per step [@hairer1993, sec. II.4]. Of all steps whose
-/// errors
-///            have one sum, those that err alike are the fewest: the sum is
-///            int C h^2 dt, their number int dt / h, which is least for equal
-///            C h^3.
+/// Equation   a step of length h may err by tolerance h / span; the error of a
+///            second-order scheme's step grows as h^3, so that the next one is
+///            h sqrt(0.8 tolerance h / (span error))
+/// Source     error per unit step [@hairer1993, sec. II.4]
 /// Limits     A step is not made longer by less than half, so that implicit
 ///            schemes keep their factors. No body turns by more than 1 rad.
 class StepControl {
  public:
-  /// @param allowed error of a step [m] @param span of time that steps have to
-  /// pass [s] @param longest step [s]
-  StepControl(double allowed, double span, double longest);
+  /// @param tolerance [m] @param span of time in which errors add up [s]
+  /// @param longest step [s]
+  StepControl(double tolerance, double span, double longest);
 
   /// Length of the next step from `state`, at most `left` [s].
   [[nodiscard]] double propose(const SystemState& state, double left) const;
@@ -35,7 +32,7 @@ class StepControl {
   void exchange_memory(Archive& archive) { archive(h_, was_rejected_); }
 
  private:
-  double allowed_;  // [m]
+  double tolerance_rate_;  // [m/s]
   double longest_;
   double h_;
   bool was_rejected_ = false;
