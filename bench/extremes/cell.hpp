@@ -43,7 +43,8 @@ struct Shape {
   double slenderness = 0.0;  ///< [-]
   double density = 0.0;      ///< [kg/m^3]
 
-  auto operator<=>(const Shape&) const = default;
+  auto operator<=>(const Shape&) const =
+      default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Beams, each meshed by hexahedra and reduced once: four eigenmodes and the

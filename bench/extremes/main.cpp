@@ -38,11 +38,9 @@ struct Sweep {
 std::vector<Ending> work_through(const std::string& what, const Work& work,
                                  double limit) {
   const bool shows = isatty(STDERR_FILENO) == 1;
-  const auto endings =
-      do_isolated(work, limit, kAtATime, [&](std::size_t done) {
-        if (shows)
-          fmt::print(stderr, "\r{}: {} of {} ", what, done, work.size());
-      });
+  auto endings = do_isolated(work, limit, kAtATime, [&](std::size_t done) {
+    if (shows) fmt::print(stderr, "\r{}: {} of {} ", what, done, work.size());
+  });
   if (shows) fmt::print(stderr, "\n");
   return endings;
 }

@@ -112,7 +112,8 @@ std::string draw(const Map& map, const std::vector<Verdicts>& verdicts,
   script.add("set multiplot");
   for (int p = 0; p < panels; ++p) {
     const double left = panel_width * (p % columns) + kLeft;
-    const double top = kKey + panel_height * (p / columns) + kTop;
+    const int row = p / columns;
+    const double top = kKey + panel_height * row + kTop;
     script.add(fmt::format("set lmargin at screen {}", left / width));
     script.add(
         fmt::format("set rmargin at screen {}", (left + inner_width) / width));
