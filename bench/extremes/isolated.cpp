@@ -2,10 +2,12 @@
 #include "isolated.hpp"
 
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <optional>
@@ -15,6 +17,9 @@ namespace limber::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// What waits for nothing gets this share of a core, even of a busy machine.
+constexpr double kLeastShare = 0.1;
 
 // The first byte of an answer that came whole.
 constexpr char kWhole = '+';
@@ -36,13 +41,22 @@ void write_all(int pipe, const std::string& text) {
   }
 }
 
-Child start(std::size_t index, const std::function<std::string()>& work) {
+// The system then ends this process by SIGXCPU.
+void limit_processor_time(double seconds) {
+  const auto whole = static_cast<rlim_t>(std::ceil(seconds));
+  const rlimit limit{whole, whole + 1};
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
+Child start(std::size_t index, const std::function<std::string()>& work,
+            double limit) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("no process");
   if (process == 0) {
     close(ends[0]);
+    limit_processor_time(limit);
     write_all(ends[1], kWhole + work());
     _exit(0);
   }
@@ -61,7 +75,7 @@ Ending finish(const Child& child, bool is_over_time) {
   waitpid(child.process, &status, 0);
   Ending ending;
   ending.seconds = seconds_of(child);
-  if (is_over_time) {
+  if (is_over_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) {
     ending.kind = Ending::Kind::hung;
   } else if (child.text.empty() || child.text[0] != kWhole ||
              !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
@@ -92,7 +106,7 @@ std::vector<Ending> do_isolated(
   std::size_t done = 0;
   while (done < work.size()) {
     while (next < work.size() && std::ssize(children) < at_a_time) {
-      children.push_back(start(next, work[next]));
+      children.push_back(start(next, work[next], limit));
       ++next;
     }
     std::vector<pollfd> polls;
@@ -103,7 +117,8 @@ std::vector<Ending> do_isolated(
     for (std::size_t i = children.size(); i-- > 0;) {
       Child& child = children[i];
       const bool is_closed = polls[i].revents != 0 && read_some(child);
-      const bool is_over_time = !is_closed && seconds_of(child) > limit;
+      const bool is_over_time =
+          !is_closed && kLeastShare * seconds_of(child) > limit;
       if (!is_closed && !is_over_time) continue;
       endings[child.index] = finish(child, is_over_time);
       children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));

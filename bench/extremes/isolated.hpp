@@ -12,7 +12,7 @@ struct Ending {
   enum class Kind {
     done,
     crashed,  ///< by a signal, or without a word
-    hung,     ///< longer than it was given
+    hung,     ///< longer than it was given, or waiting
   };
   Kind kind = Kind::done;
   std::string answer;    ///< of work that was done
@@ -21,7 +21,7 @@ struct Ending {
 
 /// Does pieces of work, each in a process of its own, so many at a time, and
 /// tells how each ended, in their order.
-/// @param limit wall time for each [s]
+/// @param limit processor time for each, and a tenth of its wall time [s]
 /// @param tell called after each, with how many are done; may be empty
 [[nodiscard]] std::vector<Ending> do_isolated(
     const std::vector<std::function<std::string()>>& work, double limit,

@@ -26,9 +26,9 @@ using Kind = Class;
 using Work = std::vector<std::function<std::string()>>;
 
 constexpr int kAtATime = 2;
-constexpr double kLimit = 60.0;           // wall time of a cell [s]
+constexpr double kLimit = 60.0;           // processor time of a cell [s]
 constexpr double kReferenceLimit = 30.0;  // [s]
-constexpr double kLongLimit = 900.0;      // of a run of 1e7 steps [s]
+constexpr double kLongLimit = 600.0;      // of a run of 1e7 steps [s]
 
 struct Sweep {
   Map map;
@@ -359,7 +359,7 @@ void introduce(Page& page) {
       "inaccurate*, and so is one without a converged run (`?`). *Refused* is "
       "one that ends with an `InputError` or a `NumericalError`. No number, an "
       "error beyond that called a success, any other exception, a crash or 60 "
-      "s of wall time is a *failure*.");
+      "s of processor time is a *failure*.");
 }
 
 void write_page(const std::filesystem::path& folder, bool full,

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refusals.hpp"
 
+#include <regex>
+
 namespace limber::bench {
 
 std::string find_kind(const std::string& text) {
-  std::string kind;
-  bool is_quoted = false;
-  for (const char c : text) {
-    if (c == '\'') is_quoted = !is_quoted;
-    if (is_quoted || c == '\'' || (c >= '0' && c <= '9')) continue;
-    kind += c == '\n' ? ' ' : c;
-  }
-  return kind.substr(0, 72);
+  static const std::regex names("(^|[ (])'[^']*'");
+  static const std::regex numbers("[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?");
+  static const std::regex breaks("\n");
+  std::string kind = std::regex_replace(text, names, "$1");
+  kind = std::regex_replace(kind, numbers, "");
+  return std::regex_replace(kind, breaks, " ").substr(0, 72);
 }
 
 }  // namespace limber::bench
