@@ -47,7 +47,8 @@ std::vector<Landmark> find_marks(const SystemModel& model, double start,
 }  // namespace
 
 Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
-               const SystemState& state, SimulationStatistics& statistics)
+               const SystemState& state, SimulationStatistics& statistics,
+               double refinement)
     : model_(model),
       settings_(settings),
       statistics_(statistics),
@@ -56,8 +57,10 @@ Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
                           settings.output_times.front() <= state.t),
       marks_(find_marks(model, state.t, settings)),
       outputs_(find_outputs(settings, state.t)),
+      refinement_(refinement),
       marcher_(model, settings, statistics.events),
-      control_(settings.tolerance, settings.end_time - state.t, settings.step),
+      control_(settings.tolerance, settings.end_time - state.t, settings.step,
+               refinement),
       terms_(make_terms(model)),
       within_(state),
       kept_(Clock::now()) {}
@@ -207,13 +210,13 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
   const Losses losses_before = losses();
   const double left = mark - state.t;
   // A load that is zero at both ends of a step is not missed.
-  const double most = (mark - origin_) / kFewestStepsToAMark;
+  const double most = refinement_ * (mark - origin_) / kFewestStepsToAMark;
   h_ = std::min(control_.propose(state, left), std::max(most, 0.0));
   if (left - h_ < kSame * h_) h_ = left;
   if (!(h_ > kShortest * (settings_.end_time - start_))) {
     fail(state, h_,
-         fmt::format("body '{}' at t = {:.9g} s: the tolerance of {:.3g} m "
-                     "asks for steps below {:.3g} s",
+         fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
+                     "step may have asks for steps below {:.3g} s",
                      model_.bodies[marcher_.last().error_body].name, state.t,
                      settings_.tolerance, h_));
   }
@@ -230,6 +233,8 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
   depth_ = 0;
   if (!counts) {
     ++statistics_.rejected_steps;
+    statistics_.newton_iterations += marcher_.last().iterations;
+    statistics_.factorizations += marcher_.last().factorizations;
     return false;
   }
   count_step(before);

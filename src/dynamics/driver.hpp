@@ -32,9 +32,11 @@ class Driver {
   /// Called with every output.
   using Visit = std::function<void(const SystemState&, const Losses&)>;
 
-  /// @param state at the start
+  /// @param state at the start @param refinement of all that limits steps to a
+  /// tolerance but their errors, at most 1 (StepControl)
   Driver(const SystemModel& model, const SimulationSettings& settings,
-         const SystemState& state, SimulationStatistics& statistics);
+         const SystemState& state, SimulationStatistics& statistics,
+         double refinement);
 
   /// Goes on from a checkpoint: `state` and all that was known then. Outputs
   /// that were visited before are not visited again.
@@ -74,6 +76,7 @@ class Driver {
   bool starts_with_output_;
   std::vector<Landmark> marks_;
   std::vector<double> outputs_;  // of steps to a tolerance
+  double refinement_;
   Marcher marcher_;
   StepControl control_;
   EnergyWatch watch_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/errors.hpp"
 #include "dynamics/archives.hpp"
@@ -14,9 +15,16 @@ namespace limber::dynamics {
 namespace {
 
 constexpr int kMostPasses = 8;
-constexpr double kFirst = 64.0;  // of the tolerance: errors of the first pass
-constexpr double kSecond = 16.0;
+// Of the tolerance: what a step of the first pass may err by.
+constexpr double kFirst = 1.0 / 3.0;
+constexpr double kSecond = kFirst / 8.0;  // half as long steps
 constexpr double kSafety = 0.5;  // of the tolerance: what later ones aim at
+
+// How a pass's error changes with what its steps may err by, as ratios, and
+// back: of a second-order scheme.
+double to_error(double allowed) { return std::cbrt(allowed * allowed); }
+double to_allowed(double error) { return error * std::sqrt(error); }
+double to_length(double allowed) { return std::cbrt(allowed); }  // of steps
 
 // What a pass leaves at its outputs.
 struct Record {
@@ -31,15 +39,15 @@ void exchange(Archive& archive, Record& record) {
 // Between two passes, and of what a checkpoint holds.
 struct Course {
   int pass = 0;
-  double errors = 0.0;  // the sum that the steps of this pass may err [m]
-  double errors_before = 0.0;  // of the pass before
-  double estimate = 0.0;       // error of the pass before [m]
+  double allowed = 0.0;         // error of a step of this pass [m]
+  double allowed_before = 0.0;  // of the pass before
+  double estimate = 0.0;        // error of the pass that ended last [m]
   Record before;
   Record now;
 };
 
 void exchange(Archive& archive, Course& course) {
-  archive(course.pass, course.errors, course.errors_before, course.estimate,
+  archive(course.pass, course.allowed, course.allowed_before, course.estimate,
           course.before, course.now);
 }
 
@@ -78,7 +86,7 @@ class Passes {
       keeper_.keep = [this, keep = continuation.keeper.keep](
                          const Checkpoint& inner) { keep(wrap(inner)); };
     }
-    course_.errors = kFirst * settings.tolerance;
+    course_.allowed = kFirst * settings.tolerance;
     if (continuation.from) unwrap(*continuation.from);
   }
 
@@ -96,7 +104,7 @@ class Passes {
  private:
   void run_pass(SystemState& state) {
     SimulationSettings settings = settings_;
-    settings.tolerance = course_.errors;
+    settings.tolerance = course_.allowed;
     const Observer observer = [this](const SystemState& at,
                                      const EnergyBalance& balance) {
       course_.now.states.push_back(at);
@@ -114,8 +122,8 @@ class Passes {
       statistics_.passes = ++course_.pass;
     };
     try {
-      run_once(model_, state, settings, observer, progress_, pass,
-               continuation);
+      run_once(model_, state, settings, observer, progress_, pass, continuation,
+               to_length(course_.allowed / (kFirst * settings_.tolerance)));
     } catch (const NumericalError&) {
       finish();
       throw;
@@ -128,8 +136,8 @@ class Passes {
     if (course_.pass < 2) return false;
     const double distance =
         measure_distance(scale_, course_.before, course_.now);
-    course_.estimate =
-        distance * course_.errors / (course_.errors_before - course_.errors);
+    const double shrinkage = to_error(course_.allowed_before / course_.allowed);
+    course_.estimate = distance / (shrinkage - 1.0);
     statistics_.estimated_error = course_.estimate;
     if (course_.estimate <= settings_.tolerance) return true;
     if (course_.pass < kMostPasses) return false;
@@ -145,10 +153,10 @@ class Passes {
     double next = kSecond * settings_.tolerance;
     if (course_.pass >= 2) {
       const double wanted = kSafety * settings_.tolerance / course_.estimate;
-      next = course_.errors * std::clamp(wanted, 1e-4, 0.5);
+      next = course_.allowed * to_allowed(std::clamp(wanted, 1e-4, 0.5));
     }
-    course_.errors_before = course_.errors;
-    course_.errors = next;
+    course_.allowed_before = course_.allowed;
+    course_.allowed = next;
     course_.before = std::move(course_.now);
     course_.now = {};
   }

@@ -9,8 +9,10 @@ namespace limber::dynamics {
 /// the whole time with ever shorter steps, until two of them agree so well that
 /// the last is within the tolerance. The observer sees the last one alone.
 ///
-/// Equation   a pass whose steps err by eps in sum is off by A eps at the
-///            outputs; two passes, d apart there, tell A = d / (eps_1 - eps_2)
+/// Equation   the sum of the errors of steps that may each err by eps, and the
+///            pass's error with it, goes as eps^(2/3): steps that err as h^3
+///            are as eps^(-1/3) many. Two passes, d apart at the outputs, tell
+///            the second's error, d / ((eps_1 / eps_2)^(2/3) - 1)
 /// Source     extrapolation of the global error [@hairer1993, sec. II.4]: the
 ///            sum of the errors of a second-order scheme's steps is
 ///            proportional to its global error.

@@ -121,8 +121,13 @@ void simulate(const SystemModel& model, SystemState& state,
   LIMBER_EXPECT(state.u_H.size() == model.nodal_count);
   check_settings(model, state, settings);
   const Stopwatch stopwatch(statistics.seconds);
-  const auto run = settings.tolerance > 0.0 ? run_to_tolerance : run_once;
-  run(model, state, settings, observer, progress, statistics, continuation);
+  if (settings.tolerance > 0.0) {
+    run_to_tolerance(model, state, settings, observer, progress, statistics,
+                     continuation);
+  } else {
+    run_once(model, state, settings, observer, progress, statistics,
+             continuation);
+  }
   report(progress, "simulating", 1.0);
 }
 

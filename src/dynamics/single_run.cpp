@@ -47,11 +47,12 @@ struct Job {
   const Progress& progress;
   SimulationStatistics& statistics;
   const Continuation& continuation;
+  double refinement;  // of the limits of steps to a tolerance
 };
 
 void integrate(const SystemModel& model, SystemState& state, const Job& job,
                const Driver::Visit& visit) {
-  Driver driver(model, job.settings, state, job.statistics);
+  Driver driver(model, job.settings, state, job.statistics, job.refinement);
   if (job.continuation.from) driver.resume(*job.continuation.from, state);
   driver.run(state, visit, job.progress, job.continuation.keeper);
 }
@@ -116,7 +117,7 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 void run_once(const SystemModel& model, SystemState& state,
               const SimulationSettings& asked, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
-              const Continuation& continuation) {
+              const Continuation& continuation, double refinement) {
   SystemTerms terms = make_terms(model);
   SystemState framed;
   LinearLimit limit(model);
@@ -135,7 +136,7 @@ void run_once(const SystemModel& model, SystemState& state,
   };
   const SimulationSettings settings =
       limit_step(model, state, asked, statistics);
-  const Job job{settings, progress, statistics, continuation};
+  const Job job{settings, progress, statistics, continuation, refinement};
   const double start = state.t;
   const auto finish = [&] {
     update_mean_frames(model, state);

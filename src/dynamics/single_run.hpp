@@ -5,12 +5,13 @@
 
 namespace limber::dynamics {
 
-/// simulate() for settings that were checked, over the whole time once. Steps
-/// to a tolerance hold it in the sum of their errors, which is not yet the
-/// error at the end: run_to_tolerance (dynamics/passes.hpp).
+/// simulate() for settings that were checked, over the whole time once. Of
+/// steps to a tolerance, each may err by it, which does not tell the error at
+/// the end: run_to_tolerance (dynamics/passes.hpp), which also says by what
+/// `refinement` their other limits are shortened.
 void run_once(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
-              const Continuation& continuation);
+              const Continuation& continuation, double refinement = 1.0);
 
 }  // namespace limber::dynamics

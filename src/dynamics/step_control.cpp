@@ -16,16 +16,18 @@ constexpr double kMostTurn = 1.0;  // [rad]
 
 }  // namespace
 
-StepControl::StepControl(double tolerance, double span, double longest)
-    : tolerance_rate_(tolerance / span),
-      longest_(longest),
-      h_(std::min(longest, kFirstShare * span)) {}
+StepControl::StepControl(double allowed, double span, double longest,
+                         double refinement)
+    : allowed_(allowed),
+      longest_(refinement * longest),
+      most_turn_(refinement * kMostTurn),
+      h_(std::min(longest_, refinement * kFirstShare * span)) {}
 
 double StepControl::propose(const SystemState& state, double left) const {
   double h = std::min(h_, longest_);
   for (const BodyState& body : state.bodies) {
     const double spin = body.w_WB_B.norm();
-    if (spin * h > kMostTurn) h = kMostTurn / spin;
+    if (spin * h > most_turn_) h = most_turn_ / spin;
   }
   // Two equal steps rather than a whole one and a short one.
   if (h >= left) return left;
@@ -33,11 +35,10 @@ double StepControl::propose(const SystemState& state, double left) const {
 }
 
 bool StepControl::accepts(double h, double error) {
-  const double allowed = tolerance_rate_ * h;
-  // The square root of what is not a number is none either: clamped below.
+  // The root of what is not a number is none either: clamped below.
   const double factor =
-      error == 0.0 ? kMostGrowth : std::sqrt(kSafety * allowed / error);
-  const bool accepted = error <= allowed;
+      error == 0.0 ? kMostGrowth : std::cbrt(kSafety * allowed_ / error);
+  const bool accepted = error <= allowed_;
   if (!accepted) {
     h_ = h * (factor > kMostShrinking ? std::min(factor, 0.9) : kMostShrinking);
   } else if (factor < 1.0) {

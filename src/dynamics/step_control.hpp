@@ -6,19 +6,25 @@
 
 namespace limber::dynamics {
 
-/// Chooses steps such that their errors add up to no more than a tolerance.
+/// Chooses steps that all err alike.
 ///
-/// Equation   a step of length h may err by tolerance h / span; the error of a
-///            second-order scheme's step grows as h^3, so that the next one is
-///            h sqrt(0.8 tolerance h / (span error))
-/// Source     error per unit step [@hairer1993, sec. II.4]
+/// Equation   the error of a second-order scheme's step grows as h^3, so that
+///            the next one is h cbrt(0.8 allowed / error)
+/// Source     error per step [@hairer1993, sec. II.4]. Of all steps whose
+///            errors have one sum, those that err alike are the fewest: the sum
+///            is int C h^2 dt, their number int dt / h, which is least for
+///            equal C h^3.
 /// Limits     A step is not made longer by less than half, so that implicit
 ///            schemes keep their factors. No body turns by more than 1 rad.
+///            Where that or `longest` holds steps back, errors say nothing of
+///            their length: a run that is to err less shortens both limits by
+///            `refinement`, as it does steps that errors hold back.
 class StepControl {
  public:
-  /// @param tolerance [m] @param span of time in which errors add up [s]
-  /// @param longest step [s]
-  StepControl(double tolerance, double span, double longest);
+  /// @param allowed error of a step [m] @param span of time that steps have to
+  /// pass [s] @param longest step [s] @param refinement at most 1
+  StepControl(double allowed, double span, double longest,
+              double refinement = 1.0);
 
   /// Length of the next step from `state`, at most `left` [s].
   [[nodiscard]] double propose(const SystemState& state, double left) const;
@@ -32,8 +38,9 @@ class StepControl {
   void exchange_memory(Archive& archive) { archive(h_, was_rejected_); }
 
  private:
-  double tolerance_rate_;  // [m/s]
+  double allowed_;  // [m]
   double longest_;
+  double most_turn_;  // [rad]
   double h_;
   bool was_rejected_ = false;
 };
