@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Sparse>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +11,7 @@
 
 #include "common/errors.hpp"
 #include "flexbody/shape_integrals.hpp"
+#include "support/eigenpairs.hpp"
 
 namespace limber::testing {
 namespace {
@@ -182,8 +182,7 @@ std::shared_ptr<const flexbody::ReducedBody> make_reduced(
   const Eigen::Index n = network.size();
   const MatrixX K = network.calc_tangent(Matrix3X::Zero(3, n));
   const MatrixX M = network.mass();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(K(free, free),
-                                                                M(free, free));
+  const Eigenpairs eigen = find_eigenpairs(K(free, free), M(free, free));
   auto body = std::make_shared<flexbody::ReducedBody>();
   body->name = "lattice";
   body->clamped = std::ssize(free) < 3 * n;
@@ -191,12 +190,11 @@ std::shared_ptr<const flexbody::ReducedBody> make_reduced(
   body->mass = network.M_s.sum();
   body->size =
       network.x_B.rowwise().maxCoeff() - network.x_B.rowwise().minCoeff();
-  body->lambda = eigen.eigenvalues().segment(rigid, modes);
+  body->lambda = eigen.values.segment(rigid, modes);
   MatrixX Phi = MatrixX::Zero(3 * n, modes);
   for (std::size_t i = 0; i < free.size(); ++i) {
-    Phi.row(free[i]) = eigen.eigenvectors()
-                           .row(static_cast<Eigen::Index>(i))
-                           .segment(rigid, modes);
+    Phi.row(free[i]) =
+        eigen.vectors.row(static_cast<Eigen::Index>(i)).segment(rigid, modes);
   }
   body->rows.x_B = network.x_B;
   body->rows.Phi_B = Phi;

@@ -12,6 +12,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/step_control.hpp"
 #include "support/chain.hpp"
+#include "support/eigenpairs.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -69,8 +70,7 @@ double find_critical_speed(const PointMassBody& body, const Vector3& axis) {
     B += body.masses[n] * phi.transpose() * across * phi;
   }
   const MatrixX Lambda = r.lambda.asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(B, Lambda);
-  return 1.0 / std::sqrt(solver.eigenvalues().maxCoeff());
+  return 1.0 / std::sqrt(testing::find_eigenvalues(B, Lambda).maxCoeff());
 }
 
 TEST(Softening, IsOneAtTheCriticalSpeedOfThePointMasses) {
