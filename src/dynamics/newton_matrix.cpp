@@ -391,6 +391,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
                          const VectorX& residual,
                          const std::vector<Vector6>& gaps,
                          VectorX& increments) {
+  ++solves_;
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];

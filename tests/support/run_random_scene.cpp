@@ -38,14 +38,14 @@ RandomOutcome run_random_scene(unsigned seed) {
         {}, statistics);
     all_finite = all_finite && is_finite(scene.state);
   } catch (const InputError& error) {
-    return {Kind::refused, error.what(), statistics.steps};
+    return {Kind::refused, error.what(), statistics};
   } catch (const NumericalError& error) {
-    return {Kind::refused, error.what(), statistics.steps};
+    return {Kind::refused, error.what(), statistics};
   } catch (const std::exception& error) {
-    return {Kind::failed, error.what(), statistics.steps};
+    return {Kind::failed, error.what(), statistics};
   }
-  if (all_finite) return {Kind::finished, "", statistics.steps};
-  return {Kind::failed, "an output is not finite", statistics.steps};
+  if (all_finite) return {Kind::finished, "", statistics};
+  return {Kind::failed, "an output is not finite", statistics};
 }
 
 }  // namespace limber::testing

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "dynamics/simulation.hpp"
+
 namespace limber::testing {
 
 /// How a random scene ended.
@@ -13,8 +15,8 @@ struct RandomOutcome {
     failed,    ///< no number called a success, or any other exception
   };
   Kind kind = Kind::finished;
-  std::string text;  ///< why, unless it finished
-  long steps = 0;
+  std::string text;                                ///< why, unless it finished
+  dynamics::SimulationStatistics statistics = {};  ///< also if refused
 };
 
 /// Draws the scene of a seed and runs it.

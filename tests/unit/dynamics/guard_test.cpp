@@ -11,6 +11,7 @@
 #include "dynamics/linear_limit.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/step_control.hpp"
+#include "dynamics/work_budget.hpp"
 #include "support/chain.hpp"
 #include "support/eigenpairs.hpp"
 
@@ -251,6 +252,25 @@ TEST(StepControl, ShortensAllLimitsByTheRefinement) {
   };
   EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), resting), 0.075);
   EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), turning), 0.0025);
+}
+
+TEST(Guard, RunToAToleranceEndsAfterMostSteps) {
+  const Scene scene = make_spinning_body(20.0);
+  SimulationSettings settings = make_settings(0.1, 0.1);
+  settings.tolerance = 1e-9;
+  settings.most_steps = 50;
+  EXPECT_THAT(run_into_trouble(scene, settings),
+              AllOf(HasSubstr("most_steps"), HasSubstr("body 'blade'")));
+}
+
+TEST(WorkBudget, GrowsWithStepsAndIsSharedByBodies) {
+  const WorkBudget one(1);
+  EXPECT_TRUE(one.allows_solves(1'000'000, 0));
+  EXPECT_FALSE(one.allows_solves(1'000'001, 0));
+  EXPECT_TRUE(one.allows_solves(1'000'300, 1));
+  const WorkBudget thousand(999);
+  EXPECT_TRUE(thousand.allows_solves(2000, 0));
+  EXPECT_FALSE(thousand.allows_solves(2001, 0));
 }
 
 }  // namespace
