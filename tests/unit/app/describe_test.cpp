@@ -18,9 +18,9 @@ TEST(Describe, TellsThatAFileIsACheckpointAndOfWhichTime) {
   results::write_checkpoint(file, record);
   const Json json = describe_hdf5(file);
   std::filesystem::remove(file);
-  EXPECT_EQ(json["kind"], "checkpoint");
-  EXPECT_EQ(json["time"], 0.25);
-  EXPECT_EQ(json["outputs"], 0);
+  EXPECT_EQ(json["kind"].get<std::string>(), "checkpoint");
+  EXPECT_EQ(json["time"].get<double>(), 0.25);
+  EXPECT_EQ(json["outputs"].get<int>(), 0);
 }
 
 }  // namespace
