@@ -104,7 +104,7 @@ void Driver::fail(const SystemState& state, double h,
 
 void Driver::inspect(const SystemState& state) {
   const double stored = calc_energy(model_, state, terms_).total();
-  if (!watch_.is_blown_up(stored)) return;
+  if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) return;
   const bool is_early = statistics_.steps <= kStepsBetweenLooks;
   fail(state, h_,
        fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "

@@ -29,7 +29,7 @@ struct Answer {
 
 Answer solve(const MatrixX& M, const MatrixX& K, const VectorX& tip) {
   const VectorX answer = K.ldlt().solve(tip);
-  return {tip.dot(answer), testing::find_eigenvalues(K, M)[0]};
+  return {tip.dot(answer), limber::testing::find_eigenvalues(K, M)[0]};
 }
 
 /// Rigid velocities at a point p_B: [I, -skew(p)] over [0, I].

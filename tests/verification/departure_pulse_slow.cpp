@@ -51,7 +51,7 @@ class SmoothPulse : public ::testing::TestWithParam<bool> {
     load_ = body_.interfaces[0].motion.spread(wrench);
     const flexbody::Support& support = body_.support;
     force_ = flexbody::take_rows(load_, support.free_nodes);
-    const testing::Eigenpairs pairs = testing::find_eigenpairs(
+    const limber::testing::Eigenpairs pairs = limber::testing::find_eigenpairs(
         MatrixX(support.matrices.K), dense_mass(support.matrices.M_s));
     const Eigen::Index elastic = force_.size() - support.R.cols();
     all_ = {pairs.values.tail(elastic), pairs.vectors.rightCols(elastic)};

@@ -88,7 +88,8 @@ TEST(LoadModes, AreTheLargestOfManyAndTheRestIsTold) {
   // Best in the norm of elastic energy: the singular values of L^-1 F.
   const MeshedBody meshed(recipe, {});
   const MatrixX C = F.transpose() * meshed.inverse.solve(F);
-  const VectorX energy = testing::find_eigenvalues(0.5 * (C + C.transpose()));
+  const VectorX energy =
+      limber::testing::find_eigenvalues(0.5 * (C + C.transpose()));
   const double expected =
       std::sqrt(energy.head(kColumns - 12).sum() / energy.sum());
   EXPECT_NEAR(record.left_out, expected, 1e-6 * expected);

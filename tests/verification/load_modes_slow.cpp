@@ -178,7 +178,8 @@ TEST(LoadModes, CannotNorCanAnyBasisOfSixteenVectorsForLoadsThatJump) {
     const MatrixX eta = respond(all_modes(), load, 0.0);
     const MatrixX thinned = eta(Eigen::all, Eigen::seq(0, 10000, 10));
     const MatrixX u = all_modes().Phi * thinned;
-    const VectorX squares = testing::find_eigenvalues(u.transpose() * u);
+    const VectorX squares =
+        limber::testing::find_eigenvalues(u.transpose() * u);
     const double left = squares.head(squares.size() - kVectors).sum();
     EXPECT_GT(std::sqrt(left / squares.sum()), kGoal) << load.name;
   }

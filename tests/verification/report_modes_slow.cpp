@@ -49,8 +49,8 @@ MatrixX dense_mass(const fem::SparseMatrix& M_s) {
 
 void solve_all(ShearTest& shear) {
   const MatrixX K(shear.matrices.K);
-  const testing::Eigenpairs pairs =
-      testing::find_eigenpairs(K, dense_mass(shear.matrices.M_s));
+  const limber::testing::Eigenpairs pairs =
+      limber::testing::find_eigenpairs(K, dense_mass(shear.matrices.M_s));
   shear.lambda = pairs.values;
   shear.Phi = pairs.vectors;
 }

@@ -14,6 +14,7 @@
 #include "dynamics/work_budget.hpp"
 #include "support/chain.hpp"
 #include "support/eigenpairs.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -211,6 +212,18 @@ TEST(EnergyWatch, SeesGrowthWithoutASourceAtTheSecondLook) {
   EXPECT_FALSE(watch.is_blown_up(20.0));
   EXPECT_FALSE(watch.is_blown_up(19.0));  // it falls again
   EXPECT_TRUE(watch.is_blown_up(30.0));
+}
+
+TEST(EnergyWatch, SeesWhatIsStillTooMuchAtTheEndThoughItFalls) {
+  EnergyWatch watch(1.0);
+  EXPECT_FALSE(watch.is_blown_up(200.0));
+  EXPECT_FALSE(watch.is_blown_up(199.0));
+  EXPECT_TRUE(watch.is_blown_up(198.0, true));
+  EnergyWatch calmed(1.0);
+  EXPECT_FALSE(calmed.is_blown_up(200.0));
+  EXPECT_FALSE(calmed.is_blown_up(2.0, true));
+  // A first step from rest, whose work is not yet counted.
+  EXPECT_FALSE(EnergyWatch(0.0).is_blown_up(5.0, true));
 }
 
 TEST(EnergyWatch, SeesWhatIsNoNumberAndWhatIsFarOffAtOnce) {

@@ -80,7 +80,7 @@ TEST_P(FreeAndClamped, EigenmodesAreThoseOfADenseSolver) {
   const ElasticInverse inverse = body_.inverse();
   const Eigen::Index dofs = body_.matrices.dof_count();
   ASSERT_GT(dofs, 600);
-  const VectorX dense = testing::find_eigenvalues(
+  const VectorX dense = limber::testing::find_eigenvalues(
       full_stiffness(body_.matrices.K), full_mass(body_.matrices.M_s));
   const Eigen::Index rigid = inverse.rigid_count();
   for (const int count : {1, 20, static_cast<int>((dofs - rigid) / 3)}) {

@@ -81,7 +81,7 @@ class SpunBox : public ::testing::TestWithParam<bool> {
 
   /// Of K x = Omega^2 M E x, densely.
   [[nodiscard]] double dense_critical_speed() const {
-    const VectorX values = testing::find_eigenvalues(ME_, K_);
+    const VectorX values = limber::testing::find_eigenvalues(ME_, K_);
     return 1.0 / std::sqrt(values[ME_.cols() - 1]);
   }
 };

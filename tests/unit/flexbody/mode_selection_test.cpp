@@ -69,7 +69,8 @@ Structure make_structure(unsigned seed, bool is_free) {
                       r * (r.transpose() * Mr).inverse() * Mr.transpose();
     s.K = MatrixX(P.transpose() * s.K * P);
   }
-  const testing::Eigenpairs pairs = testing::find_eigenpairs(s.K, s.M);
+  const limber::testing::Eigenpairs pairs =
+      limber::testing::find_eigenpairs(s.K, s.M);
   const Eigen::Index elastic = s.K.cols() - (is_free ? 6 : 0);
   s.lambda = pairs.values.tail(elastic);
   s.Phi = pairs.vectors.rightCols(elastic);

@@ -28,7 +28,8 @@ struct DenseBar {
       : body(make_recipe(bar), {}),
         K(testing::dense_stiffness(body)),
         M(testing::kron(body.support.matrices.M_s, Matrix3::Identity())) {
-    const testing::Eigenpairs modes = testing::find_eigenpairs(K, M);
+    const limber::testing::Eigenpairs modes =
+        limber::testing::find_eigenpairs(K, M);
     const Eigen::Index rigid = body.support.R.cols();
     first_frequency = std::sqrt(modes.values[rigid]);
     Phi = modes.vectors.rightCols(K.cols() - rigid);
