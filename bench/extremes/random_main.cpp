@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "isolated.hpp"
 #include "refusals.hpp"
@@ -20,8 +22,28 @@ using Kind = RandomOutcome::Kind;
 
 std::string run_seed(unsigned seed) {
   const RandomOutcome outcome = testing::run_random_scene(seed);
-  return fmt::format("{} {} {}", static_cast<int>(outcome.kind), outcome.steps,
+  const dynamics::SimulationStatistics& cost = outcome.statistics;
+  return fmt::format("{} {} {} {} {}", static_cast<int>(outcome.kind),
+                     cost.steps, cost.halved_steps, cost.linear_solves,
                      outcome.text);
+}
+
+// What run_seed answered.
+struct Answer {
+  int kind = 0;
+  long steps = 0;
+  long halved = 0;
+  long solves = 0;
+  std::string text;
+};
+
+Answer read_answer(const std::string& line) {
+  Answer answer;
+  std::istringstream words(line);
+  words >> answer.kind >> answer.steps >> answer.halved >> answer.solves;
+  words.ignore();
+  std::getline(words, answer.text, '\0');
+  return answer;
 }
 
 struct Tally {
@@ -41,11 +63,10 @@ void count(const Ending& ending, unsigned seed, Tally& tally) {
                     ending.kind == Ending::Kind::hung ? "hung" : "crashed"));
     return;
   }
-  const auto first = ending.answer.find(' ');
-  const auto second = ending.answer.find(' ', first + 1);
-  const std::string text = ending.answer.substr(second + 1);
-  tally.steps += std::stod(ending.answer.substr(first + 1, second - first - 1));
-  switch (static_cast<Kind>(std::stoi(ending.answer.substr(0, first)))) {
+  const Answer answer = read_answer(ending.answer);
+  const std::string& text = answer.text;
+  tally.steps += static_cast<double>(answer.steps);
+  switch (static_cast<Kind>(answer.kind)) {
     case Kind::finished:
       ++tally.finished;
       break;
@@ -77,20 +98,46 @@ void print(Tally tally) {
   for (const std::string& text : tally.failures) fmt::print("{}\n", text);
 }
 
-int run(unsigned first, unsigned number, double limit) {
+// A line a scene, for a look at single ones.
+void write_list(const std::string& path, const std::vector<unsigned>& seeds,
+                const std::vector<Ending>& endings) {
+  static const char* const kEndings[] = {"finished", "refused", "failed"};
+  std::ofstream list(path);
+  list << "seed\tseconds\tending\tsteps\thalved\tsolves\ttext\n";
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const Ending& ending = endings[i];
+    if (ending.kind != Ending::Kind::done) {
+      list << fmt::format(
+          "{}\t{:.2f}\t{}\t\t\t\t\n", seeds[i], ending.seconds,
+          ending.kind == Ending::Kind::hung ? "hung" : "crashed");
+      continue;
+    }
+    const Answer answer = read_answer(ending.answer);
+    list << fmt::format("{}\t{:.2f}\t{}\t{}\t{}\t{}\t{}\n", seeds[i],
+                        ending.seconds, kEndings[answer.kind], answer.steps,
+                        answer.halved, answer.solves, answer.text);
+  }
+}
+
+int run(const std::vector<unsigned>& seeds, double limit,
+        const std::string& list) {
   Tally tally;
   std::vector<std::function<std::string()>> work;
-  for (unsigned i = 0; i < number; ++i) {
-    work.emplace_back([seed = first + i] { return run_seed(seed); });
+  work.reserve(seeds.size());
+  for (const unsigned seed : seeds) {
+    work.emplace_back([seed] { return run_seed(seed); });
   }
   const bool shows = isatty(STDERR_FILENO) == 1;
   const auto endings = do_isolated(work, limit, 2, [&](std::size_t done) {
     if (shows && done % 100 == 0) {
-      fmt::print(stderr, "\r{} of {} scenes", done, number);
+      fmt::print(stderr, "\r{} of {} scenes", done, seeds.size());
     }
   });
   if (shows) fmt::print(stderr, "\n");
-  for (unsigned i = 0; i < number; ++i) count(endings[i], first + i, tally);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    count(endings[i], seeds[i], tally);
+  }
+  if (!list.empty()) write_list(list, seeds, endings);
   print(tally);
   return tally.failures.empty() ? 0 : 1;
 }
@@ -105,7 +152,15 @@ int main(int argc, char** argv) {
   double limit = 60.0;
   app.add_option("--first", first, "First seed");
   app.add_option("--number", number, "How many");
-  app.add_option("--limit", limit, "Wall time for each [s]");
+  std::vector<unsigned> seeds;
+  std::string list;
+  app.add_option("--seeds", seeds, "These, in place of a row of them")
+      ->delimiter(',');
+  app.add_option("--limit", limit, "Processor time for each [s]");
+  app.add_option("--list", list, "File to tell of each scene in (TSV)");
   CLI11_PARSE(app, argc, argv);
-  return limber::bench::run(first, number, limit);
+  for (unsigned i = 0; seeds.size() < number && !app.count("--seeds"); ++i) {
+    seeds.push_back(first + i);
+  }
+  return limber::bench::run(seeds, limit, list);
 }

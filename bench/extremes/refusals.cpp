@@ -7,7 +7,8 @@ namespace limber::bench {
 
 std::string find_kind(const std::string& text) {
   static const std::regex names("(^|[ (])'[^']*'");
-  static const std::regex numbers("[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?");
+  static const std::regex numbers(
+      "[-+]?([0-9][0-9.]*(e[-+]?[0-9]+)?|inf\\b|nan\\b)");
   static const std::regex breaks("\n");
   std::string kind = std::regex_replace(text, names, "$1");
   kind = std::regex_replace(kind, numbers, "");

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "flexbody/recipe.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace limber::app {
 

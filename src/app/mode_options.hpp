@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "app/json.hpp"
 #include "flexbody/recipe.hpp"
 #include "flexbody/selection_record.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace limber::app {
 

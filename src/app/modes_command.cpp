@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -82,7 +83,7 @@ void add_modes(CLI::App& app, Action& action) {
                       "Force file whose columns are load cases; may be given "
                       "again");
   command->add_option("--count", options->count, "Number of elastic modes")
-      ->check(CLI::NonNegativeNumber);
+      ->check(make_not_negative());
   command
       ->add_option("--static", options->static_terms,
                    "The whole basis instead: these eigenmodes and the "

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
 #include "app/commands.hpp"
 #include "app/run_scene.hpp"
+#include "app/validators.hpp"
 #include "dynamics/fidelity.hpp"
 
 namespace limber::app {
@@ -66,7 +68,7 @@ void add_run(CLI::App& app, Action& action) {
   command
       ->add_option("--checkpoint-interval", options->checkpoint_interval,
                    "Wall time between checkpoints [s] (default: 60)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(make_not_negative());
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
   command->callback(

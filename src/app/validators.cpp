@@ -7,14 +7,26 @@
 
 namespace limber::app {
 
-CLI::Validator make_positive() {
-  const auto check = [](std::string& text) -> std::string {
+namespace {
+
+CLI::Validator make_range(bool with_zero, const std::string& expected,
+                          const std::string& name) {
+  const auto check = [=](std::string& text) -> std::string {
     double value = 0.0;
     const bool is_number = CLI::detail::lexical_cast(text, value);
-    if (is_number && std::isfinite(value) && value > 0.0) return {};
-    return fmt::format("is {}; expected a number > 0", text);
+    const bool is_within = value > 0.0 || (with_zero && value == 0.0);
+    if (is_number && std::isfinite(value) && is_within) return {};
+    return fmt::format("is {}; expected a number {}", text, expected);
   };
-  return {check, "POSITIVE"};
+  return {check, name};
+}
+
+}  // namespace
+
+CLI::Validator make_positive() { return make_range(false, "> 0", "POSITIVE"); }
+
+CLI::Validator make_not_negative() {
+  return make_range(true, ">= 0", "NOT NEGATIVE");
 }
 
 }  // namespace limber::app

@@ -15,9 +15,6 @@ namespace limber::dynamics {
 namespace {
 
 constexpr int kMostHalvings = 10;
-// Shares of halved steps, at most: so many a step, and some more.
-constexpr long kMostShares = 10;
-constexpr long kFreeShares = 1000;
 constexpr double kSame = 1e-9;  // of a step: where it ends
 constexpr long kStepsBetweenProgress = 64;
 constexpr long kStepsBetweenLooks = 32;         // at the energy
@@ -61,6 +58,7 @@ Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
       marcher_(model, settings, statistics.events),
       control_(settings.tolerance, settings.end_time - state.t, settings.step,
                refinement),
+      budget_(model.bodies.size()),
       terms_(make_terms(model)),
       within_(state),
       kept_(Clock::now()) {}
@@ -71,13 +69,14 @@ Losses Driver::losses() const {
 
 void Driver::exchange_memory(Archive& archive, SystemState& state) {
   archive(state, has_started_, mark_, part_, parts_, origin_, h_, at_jump_,
-          depth_, shares_, output_);
+          depth_, shares_, trouble_, clash_, output_);
   marcher_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   watch_.exchange_memory(archive);
   archive(statistics_.steps, statistics_.rejected_steps,
           statistics_.halved_steps, statistics_.newton_iterations,
-          statistics_.factorizations, statistics_.events);
+          statistics_.factorizations, statistics_.linear_solves,
+          statistics_.events);
 }
 
 void Driver::resume(const Checkpoint& checkpoint, SystemState& state) {
@@ -105,13 +104,17 @@ void Driver::fail(const SystemState& state, double h,
 
 void Driver::inspect(const SystemState& state) {
   const double stored = calc_energy(model_, state, terms_).total();
-  if (!watch_.is_blown_up(stored)) return;
+  if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) return;
+  const bool is_early = statistics_.steps <= kStepsBetweenLooks;
   fail(state, h_,
        fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
                    "most in {}, where the start and the loads account for "
-                   "{:.3g} J",
+                   "{:.3g} J; {}",
                    state.t, stored, find_most_energy(model_, state),
-                   watch_.supplied()));
+                   watch_.supplied(),
+                   is_early && !clash_.empty()
+                       ? clash_
+                       : "a smaller step or implicit-euler may help"));
 }
 
 void Driver::count_step(const StepResult& since) {
@@ -130,17 +133,38 @@ void Driver::halve(const SystemState& state, double h, const std::string& why) {
                    why, state.t, h, kMostHalvings));
 }
 
+// What made steps hard: the last failure, or where the energy is.
+std::string Driver::describe_trouble(const SystemState& state) const {
+  if (!trouble_.empty()) return "the last that failed: " + trouble_;
+  return "most energy is in " + find_most_energy(model_, state);
+}
+
+void Driver::check_budget(const SystemState& state, double h) const {
+  const long steps = statistics_.steps + statistics_.rejected_steps;
+  if (budget_.allows_solves(statistics_.linear_solves, steps)) return;
+  fail(state, h,
+       fmt::format("at t = {:.9g} s: {} steps have taken {} linear solves, "
+                   "where 2 or 3 each are usual, and {} halvings; ask for "
+                   "shorter steps; {}",
+                   state.t, steps, statistics_.linear_solves,
+                   statistics_.halved_steps, describe_trouble(state)));
+}
+
 // Does a step's work; if it fails, steps are halved.
 template <typename Work>
 bool Driver::goes_through(const SystemState& state, double h,
                           const Work& work) {
+  check_budget(state, h);
+  bool fails = false;
   try {
     work();
-    return true;
   } catch (const NumericalError& error) {
-    halve(state, h, error.what());
-    return false;
+    fails = true;
+    trouble_ = error.what();
   }
+  statistics_.linear_solves += marcher_.take_solves();
+  if (fails) halve(state, h, trouble_);
+  return !fails;
 }
 
 // The steps to the next landmark.
@@ -156,7 +180,9 @@ void Driver::enter_mark(SystemState& state) {
   try {
     if (!has_started_) {
       marcher_.start(state, h_);
-      watch_ = EnergyWatch(calc_energy(model_, state, terms_).total());
+      const double stored = calc_energy(model_, state, terms_).total();
+      watch_ = EnergyWatch(stored);
+      clash_ = find_start_clash(model_, terms_, stored, h_);
     }
     if (at_jump_) marcher_.cross_jump(state, h_);
   } catch (const NumericalError& error) {
@@ -170,12 +196,13 @@ void Driver::enter_mark(SystemState& state) {
 // A run that is halved on and on takes a thousand times as long as was asked
 // for.
 void Driver::count_share(const SystemState& state) {
-  if (++shares_ <= kFreeShares + kMostShares * statistics_.steps) return;
+  if (budget_.allows_shares(++shares_, statistics_.steps)) return;
   fail(state, std::ldexp(h_, -depth_),
        fmt::format("at t = {:.9g} s: steps of {:.3g} s go through only when "
                    "they are halved again and again, {} times by now; ask for "
-                   "shorter steps or for a tolerance",
-                   state.t, h_, statistics_.halved_steps));
+                   "shorter steps or for a tolerance; {}",
+                   state.t, h_, statistics_.halved_steps,
+                   describe_trouble(state)));
 }
 
 // One of equal steps, in parts where something happens or it must be halved.
@@ -205,6 +232,14 @@ void Driver::take_planned_step(SystemState& state) {
 
 // As long a step as the tolerance allows; whether it counts.
 bool Driver::take_free_step(SystemState& state, const Visit& visit) {
+  if (statistics_.steps + statistics_.rejected_steps >= settings_.most_steps) {
+    fail(
+        state, h_,
+        fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
+                    "steps than most_steps allows, {:.3g} s long by now; ask "
+                    "for a larger tolerance, a shorter time or more steps; {}",
+                    state.t, settings_.tolerance, h_, describe_trouble(state)));
+  }
   const double mark = marks_[mark_].time;
   const StepResult before = marcher_.totals();
   const Losses losses_before = losses();

@@ -11,6 +11,7 @@
 #include "dynamics/landmarks.hpp"
 #include "dynamics/marcher.hpp"
 #include "dynamics/step_control.hpp"
+#include "dynamics/work_budget.hpp"
 
 namespace limber::dynamics {
 
@@ -58,6 +59,7 @@ class Driver {
   bool goes_through(const SystemState& state, double h, const Work& work);
   void halve(const SystemState& state, double h, const std::string& why);
   void count_share(const SystemState& state);
+  void check_budget(const SystemState& state, double h) const;
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
   void count_step(const StepResult& since);
@@ -66,6 +68,7 @@ class Driver {
   void exchange_memory(Archive& archive, SystemState& state);
   [[noreturn]] void fail(const SystemState& state, double h,
                          const std::string& what) const;
+  [[nodiscard]] std::string describe_trouble(const SystemState& state) const;
   [[nodiscard]] bool is_adaptive() const { return settings_.tolerance > 0.0; }
   [[nodiscard]] Losses losses() const;
 
@@ -80,6 +83,7 @@ class Driver {
   Marcher marcher_;
   StepControl control_;
   EnergyWatch watch_;
+  WorkBudget budget_;
   SystemTerms terms_;  // of the energy
   SystemState within_;
 
@@ -93,6 +97,8 @@ class Driver {
   bool at_jump_ = false;    // there, a load jumped
   int depth_ = 0;           // how often steps are halved now
   long shares_ = 0;         // of halved steps, so far
+  std::string trouble_;     // why the last step was halved
+  std::string clash_;       // of velocities at the start
   std::size_t output_ = 0;  // next of outputs_
   Clock::time_point kept_;  // when the last checkpoint was
 };

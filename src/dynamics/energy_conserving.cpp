@@ -239,6 +239,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   bool needs_factors = !(std::abs(h - factored_step_) <= 1e-9 * h);
   StepResult result;
   double last = 0.0;
+  Size correction;
   const auto fail = [&](const Size& size, const char* what) {
     factored_step_ = 0.0;
     has_wrenches_ = false;
@@ -251,13 +252,17 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   while (true) {
     calc_residual(state, h);
     if (needs_factors) {
-      factor();
+      try {
+        factor();
+      } catch (const NumericalError&) {
+        fail(correction, "Newton's method diverged");
+      }
       ++result.factorizations;
       factored_step_ = h;
       needs_factors = false;
     }
     matrix_.solve(model_, mean_, residual_, x_);
-    const Size correction = measure_increments();
+    correction = measure_increments();
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
       fail(correction, "its motion is no longer finite");

@@ -53,6 +53,9 @@ class EnergyConserving {
     has_wrenches_ = false;
   }
 
+  /// Linear solves since this was asked last, of failed steps, too.
+  [[nodiscard]] long take_solves() { return matrix_.take_solves(); }
+
   /// At about the last step's end.
   [[nodiscard]] const SystemTerms& terms() const { return end_; }
 

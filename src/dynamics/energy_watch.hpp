@@ -8,8 +8,9 @@ namespace limber::dynamics {
 
 /// Tells a run that blows up, long before its numbers overflow.
 ///
-/// Equation   stored energy > 10 (energy at the start + sum |work of a step|),
-///            and growing, at two looks in a row; or > 1000 times at one.
+/// Equation   stored energy > 10 (energy at the start + sum |work of a step|)
+///            at two looks in a row, and growing or at the end of the run; or
+///            > 1000 times at one.
 ///            (A scheme that takes its work from a step's start has none in its
 ///            first step from rest.)
 /// Limits     An integrator that gains less is not stopped: the energy audit of
@@ -22,12 +23,14 @@ class EnergyWatch {
 
   /// After every step. @param work of loads, gravity and drives [J]
   void add(double work) { supplied_ += work < 0.0 ? -work : work; }
-  /// @param stored energy now [J]
+  /// @param stored energy now [J] @param is_end whether the run ends here
   /// @returns whether it can only be an artefact
-  [[nodiscard]] bool is_blown_up(double stored) {
+  [[nodiscard]] bool is_blown_up(double stored, bool is_end = false) {
     const bool is_too_much = !(stored <= kFactor * supplied_ + kLeast);
     const bool is_far_off = supplied_ > 0.0 && stored > kFarFactor * supplied_;
-    const bool is_blown = is_too_much && (is_far_off || !(stored <= last_));
+    const bool was_too_much = last_ < kNone;
+    const bool is_blown = is_too_much && (is_far_off || !(stored <= last_) ||
+                                          (is_end && was_too_much));
     last_ = is_too_much ? stored : kNone;
     return is_blown;
   }

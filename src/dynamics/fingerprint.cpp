@@ -19,6 +19,7 @@ void add_settings(const SimulationSettings& settings, Digest& digest) {
     digest.add(change.step);
   }
   digest.add(settings.output_times);
+  digest.add(settings.most_steps);
   digest.add(settings.rho_inf);
   digest.add(settings.newton_tolerance);
   digest.add(settings.newton_iterations);

@@ -68,6 +68,9 @@ class GeneralizedAlpha {
   /// those.
   void exchange_memory(Archive& archive, const SystemState& state);
 
+  /// Linear solves since this was asked last, of failed steps, too.
+  [[nodiscard]] long take_solves() { return matrix_.take_solves(); }
+
   /// At the last evaluation of the last step.
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }
 

@@ -48,6 +48,9 @@ class Marcher {
   /// Of all steps so far.
   [[nodiscard]] const StepResult& totals() const { return totals_; }
 
+  /// Linear solves since this was asked last, of failed steps, too.
+  [[nodiscard]] long take_solves() { return stepper_.take_solves(); }
+
   /// Drops what it could keep to be faster: what follows depends on the state
   /// and on `exchange_memory` alone.
   void refresh() { stepper_.refresh(); }

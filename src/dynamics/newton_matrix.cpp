@@ -56,6 +56,19 @@ Matrix6 find_stiffness(const SystemTerms& terms, std::size_t link,
 // Of a block's largest row: a smaller one is round-off of the stiffness.
 constexpr double kFree = 64.0 * std::numeric_limits<double>::epsilon();
 
+// Q of a QR decomposition, reflection by reflection: householderQ() would
+// compile a product by blocks, for seconds, that so small a matrix never takes.
+Matrix3 multiply_reflections(const Eigen::Matrix<double, 3, 6>& qr,
+                             const Vector3& scale) {
+  Matrix3 Q = Matrix3::Identity();
+  for (int k = 0; k < 3; ++k) {
+    Vector3 v = Vector3::Unit(k);
+    for (int i = k + 1; i < 3; ++i) v[i] = qr(i, k);
+    Q -= scale[k] * (Q * v) * v.transpose();
+  }
+  return Q;
+}
+
 // Turns K's rows, forces and moments apart, to where those of directions that
 // are free vanish. Left among the rows of held ones, what a free direction says
 // would be lost in their round-off, and elimination would spread it.
@@ -65,7 +78,7 @@ Matrix6 separate_free_rows(Matrix6& K) {
   for (const int first : {0, 3}) {
     const Eigen::Matrix<double, 3, 6> rows = K.middleRows<3>(first);
     const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 6>> qr(rows);
-    const Matrix3 Q = qr.householderQ();
+    const Matrix3 Q = multiply_reflections(qr.matrixQR(), qr.hCoeffs());
     turn.block<3, 3>(first, first) = Q.transpose();
     K.middleRows<3>(first) = Q.transpose() * rows;
     const double noise = kFree * rows.cwiseAbs().maxCoeff();
@@ -378,6 +391,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
                          const VectorX& residual,
                          const std::vector<Vector6>& gaps,
                          VectorX& increments) {
+  ++solves_;
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "dynamics/block_lu.hpp"
@@ -67,6 +68,9 @@ class NewtonMatrix {
   void solve(const SystemModel& model, const SystemTerms& terms,
              const VectorX& residual, const std::vector<Vector6>& gaps,
              VectorX& increments);
+
+  /// How many solves there were since this was asked last.
+  [[nodiscard]] long take_solves() { return std::exchange(solves_, 0); }
 
   /// The law's wrench less the one that acts: s of the equation.
   [[nodiscard]] static Vector6 find_gap(const SystemTerms& terms,
@@ -146,6 +150,7 @@ class NewtonMatrix {
   std::vector<Vector6> wrenches_;
   std::vector<Vector6> gaps_;
   BlockLu lu_;
+  long solves_ = 0;
 };
 
 }  // namespace limber::dynamics

@@ -68,6 +68,7 @@ void add_costs(const SimulationStatistics& pass,
   statistics.halved_steps += pass.halved_steps;
   statistics.newton_iterations += pass.newton_iterations;
   statistics.factorizations += pass.factorizations;
+  statistics.linear_solves += pass.linear_solves;
 }
 
 class Passes {
@@ -105,6 +106,9 @@ class Passes {
   void run_pass(SystemState& state) {
     SimulationSettings settings = settings_;
     settings.tolerance = course_.allowed;
+    settings.most_steps = std::max(
+        settings_.most_steps - statistics_.steps - statistics_.rejected_steps,
+        1L);
     const Observer observer = [this](const SystemState& at,
                                      const EnergyBalance& balance) {
       course_.now.states.push_back(at);
@@ -166,7 +170,7 @@ class Passes {
     std::vector<double> numbers = inner.numbers;
     archive(numbers, course_, statistics_.steps, statistics_.rejected_steps,
             statistics_.halved_steps, statistics_.newton_iterations,
-            statistics_.factorizations);
+            statistics_.factorizations, statistics_.linear_solves);
     return {inner.time, archive.numbers()};
   }
 
@@ -176,7 +180,8 @@ class Passes {
     inner_->time = checkpoint.time;
     archive(inner_->numbers, course_, statistics_.steps,
             statistics_.rejected_steps, statistics_.halved_steps,
-            statistics_.newton_iterations, statistics_.factorizations);
+            statistics_.newton_iterations, statistics_.factorizations,
+            statistics_.linear_solves);
   }
 
   const SystemModel& model_;

@@ -56,6 +56,9 @@ void check_settings(const SystemModel& model, const SystemState& state,
         "only generalized-alpha takes steps to a tolerance; give a step "
         "instead, or no integrator");
   }
+  if (settings.most_steps < 1) {
+    refuse(fmt::format("most_steps is {}; expected >= 1", settings.most_steps));
+  }
   if (!(settings.rho_inf >= 0.0) || !(settings.rho_inf <= 1.0)) {
     refuse(fmt::format("rho_inf is {:g}; expected 0 to 1", settings.rho_inf));
   }

@@ -46,6 +46,8 @@ struct SimulationSettings {
   /// from where it should be than this at any output time; 0: steps of `step`
   /// [m]. By generalized_alpha alone.
   double tolerance = 0.0;
+  /// To a tolerance, at most, over all passes; those taken again count, too.
+  long most_steps = 5'000'000;
   std::vector<StepChange> step_changes = {};  ///< at increasing times
   std::vector<double> output_times = {};  ///< increasing, in [start, end] [s]
   double rho_inf = 0.9;                   ///< spectral radius at infinity [0,1]
@@ -65,9 +67,10 @@ struct SimulationStatistics {
   double estimated_error = 0.0;
   long newton_iterations = 0;
   long factorizations = 0;
-  int exact_modes = 0;        ///< modes answered in closed form
-  double stable_step = 0.0;   ///< of central differences, if found [s]
-  double seconds = 0.0;       ///< wall time of the stepping [s]
+  long linear_solves = 0;    ///< of implicit schemes, in steps that failed, too
+  int exact_modes = 0;       ///< modes answered in closed form
+  double stable_step = 0.0;  ///< of central differences, if found [s]
+  double seconds = 0.0;      ///< wall time of the stepping [s]
   std::vector<Event> events;  ///< in the order of time
   std::vector<std::string> warnings;
 };

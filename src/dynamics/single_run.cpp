@@ -30,9 +30,10 @@ SimulationSettings limit_step(const SystemModel& model,
   if (asked.step > kMostParts * longest) {
     throw InputError(fmt::format(
         "central-differences is stable up to {:.3g} s here, {:.3g} times less "
-        "than the step of {:.3g} s; ask for a step near that, or take an "
-        "implicit integrator",
-        longest, asked.step / longest, asked.step));
+        "than the step of {:.3g} s, because of body '{}' and what holds it; "
+        "ask for a step near that, or take an implicit integrator",
+        longest, asked.step / longest, asked.step,
+        model.bodies[find_fastest_body(model, state)].name));
   }
   settings.step = std::min(asked.step, longest);
   for (StepChange& change : settings.step_changes) {

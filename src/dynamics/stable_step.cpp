@@ -97,6 +97,29 @@ class Iteration {
     return eigenvalue;
   }
 
+  // Of the last eigenvector: who has most of it.
+  std::size_t find_largest_body() {
+    double most = -1.0;
+    std::size_t largest = 0;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyModel& body = model_.bodies[b];
+      double share = body.mass * x_.a_WB_W[b].squaredNorm() +
+                     body.J0.trace() / 3.0 * x_.dw_WB_B[b].squaredNorm() +
+                     x_.etaddot.segment(body.offset, body.modes).squaredNorm();
+      if (body.full >= 0) {
+        const FullModel& full =
+            model_.full_bodies[static_cast<std::size_t>(body.full)];
+        share += full.mesh->node_mass.sum() *
+                 x_.uddot_H.segment(full.first, full.dofs()).squaredNorm() /
+                 static_cast<double>(full.dofs());
+      }
+      if (!(share > most)) continue;
+      most = share;
+      largest = b;
+    }
+    return largest;
+  }
+
  private:
   // x <- -(a(state + e x) - a(state)) / e
   void apply(bool of_velocity) {
@@ -147,6 +170,13 @@ double find_stable_step(const SystemModel& model, const SystemState& state) {
   const double c = iteration.find_largest(true);
   const double rate = c + std::sqrt(c * c + omega_squared);
   return rate > 0.0 ? 2.0 / rate : std::numeric_limits<double>::infinity();
+}
+
+std::size_t find_fastest_body(const SystemModel& model,
+                              const SystemState& state) {
+  Iteration iteration(model, state);
+  iteration.find_largest(false);
+  return iteration.find_largest_body();
 }
 
 }  // namespace limber::dynamics

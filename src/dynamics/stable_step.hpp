@@ -20,6 +20,11 @@ namespace limber::dynamics {
 [[nodiscard]] double find_stable_step(const SystemModel& model,
                                       const SystemState& state);
 
+/// The body that moves most in the fastest vibration about `state`, the one
+/// that bounds the step.
+[[nodiscard]] std::size_t find_fastest_body(const SystemModel& model,
+                                            const SystemState& state);
+
 /// The share of it that simulate() takes.
 inline constexpr double kStableShare = 0.95;
 

@@ -44,6 +44,14 @@ class Stepper {
       central->start(before);
     }
   }
+  /// Linear solves since this was asked last, of failed steps, too.
+  [[nodiscard]] long take_solves() {
+    if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) {
+      return alpha->take_solves();
+    }
+    auto* conserving = std::get_if<EnergyConserving>(&scheme_);
+    return conserving != nullptr ? conserving->take_solves() : 0;
+  }
   /// Drops what it could keep to be faster.
   void refresh() {
     if (auto* alpha = std::get_if<GeneralizedAlpha>(&scheme_)) alpha->refresh();

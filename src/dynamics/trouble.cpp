@@ -76,6 +76,25 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
   return describe_turn(model, state, h);
 }
 
+std::string find_start_clash(const SystemModel& model, const SystemTerms& terms,
+                             double stored, double h) {
+  constexpr double kMuch = 10.0;
+  double most = 0.0;
+  std::size_t coupler = 0;
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const double power = terms.couplers[c].response.dissipation;
+    if (power <= most) continue;
+    most = power;
+    coupler = c;
+  }
+  if (!(h * most > kMuch * stored)) return {};
+  return fmt::format(
+      "bodies start with velocities that coupler '{}' does not allow: its "
+      "damper takes {:.3g} W at the start, where {:.3g} J are stored; let them "
+      "start with velocities that fit, or with less damping there",
+      model.couplers[coupler].name, most, stored);
+}
+
 std::string find_most_energy(const SystemModel& model,
                              const SystemState& state) {
   SystemTerms terms = make_terms(model);

@@ -24,7 +24,7 @@ void exchange(Archive& archive, History& history) {
 namespace {
 
 const std::string kFormat = "limber checkpoint";
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kVersion = 2;
 
 MatrixX to_column(const std::vector<double>& numbers) {
   return Eigen::Map<const VectorX>(numbers.data(), std::ssize(numbers));
@@ -65,9 +65,14 @@ void write_checkpoint(const std::filesystem::path& file,
   });
 }
 
+bool is_checkpoint_file(const std::filesystem::path& file) {
+  const Hdf5File in = Hdf5File::open(file);
+  return in.has("format") && in.read_text("format") == kFormat;
+}
+
 CheckpointRecord read_checkpoint(const std::filesystem::path& file) {
   const Hdf5File in = Hdf5File::open(file);
-  if (!in.has("format") || in.read_text("format") != kFormat) {
+  if (!is_checkpoint_file(file)) {
     throw InputError(
         fmt::format("'{}' is no checkpoint of a run", file.string()));
   }

@@ -21,6 +21,9 @@ struct CheckpointRecord {
 void write_checkpoint(const std::filesystem::path& file,
                       const CheckpointRecord& record);
 
+/// Whether it is one, whole or damaged. @throws InputError if it is not HDF5.
+[[nodiscard]] bool is_checkpoint_file(const std::filesystem::path& file);
+
 /// @throws InputError if the file is no checkpoint, is damaged or is of another
 /// version of the layout.
 [[nodiscard]] CheckpointRecord read_checkpoint(

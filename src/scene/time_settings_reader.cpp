@@ -97,7 +97,7 @@ std::vector<double> read_output_times(
 void read_steps(TomlTable& table, dynamics::SimulationSettings& settings) {
   const toml::table* steps = table.table("steps");
   settings.tolerance = table.number("tolerance", kPositive).value_or(0.0);
-  if (steps == nullptr && settings.tolerance > 0.0) {
+  if (steps == nullptr && table.has("tolerance")) {
     settings.step = table.number("step", kPositive).value_or(settings.end_time);
     return;
   }
@@ -145,6 +145,8 @@ dynamics::SimulationSettings read_time_settings(TomlTable& table) {
           .value_or(settings.newton_tolerance);
   settings.newton_iterations = table.integer("newton_iterations", 1, 10000)
                                    .value_or(settings.newton_iterations);
+  settings.most_steps = table.integer("most_steps", 1, 1'000'000'000)
+                            .value_or(settings.most_steps);
   settings.exact_modes =
       table.boolean("exact_modes").value_or(settings.exact_modes);
   settings.output_times = read_output_times(table, settings);

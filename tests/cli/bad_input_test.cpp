@@ -352,6 +352,11 @@ TEST(BadInput, UnknownLevelOfFidelity) {
   expect_scene_refused({}, "did you mean 'rigid'", "--fidelity rigd");
 }
 
+TEST(BadInput, CheckpointIntervalBelowZero) {
+  expect_scene_refused({}, "is -1; expected a number >= 0",
+                       "--checkpoint-interval -1");
+}
+
 TEST(BadInput, UnknownSubcommand) {
   const Workspace place;
   expect_refused(place.limber("rnu x.toml"), "limber --help");

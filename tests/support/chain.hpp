@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "dynamics/system_builder.hpp"
 #include "dynamics/system_state.hpp"
 #include "joints/joint_kind.hpp"
-#include "support/point_mass_body.hpp"
 
 namespace limber::testing {
 
@@ -26,37 +27,6 @@ struct Chain {
   std::vector<int> last_interfaces;  ///< attachment at each body's far end
 };
 
-inline Chain make_chain(const ChainOptions& options) {
-  const PointMassBody body =
-      make_point_mass_body(24, options.modes, 4.0, 1.0, options.lowest, 42);
-  const auto reduced = share(body);
-  const auto near = make_interface(body, 0, 6);
-  const auto far = make_interface(body, 6, 12);
-  const joints::Bushing bushing =
-      joints::make_joint_bushing(options.joint, Vector3::UnitX(),
-                                 {.translational_stiffness = options.stiffness,
-                                  .rotational_stiffness = options.stiffness,
-                                  .translational_damping = options.damping,
-                                  .rotational_damping = options.damping});
-  Chain chain;
-  for (int i = 0; i < options.bodies; ++i) {
-    const int b = chain.builder.add_flexible_body(
-        "link" + std::to_string(i), reduced, options.fidelity, {});
-    const int root = chain.builder.attach_interface(
-        "root", b, near, {Matrix3::Identity(), near.p_B});
-    if (i > 0) {
-      chain.builder.add_coupler("joint" + std::to_string(i), bushing,
-                                chain.last_interfaces.back(), root);
-    }
-    chain.last_interfaces.push_back(chain.builder.attach_interface(
-        "tip", b, far, {Matrix3::Identity(), far.p_B}));
-  }
-  chain.state = dynamics::make_state(chain.builder.build());
-  for (int i = 0; i < options.bodies; ++i) {
-    chain.state.bodies[static_cast<std::size_t>(i)].p_WB =
-        i * (far.p_B - near.p_B);
-  }
-  return chain;
-}
+Chain make_chain(const ChainOptions& options);
 
 }  // namespace limber::testing

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <random>
 
-#include "common/rotation.hpp"
 #include "dynamics/system_builder.hpp"
 #include "dynamics/system_state.hpp"
 #include "support/spring_network.hpp"
@@ -13,21 +11,12 @@
 namespace limber::testing {
 
 /// Random numbers in [-scale, scale].
-inline VectorX make_field(Eigen::Index size, double scale, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-scale, scale);
-  return VectorX::NullaryExpr(size, [&] { return uniform(random); });
-}
+VectorX make_field(Eigen::Index size, double scale, unsigned seed);
 
 /// A lattice as body 0 of a system that can be added to.
 struct Lattice {
   explicit Lattice(const LatticeOptions& options = {},
-                   const dynamics::ModalDamping& damping = {}, int modes = 12)
-      : network(make_lattice(options)),
-        full(make_full(network)),
-        reduced(make_reduced(network, modes)) {
-    builder.add_full_body("lattice", reduced, full, damping);
-  }
+                   const dynamics::ModalDamping& damping = {}, int modes = 12);
   SpringNetwork network;
   std::shared_ptr<const flexbody::FullBody> full;
   std::shared_ptr<const flexbody::ReducedBody> reduced;
@@ -35,15 +24,6 @@ struct Lattice {
 };
 
 /// Deformed by 2 cm of 10, turned and moving in every way.
-inline dynamics::SystemState stir(const dynamics::SystemModel& model) {
-  dynamics::SystemState state = make_state(model);
-  state.bodies[0].p_WB = Vector3(1, 2, 3);
-  state.bodies[0].quat_WB = exp_quaternion(Vector3(2.0, -1.0, 0.5));
-  state.bodies[0].v_WB_W = Vector3(0.5, -1.0, 0.3);
-  state.bodies[0].w_WB_B = Vector3(3.0, 1.0, -2.0);
-  place_nodes(model, make_field(model.nodal_count, 0.02, 1),
-              make_field(model.nodal_count, 1.0, 2), state);
-  return state;
-}
+dynamics::SystemState stir(const dynamics::SystemModel& model);
 
 }  // namespace limber::testing

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
 #include "fem/elastic_inverse.hpp"
 #include "flexbody/fem_departure.hpp"
 #include "flexbody/modal_response.hpp"
+#include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's beam pushed at its tip by sin^4(pi t / T). Slow because the
@@ -43,7 +43,7 @@ flexbody::ModalLoads make_pulse(const VectorX& f, double duration) {
   return loads;
 }
 
-class SmoothPulse : public testing::TestWithParam<bool> {
+class SmoothPulse : public ::testing::TestWithParam<bool> {
  protected:
   SmoothPulse() : body_(make_recipe(GetParam()), {}) {
     Vector6 wrench = Vector6::Zero();
@@ -51,11 +51,10 @@ class SmoothPulse : public testing::TestWithParam<bool> {
     load_ = body_.interfaces[0].motion.spread(wrench);
     const flexbody::Support& support = body_.support;
     force_ = flexbody::take_rows(load_, support.free_nodes);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(
+    const limber::testing::Eigenpairs pairs = limber::testing::find_eigenpairs(
         MatrixX(support.matrices.K), dense_mass(support.matrices.M_s));
     const Eigen::Index elastic = force_.size() - support.R.cols();
-    all_ = {solver.eigenvalues().tail(elastic),
-            solver.eigenvectors().rightCols(elastic)};
+    all_ = {pairs.values.tail(elastic), pairs.vectors.rightCols(elastic)};
   }
 
   [[nodiscard]] ReducedBasis expand(int terms) const {
@@ -102,7 +101,7 @@ class SmoothPulse : public testing::TestWithParam<bool> {
   VectorX force_;
   ReducedBasis all_;
 };
-INSTANTIATE_TEST_SUITE_P(Support, SmoothPulse, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Support, SmoothPulse, ::testing::Bool(),
                          [](const auto& p) {
                            return p.param ? "Clamped" : "Free";
                          });

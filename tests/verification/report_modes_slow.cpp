@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "fem/elastic_inverse.hpp"
 #include "fem/mesh_reader.hpp"
 #include "flexbody/mode_selection.hpp"
+#include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's shear test (Figure 6a, Table 2 left): beam clamped at z = 0,
@@ -49,10 +49,10 @@ MatrixX dense_mass(const fem::SparseMatrix& M_s) {
 
 void solve_all(ShearTest& shear) {
   const MatrixX K(shear.matrices.K);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(
-      K, dense_mass(shear.matrices.M_s));
-  shear.lambda = solver.eigenvalues();
-  shear.Phi = solver.eigenvectors();
+  const limber::testing::Eigenpairs pairs =
+      limber::testing::find_eigenpairs(K, dense_mass(shear.matrices.M_s));
+  shear.lambda = pairs.values;
+  shear.Phi = pairs.vectors;
 }
 
 void load_edge(ShearTest& shear) {
@@ -92,7 +92,7 @@ std::unique_ptr<ShearTest> make_shear_test() {
   return shear;
 }
 
-class ReportShearTest : public testing::Test {
+class ReportShearTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { shear_ = make_shear_test(); }
   static void TearDownTestSuite() { shear_.reset(); }

@@ -2,6 +2,9 @@
 // What every coupler and transmission owes to the bodies that it joins.
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "common/rotation.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/equations.hpp"
 #include "support/linked_bodies.hpp"

@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "dynamics/simulation.hpp"
+#include "support/chain.hpp"
 #include "support/free_chain.hpp"
 #include "support/linked_bodies.hpp"
 

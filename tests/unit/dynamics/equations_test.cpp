@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "common/rotation.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/system_builder.hpp"

@@ -10,6 +10,7 @@
 #include "dynamics/modal_loads.hpp"
 #include "dynamics/simulation.hpp"
 #include "support/chain.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -11,7 +11,10 @@
 #include "dynamics/linear_limit.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/step_control.hpp"
+#include "dynamics/work_budget.hpp"
 #include "support/chain.hpp"
+#include "support/eigenpairs.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -69,8 +72,7 @@ double find_critical_speed(const PointMassBody& body, const Vector3& axis) {
     B += body.masses[n] * phi.transpose() * across * phi;
   }
   const MatrixX Lambda = r.lambda.asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(B, Lambda);
-  return 1.0 / std::sqrt(solver.eigenvalues().maxCoeff());
+  return 1.0 / std::sqrt(testing::find_eigenvalues(B, Lambda).maxCoeff());
 }
 
 TEST(Softening, IsOneAtTheCriticalSpeedOfThePointMasses) {
@@ -212,6 +214,18 @@ TEST(EnergyWatch, SeesGrowthWithoutASourceAtTheSecondLook) {
   EXPECT_TRUE(watch.is_blown_up(30.0));
 }
 
+TEST(EnergyWatch, SeesWhatIsStillTooMuchAtTheEndThoughItFalls) {
+  EnergyWatch watch(1.0);
+  EXPECT_FALSE(watch.is_blown_up(200.0));
+  EXPECT_FALSE(watch.is_blown_up(199.0));
+  EXPECT_TRUE(watch.is_blown_up(198.0, true));
+  EnergyWatch calmed(1.0);
+  EXPECT_FALSE(calmed.is_blown_up(200.0));
+  EXPECT_FALSE(calmed.is_blown_up(2.0, true));
+  // A first step from rest, whose work is not yet counted.
+  EXPECT_FALSE(EnergyWatch(0.0).is_blown_up(5.0, true));
+}
+
 TEST(EnergyWatch, SeesWhatIsNoNumberAndWhatIsFarOffAtOnce) {
   EXPECT_TRUE(EnergyWatch(1.0).is_blown_up(std::nan("")));
   EXPECT_TRUE(EnergyWatch(1.0).is_blown_up(2000.0));
@@ -251,6 +265,25 @@ TEST(StepControl, ShortensAllLimitsByTheRefinement) {
   };
   EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), resting), 0.075);
   EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), turning), 0.0025);
+}
+
+TEST(Guard, RunToAToleranceEndsAfterMostSteps) {
+  const Scene scene = make_spinning_body(20.0);
+  SimulationSettings settings = make_settings(0.1, 0.1);
+  settings.tolerance = 1e-9;
+  settings.most_steps = 50;
+  EXPECT_THAT(run_into_trouble(scene, settings),
+              AllOf(HasSubstr("most_steps"), HasSubstr("body 'blade'")));
+}
+
+TEST(WorkBudget, GrowsWithStepsAndIsSharedByBodies) {
+  const WorkBudget one(1);
+  EXPECT_TRUE(one.allows_solves(1'000'000, 0));
+  EXPECT_FALSE(one.allows_solves(1'000'001, 0));
+  EXPECT_TRUE(one.allows_solves(1'000'300, 1));
+  const WorkBudget thousand(999);
+  EXPECT_TRUE(thousand.allows_solves(2000, 0));
+  EXPECT_FALSE(thousand.allows_solves(2001, 0));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "common/errors.hpp"
 #include "dynamics/simulation.hpp"
 #include "support/chain.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {

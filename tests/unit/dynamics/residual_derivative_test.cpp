@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "common/rotation.hpp"
 #include "dynamics/equations.hpp"
 #include "support/differences.hpp"
 #include "support/linked_bodies.hpp"

@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <tuple>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "support/chain.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {

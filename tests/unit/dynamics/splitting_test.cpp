@@ -8,6 +8,7 @@
 
 #include "dynamics/simulation.hpp"
 #include "support/chain.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
 #include "common/errors.hpp"
+#include "support/eigenpairs.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -69,10 +69,11 @@ Structure make_structure(unsigned seed, bool is_free) {
                       r * (r.transpose() * Mr).inverse() * Mr.transpose();
     s.K = MatrixX(P.transpose() * s.K * P);
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(s.K, s.M);
+  const limber::testing::Eigenpairs pairs =
+      limber::testing::find_eigenpairs(s.K, s.M);
   const Eigen::Index elastic = s.K.cols() - (is_free ? 6 : 0);
-  s.lambda = solver.eigenvalues().tail(elastic);
-  s.Phi = solver.eigenvectors().rightCols(elastic);
+  s.lambda = pairs.values.tail(elastic);
+  s.Phi = pairs.vectors.rightCols(elastic);
   return s;
 }
 
@@ -138,29 +139,29 @@ TEST(Selection, TakesTheFewestModesOrTheFirst) {
   const VectorX shares = Eigen::Vector4d(0.3, 0.05, 0.15, 0.5);
   const VectorX totals = VectorX::Ones(1);
   const ModeSelection few = select_modes(shares, totals);
-  EXPECT_THAT(few.modes, testing::ElementsAre(0, 2, 3));
+  EXPECT_THAT(few.modes, ::testing::ElementsAre(0, 2, 3));
   EXPECT_NEAR(few.reached[0], 0.95, kRoundoff);
   EXPECT_TRUE(few.complete);
   const ModeSelection first =
       select_modes(shares, totals, {0.5, SelectionOrder::given});
-  EXPECT_THAT(first.modes, testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(first.modes, ::testing::ElementsAre(0, 1, 2));
 }
 
 TEST(Selection, IsTheUnionOfItsCases) {
   MatrixX shares(3, 3);
   shares << 0.95, 0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0, 0.0;
   const ModeSelection selection = select_modes(shares, Vector3(1.0, 1.0, 0.0));
-  EXPECT_THAT(selection.modes, testing::ElementsAre(0, 2));
-  EXPECT_THAT(selection.cases[0], testing::ElementsAre(0));
-  EXPECT_THAT(selection.cases[1], testing::ElementsAre(2));
-  EXPECT_THAT(selection.cases[2], testing::IsEmpty());
+  EXPECT_THAT(selection.modes, ::testing::ElementsAre(0, 2));
+  EXPECT_THAT(selection.cases[0], ::testing::ElementsAre(0));
+  EXPECT_THAT(selection.cases[1], ::testing::ElementsAre(2));
+  EXPECT_THAT(selection.cases[2], ::testing::IsEmpty());
 }
 
 TEST(Selection, SaysWhenTheModesGivenDoNotReachTheThreshold) {
   const ModeSelection selection =
       select_modes(Eigen::Vector2d(0.4, 0.3), VectorX::Ones(1));
   EXPECT_FALSE(selection.complete);
-  EXPECT_THAT(selection.modes, testing::ElementsAre(0, 1));
+  EXPECT_THAT(selection.modes, ::testing::ElementsAre(0, 1));
   EXPECT_NEAR(selection.reached[0], 0.7, kRoundoff);
 }
 
@@ -190,7 +191,7 @@ TEST(Selection, RefusesAThresholdThatIsNoShare) {
                  InputError);
 }
 
-class ModeErrors : public testing::TestWithParam<bool> {
+class ModeErrors : public ::testing::TestWithParam<bool> {
  protected:
   const Structure s = make_structure(6, GetParam());
   std::mt19937 random{7};
@@ -256,7 +257,7 @@ TEST_P(ModeErrors, HarmonicErrorsStayBelowTheirBounds) {
                InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Support, ModeErrors, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Support, ModeErrors, ::testing::Bool(),
                          [](const auto& named) {
                            return named.param ? "Free" : "Clamped";
                          });

@@ -35,6 +35,20 @@ TEST(ScenarioReader, FillsInDefaults) {
   EXPECT_EQ(scenario.robot.filename(), "r.urdf");
 }
 
+TEST(ScenarioReader, TellsOfAWrongToleranceAlone) {
+  const std::string text =
+      error_of("robot='r.urdf'\n[time]\nduration=1.0\ntolerance=-1e-3\n");
+  EXPECT_THAT(text, testing::HasSubstr("tolerance"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("'step'")));
+}
+
+TEST(ScenarioReader, ReadsHowManyStepsAToleranceMayTake) {
+  const Scenario scenario = read(
+      "robot='r.urdf'\n[time]\nduration=1.0\ntolerance=1e-3\n"
+      "most_steps=5000\n");
+  EXPECT_EQ(scenario.settings.most_steps, 5000);
+}
+
 TEST(ScenarioReader, ReadsLoadsAndProbes) {
   const Scenario scenario =
       read(kStart +

@@ -2,13 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
 #include "common/errors.hpp"
 #include "flexbody/fem_departure.hpp"
 #include "flexbody/reduce_krylov.hpp"
+#include "support/eigenpairs.hpp"
 #include "unit/flexbody/reduction/bar.hpp"
 
 namespace limber::flexbody {
@@ -28,11 +28,12 @@ struct DenseBar {
       : body(make_recipe(bar), {}),
         K(testing::dense_stiffness(body)),
         M(testing::kron(body.support.matrices.M_s, Matrix3::Identity())) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> modes(K, M);
+    const limber::testing::Eigenpairs modes =
+        limber::testing::find_eigenpairs(K, M);
     const Eigen::Index rigid = body.support.R.cols();
-    first_frequency = std::sqrt(modes.eigenvalues()[rigid]);
-    Phi = modes.eigenvectors().rightCols(K.cols() - rigid);
-    lambda = modes.eigenvalues().tail(K.cols() - rigid);
+    first_frequency = std::sqrt(modes.values[rigid]);
+    Phi = modes.vectors.rightCols(K.cols() - rigid);
+    lambda = modes.values.tail(K.cols() - rigid);
   }
 
   /// The elastic answer to F e^(s t) with D = alpha M + beta K.

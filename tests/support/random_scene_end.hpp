@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "support/random_scene.hpp"
+#include "support/run_random_scene.hpp"
+
+namespace limber::testing {
+
+/// Solves of one attempt at a step, after which the budget is looked at again:
+/// twice 20 iterations with 60 Krylov vectors, each with its own few.
+inline constexpr long kSolvesOfAnAttempt = 2 * 20 * 64;
+
+/// Expects that a scene ends with numbers, or with words that name a body or a
+/// coupler, after no more work than dynamics/work_budget.hpp allows.
+inline void expect_good_end(unsigned seed) {
+  using ::testing::AnyOf;
+  using ::testing::HasSubstr;
+  const RandomScene scene = draw_scene(seed);
+  const RandomOutcome outcome = run_random_scene(seed);
+  EXPECT_NE(outcome.kind, RandomOutcome::Kind::failed) << outcome.text;
+  if (outcome.kind == RandomOutcome::Kind::refused) {
+    EXPECT_THAT(outcome.text, AnyOf(HasSubstr("body '"), HasSubstr("joint")));
+    EXPECT_THAT(outcome.text, HasSubstr(" s"));
+  }
+  const dynamics::SimulationStatistics& cost = outcome.statistics;
+  const long steps = cost.steps + cost.rejected_steps;
+  const long passes = std::max(cost.passes, 1);
+  const auto bodies = static_cast<long>(scene.model.bodies.size());
+  EXPECT_LE(cost.linear_solves, passes * (2'000'000 / bodies) + 300 * steps +
+                                    passes * kSolvesOfAnAttempt);
+  if (scene.settings.tolerance > 0.0) {
+    EXPECT_LE(steps, scene.settings.most_steps + passes);
+  }
+}
+
+}  // namespace limber::testing

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/run_random_scene.hpp"
+
+#include <cmath>
+#include <exception>
+
+#include "common/errors.hpp"
+#include "support/random_scene.hpp"
+
+namespace limber::testing {
+namespace {
+
+bool is_finite(const dynamics::SystemState& state) {
+  for (const dynamics::BodyState& body : state.bodies) {
+    if (!body.p_WB.allFinite() || !body.quat_WB.coeffs().allFinite() ||
+        !body.v_WB_W.allFinite() || !body.w_WB_B.allFinite()) {
+      return false;
+    }
+  }
+  return state.eta.allFinite() && state.etadot.allFinite();
+}
+
+}  // namespace
+
+RandomOutcome run_random_scene(unsigned seed) {
+  using Kind = RandomOutcome::Kind;
+  dynamics::SimulationStatistics statistics;
+  bool all_finite = true;
+  try {
+    RandomScene scene = draw_scene(seed);
+    dynamics::simulate(
+        scene.model, scene.state, scene.settings,
+        [&](const dynamics::SystemState& state,
+            const dynamics::EnergyBalance& energy) {
+          all_finite =
+              all_finite && is_finite(state) && std::isfinite(energy.total());
+        },
+        {}, statistics);
+    all_finite = all_finite && is_finite(scene.state);
+  } catch (const InputError& error) {
+    return {Kind::refused, error.what(), statistics};
+  } catch (const NumericalError& error) {
+    return {Kind::refused, error.what(), statistics};
+  } catch (const std::exception& error) {
+    return {Kind::failed, error.what(), statistics};
+  }
+  if (all_finite) return {Kind::finished, "", statistics};
+  return {Kind::failed, "an output is not finite", statistics};
+}
+
+}  // namespace limber::testing

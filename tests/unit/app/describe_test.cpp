@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/describe.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "results/checkpoint_file.hpp"
+
+namespace limber::app {
+namespace {
+
+TEST(Describe, TellsThatAFileIsACheckpointAndOfWhichTime) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("limber_checkpoint_" + std::to_string(getpid()) + ".h5");
+  results::CheckpointRecord record;
+  record.fingerprint = "of a run";
+  record.run = {0.25, {1.0, 2.0}};
+  results::write_checkpoint(file, record);
+  const Json json = describe_hdf5(file);
+  std::filesystem::remove(file);
+  EXPECT_EQ(json["kind"].get<std::string>(), "checkpoint");
+  EXPECT_EQ(json["time"].get<double>(), 0.25);
+  EXPECT_EQ(json["outputs"].get<int>(), 0);
+}
+
+}  // namespace
+}  // namespace limber::app
