@@ -62,7 +62,7 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
                        IntegratorKind integrator, double h) {
   if (is_explicit(integrator)) {
     try {
-      const std::string text = describe_stability(model, state, integrator, h);
+      std::string text = describe_stability(model, state, integrator, h);
       if (!text.empty()) return text;
     } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
       // The state is too far gone to be asked.
