@@ -122,6 +122,8 @@ void simulate(const SystemModel& model, SystemState& state,
   LIMBER_EXPECT(state.eta.size() == model.modal_count);
   LIMBER_EXPECT(state.etadot.size() == model.modal_count);
   LIMBER_EXPECT(state.u_H.size() == model.nodal_count);
+  LIMBER_EXPECT(state.memory.size() ==
+                model.couplers.size() + model.transmissions.size());
   check_settings(model, state, settings);
   const Stopwatch stopwatch(statistics.seconds);
   if (settings.tolerance > 0.0) {

@@ -123,7 +123,8 @@ TEST(EnergyConserving, AuditOfLoadsDampersAndFrictionClosesToRoundOff) {
       {joints::Friction({.coulomb = 0.5, .viscous = 0.1, .speed = 0.01})});
   chain.builder.set_gravity({0, 0, -1.0});
   const SystemModel model = chain.builder.build();
-  SystemState state = chain.state;
+  SystemState state = make_state(model);  // with the path's memory
+  state.bodies = chain.state.bodies;
   for (BodyState& body : state.bodies) body.w_WB_B = Vector3(1.0, 0.2, 0.1);
   std::vector<EnergyBalance> energies;
   simulate(model, state,

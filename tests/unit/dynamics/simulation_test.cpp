@@ -545,5 +545,16 @@ TEST(Simulation, BlowUpEndsWithTheBodyAndTheTimeAndKeepsTheLastGoodState) {
   EXPECT_TRUE(state.eta.allFinite());
 }
 
+TEST(Simulate, RefusesAStateFromBeforeItsModelGotAPath) {
+  Chain chain = make_chain({.bodies = 2});
+  chain.builder.add_path("rubbed",
+                         {chain.last_interfaces[0], chain.last_interfaces[1]},
+                         {joints::Friction({.coulomb = 0.5, .speed = 0.01})});
+  const SystemModel model = chain.builder.build();
+  SystemState state = chain.state;
+  EXPECT_THROW(simulate(model, state, {.end_time = 0.1, .step = 0.01}, {}),
+               ContractError);
+}
+
 }  // namespace
 }  // namespace limber::dynamics
