@@ -43,8 +43,8 @@ struct Shape {
   double slenderness = 0.0;  ///< [-]
   double density = 0.0;      ///< [kg/m^3]
 
-  auto operator<=>(const Shape&) const =
-      default;  // NOLINT(modernize-use-nullptr)
+  // NOLINTNEXTLINE(modernize-use-nullptr)
+  auto operator<=>(const Shape&) const = default;
 };
 
 /// Beams, each meshed by hexahedra and reduced once: four eigenmodes and the

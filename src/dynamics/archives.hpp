@@ -5,6 +5,7 @@
 #include "dynamics/energy.hpp"
 #include "dynamics/event.hpp"
 #include "dynamics/residual.hpp"
+#include "dynamics/simulation.hpp"
 #include "dynamics/system_state.hpp"
 
 /// What of a run goes into a checkpoint, and in which order.
@@ -43,6 +44,13 @@ inline void exchange(Archive& archive, EnergyBalance& energy) {
   archive(energy.kinetic_rigid, energy.kinetic_modal, energy.elastic,
           energy.coupler, energy.dissipated, energy.work,
           energy.linear_momentum, energy.angular_momentum);
+}
+
+/// Counts of work, which add up over a run.
+inline void exchange_costs(Archive& archive, SimulationStatistics& statistics) {
+  archive(statistics.steps, statistics.rejected_steps, statistics.halved_steps,
+          statistics.newton_iterations, statistics.factorizations,
+          statistics.linear_solves);
 }
 
 }  // namespace limber::dynamics

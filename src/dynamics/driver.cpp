@@ -73,10 +73,8 @@ void Driver::exchange_memory(Archive& archive, SystemState& state) {
   marcher_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   watch_.exchange_memory(archive);
-  archive(statistics_.steps, statistics_.rejected_steps,
-          statistics_.halved_steps, statistics_.newton_iterations,
-          statistics_.factorizations, statistics_.linear_solves,
-          statistics_.events);
+  exchange_costs(archive, statistics_);
+  archive(statistics_.events);
 }
 
 void Driver::resume(const Checkpoint& checkpoint, SystemState& state) {
@@ -106,15 +104,16 @@ void Driver::inspect(const SystemState& state) {
   const double stored = calc_energy(model_, state, terms_).total();
   if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) return;
   const bool is_early = statistics_.steps <= kStepsBetweenLooks;
+  const char* advice = settings_.integrator == IntegratorKind::implicit_euler
+                           ? "a smaller step may help"
+                           : "a smaller step or implicit-euler may help";
   fail(state, h_,
        fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
                    "most in {}, where the start and the loads account for "
                    "{:.3g} J; {}",
                    state.t, stored, find_most_energy(model_, state),
                    watch_.supplied(),
-                   is_early && !clash_.empty()
-                       ? clash_
-                       : "a smaller step or implicit-euler may help"));
+                   is_early && !clash_.empty() ? clash_ : advice));
 }
 
 void Driver::count_step(const StepResult& since) {

@@ -168,9 +168,8 @@ class Passes {
   Checkpoint wrap(const Checkpoint& inner) {
     Archive archive;
     std::vector<double> numbers = inner.numbers;
-    archive(numbers, course_, statistics_.steps, statistics_.rejected_steps,
-            statistics_.halved_steps, statistics_.newton_iterations,
-            statistics_.factorizations, statistics_.linear_solves);
+    archive(numbers, course_);
+    exchange_costs(archive, statistics_);
     return {inner.time, archive.numbers()};
   }
 
@@ -178,10 +177,8 @@ class Passes {
     Archive archive(checkpoint.numbers);
     inner_.emplace();
     inner_->time = checkpoint.time;
-    archive(inner_->numbers, course_, statistics_.steps,
-            statistics_.rejected_steps, statistics_.halved_steps,
-            statistics_.newton_iterations, statistics_.factorizations,
-            statistics_.linear_solves);
+    archive(inner_->numbers, course_);
+    exchange_costs(archive, statistics_);
   }
 
   const SystemModel& model_;

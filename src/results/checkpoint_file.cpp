@@ -26,6 +26,10 @@ namespace {
 const std::string kFormat = "limber checkpoint";
 constexpr std::int64_t kVersion = 2;
 
+bool has_format(const Hdf5File& in) {
+  return in.has("format") && in.read_text("format") == kFormat;
+}
+
 MatrixX to_column(const std::vector<double>& numbers) {
   return Eigen::Map<const VectorX>(numbers.data(), std::ssize(numbers));
 }
@@ -66,13 +70,12 @@ void write_checkpoint(const std::filesystem::path& file,
 }
 
 bool is_checkpoint_file(const std::filesystem::path& file) {
-  const Hdf5File in = Hdf5File::open(file);
-  return in.has("format") && in.read_text("format") == kFormat;
+  return has_format(Hdf5File::open(file));
 }
 
 CheckpointRecord read_checkpoint(const std::filesystem::path& file) {
   const Hdf5File in = Hdf5File::open(file);
-  if (!is_checkpoint_file(file)) {
+  if (!has_format(in)) {
     throw InputError(
         fmt::format("'{}' is no checkpoint of a run", file.string()));
   }
