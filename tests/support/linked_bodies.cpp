@@ -5,6 +5,7 @@
 #include <random>
 
 #include "common/rotation.hpp"
+#include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::testing {
@@ -93,7 +94,7 @@ LinkedBodies make_linked_bodies(const Link& link,
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] {
-    return Vector3(uniform(random), uniform(random), uniform(random));
+    return draw_vector([&] { return uniform(random); });
   };
   const PointMassBody body = make_point_mass_body(20, 4, 3.0, 1.0, 8.0, 11);
   const auto reduced = share(body);
@@ -127,10 +128,10 @@ LinkedBodies make_linked_bodies(const Link& link,
     s.bodies[i].w_WB_B = speed * vector();
     if (i == 0) continue;
     // The near end on the far end before it, turned and strained.
-    const Pose X_FM{exp_rotation(0.05 * vector()) *
-                        exp_rotation(3.0 * uniform(random) * a) *
-                        exp_rotation(1.2 * uniform(random) * b),
-                    0.3 * vector()};
+    const Matrix3 lean = exp_rotation(1.2 * uniform(random) * b);
+    const Matrix3 turn = exp_rotation(3.0 * uniform(random) * a);
+    const Matrix3 strain = exp_rotation(0.05 * vector());
+    const Pose X_FM{strain * turn * lean, 0.3 * vector()};
     const Pose X_BM = find_frame_motion(out.model, s, ends.near[i]).X_WF;
     const Pose X_WF = find_frame_motion(out.model, s, ends.far[i - 1]).X_WF;
     const Pose X_WB = X_WF * X_FM * X_BM.inverse();

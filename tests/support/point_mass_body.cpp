@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <random>
 
+#include "support/draw_vector.hpp"
+
 namespace limber::testing {
 namespace {
 
@@ -53,9 +55,8 @@ PointMassBody make_point_mass_body(int nodes, int modes, double mass,
   r.mass = mass;
   r.rows.x_B.resize(3, nodes);
   for (int i = 0; i < nodes; ++i) {
-    r.rows.x_B.col(i) =
-        length *
-        Vector3(uniform(random) / 3.0, uniform(random) / 3.0, uniform(random));
+    const Vector3 place = draw_vector([&] { return uniform(random); });
+    r.rows.x_B.col(i) = length * place.cwiseQuotient(Vector3(3.0, 3.0, 1.0));
     r.rows.tags.push_back(static_cast<std::size_t>(i) + 1);
   }
   const Vector3 center = r.rows.x_B * body.masses / mass;

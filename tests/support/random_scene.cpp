@@ -10,6 +10,7 @@
 
 #include "dynamics/system_builder.hpp"
 #include "joints/joint_kind.hpp"
+#include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::testing {
@@ -51,7 +52,7 @@ class SceneDraw {
     return low + static_cast<int>(uniform(0.0, 1.0) * (high - low + 1));
   }
   Vector3 draw_direction() {
-    Vector3 v(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0));
+    const Vector3 v = draw_vector([&] { return uniform(-1.0, 1.0); });
     return v.norm() > 0.1 ? Vector3(v.normalized()) : Vector3::UnitX();
   }
 
@@ -185,10 +186,10 @@ class SceneDraw {
     pulse.start = chance(0.5) ? 0.0 : log_uniform(1e-6, 1.0);
     pulse.duration = log_uniform(1e-6, 1e2);
     const double force = mass * log_uniform(1e-3, 1e4);
-    builder_.add_load(
-        "push_" + name, where, force * draw_direction(), Vector3::Zero(),
-        chance(0.5) ? dynamics::LoadFrame::body : dynamics::LoadFrame::world,
-        pulse);
+    const auto frame =
+        chance(0.5) ? dynamics::LoadFrame::body : dynamics::LoadFrame::world;
+    builder_.add_load("push_" + name, where, force * draw_direction(),
+                      Vector3::Zero(), frame, pulse);
   }
 
   // In line, all turning as one about the first one's centre.
@@ -200,7 +201,9 @@ class SceneDraw {
       body.p_WB = p_WB_[b];
       body.w_WB_B = spin;
       body.v_WB_W = spin.cross(p_WB_[b] - p_WB_[0]);
-      if (chance(0.1)) body.w_WB_B += draw_direction() * log_uniform(1e-3, 1e2);
+      if (!chance(0.1)) continue;
+      const double extra = log_uniform(1e-3, 1e2);
+      body.w_WB_B += extra * draw_direction();
     }
     return state;
   }

@@ -7,6 +7,7 @@
 #include "common/rotation.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/equations.hpp"
+#include "support/draw_vector.hpp"
 #include "support/linked_bodies.hpp"
 
 namespace limber::dynamics {
@@ -77,7 +78,7 @@ Direction random_direction(const LinkedBodies& linked, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] {
-    return Vector3(uniform(random), uniform(random), uniform(random));
+    return testing::draw_vector([&] { return uniform(random); });
   };
   Direction d;
   for (std::size_t b = 0; b < linked.model.bodies.size(); ++b) {

@@ -10,6 +10,7 @@
 #include "common/rotation.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/system_builder.hpp"
+#include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
@@ -30,7 +31,7 @@ SystemState random_state(const SystemModel& model, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] {
-    return Vector3(uniform(random), uniform(random), uniform(random));
+    return testing::draw_vector([&] { return uniform(random); });
   };
   SystemState state = make_state(model);
   for (BodyState& b : state.bodies) {
