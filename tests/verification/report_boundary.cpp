@@ -11,6 +11,7 @@
 #include "fem/mesh_reader.hpp"
 #include "flexbody/decision_boundary.hpp"
 #include "flexbody/reduce.hpp"
+#include "support/draw_vector.hpp"
 #include "verification/body_reference.hpp"
 
 /// The alpha-Omega decision boundary of the report's section 5.4, ten modes.
@@ -20,7 +21,7 @@ namespace {
 /// The allowance: inner nodes of the report's mesh sit elsewhere.
 constexpr double kOtherMesh = 0.005;
 
-class ReportBoundaryOfBeam : public testing::Test {
+class ReportBoundaryOfBeam : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     flexbody::Recipe recipe = test::beam_recipe("beam579_v41.msh");
@@ -111,7 +112,7 @@ TEST_F(ReportBoundaryOfBeam, ForceBoundHoldsForTheConsistentMass) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   const auto direction = [&] {
-    return Vector3(normal(random), normal(random), normal(random)).normalized();
+    return testing::draw_vector([&] { return normal(random); }).normalized();
   };
   double largest = 0.0;
   for (int sample = 0; sample < 500; ++sample) {
@@ -135,11 +136,13 @@ TEST_F(ReportBoundaryOfBeam, DisplacementBoundHoldsAndTheReportsIsSafe) {
   const MatrixX& Phi = body_->rows.Phi_B;
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
+  const auto vector = [&] {
+    return testing::draw_vector([&] { return normal(random); });
+  };
   double largest = 0.0;
   for (int sample = 0; sample < 500; ++sample) {
-    const Vector3 Omega =
-        Vector3(normal(random), normal(random), normal(random)).normalized();
-    const Vector3 alpha(normal(random), normal(random), normal(random));
+    const Vector3 Omega = vector().normalized();
+    const Vector3 alpha = vector();
     Matrix3X a = body_->rows.x_B;
     for (Eigen::Index n = 0; n < a.cols(); ++n) {
       const Vector3 b = a.col(n);

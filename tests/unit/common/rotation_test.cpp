@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "support/draw_vector.hpp"
+
 namespace limber {
 namespace {
 
@@ -25,7 +27,7 @@ std::vector<Vector3> make_axes() {
                                -Vector3::UnitZ()};
   for (int i = 0; i < 20; ++i) {
     axes.push_back(
-        Vector3(normal(random), normal(random), normal(random)).normalized());
+        testing::draw_vector([&] { return normal(random); }).normalized());
   }
   return axes;
 }

@@ -64,9 +64,9 @@ SystemState make_start(const SmallRun& run) {
       body.w_WB_B[a] = uniform(random);
     }
     body.p_WB = 0.02 * body.v_WB_W;
-    body.quat_WB =
-        Quaternion(1.0, 0.1 * uniform(random), 0.1 * uniform(random), 0.1)
-            .normalized();
+    const double y = 0.1 * uniform(random);
+    const double x = 0.1 * uniform(random);
+    body.quat_WB = Quaternion(1.0, x, y, 0.1).normalized();
   }
   for (double& x : state.eta) x = 0.02 * uniform(random);
   for (double& x : state.etadot) x = uniform(random);
