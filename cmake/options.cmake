@@ -32,12 +32,9 @@ if(LIMBER_SANITIZE)
   target_compile_options(limber_options INTERFACE
     -fsanitize=${limber_sanitizers} -fno-sanitize-recover=undefined
     -fno-omit-frame-pointer
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+    $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/overflow.ignore>)
   target_link_options(limber_options INTERFACE -fsanitize=${limber_sanitizers})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    target_compile_options(limber_options INTERFACE
-      -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/overflow.ignore)
-  endif()
 endif()
 # libFuzzer follows the paths that an input takes; a double that its integer
 # cannot hold is of no sanitizer's default.
