@@ -21,32 +21,25 @@ Matrix3 inertia_of(const Matrix3& S) {
 
 }  // namespace
 
-void pack_inertia(const flexbody::ReducedBody& reduced, BodyModel& body) {
-  const flexbody::InertiaShapeIntegrals& s = reduced.integrals;
-  const int m = reduced.mode_count();
-  const auto count = static_cast<std::size_t>(m);
-  LIMBER_EXPECT(s.S1.size() == count);
-  LIMBER_EXPECT(s.S2.size() == count * count);
+ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& integrals) {
+  const flexbody::InertiaShapeIntegrals& s = integrals;
+  const auto m = static_cast<int>(s.S1.size());
+  LIMBER_EXPECT(s.S2.size() == s.S1.size() * s.S1.size());
 
-  if (body.clamped) {
-    LIMBER_EXPECT(s.P.cols() == m);
-    body.P = s.P;
-  }
-  body.J1.resize(6, m);
-  body.J2.resize(6 * m, m);
-  body.beta.resize(3 * m, m);
+  ModalInertia packed{Matrix6X(6, m), MatrixX(6 * m, m), MatrixX(3 * m, m)};
   std::size_t pair = 0;
   for (int k = 0; k < m; ++k) {
-    body.J1.col(k) =
+    packed.J1.col(k) =
         pack_symmetric(inertia_of(s.S1[static_cast<std::size_t>(k)]));
     for (int l = 0; l < m; ++l) {
       const Matrix3& S2 = s.S2[pair++];
-      body.J2.block<6, 1>(6 * k, l) = pack_symmetric(inertia_of(S2));
+      packed.J2.block<6, 1>(6 * k, l) = pack_symmetric(inertia_of(S2));
       // (phi_k x phi_l)_c = eps_cab S2_ab.
-      body.beta.block<3, 1>(3 * l, k) = Vector3(
+      packed.beta.block<3, 1>(3 * l, k) = Vector3(
           S2(1, 2) - S2(2, 1), S2(2, 0) - S2(0, 2), S2(0, 1) - S2(1, 0));
     }
   }
+  return packed;
 }
 
 }  // namespace limber::dynamics

@@ -122,7 +122,7 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   for (int k = 0; k < body.modes; ++k) {
     const Eigen::Index i = body.offset + k;
     double change = next_.etadot[i] - from.etadot[i];
-    double inertial = is_spun ? ww.dot(body.J1.col(k)) : 0.0;
+    double inertial = is_spun ? ww.dot(body.inertia->J1.col(k)) : 0.0;
     if (is_coupled) {
       pi0 += first.H.col(k) * from.etadot[i];
       pi1 += last.H.col(k) * next_.etadot[i];

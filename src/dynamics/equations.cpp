@@ -27,7 +27,7 @@ void set_oscillator_bias(const BodyModel& body, const SystemState& state,
 // vanishes: int phi x x dm = 0 in the mean-axis frame.)
 void add_centrifugal_bias(const BodyModel& body, const Vector3& w,
                           BodyTerms& terms) {
-  terms.bias_e.noalias() -= body.J1.transpose() * half_square(w);
+  terms.bias_e.noalias() -= body.inertia->J1.transpose() * half_square(w);
 }
 
 // Level coupled: all terms. One product with J2 and two with beta, O(m^2).
@@ -36,9 +36,9 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
   const int m = body.modes;
   const ConstModes eta = modes_of(body, state.eta);
   const ConstModes etadot = modes_of(body, state.etadot);
-  terms.scratch_J2.noalias() = body.J2 * eta;
-  terms.scratch_b1.noalias() = body.beta * eta;
-  terms.scratch_b2.noalias() = body.beta * etadot;
+  terms.scratch_J2.noalias() = body.inertia->J2 * eta;
+  terms.scratch_b1.noalias() = body.inertia->beta * eta;
+  terms.scratch_b2.noalias() = body.inertia->beta * etadot;
 
   const Vector6 w_squared = half_square(w);
   Vector6 J = Vector6::Zero();
@@ -46,8 +46,8 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
   Vector3 h = Vector3::Zero();  // H etadot
   for (int k = 0; k < m; ++k) {
     const Vector6 curvature = terms.scratch_J2.segment<6>(6 * k);
-    const Vector6 dJ = body.J1.col(k) + curvature;
-    J += (body.J1.col(k) + 0.5 * curvature) * eta[k];
+    const Vector6 dJ = body.inertia->J1.col(k) + curvature;
+    J += (body.inertia->J1.col(k) + 0.5 * curvature) * eta[k];
     Jdot += dJ * etadot[k];
     const Vector3 H = terms.scratch_b1.segment<3>(3 * k);
     terms.H.col(k) = H;

@@ -12,9 +12,7 @@ void drop_modes(BodyModel& body) {
   body.modes = 0;
   body.lambda.resize(0);
   body.damping.resize(0);
-  body.J1.resize(6, 0);
-  body.J2.resize(0, 0);
-  body.beta.resize(0, 0);
+  body.inertia = std::make_shared<const ModalInertia>();
   body.P.resize(3, 0);
 }
 

@@ -35,9 +35,9 @@ void add_body(const BodyModel& body, Digest& digest) {
   for (const VectorX& values : {body.lambda, body.damping}) {
     digest.add(MatrixX(values));
   }
-  digest.add(MatrixX(body.J1));
-  digest.add(body.J2);
-  digest.add(body.beta);
+  digest.add(MatrixX(body.inertia->J1));
+  digest.add(body.inertia->J2);
+  digest.add(body.inertia->beta);
   digest.add(MatrixX(body.P));
 }
 

@@ -179,7 +179,7 @@ void LevelSurvey::include_deformation(const SystemState& state,
   VectorX inertial = VectorX::Zero(body.modes);
   if (!body.clamped) {
     inertial = watch.flexibility.cwiseProduct(
-        body.J1.transpose() *
+        body.inertia->J1.transpose() *
         half_square(state.bodies[index(watch.body)].w_WB_B));
     watch.inertial.include(inertial);
   }
@@ -213,7 +213,8 @@ void LevelSurvey::include_deformation(const SystemState& state,
 // J0^-1 dJ w.
 void LevelSurvey::include_slip(const BodyModel& body, const VectorX& eta,
                                const SystemState& state, Watch& watch) {
-  const Vector3 slip = watch.compliance * unpack_symmetric(body.J1 * eta) *
+  const Vector3 slip = watch.compliance *
+                       unpack_symmetric(body.inertia->J1 * eta) *
                        state.bodies[index(watch.body)].w_WB_B;
   if (watch.last_time) {
     watch.slipped +=

@@ -39,7 +39,7 @@ double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
       B(k, l) = scale[k] * scale[l] *
-                half_w_squared.dot(body.J2.block<6, 1>(6 * k, l));
+                half_w_squared.dot(body.inertia->J2.block<6, 1>(6 * k, l));
     }
   }
   const Eigen::SelfAdjointEigenSolver<MatrixX> solver(B,

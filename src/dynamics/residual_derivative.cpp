@@ -75,15 +75,15 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
   const Vector6 d_w_squared = change_half_square(w, d_w);
   auto r_modes = r.segment(first_row(body, b) + 6, body.modes);
   if (body.fidelity == Fidelity::one_way) {
-    r_modes -= body.J1.transpose() * d_w_squared;
+    r_modes -= body.inertia->J1.transpose() * d_w_squared;
   }
   if (body.fidelity != Fidelity::coupled) return;
 
   const Eigen::Map<const VectorX> d_eta(d.eta, body.modes);
   const double* etadot = state_->etadot.data() + body.offset;
   const double* etaddot = acceleration_->modes.data() + body.offset;
-  const VectorX d_J2 = body.J2 * d_eta;
-  const VectorX d_beta = body.beta * d_eta;
+  const VectorX d_J2 = body.inertia->J2 * d_eta;
+  const VectorX d_beta = body.inertia->beta * d_eta;
   const Vector6 w_squared = half_square(w);
   Vector6 Jdot = Vector6::Zero();
   Vector6 d_J = Vector6::Zero();
@@ -92,7 +92,8 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
   Vector3 d_h = Vector3::Zero();
   Vector3 d_H_etaddot = Vector3::Zero();
   for (int k = 0; k < body.modes; ++k) {
-    const Vector6 J_k = body.J1.col(k) + t.scratch_J2.segment<6>(6 * k);
+    const Vector6 J_k =
+        body.inertia->J1.col(k) + t.scratch_J2.segment<6>(6 * k);
     const Vector6 d_J_k = d_J2.segment<6>(6 * k);
     const Vector3 d_H = d_beta.segment<3>(3 * k);
     const double d_etadot = c_.velocity * d_eta[k];

@@ -99,6 +99,19 @@ BodyIndex SystemBuilder::add_rigid_body(const std::string& name,
   return static_cast<BodyIndex>(model_.bodies.size()) - 1;
 }
 
+// Bodies keep what they were reduced from, so its address stays its own.
+std::shared_ptr<const ModalInertia> SystemBuilder::find_inertia(
+    const flexbody::ReducedBody& reduced) {
+  LIMBER_EXPECT(reduced.integrals.S1.size() ==
+                static_cast<std::size_t>(reduced.mode_count()));
+  std::shared_ptr<const ModalInertia>& known = inertias_[&reduced];
+  if (!known) {
+    known =
+        std::make_shared<const ModalInertia>(pack_inertia(reduced.integrals));
+  }
+  return known;
+}
+
 BodyIndex SystemBuilder::add_flexible_body(
     const std::string& name,
     std::shared_ptr<const flexbody::ReducedBody> reduced, Fidelity fidelity,
@@ -116,7 +129,11 @@ BodyIndex SystemBuilder::add_flexible_body(
     body.modes = reduced->mode_count();
     body.lambda = reduced->lambda;
     body.damping = modal_damping(name, damping, reduced->lambda);
-    pack_inertia(*reduced, body);
+    if (body.clamped) {
+      LIMBER_EXPECT(reduced->integrals.P.cols() == body.modes);
+      body.P = reduced->integrals.P;
+    }
+    body.inertia = find_inertia(*reduced);
   }
   body.reduced = std::move(reduced);
   model_.modal_count += body.modes;

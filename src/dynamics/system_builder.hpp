@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -99,7 +100,12 @@ class SystemBuilder {
   [[nodiscard]] SystemModel build() const;
 
  private:
+  [[nodiscard]] std::shared_ptr<const ModalInertia> find_inertia(
+      const flexbody::ReducedBody& reduced);
+
   SystemModel model_;
+  std::map<const flexbody::ReducedBody*, std::shared_ptr<const ModalInertia>>
+      inertias_;
 };
 
 }  // namespace limber::dynamics

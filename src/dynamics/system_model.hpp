@@ -23,7 +23,19 @@ using TransmissionIndex = int;
 using LoadIndex = int;
 inline constexpr BodyIndex kWorld = -1;
 
-/// One body's constants, packed for the inner loops. m modes, 0 when rigid.
+/// Derivatives of a body's inertia by its modes, and the coupling of modes by
+/// rotation, packed for the inner loops. Of one reduced body, whichever bodies
+/// of the system it is: they read the same numbers, which stay in caches.
+///
+/// Equation   J(eta) = J0 + J1 eta + eta' J2 eta / 2,
+///            components (xx, yy, zz, xy, xz, yz)
+struct ModalInertia {
+  Matrix6X J1;   ///< 6 x m
+  MatrixX J2;    ///< 6m x m, row 6k + c
+  MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k
+};
+
+/// One body's constants. m modes, 0 when rigid.
 struct BodyModel {
   std::string name;
   Fidelity fidelity = Fidelity::rigid;
@@ -34,12 +46,10 @@ struct BodyModel {
   int offset = 0;   ///< first modal coordinate in the state
   VectorX lambda;   ///< m [rad^2/s^2]
   VectorX damping;  ///< m, diagonal of C [1/s]
-  /// Derivatives of the inertia, components (xx, yy, zz, xy, xz, yz):
-  /// J(eta) = J0 + J1 eta + eta' J2 eta / 2.
-  Matrix6X J1;   ///< 6 x m
-  MatrixX J2;    ///< 6m x m, row 6k + c
-  MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k
-  Matrix3X P;    ///< 3 x m, int phi_k dm; no columns unless clamped
+  /// Without columns when rigid; never null.
+  std::shared_ptr<const ModalInertia> inertia =
+      std::make_shared<const ModalInertia>();
+  Matrix3X P;  ///< 3 x m, int phi_k dm; no columns unless clamped
   /// What was reduced; null for a rigid body. For probes and pictures.
   std::shared_ptr<const flexbody::ReducedBody> reduced;
   int full = -1;  ///< index into SystemModel::full_bodies, -1 if reduced

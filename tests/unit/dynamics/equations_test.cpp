@@ -59,6 +59,21 @@ PointMotion point_motion(const PointMassBody& body, const SystemState& s,
           b.v_WB_W + R * (b.w_WB_B.cross(arm) + phi * s.etadot)};
 }
 
+TEST(Bodies, OfOneReductionKeepItsModalInertiaOnce) {
+  const auto one =
+      testing::share(make_point_mass_body(30, kModes, 5.0, 2.0, 9.0, 1));
+  const auto other =
+      testing::share(make_point_mass_body(30, kModes, 5.0, 2.0, 9.0, 2));
+  SystemBuilder builder;
+  for (const auto& reduced : {one, other, one}) {
+    builder.add_flexible_body("body", reduced, Fidelity::coupled, {});
+  }
+  const SystemModel model = builder.build();
+  EXPECT_EQ(model.bodies[0].inertia, model.bodies[2].inertia);
+  EXPECT_NE(model.bodies[0].inertia, model.bodies[1].inertia);
+  EXPECT_NE(model.bodies[0].inertia->J1, model.bodies[1].inertia->J1);
+}
+
 TEST(Energy, OfACoupledBodyIsThatOfItsMasses) {
   const PointMassBody body = make_point_mass_body(30, kModes, 5.0, 2.0, 9.0, 1);
   const SystemModel model = one_body(body, Fidelity::coupled);
