@@ -48,8 +48,11 @@ class Reduction {
   }
 
   ReducedPointer read(const Link& link) {
-    auto body = std::make_shared<const flexbody::ReducedBody>(
-        flexbody::read_body(link.flexible->reduced_file));
+    ReducedPointer& body = saved_[link.flexible->reduced_file];
+    if (!body) {
+      body = std::make_shared<const flexbody::ReducedBody>(
+          flexbody::read_body(link.flexible->reduced_file));
+    }
     if (const LinkStart* start = find_start(scene_.scenario, link.name)) {
       check_saved_fields(*start, *body);
     }
@@ -87,7 +90,8 @@ class Reduction {
   const Scene& scene_;
   const Reducer& reducer_;
   const std::filesystem::path& cache_;
-  std::map<std::string, ReducedPointer> known_;
+  std::map<std::string, ReducedPointer> known_;  // by content
+  std::map<std::filesystem::path, ReducedPointer> saved_;
   Reductions result_;
 };
 

@@ -18,7 +18,7 @@ struct Reductions {
 };
 
 /// Reduced bodies of all flexible links: from a file, from the cache, or from
-/// `reducer`; links with equal recipes share one.
+/// `reducer`; links with equal recipes or one file share one.
 /// @throws InputError naming the link.
 [[nodiscard]] Reductions find_reductions(const Scene& scene,
                                          const Reducer& reducer,

@@ -191,6 +191,18 @@ TEST_F(SavedBody, StandsForItsMesh) {
   EXPECT_EQ(built.bodies_reduced, 0);
 }
 
+TEST_F(SavedBody, IsOneForAllLinksOfItsFile) {
+  const std::string second =
+      "<link name='other'/>\n"
+      "<flexible link='other'><reduced file='body.h5'/></flexible>\n"
+      "<joint name='o' type='floating'><parent link='body'/>"
+      "<child link='other'/></joint>\n";
+  const BuiltScene built =
+      folder_.build(reduced_link("body.h5") + second, time_table(0.1, 1e-3));
+  ASSERT_EQ(built.model.bodies.size(), 2U);
+  EXPECT_EQ(built.model.bodies[0].reduced, built.model.bodies[1].reduced);
+}
+
 TEST_F(SavedBody, LosesItsModesAtLevelRigid) {
   const BuiltScene built =
       build("[fidelity]\ndefault = 'coupled'\nlinks = { body = 'rigid' }\n");
