@@ -21,8 +21,7 @@ Matrix3 inertia_of(const Matrix3& S) {
 
 }  // namespace
 
-ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& integrals) {
-  const flexbody::InertiaShapeIntegrals& s = integrals;
+ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& s) {
   const auto m = static_cast<int>(s.S1.size());
   LIMBER_EXPECT(s.S2.size() == s.S1.size() * s.S1.size());
 

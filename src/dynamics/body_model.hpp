@@ -5,12 +5,12 @@
 
 namespace limber::dynamics {
 
-/// Packs inertia shape integrals of m modes:
+/// Packs inertia shape integrals for the inner loops:
 /// J(eta) = tr(S) I - S with S = S0 + S1 eta + (S1 eta)' + S2 eta eta, and
 /// beta_kl = int phi_k x phi_l dm.
 /// Source     design of the floating frame in docs/theory/equations.md.
 [[nodiscard]] ModalInertia pack_inertia(
-    const flexbody::InertiaShapeIntegrals& integrals);
+    const flexbody::InertiaShapeIntegrals& s);
 
 /// Symmetric matrix of the components (xx, yy, zz, xy, xz, yz).
 [[nodiscard]] inline Matrix3 unpack_symmetric(const Vector6& c) {
