@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Damaged bodies, checkpoints and results; resumes of a changed scene."""
+
+import re
+import shutil
+import signal
+import time
+from functools import cache
+from random import Random
+
+import scene
+from command import Limber
+from mutate import mutate_bytes
+
+RUN = ["run", "arm.toml", "--out", "out"]
+RESUME = [*RUN, "--resume"]
+KILL_WITHIN = 60.0  # s
+
+
+def _is_kept(out):
+    """Whether a checkpoint that can be resumed is there."""
+    return (out / "checkpoint.h5").exists()
+
+
+def interrupt_run(limber, words=RUN, by=signal.SIGKILL):
+    """Starts a run that keeps checkpoints and ends it once there is one."""
+    child = limber.start(*words, "--checkpoint-interval", "0")
+    begin = time.monotonic()
+    while not _is_kept(limber.place / "out") and child.poll() is None:
+        if time.monotonic() - begin > KILL_WITHIN:
+            break
+        time.sleep(0.001)
+    child.send_signal(by)
+    child.communicate()
+    return _is_kept(limber.place / "out")
+
+
+@cache
+def _prepare(program, folder, stock):
+    """Made once by each worker: a run cut short, a body, and an answer."""
+    place = stock / "prepared"
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir(parents=True)
+    limber = Limber(program, place, folder)
+    scene.lay_out(place)
+    for _ in range(20):
+        if interrupt_run(limber):
+            break
+        shutil.rmtree(place / "out", ignore_errors=True)
+    else:
+        raise RuntimeError("no run could be cut short: is the scene too short?")
+    whole = limber.run("run", "arm.toml", "--out", "whole")
+    body = limber.run("reduce", "bar.geo", *scene.MATERIAL,
+                      "-o", "body.h5")
+    for ended in (whole, body):
+        if ended.status != 0:
+            raise RuntimeError(f"nothing to damage: {ended.errors}")
+    return place
+
+
+def prepare(limber):
+    return _prepare(limber.program, limber.cache, limber.cache.parent)
+
+
+def _damage(file, random):
+    file.write_bytes(mutate_bytes(file.read_bytes(), random))
+
+
+def attack_body(seed, limber):
+    """`info` answers or refuses; the body's own seal says which."""
+    shutil.copy(prepare(limber) / "body.h5", limber.place)
+    _damage(limber.place / "body.h5", Random(f"body {seed}"))
+    ended = limber.run("info", "body.h5")
+    if ended.status == 0:
+        ended.problems.append("a damaged body was read")
+    return ended
+
+
+def attack_results(seed, limber):
+    """Nothing seals results: `info` may answer, but must end in words."""
+    random = Random(f"results {seed}")
+    shutil.copytree(prepare(limber) / "whole", limber.place / "out")
+    _damage(limber.place / "out" / "results.h5", random)
+    return limber.run("info", "out/results.h5")
+
+
+def attack_checkpoint(seed, limber):
+    """A damaged file of a run under way is refused, or does not matter."""
+    random = Random(f"checkpoint {seed}")
+    prepared = prepare(limber)
+    scene.lay_out(limber.place)
+    out = limber.place / "out"
+    shutil.copytree(prepared / "out", out)
+    kept = sorted(file for file in out.iterdir() if "checkpoint" in file.name)
+    _damage(random.choice(kept), random)
+    ended = limber.run(*RESUME)
+    if ended.status == 0:
+        differs = scene.answers_differ(out, prepared / "whole")
+        if differs:
+            ended.problems.append(f"damage was accepted: {differs}")
+    return ended
+
+
+TOML_PAIR = re.compile(r'\w+\s*=\s*(\[[^\]]*\]|"[^"]*"|[^\s,}\[{]+)')
+XML_PAIR = re.compile(r'\w+="([^"]*)"')
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+def _find_atoms(text, begin, end):
+    """Places of the numbers in a value, or of the whole of it."""
+    value = text[begin:end].strip('"')
+    if re.search(r"[A-Za-z_]{2}", value):
+        return [(begin, end)]
+    return [match.span() for match in NUMBER.finditer(text, begin, end)]
+
+
+def _find_changes():
+    """(file, begin, end) of each number and word in scenario and robot."""
+    found = []
+    for name, pattern in (("arm.toml", TOML_PAIR), ("arm.urdf", XML_PAIR)):
+        text = scene.read(name)
+        begin = text.index("<robot") if name == "arm.urdf" else 0
+        for pair in pattern.finditer(text, begin):
+            atoms = _find_atoms(text, *pair.span(1))
+            found += [(name, *atom) for atom in atoms]
+    bar = re.search(r"0\.008", scene.read("bar.geo"))
+    return [*found, ("bar.geo", *bar.span())]
+
+
+CHANGES = _find_changes()
+
+
+def _change_value(old):
+    if old in ("true", "false"):
+        return "false" if old == "true" else "true"
+    if not NUMBER.fullmatch(old):
+        return old[:-1] + '_2"' if old.endswith('"') else old + "_2"
+    if old.lstrip("+-").isdigit():
+        return str(int(old) + 1)
+    return repr(1.01 * float(old) if float(old) else 0.001)
+
+
+def _change(number):
+    name, begin, end = CHANGES[number]
+    text = scene.read(name)
+    old = text[begin:end]
+    new = _change_value(old)
+    return name, old, new, text[:begin] + new + text[end:]
+
+
+def attack_resume(number, limber):
+    """A resume of a changed scene refuses, or answers as a fresh run does."""
+    name, old, new, text = _change(number)
+    scene.lay_out(limber.place)
+    shutil.copytree(prepare(limber) / "out", limber.place / "out")
+    (limber.place / name).write_text(text)
+    ended = limber.run(*RESUME)
+    if ended.status not in (0, 3):
+        return ended
+    fresh = limber.run("run", "arm.toml", "--out", "fresh")
+    differs = scene.answers_differ(limber.place / "out", limber.place / "fresh")
+    if fresh.status != ended.status:
+        differs = f"status {ended.status}, fresh {fresh.status}"
+    if differs:
+        ended.problems.append(f"{name}: {old} -> {new} was accepted: {differs}")
+    return ended

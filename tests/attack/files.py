@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mutated scenarios, robots, geometries and meshes; geometries with orders."""
+
+from random import Random
+
+import scene
+from mutate import mutate_text
+
+# One in so many that give an answer is asked again, without the cache.
+ASKED_AGAIN = 20
+
+
+def _repeats(limber, words, ended, random):
+    """Whether a second run, from scratch, gives the same answer."""
+    if ended.status != 0 or words[0] != "run" or random.randrange(ASKED_AGAIN):
+        return []
+    again = limber.run(*words[:-2], "--out", "fresh", "--cache", "fresh_cache")
+    if again.status != 0:
+        return [f"status {again.status} when it is run again"]
+    differs = scene.answers_differ(limber.place / "out", limber.place / "fresh")
+    return [f"run again: {differs}"] if differs else []
+
+
+def _mutated(name, words):
+    def attack(seed, limber):
+        random = Random(f"{name} {seed}")
+        scene.lay_out(limber.place)
+        text = mutate_text(scene.read(name), random)
+        (limber.place / name).write_bytes(text.encode(errors="replace"))
+        ended = limber.run(*words)
+        ended.problems += _repeats(limber, words, ended, random)
+        return ended
+
+    return attack
+
+
+RUN = ["run", "arm.toml", "--out", "out"]
+attack_scenario = _mutated("arm.toml", RUN)
+attack_robot = _mutated("arm.urdf", RUN)
+attack_geometry = _mutated("bar.geo", RUN)
+
+BEAM = """robot = "beam.urdf"
+[time]
+duration = 0.01
+step = 1e-4
+[output]
+pictures = false
+"""
+BEAM_ROBOT = """<robot name="beam"><link name="B"/><flexible link="B">
+<mesh file="beam.msh"/>
+<material youngs_modulus="70e9" poisson_ratio="0.33" density="2700"/>
+<basis eigenmodes="4"/></flexible></robot>
+"""
+
+
+def attack_mesh(seed, limber):
+    random = Random(f"mesh {seed}")
+    text = mutate_text(scene.MESH.read_text(), random)
+    (limber.place / "beam.msh").write_bytes(text.encode(errors="replace"))
+    (limber.place / "beam.urdf").write_text(BEAM_ROBOT)
+    (limber.place / "beam.toml").write_text(BEAM)
+    words = ["run", "beam.toml", "--out", "out"]
+    ended = limber.run(*words)
+    ended.problems += _repeats(limber, words, ended, random)
+    return ended
+
+
+# Each tries to leave a file or a process behind, or never to end.
+ORDERS = [
+    'SystemCall "touch canary";',
+    'System "touch canary";',
+    'NonBlockingSystemCall "sleep 1000";',
+    'NonBlockingSystemCall "touch canary";',
+    'OnelabRun("touch", "canary");',
+    'Printf("canary") > "canary";',
+    'Printf("canary") >> "canary";',
+    'Save "canary.msh";',
+    'Print "canary.msh";',
+    'Print.Background = 1; Print "canary.png";',
+    "Exit;",
+    "Abort;",
+    "Sleep 1000;",
+    "General.NumThreads = 100000;",
+    "Mesh.MaxNumThreads3D = 100000;",
+    "l() = {0:1e12:1};",
+    "For i In {0:1e12} x = i; EndFor",
+    'Macro Loop\n Call Loop;\nReturn\nCall Loop;',
+    'Include "bar.geo";',
+    'Merge "bar.geo";',
+    'Merge "/dev/zero";',
+    'Merge "/dev/stdin";',
+    'Merge "fifo";',
+    'Include "/proc/self/environ";',
+    "Mesh.MeshSizeMax = 1e-7; Mesh.MeshSizeMin = 1e-8;",
+    "layers = 1000000000;",
+    "Delete Model;",
+    "Delete All;",
+    "Mesh.Algorithm = -1;",
+    "Mesh.ElementOrder = 1000;",
+    'DefineConstant[ x = {1, Name "x", ServerAction "ResetDatabase"} ];',
+    'SetChanged; Background Mesh View[0];',
+    'Plugin(Skin).Run;',
+    'Draw;',
+    'General.OptionsFileName = "canary"; Save Options "canary";',
+    'CreateDir "canary";',
+    'UnixSystemCall "touch canary";',
+    "Error('stop');",
+]
+
+
+def attack_order(number, limber):
+    """An order before and after the geometry, in a .geo and in a .msh."""
+    import os
+
+    scene.lay_out(limber.place)
+    os.mkfifo(limber.place / "fifo")
+    order = ORDERS[number // 3]
+    where = number % 3
+    bar = scene.read("bar.geo")
+    if where == 0:
+        (limber.place / "bar.geo").write_text(order + "\n" + bar)
+    elif where == 1:
+        (limber.place / "bar.geo").write_text(bar + "\n" + order + "\n")
+    else:
+        (limber.place / "bar.msh").write_text(bar + "\n" + order + "\n")
+        robot = scene.read("arm.urdf").replace("bar.geo", "bar.msh")
+        (limber.place / "arm.urdf").write_text(robot)
+    ended = limber.run(*RUN)
+    for found in limber.place.rglob("canary*"):
+        ended.problems.append(f"wrote {found.relative_to(limber.place)}")
+    return ended
+
+
+ORDER_COUNT = 3 * len(ORDERS)
