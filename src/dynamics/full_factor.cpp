@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/full_factor.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
+#include "common/rotation.hpp"
 #include "dynamics/full_terms.hpp"
 
 namespace limber::dynamics {
@@ -15,6 +17,35 @@ void turn_nodes(const Matrix3& R, Eigen::Ref<VectorX> x) {
     const Vector3 turned = R * x.segment<3>(i);
     x.segment<3>(i) = turned;
   }
+}
+
+// Of K to M, in the units of eigenvalues: what random displacements, small
+// against the body, store. About a third of the largest eigenvalue.
+double measure_stiffness(const FullModel& full,
+                         flexbody::FullBodySolver& solver) {
+  constexpr double kSmall = 1e-7;
+  const Matrix3X& x = full.mesh->x_B;
+  Matrix3X u(3, x.cols());
+  const double size =
+      (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const double number = static_cast<double>(i);
+    u(i) = kSmall * size * std::sin(1e4 * std::sin(number + 1.0));
+  }
+  Matrix3X scratch(3, x.cols());
+  const double energy = solver.calc_internal_force(u, scratch);
+  solver.multiply_mass(u, scratch);
+  return 2.0 * energy / scratch.cwiseProduct(u).sum();
+}
+
+// Translations and rotations of the deformed body: 3N x 6.
+MatrixX make_rigid_fields(const Matrix3X& b_B) {
+  MatrixX R(b_B.size(), 6);
+  for (Eigen::Index i = 0; i < b_B.cols(); ++i) {
+    R.block<3, 3>(3 * i, 0).setIdentity();
+    R.block<3, 3>(3 * i, 3) = -skew(b_B.col(i));
+  }
+  return R;
 }
 
 }  // namespace
@@ -33,11 +64,71 @@ bool FullFactor::update(const SystemModel& model, std::size_t f,
   Matrix3X u_B(3, full.mesh->node_count());
   calc_deformation(full, frame, nodes_of(full, state.u_H), u_B);
   flexbody::FullBodySolver& solver = *terms.full[f].solver;
-  name_failures(model, full, state.t,
-                [&] { solver.factor(u_B, c.acceleration); });
+  const bool is_free =
+      !model.bodies[static_cast<std::size_t>(full.body)].clamped;
+  const double shift = name_failures(model, full, state.t, [&] {
+    return is_free ? factor_free(full, solver, u_B, c.acceleration)
+                   : (solver.factor(u_B, c.acceleration), c.acceleration);
+  });
   acceleration_ = c.acceleration;
+  rigid_.resize(0, 0);
+  if (shift > c.acceleration) set_rigid_motion(full, solver, u_B);
   add_damping(full, solver, c.velocity);
   return true;
+}
+
+// A body that nothing of its own holds has a tangent with no stiffness against
+// rigid motion and, under stress, a negative one.
+double FullFactor::factor_free(const FullModel& full,
+                               flexbody::FullBodySolver& solver,
+                               const Matrix3X& u_B, double shift) {
+  constexpr double kRegular = 1e-10;
+  constexpr double kGrowth = 10.0;
+  constexpr double kMost = 1.0;
+  if (stiffness_ == 0.0) stiffness_ = measure_stiffness(full, solver);
+  shift = std::max(shift, kRegular * stiffness_);
+  for (;; shift *= kGrowth) {
+    try {
+      solver.factor(u_B, shift);
+      return shift;
+    } catch (const NumericalError&) {
+      if (shift > kMost * stiffness_) throw;
+    }
+  }
+}
+
+void FullFactor::set_rigid_motion(const FullModel& full,
+                                  const flexbody::FullBodySolver& solver,
+                                  const Matrix3X& u_B) {
+  rigid_ = make_rigid_fields(full.mesh->x_B + u_B);
+  rigid_momenta_.resize(rigid_.rows(), 6);
+  const auto multiply_mass = [&] {
+    for (int k = 0; k < 6; ++k) {
+      const ConstNodes field(rigid_.col(k).data(), 3, u_B.cols());
+      Nodes momenta(rigid_momenta_.col(k).data(), 3, u_B.cols());
+      solver.multiply_mass(field, momenta);
+    }
+  };
+  multiply_mass();
+  const MatrixX inertia = rigid_.transpose() * rigid_momenta_;
+  const MatrixX L = inertia.llt().matrixL();
+  L.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
+      rigid_);
+  multiply_mass();
+}
+
+void FullFactor::solve_undamped(const flexbody::FullBodySolver& solver,
+                                Eigen::Ref<MatrixX> x_B) const {
+  if (rigid_.size() == 0) {
+    solver.solve(x_B);
+    return;
+  }
+  const MatrixX pushes = rigid_.transpose() * x_B;
+  x_B.noalias() -= rigid_momenta_ * pushes;
+  solver.solve(x_B);
+  const MatrixX motion =
+      pushes / acceleration_ - rigid_momenta_.transpose() * x_B;
+  x_B.noalias() += rigid_ * motion;
 }
 
 void FullFactor::add_damping(const FullModel& full,
@@ -45,7 +136,7 @@ void FullFactor::add_damping(const FullModel& full,
                              double velocity) {
   if (full.damping.size() == 0) return;
   V_ = full.damped_modes;
-  solver.solve(V_);
+  solve_undamped(solver, V_);
   const MatrixX UtV = full.damped_modes.transpose() * V_;
   const MatrixX C = (velocity * full.damping).asDiagonal();
   const MatrixX small = MatrixX::Identity(C.rows(), C.cols()) + C * UtV;
@@ -55,7 +146,7 @@ void FullFactor::add_damping(const FullModel& full,
 void FullFactor::solve_columns(const FullModel& full,
                                const flexbody::FullBodySolver& solver,
                                Eigen::Ref<MatrixX> x_B) const {
-  solver.solve(x_B);
+  solve_undamped(solver, x_B);
   if (full.damping.size() == 0) return;
   const MatrixX rates = full.damped_modes.transpose() * x_B;
   x_B.noalias() -= V_ * rates;

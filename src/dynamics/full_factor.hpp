@@ -12,6 +12,11 @@ namespace limber::dynamics {
 ///            by R_HB. With U = M Phi and V = (c_a M + K)^-1 U, the few damped
 ///            modes are added as (D_0 + U C U')^-1 = D_0^-1 - V (1 + C U' V)^-1
 ///            C U' D_0^-1.
+///            Where c_a M is round-off of K, rigid motion R (R' M R = 1, K R
+///            about 0) is taken apart: D_0^-1 is then
+///            P (c M + K)^-1 P' + R R' / c_a with P = 1 - R R' M and a c that
+///            keeps the factors regular; the same where stress makes c_a M + K
+///            indefinite.
 class FullFactor {
  public:
   /// Coefficients of acceleration [1/s^2] and velocity [1/s].
@@ -37,11 +42,22 @@ class FullFactor {
   [[nodiscard]] const Matrix3& R_HB() const { return R_HB_; }
 
  private:
+  // @returns the c of its factors: `shift`, or what keeps them regular
+  double factor_free(const FullModel& full, flexbody::FullBodySolver& solver,
+                     const Matrix3X& u_B, double shift);
+  void set_rigid_motion(const FullModel& full,
+                        const flexbody::FullBodySolver& solver,
+                        const Matrix3X& u_B);
   void add_damping(const FullModel& full,
                    const flexbody::FullBodySolver& solver, double velocity);
+  void solve_undamped(const flexbody::FullBodySolver& solver,
+                      Eigen::Ref<MatrixX> x_B) const;
 
   double acceleration_ = 0.0;           // of the sparse factors, 0: none
+  double stiffness_ = 0.0;              // of K to M, 0: not yet known [1/s^2]
   Matrix3 R_HB_ = Matrix3::Identity();  // at the last update
+  MatrixX rigid_;          // 3N x 6: R; no columns if not taken apart
+  MatrixX rigid_momenta_;  // M R
   MatrixX V_;  // 3N x m: V (1 + C U' V)^-1 C; no columns if undamped
 };
 

@@ -82,6 +82,61 @@ TEST(Static, SmallLoadHasTheLinearAnswer) {
               1e-9 * 1.279e-6);
 }
 
+/// The same beam on a joint at the middle of its root.
+void write_held_beam(const Workspace& place, const std::string& force) {
+  write_clamped_beam(place, force);
+  place.write("beam.urdf",
+              "<robot name='beam'><link name='world'/><link name='beam'/>"
+              "<joint name='mount' type='fixed'><parent link='world'/>"
+              "<child link='beam'/></joint><flexible link='beam'>"
+              "<mesh file='" LIMBER_SOURCE_DIR
+              "/tests/data/beam/beam579_v41.msh'/><origin xyz='-0.5 -0.5 0'/>"
+              "<material youngs_modulus='200e9' poisson_ratio='0' "
+              "density='8000'/><attach joint='mount' interface='root'/>"
+              "<basis eigenmodes='10'/><interface name='root' group='root'/>"
+              "<interface name='tip' group='tip'/></flexible></robot>\n");
+  std::string scenario = read_text(place.folder() / "s.toml");
+  const std::string quantity = "quantity = 'deformation'\n";
+  scenario.erase(scenario.find(quantity), quantity.size());
+  place.write("s.toml", scenario);
+}
+
+// F L^3 / (3 E I) + F L / (5/6 G A), and what the joint and the root's freedom
+// to warp add; the clamped beam of an independent program is the other bound.
+TEST(Static, BeamOnAJointAtLevelFullHasTheClosedForm) {
+  for (const double force : {1.0, 500.0}) {
+    for (const char* method : {"newton", "relaxation"}) {
+      const Workspace place;
+      write_held_beam(place, fmt::format("{}", force));
+      const CommandResult r = place.limber(fmt::format(
+          "static s.toml --out o --fidelity full --cache c --method {}",
+          method));
+      ASSERT_EQ(r.status, 0) << r.errors;
+      const double ux = probe(read_summary(place), "tip.ux");
+      const double bend = force * 125.0 / (3.0 * 200e9 / 12.0);
+      const double shear = force * 5.0 / (5.0 / 6.0 * 100e9);
+      EXPECT_NEAR(ux, bend + shear, 0.015 * ux) << method;
+      ASSERT_EQ(
+          place.limber("static s.toml --out o --fidelity coupled --cache c")
+              .status,
+          0);
+      EXPECT_NEAR(ux, probe(read_summary(place), "tip.ux"), 1e-4 * ux);
+    }
+  }
+}
+
+// CalculiX, nlgeom, clamped: the joint gives way a little more.
+TEST(Static, BeamOnAJointBendsByAFifthAsAnIndependentProgramsClampedOne) {
+  const Workspace place;
+  write_held_beam(place, "4e8");
+  const CommandResult r =
+      place.limber("static s.toml --out o --fidelity full --cache c");
+  ASSERT_EQ(r.status, 0) << r.errors;
+  const json summary = read_summary(place);
+  EXPECT_NEAR(probe(summary, "tip.ux"), 0.98598972, 0.02);
+  EXPECT_NEAR(probe(summary, "tip.uz"), -0.11822246, 0.005);
+}
+
 TEST(Static, WithoutALoadSaysThatTheAnswerIsTrivial) {
   const Workspace place;
   write_clamped_beam(place, "0");
