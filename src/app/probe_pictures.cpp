@@ -12,7 +12,10 @@ namespace limber::app {
 namespace {
 
 results::Series make_series(const NamedHistory& line, std::size_t column) {
-  results::Series series{line.name, line.history->times, {}};
+  results::Series series{line.name, line.history->times, {}, {}};
+  if (line.peaks != nullptr && column < line.peaks->size()) {
+    series.peak = (*line.peaks)[column];
+  }
   for (const std::vector<double>& row : line.history->probe_rows) {
     series.values.push_back(row[column]);
   }

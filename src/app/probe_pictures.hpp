@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/followed.hpp"
 #include "results/history.hpp"
 
 namespace limber::app {
@@ -13,6 +14,8 @@ namespace limber::app {
 struct NamedHistory {
   std::string name;
   const results::History* history;
+  /// Of its columns, to be marked; null: none.
+  const std::vector<dynamics::Extreme>* peaks = nullptr;
 };
 
 /// A picture a probe, "probe_NAME.png": its columns, a line a history. All have

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include "app/probe_pictures.hpp"
 #include "app/run_scene.hpp"
 #include "app/terminal.hpp"
 #include "app/text_file.hpp"
+#include "dynamics/energy_verdict.hpp"
 #include "results/pictures.hpp"
 #include "results/probes_csv.hpp"
 #include "results/results_file.hpp"
@@ -16,15 +19,25 @@ void warn(const std::string& why_none) {
   if (!why_none.empty()) print_warnings({why_none});
 }
 
+/// What a picture's title adds if energy was made or lost.
+std::string describe_open(const Run& run) {
+  const dynamics::EnergyRecord& energy = run.record.energy;
+  const double share = dynamics::find_open_share(energy);
+  if (!(share > dynamics::kToldDrift)) return "";
+  return fmt::format(" ({:.2g} % open at {:.4g} s, most in {})", 100.0 * share,
+                     energy.drift.time, energy.place);
+}
+
 void draw_run(const Run& run, const std::filesystem::path& folder) {
   const std::string& name = run.scene.scenario.name;
-  warn(results::draw_energy(folder / "energy.png", name, run.history));
+  warn(results::draw_energy(folder / "energy.png", name + describe_open(run),
+                            run.history));
   warn(results::draw_scene(
       folder / "scene.png", name, run.built.model,
       {run.history.states.front(), run.history.states.back()}));
-  draw_probes(
-      {{std::string(to_string(run.scene.scenario.fidelity)), &run.history}},
-      folder);
+  draw_probes({{std::string(to_string(run.scene.scenario.fidelity)),
+                &run.history, &run.record.peaks}},
+              folder);
 }
 
 }  // namespace

@@ -13,12 +13,25 @@ namespace limber::app {
 namespace {
 
 /// What the audit leaves open, of the energy that passed through.
-std::string describe_drift(const results::History& history) {
-  const results::EnergyAudit audit = results::audit_energy(history);
+std::string describe_drift(const Run& run) {
+  const results::EnergyAudit audit = results::audit_energy(run.history);
   const std::optional<double> relative = audit.relative();
   if (!relative) return "";
-  return fmt::format("; drift {:.2g} J, {:.1e} of the throughput", audit.drift,
-                     *relative);
+  const dynamics::Extreme& largest = run.record.energy.drift;
+  return fmt::format(
+      "; drift {:.2g} J, {:.1e} of the throughput, at most {:.1e} at {:.4g} s",
+      audit.drift, *relative, std::abs(largest.value) / audit.throughput,
+      largest.time);
+}
+
+void print_probes(const results::History& history,
+                  const std::vector<dynamics::Extreme>& peaks) {
+  if (history.probe_rows.empty() || peaks.empty()) return;
+  for (std::size_t i = 0; i < history.columns.size(); ++i) {
+    fmt::print("{:<28} final {:13.6g}  peak {:13.6g} {} at {:.6g} s\n",
+               history.columns[i].name, history.probe_rows.back()[i],
+               peaks[i].value, history.columns[i].unit, peaks[i].time);
+  }
 }
 
 void print_text(const Run& run, const std::filesystem::path& folder) {
@@ -49,20 +62,10 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   if (!run.history.energies.empty()) {
     const dynamics::EnergyBalance& last = run.history.energies.back();
     fmt::print("energy  {:.6g} J, work {:.6g} J, dissipated {:.6g} J{}\n",
-               last.total(), last.work, last.dissipated,
-               describe_drift(run.history));
+               last.total(), last.work, last.dissipated, describe_drift(run));
   }
   fmt::print("{}", to_text(run.history.events));
-  for (std::size_t i = 0; i < run.history.columns.size(); ++i) {
-    if (run.history.probe_rows.empty()) break;
-    double peak = 0.0;
-    for (const auto& row : run.history.probe_rows) {
-      peak = std::max(peak, std::abs(row[i]));
-    }
-    fmt::print("{:<28} final {:13.6g}  peak {:13.6g} {}\n",
-               run.history.columns[i].name, run.history.probe_rows.back()[i],
-               peak, run.history.columns[i].unit);
-  }
+  print_probes(run.history, run.record.peaks);
   fmt::print("results in {}\n", folder.string());
 }
 

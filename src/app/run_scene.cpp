@@ -13,8 +13,10 @@
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
+#include "dynamics/energy_verdict.hpp"
 #include "flexbody/cache.hpp"
 #include "results/energy_audit.hpp"
+#include "scene/followed_probes.hpp"
 
 namespace limber::app {
 namespace {
@@ -31,6 +33,7 @@ void observe(const scene::BuiltScene& built, const dynamics::SystemState& state,
 void simulate(const scene::BuiltScene& built, const Progress& progress,
               results::History& history,
               dynamics::SimulationStatistics& statistics,
+              dynamics::RunRecord& record,
               const dynamics::Continuation& continuation = {}) {
   dynamics::SystemState state = built.initial;
   const auto observer = [&](const dynamics::SystemState& now,
@@ -38,7 +41,8 @@ void simulate(const scene::BuiltScene& built, const Progress& progress,
     observe(built, now, energy, history);
   };
   dynamics::simulate(built.model, state, built.settings, observer, progress,
-                     statistics, continuation);
+                     statistics, continuation,
+                     scene::follow(built.probes, built.model), record);
 }
 
 void add_columns(Run& run) {
@@ -49,7 +53,12 @@ void add_columns(Run& run) {
   }
 }
 
-Json summarize_energy(const results::History& history) {
+Json describe(const dynamics::Extreme& extreme) {
+  return Json{{"value", extreme.value}, {"time", extreme.time}};
+}
+
+Json summarize_energy(const results::History& history,
+                      const dynamics::EnergyRecord& record) {
   Json json = Json::object();
   if (history.energies.empty()) return json;
   const results::EnergyAudit audit = results::audit_energy(history);
@@ -61,24 +70,28 @@ Json summarize_energy(const results::History& history) {
   json["throughput"] = audit.throughput;
   const std::optional<double> relative = audit.relative();
   json["relative_drift"] = relative ? Json(*relative) : Json(nullptr);
+  json["largest_drift"] = describe(record.drift);
+  json["open_share"] = dynamics::find_open_share(record);
+  json["place"] = record.place;
+  json["place_share"] = record.share;
+  json["peaks"] = {{"stored", describe(record.stored)},
+                   {"kinetic", describe(record.kinetic)},
+                   {"elastic", describe(record.elastic)},
+                   {"coupler", describe(record.coupler)}};
   return json;
 }
 
-double find_peak(const results::History& history, std::size_t column) {
-  double peak = 0.0;
-  for (const std::vector<double>& row : history.probe_rows) {
-    if (std::abs(row[column]) > std::abs(peak)) peak = row[column];
-  }
-  return peak;
-}
-
-Json summarize_probes(const results::History& history) {
+Json summarize_probes(const results::History& history,
+                      const std::vector<dynamics::Extreme>& peaks) {
   Json json = Json::object();
   if (history.probe_rows.empty()) return json;
   for (std::size_t i = 0; i < history.columns.size(); ++i) {
     Json probe = Json::object();
     probe["final"] = history.probe_rows.back()[i];
-    probe["peak"] = find_peak(history, i);
+    if (!peaks.empty()) {
+      probe["peak"] = peaks[i].value;
+      probe["peak_time"] = peaks[i].time;
+    }
     probe["unit"] = history.columns[i].unit;
     json[history.columns[i].name] = probe;
   }
@@ -110,7 +123,8 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
   const dynamics::Continuation continuation =
       make_continuation(checkpoints, run.built, run.history);
   try {
-    simulate(run.built, progress, run.history, run.statistics, continuation);
+    simulate(run.built, progress, run.history, run.statistics, run.record,
+             continuation);
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
@@ -121,7 +135,8 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
 double time_again(const Run& run) {
   results::History history;
   dynamics::SimulationStatistics statistics;
-  simulate(run.built, {}, history, statistics);
+  dynamics::RunRecord record;
+  simulate(run.built, {}, history, statistics, record);
   return statistics.seconds;
 }
 
@@ -178,9 +193,9 @@ Json summarize(const Run& run) {
   json["seconds_online"] = run.statistics.seconds;
   json["bodies_reduced"] = run.built.bodies_reduced;
   json["bodies_cached"] = run.built.bodies_cached;
-  json["energy"] = summarize_energy(run.history);
+  json["energy"] = summarize_energy(run.history, run.record.energy);
   json["events"] = to_json(run.history.events);
-  json["probes"] = summarize_probes(run.history);
+  json["probes"] = summarize_probes(run.history, run.record.peaks);
   json["levels"] = Json::array();
   for (const BodyLevel& level : run.levels) {
     json["levels"].push_back(to_json(level));

@@ -8,7 +8,7 @@
 #include "app/json.hpp"
 #include "app/levels.hpp"
 #include "common/progress.hpp"
-#include "dynamics/simulation.hpp"
+#include "dynamics/run_record.hpp"
 #include "results/history.hpp"
 #include "scene/scene.hpp"
 
@@ -20,6 +20,7 @@ struct Run {
   scene::BuiltScene built;
   results::History history;
   dynamics::SimulationStatistics statistics;
+  dynamics::RunRecord record;     ///< peaks of the probes' columns, and energy
   std::vector<BodyLevel> levels;  ///< whether each body's was justified
   std::exception_ptr failure;     ///< the NumericalError that ended it early
 };
@@ -45,7 +46,8 @@ struct Run {
 /// @throws InputError if not.
 void check_output_folder(const std::filesystem::path& folder);
 
-/// The run in figures: steps, times, energy, probes (name -> final, peak).
+/// The run in figures: steps, times, energy, probes (name -> final,
+/// peak, peak_time).
 [[nodiscard]] Json summarize(const Run& run);
 
 /// Prints the run's summary, as JSON or as text.

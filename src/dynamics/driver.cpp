@@ -45,7 +45,7 @@ std::vector<Landmark> find_marks(const SystemModel& model, double start,
 
 Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
                const SystemState& state, SimulationStatistics& statistics,
-               double refinement)
+               double refinement, const Followed& followed)
     : model_(model),
       settings_(settings),
       statistics_(statistics),
@@ -58,6 +58,8 @@ Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
       marcher_(model, settings, statistics.events),
       control_(settings.tolerance, settings.end_time - state.t, settings.step,
                refinement),
+      peaks_(model, followed),
+      audit_(model, settings.integrator),
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
       within_(state),
@@ -73,6 +75,8 @@ void Driver::exchange_memory(Archive& archive, SystemState& state) {
   marcher_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   watch_.exchange_memory(archive);
+  peaks_.exchange_memory(archive);
+  audit_.exchange_memory(archive);
   exchange_costs(archive, statistics_);
   archive(statistics_.events);
 }
@@ -121,6 +125,23 @@ void Driver::count_step(const StepResult& since) {
   statistics_.newton_iterations += now.iterations - since.iterations;
   statistics_.factorizations += now.factorizations - since.factorizations;
   watch_.add(now.load_work - since.load_work);
+}
+
+// @param events that there were before the step
+void Driver::watch_step(const SystemState& state, std::size_t events) {
+  peaks_.include(state);
+  const bool is_smooth = statistics_.events.size() == events;
+  audit_.include(state, is_smooth ? &marcher_.terms() : nullptr,
+                 marcher_.totals(), state.t == settings_.end_time,
+                 statistics_.events);
+}
+
+void Driver::tell(RunRecord& record) {
+  record.peaks = peaks_.finish();
+  record.energy = audit_.find_energy();
+  for (std::string& text : audit_.find_warnings()) {
+    statistics_.warnings.push_back(std::move(text));
+  }
 }
 
 void Driver::halve(const SystemState& state, double h, const std::string& why) {
@@ -182,8 +203,13 @@ void Driver::enter_mark(SystemState& state) {
       const double stored = calc_energy(model_, state, terms_).total();
       watch_ = EnergyWatch(stored);
       clash_ = find_start_clash(model_, terms_, stored, h_);
+      peaks_.start(state);
+      audit_.start(state, terms_, statistics_.events);
     }
-    if (at_jump_) marcher_.cross_jump(state, h_);
+    if (at_jump_) {
+      marcher_.cross_jump(state, h_);
+      audit_.cross_jump(state, marcher_.terms());
+    }
   } catch (const NumericalError& error) {
     fail(state, h_,
          fmt::format("before the step at t = {:.9g} s: {}", state.t,
@@ -216,11 +242,13 @@ void Driver::take_planned_step(SystemState& state) {
     const double left = is_whole ? h_ : end - state.t;
     const double h = std::min(left, std::ldexp(h_, -depth_));
     const bool is_last = h >= left * (1.0 - kSame);
+    const std::size_t events = statistics_.events.size();
     const bool has_moved = goes_through(state, h, [&] {
       marcher_.attempt(state, is_last ? left : h, is_last ? end : state.t + h);
       marcher_.settle(state, h_);
     });
     is_whole = is_whole && !has_moved;
+    if (has_moved) watch_step(state, events);
     if (has_moved && !is_last) count_share(state);
   }
   state.t = end;
@@ -255,6 +283,7 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
                      settings_.tolerance, h_));
   }
   bool counts = false;
+  const std::size_t events = statistics_.events.size();
   const bool has_moved = goes_through(state, h_, [&] {
     marcher_.attempt(state, h_, h_ == left ? mark : state.t + h_);
     counts = control_.accepts(h_, marcher_.last().error);
@@ -272,6 +301,7 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
     return false;
   }
   count_step(before);
+  watch_step(state, events);
   visit_within(marcher_.before(), state, losses_before, visit);
   if (mark - state.t <= kSame * h_) {
     state.t = mark;
@@ -306,6 +336,7 @@ void Driver::visit_within(const SystemState& begin, const SystemState& state,
 void Driver::leave_mark(const SystemState& state, const Visit& visit) {
   const Landmark& mark = marks_[mark_];
   at_jump_ = mark.is_jump;
+  if (at_jump_) peaks_.cross_jump(state);
   if (mark.is_output) visit(state, losses());
   ++mark_;
   part_ = parts_ = 0;

@@ -10,6 +10,9 @@
 #include "dynamics/energy_watch.hpp"
 #include "dynamics/landmarks.hpp"
 #include "dynamics/marcher.hpp"
+#include "dynamics/peak_watch.hpp"
+#include "dynamics/run_record.hpp"
+#include "dynamics/step_audit.hpp"
 #include "dynamics/step_control.hpp"
 #include "dynamics/work_budget.hpp"
 
@@ -37,7 +40,7 @@ class Driver {
   /// tolerance but their errors, at most 1 (StepControl)
   Driver(const SystemModel& model, const SimulationSettings& settings,
          const SystemState& state, SimulationStatistics& statistics,
-         double refinement);
+         double refinement, const Followed& followed = {});
 
   /// Goes on from a checkpoint: `state` and all that was known then. Outputs
   /// that were visited before are not visited again.
@@ -47,6 +50,10 @@ class Driver {
   /// likely cause; `state` is then that of the last good step.
   void run(SystemState& state, const Visit& visit, const Progress& progress,
            const CheckpointKeeper& keeper);
+
+  /// Adds what was seen over all steps up to where the run is: peaks, energy
+  /// and warnings.
+  void tell(RunRecord& record);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -63,6 +70,7 @@ class Driver {
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
   void count_step(const StepResult& since);
+  void watch_step(const SystemState& state, std::size_t events);
   void inspect(const SystemState& state);
   void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper);
   void exchange_memory(Archive& archive, SystemState& state);
@@ -83,6 +91,8 @@ class Driver {
   Marcher marcher_;
   StepControl control_;
   EnergyWatch watch_;
+  PeakWatch peaks_;
+  StepAudit audit_;
   WorkBudget budget_;
   SystemTerms terms_;  // of the energy
   SystemState within_;

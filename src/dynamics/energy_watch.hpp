@@ -13,8 +13,8 @@ namespace limber::dynamics {
 ///            > 1000 times at one.
 ///            (A scheme that takes its work from a step's start has none in its
 ///            first step from rest.)
-/// Limits     An integrator that gains less is not stopped: the energy audit of
-///            the results tells what it left open.
+/// Limits     An integrator that gains less is not stopped on the way: what it
+///            left open is judged at the end (dynamics/energy_verdict).
 class EnergyWatch {
  public:
   EnergyWatch() = default;

@@ -2,11 +2,19 @@
 #include "dynamics/exact_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "dynamics/modal_loads.hpp"
 
 namespace limber::dynamics {
 namespace {
+
+// Times at which it is looked which modes move.
+constexpr int kEnergyLooks = 256;
+constexpr double kExcited = 1e-6;  // of the largest energy of a mode
+constexpr double kLooksAPeriod = 10.0;
+constexpr double kMostLooks = 1e6;
 
 void drop_modes(BodyModel& body) {
   body.modes = 0;
@@ -16,10 +24,20 @@ void drop_modes(BodyModel& body) {
   body.P.resize(3, 0);
 }
 
+// [rad/s]
+double find_fastest(const flexbody::ModalLoads& loads) {
+  double fastest = 0.0;
+  for (const flexbody::SinusoidalLoad& load : loads.sinusoids) {
+    if (load.cosine.isZero(0.0) && load.sine.isZero(0.0)) continue;
+    fastest = std::max(fastest, load.omega);
+  }
+  return fastest;
+}
+
 }  // namespace
 
 ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
-    : model_(model), rest_(model) {
+    : model_(model), rest_(model), start_(start.t) {
   rest_.modal_count = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -30,10 +48,12 @@ ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
       const flexbody::ModalState state{
           start.t, start.eta.segment(body.offset, body.modes),
           start.etadot.segment(body.offset, body.modes)};
+      const flexbody::ModalLoads loads = find_modal_loads(model, index, start);
       parts_.push_back({body.offset,
-                        {body.lambda, body.damping,
-                         find_modal_loads(model, index, start), state},
+                        body.lambda,
+                        {body.lambda, body.damping, loads, state},
                         {},
+                        find_fastest(loads),
                         {},
                         {}});
       count_ += body.modes;
@@ -82,8 +102,7 @@ void ExactModes::prepare(const std::vector<double>& times) {
   }
 }
 
-void ExactModes::join(const SystemState& rest, std::size_t i,
-                      SystemState& whole) const {
+void ExactModes::join_rest(const SystemState& rest, SystemState& whole) const {
   whole.t = rest.t;
   whole.bodies = rest.bodies;
   whole.X_WH = rest.X_WH;
@@ -98,12 +117,54 @@ void ExactModes::join(const SystemState& rest, std::size_t i,
     whole.etadot.segment(to, left.modes) =
         rest.etadot.segment(left.offset, left.modes);
   }
+}
+
+void ExactModes::join(const SystemState& rest, std::size_t i,
+                      SystemState& whole) const {
+  join_rest(rest, whole);
   const auto column = static_cast<Eigen::Index>(i);
   for (const Part& part : parts_) {
     const Eigen::Index modes = part.history.eta.rows();
     whole.eta.segment(part.offset, modes) = part.history.eta.col(column);
     whole.etadot.segment(part.offset, modes) = part.history.etadot.col(column);
   }
+}
+
+void ExactModes::join(const SystemState& rest, SystemState& whole) const {
+  join_rest(rest, whole);
+  for (const Part& part : parts_) {
+    const flexbody::ModalHistory now = part.response.evaluate({rest.t});
+    whole.eta.segment(part.offset, part.lambda.size()) = now.eta;
+    whole.etadot.segment(part.offset, part.lambda.size()) = now.etadot;
+  }
+}
+
+double ExactModes::find_longest_look(double end) const {
+  std::vector<double> times;
+  for (int i = 0; i <= kEnergyLooks; ++i) {
+    times.push_back(start_ + (end - start_) * i / kEnergyLooks);
+  }
+  std::vector<VectorX> energies;  // the largest of each mode
+  double most = 0.0;
+  for (const Part& part : parts_) {
+    std::vector<double> looks = times;
+    for (const double t : part.response.interval_starts()) {
+      if (t > start_ && t < end) looks.push_back(t);
+    }
+    const flexbody::ModalEnergies e = part.response.evaluate_energies(looks);
+    energies.emplace_back((e.kinetic + e.elastic).rowwise().maxCoeff());
+    most = std::max(most, energies.back().maxCoeff());
+  }
+  double fastest = 0.0;
+  for (std::size_t p = 0; p < parts_.size() && most > 0.0; ++p) {
+    fastest = std::max(fastest, parts_[p].fastest_load);
+    for (Eigen::Index k = 0; k < energies[p].size(); ++k) {
+      if (energies[p][k] < kExcited * most) continue;
+      fastest = std::max(fastest, std::sqrt(parts_[p].lambda[k]));
+    }
+  }
+  const double period = 2.0 * std::numbers::pi / fastest;
+  return std::max(period / kLooksAPeriod, (end - start_) / kMostLooks);
 }
 
 ExactModes::Losses ExactModes::losses(std::size_t i) const {

@@ -31,6 +31,14 @@ class ExactModes {
   void prepare(const std::vector<double>& times);
   /// Puts the rest's state and the modes at prepared time i into `whole`.
   void join(const SystemState& rest, std::size_t i, SystemState& whole) const;
+  /// The same at rest.t, whatever was prepared.
+  void join(const SystemState& rest, SystemState& whole) const;
+  /// Between two looks, at most, that miss no extreme of the modes until `end`:
+  /// a tenth of the shortest period of the modes that have a millionth of the
+  /// largest energy of one, and of the loads on them; infinite if none moves
+  /// [s]. No shorter than a millionth of the time.
+  [[nodiscard]] double find_longest_look(double end) const;
+
   /// What the modes took from loads and lost by prepared time i.
   struct Losses {
     double work = 0.0;        ///< [J]
@@ -41,14 +49,19 @@ class ExactModes {
  private:
   struct Part {
     int offset = 0;  // in the whole state
+    VectorX lambda;
     flexbody::ModalResponse response;
     flexbody::ModalHistory history;  // at the prepared times
+    double fastest_load = 0.0;       // of sinusoids [rad/s]
     VectorX work;                    // of all modes, at the prepared times
     VectorX dissipated;
   };
 
+  void join_rest(const SystemState& rest, SystemState& whole) const;
+
   const SystemModel& model_;
   SystemModel rest_;
+  double start_ = 0.0;  // [s]
   std::vector<Part> parts_;
   int count_ = 0;
 };

@@ -48,6 +48,9 @@ class Marcher {
   /// Of all steps so far.
   [[nodiscard]] const StepResult& totals() const { return totals_; }
 
+  /// At about the last step's end, before what happened there.
+  [[nodiscard]] const SystemTerms& terms() const { return stepper_.terms(); }
+
   /// Linear solves since this was asked last, of failed steps, too.
   [[nodiscard]] long take_solves() { return stepper_.take_solves(); }
 

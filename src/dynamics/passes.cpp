@@ -75,12 +75,15 @@ class Passes {
  public:
   Passes(const SystemModel& model, const SystemState& start,
          const SimulationSettings& settings, const Progress& progress,
-         SimulationStatistics& statistics, const Continuation& continuation)
+         SimulationStatistics& statistics, const Continuation& continuation,
+         const Followed& followed, RunRecord& record)
       : model_(model),
         start_(start),
         settings_(settings),
         progress_(progress),
         statistics_(statistics),
+        followed_(followed),
+        run_record_(record),
         scale_(model) {
     keeper_.interval = continuation.keeper.interval;
     if (continuation.keeper.keep) {
@@ -127,6 +130,7 @@ class Passes {
     };
     try {
       run_once(model_, state, settings, observer, progress_, pass, continuation,
+               followed_, run_record_,
                to_length(course_.allowed / (kFirst * settings_.tolerance)));
     } catch (const NumericalError&) {
       finish();
@@ -186,6 +190,8 @@ class Passes {
   const SimulationSettings& settings_;
   const Progress& progress_;
   SimulationStatistics& statistics_;
+  const Followed& followed_;
+  RunRecord& run_record_;  // of the last pass
   MotionScale scale_;
   CheckpointKeeper keeper_;
   std::optional<Checkpoint> inner_;  // of the pass that goes on
@@ -198,8 +204,10 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
                       const SimulationSettings& settings,
                       const Observer& observer, const Progress& progress,
                       SimulationStatistics& statistics,
-                      const Continuation& continuation) {
-  Passes passes(model, state, settings, progress, statistics, continuation);
+                      const Continuation& continuation,
+                      const Followed& followed, RunRecord& record) {
+  Passes passes(model, state, settings, progress, statistics, continuation,
+                followed, record);
   const auto tell = [&] {
     if (!observer) return;
     for (std::size_t i = 0; i < passes.record().states.size(); ++i) {

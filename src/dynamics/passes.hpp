@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simulation.hpp"
+#include "dynamics/run_record.hpp"
 
 namespace limber::dynamics {
 
@@ -22,6 +22,7 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
                       const SimulationSettings& settings,
                       const Observer& observer, const Progress& progress,
                       SimulationStatistics& statistics,
-                      const Continuation& continuation);
+                      const Continuation& continuation,
+                      const Followed& followed, RunRecord& record);
 
 }  // namespace limber::dynamics

@@ -8,7 +8,9 @@
 
 #include "common/errors.hpp"
 #include "common/names.hpp"
+#include "dynamics/energy_verdict.hpp"
 #include "dynamics/passes.hpp"
+#include "dynamics/run_record.hpp"
 #include "dynamics/single_run.hpp"
 
 namespace limber::dynamics {
@@ -118,6 +120,16 @@ void simulate(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
               const Continuation& continuation) {
+  RunRecord record;
+  simulate(model, state, settings, observer, progress, statistics, continuation,
+           {}, record);
+}
+
+void simulate(const SystemModel& model, SystemState& state,
+              const SimulationSettings& settings, const Observer& observer,
+              const Progress& progress, SimulationStatistics& statistics,
+              const Continuation& continuation, const Followed& followed,
+              RunRecord& record) {
   LIMBER_EXPECT(state.bodies.size() == model.bodies.size());
   LIMBER_EXPECT(state.eta.size() == model.modal_count);
   LIMBER_EXPECT(state.etadot.size() == model.modal_count);
@@ -126,13 +138,23 @@ void simulate(const SystemModel& model, SystemState& state,
                 model.couplers.size() + model.transmissions.size());
   check_settings(model, state, settings);
   const Stopwatch stopwatch(statistics.seconds);
-  if (settings.tolerance > 0.0) {
-    run_to_tolerance(model, state, settings, observer, progress, statistics,
-                     continuation);
-  } else {
-    run_once(model, state, settings, observer, progress, statistics,
-             continuation);
+  const auto warn = [&] {
+    warn_of_energy(settings.integrator, record.energy, statistics.warnings);
+  };
+  try {
+    if (settings.tolerance > 0.0) {
+      run_to_tolerance(model, state, settings, observer, progress, statistics,
+                       continuation, followed, record);
+    } else {
+      run_once(model, state, settings, observer, progress, statistics,
+               continuation, followed, record);
+    }
+  } catch (const NumericalError&) {
+    warn();
+    throw;
   }
+  warn();
+  check_energy(settings.integrator, record.energy);
   report(progress, "simulating", 1.0);
 }
 

@@ -11,6 +11,7 @@
 #include "dynamics/linear_limit.hpp"
 #include "dynamics/modal_loads.hpp"
 #include "dynamics/stable_step.hpp"
+#include "dynamics/start_warnings.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -48,24 +49,43 @@ struct Job {
   const Progress& progress;
   SimulationStatistics& statistics;
   const Continuation& continuation;
+  const Followed& followed;
+  RunRecord& record;
   double refinement;  // of the limits of steps to a tolerance
 };
 
 void integrate(const SystemModel& model, SystemState& state, const Job& job,
                const Driver::Visit& visit) {
-  Driver driver(model, job.settings, state, job.statistics, job.refinement);
+  Driver driver(model, job.settings, state, job.statistics, job.refinement,
+                job.followed);
   if (job.continuation.from) driver.resume(*job.continuation.from, state);
-  driver.run(state, visit, job.progress, job.continuation.keeper);
+  try {
+    driver.run(state, visit, job.progress, job.continuation.keeper);
+  } catch (const NumericalError&) {
+    driver.tell(job.record);
+    throw;
+  }
+  driver.tell(job.record);
 }
 
 // Nothing is left that needs steps.
-void pass_time(SystemState& state, const std::vector<double>& times, double end,
+void pass_time(const SystemModel& model, SystemState& state,
+               const std::vector<double>& times, const Job& job,
                const Driver::Visit& visit) {
+  PeakWatch peaks(model, job.followed);
+  SystemState now = state;
+  peaks.start(now);
+  for (const Landmark& mark : find_landmarks(model, state.t, job.settings)) {
+    now.t = mark.time;
+    peaks.include(now);
+    if (mark.is_jump) peaks.cross_jump(now);
+  }
+  job.record.peaks = peaks.finish();
   for (const double t : times) {
     state.t = t;
     visit(state, {});
   }
-  state.t = end;
+  state.t = job.settings.end_time;
 }
 
 bool has_exact_modes(const SystemModel& model,
@@ -100,11 +120,22 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
     exact.prepare({rest.t});
     exact.join(rest, 0, state);
   };
+  Followed followed = job.followed;
+  if (!followed.courses.empty()) {
+    followed.longest = exact.find_longest_look(job.settings.end_time);
+  }
+  followed.evaluate = [&](const SystemState& now, std::vector<double>& values) {
+    exact.join(now, whole);
+    job.followed.evaluate(whole, values);
+  };
+  const Job rest_job{job.settings,     job.progress, job.statistics,
+                     job.continuation, followed,     job.record,
+                     job.refinement};
   try {
     if (exact.has_motion_left()) {
-      integrate(exact.rest(), rest, job, visit_whole);
+      integrate(exact.rest(), rest, rest_job, visit_whole);
     } else {
-      pass_time(rest, times, job.settings.end_time, visit_whole);
+      pass_time(exact.rest(), rest, times, rest_job, visit_whole);
     }
   } catch (const NumericalError&) {
     leave();
@@ -118,7 +149,8 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 void run_once(const SystemModel& model, SystemState& state,
               const SimulationSettings& asked, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
-              const Continuation& continuation, double refinement) {
+              const Continuation& continuation, const Followed& followed,
+              RunRecord& record, double refinement) {
   SystemTerms terms = make_terms(model);
   SystemState framed;
   LinearLimit limit(model);
@@ -137,7 +169,9 @@ void run_once(const SystemModel& model, SystemState& state,
   };
   const SimulationSettings settings =
       limit_step(model, state, asked, statistics);
-  const Job job{settings, progress, statistics, continuation, refinement};
+  const Job job{settings, progress, statistics, continuation,
+                followed, record,   refinement};
+  add_start_warnings(model, state, statistics);
   const double start = state.t;
   const auto finish = [&] {
     update_mean_frames(model, state);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simulation.hpp"
+#include "dynamics/run_record.hpp"
 
 namespace limber::dynamics {
 
@@ -12,6 +12,7 @@ namespace limber::dynamics {
 void run_once(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
-              const Continuation& continuation, double refinement = 1.0);
+              const Continuation& continuation, const Followed& followed,
+              RunRecord& record, double refinement = 1.0);
 
 }  // namespace limber::dynamics

@@ -48,8 +48,34 @@ double largest(const Panel& panel) {
     for (const double v : series.values) {
       if (std::isfinite(v)) value = std::max(value, std::abs(v));
     }
+    if (series.peak) value = std::max(value, std::abs(series.peak->value));
   }
   return value;
+}
+
+// A point with its value beside it, on the side that has more room.
+void add_peak(GnuplotScript& script, const std::string& block,
+              const Series& series) {
+  script.add(fmt::format("${}p << EOD", block));
+  script.add(fmt::format("{:.9g} {:.9g} {:.3g}", series.peak->time,
+                         series.peak->value, series.peak->value));
+  script.add("EOD");
+}
+
+bool has_peak(const Series& series) {
+  return series.peak && series.peak->value != 0.0 &&
+         std::isfinite(series.peak->value);
+}
+
+std::string plot_peak(const std::string& block, const Series& series,
+                      std::size_t s) {
+  const double middle = 0.5 * (series.times.front() + series.times.back());
+  const bool is_late = series.peak->time > middle;
+  return fmt::format(
+      ", ${}p using 1:2:3 with labels point pt 6 ps 1.3 lc rgb '{}' font "
+      "'sans,10' {} offset {},0.4 notitle",
+      block, kColours[s % kColours.size()], is_late ? "right" : "left",
+      is_late ? -1 : 1);
 }
 
 // A panel whose values are round-off beside the others' (or all zero) shows a
@@ -84,6 +110,10 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
                         s == 0 ? "" : ", ", p, s, style(s),
                         quote(panel.series[s].name));
   }
+  for (std::size_t s = 0; s < panel.series.size(); ++s) {
+    if (!has_peak(panel.series[s])) continue;
+    plot += plot_peak(fmt::format("d{}_{}", p, s), panel.series[s], s);
+  }
   script.add(plot);
 }
 
@@ -114,7 +144,11 @@ std::string draw_overlay(const std::filesystem::path& file,
   for (std::size_t p = 0; p < panels.size(); ++p) {
     reference = std::max(reference, largest(panels[p]));
     for (std::size_t s = 0; s < panels[p].series.size(); ++s) {
-      add_data(script, fmt::format("d{}_{}", p, s), panels[p].series[s]);
+      const std::string block = fmt::format("d{}_{}", p, s);
+      add_data(script, block, panels[p].series[s]);
+      if (has_peak(panels[p].series[s])) {
+        add_peak(script, block, panels[p].series[s]);
+      }
     }
   }
   const double height = kHeaderHeight + kPanelHeight * count;
@@ -141,7 +175,7 @@ std::string draw_overlay(const std::filesystem::path& file,
 std::string draw_energy(const std::filesystem::path& file,
                         const std::string& title, const History& history) {
   const auto series = [&](const char* name, auto value) {
-    Series s{name, history.times, {}};
+    Series s{name, history.times, {}, {}};
     for (const dynamics::EnergyBalance& e : history.energies) {
       s.values.push_back(value(e));
     }

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/followed.hpp"
 #include "dynamics/system_model.hpp"
 #include "dynamics/system_state.hpp"
 #include "results/history.hpp"
@@ -20,6 +22,8 @@ struct Series {
   std::string name;
   std::vector<double> times;  ///< [s]
   std::vector<double> values;
+  /// Marked and labelled; it may be between two times.
+  std::optional<dynamics::Extreme> peak = {};
 };
 
 /// One panel: lines that share an axis.

@@ -13,7 +13,7 @@ struct Motion {
   Vector3 v_W;                    ///< [m/s]
   Matrix3 R_W;                    ///< of the deformed frame
   Vector3 w_W;                    ///< [rad/s]
-  Vector3 u_B = Vector3::Zero();  ///< deformation [m]
+  Vector3 u_B = Vector3::Zero();  ///< deformation, if asked for [m]
 };
 
 Motion find_modal_motion(const PointProbe& probe,
@@ -46,8 +46,6 @@ Motion find_nodal_motion(const PointProbe& probe,
                          const dynamics::SystemState& state) {
   const dynamics::FullModel& full = model.full_bodies[f];
   const Pose& X_WH = state.X_WH[f];
-  dynamics::MeanFrame body;
-  calc_mean_frame(model, full, state, body);
   dynamics::NodalFrameMotion frame;
   calc_nodal_frame(*probe.nodal, nodes_of(full, state.u_H),
                    nodes_of(full, state.udot_H), frame);
@@ -56,7 +54,11 @@ Motion find_nodal_motion(const PointProbe& probe,
   motion.v_W = X_WH.R * frame.v_H;
   motion.R_W = X_WH.R * frame.R_HB;
   motion.w_W = X_WH.R * frame.w_H;
-  motion.u_B = body.R_HB.transpose() * (frame.p_H - body.p_HB) - probe.p_B;
+  if (probe.quantity == Quantity::deformation) {
+    dynamics::MeanFrame body;
+    calc_mean_frame(model, full, state, body);
+    motion.u_B = body.R_HB.transpose() * (frame.p_H - body.p_HB) - probe.p_B;
+  }
   return motion;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/scene.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 
 #include "scene/assembly.hpp"
@@ -17,8 +20,23 @@ namespace limber::scene {
 
 namespace {
 
+// Of rigid links every level but rigid is asked for in vain.
+void warn_of_vain_level(dynamics::Fidelity level, Scene& scene) {
+  const auto& links = scene.robot.links;
+  if (level == dynamics::Fidelity::rigid ||
+      std::any_of(links.begin(), links.end(),
+                  [](const Link& link) { return link.flexible.has_value(); })) {
+    return;
+  }
+  scene.scenario.warnings.push_back(fmt::format(
+      "level '{}' was asked for all flexible links, but no link of '{}' is "
+      "flexible: it changes nothing; give a link a <flexible> element",
+      to_string(level), scene.scenario.robot.filename().string()));
+}
+
 void apply(const Overrides& overrides, Scene& scene) {
   if (overrides.fidelity) {
+    warn_of_vain_level(*overrides.fidelity, scene);
     scene.scenario.fidelity = *overrides.fidelity;
     scene.scenario.fidelity_of_link.clear();
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/run_random_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 
 #include "common/errors.hpp"
 #include "support/random_scene.hpp"
@@ -25,17 +27,23 @@ bool is_finite(const dynamics::SystemState& state) {
 RandomOutcome run_random_scene(unsigned seed) {
   using Kind = RandomOutcome::Kind;
   dynamics::SimulationStatistics statistics;
+  dynamics::RunRecord record;
   bool all_finite = true;
+  double drift = 0.0;
+  std::optional<double> first;
   try {
     RandomScene scene = draw_scene(seed);
     dynamics::simulate(
         scene.model, scene.state, scene.settings,
         [&](const dynamics::SystemState& state,
             const dynamics::EnergyBalance& energy) {
+          const double now = energy.total() + energy.dissipated - energy.work;
+          if (!first) first = now;
+          drift = std::max(drift, std::abs(now - *first));
           all_finite =
               all_finite && is_finite(state) && std::isfinite(energy.total());
         },
-        {}, statistics);
+        {}, statistics, {}, {}, record);
     all_finite = all_finite && is_finite(scene.state);
   } catch (const InputError& error) {
     return {Kind::refused, error.what(), statistics};
@@ -44,7 +52,7 @@ RandomOutcome run_random_scene(unsigned seed) {
   } catch (const std::exception& error) {
     return {Kind::failed, error.what(), statistics};
   }
-  if (all_finite) return {Kind::finished, "", statistics};
+  if (all_finite) return {Kind::finished, "", statistics, record.energy, drift};
   return {Kind::failed, "an output is not finite", statistics};
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dynamics/simulation.hpp"
+#include "dynamics/run_record.hpp"
 
 namespace limber::testing {
 
@@ -17,6 +17,10 @@ struct RandomOutcome {
   Kind kind = Kind::finished;
   std::string text;                                ///< why, unless it finished
   dynamics::SimulationStatistics statistics = {};  ///< also if refused
+  dynamics::EnergyRecord energy = {};
+  /// Largest magnitude of stored + dissipated - work since the first output, at
+  /// any output [J].
+  double drift = 0.0;
 };
 
 /// Draws the scene of a seed and runs it.

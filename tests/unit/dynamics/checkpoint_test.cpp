@@ -9,6 +9,7 @@
 #include "common/archive.hpp"
 #include "common/errors.hpp"
 #include "dynamics/archives.hpp"
+#include "dynamics/run_record.hpp"
 #include "support/chain.hpp"
 #include "support/lattice_chain.hpp"
 #include "support/sliding_masses.hpp"
@@ -26,6 +27,7 @@ struct Trace {
   std::vector<EnergyBalance> energies;
   SystemState end;
   SimulationStatistics statistics;
+  RunRecord record;
 };
 
 std::vector<double> to_numbers(SystemState state) {
@@ -38,6 +40,22 @@ std::vector<double> to_numbers(EnergyBalance energy) {
   Archive archive;
   archive(energy);
   return archive.numbers();
+}
+
+/// Where the first body is and how fast it turns.
+Followed follow_first(const SystemModel& model) {
+  Followed followed;
+  followed.courses = {Course::motion, Course::values};
+  followed.evaluate = [&model](const SystemState& state,
+                               std::vector<double>& values) {
+    if (!model.full_bodies.empty()) {
+      values = {state.u_H[0], state.udot_H[1]};
+      return;
+    }
+    const BodyState& body = state.bodies[0];
+    values = {body.p_WB.x() + body.p_WB.y(), body.w_WB_B.norm()};
+  };
+  return followed;
 }
 
 /// Checkpoint with how many outputs there were before it.
@@ -64,7 +82,8 @@ Trace run(const Scene& scene, const SimulationSettings& settings,
         trace.states.push_back(state);
         trace.energies.push_back(energy);
       },
-      {}, trace.statistics, continuation);
+      {}, trace.statistics, continuation, follow_first(scene.model),
+      trace.record);
   return trace;
 }
 
@@ -82,6 +101,16 @@ void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
             rest.statistics.newton_iterations);
   EXPECT_EQ(whole.statistics.factorizations, rest.statistics.factorizations);
   EXPECT_EQ(whole.statistics.events, rest.statistics.events);
+  EXPECT_EQ(whole.record.peaks, rest.record.peaks);
+  EXPECT_EQ(whole.statistics.warnings, rest.statistics.warnings);
+  const EnergyRecord& a = whole.record.energy;
+  const EnergyRecord& b = rest.record.energy;
+  EXPECT_EQ(a.drift, b.drift);
+  EXPECT_EQ(a.kinetic, b.kinetic);
+  EXPECT_EQ(a.throughput, b.throughput);
+  EXPECT_EQ(a.roundoff, b.roundoff);
+  EXPECT_EQ(a.place, b.place);
+  EXPECT_EQ(a.share, b.share);
 }
 
 void expect_runs_go_on(const Scene& scene, const SimulationSettings& settings) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "dynamics/energy_record.hpp"
+#include "dynamics/step_result.hpp"
+#include "dynamics/system_state.hpp"
+#include "dynamics/workspace.hpp"
+
+namespace limber::dynamics {
+
+/// Keeps the energy of every body, coupler and transmission over all steps, and
+/// what of their changes nothing accounts for.
+///
+/// Equation   of a part: open = sum over steps of (E_1 - E_0 - h (P_0 + P_1) /
+///            2), P the power that it is given: of a body by all forces but
+///            inertial ones, less its damping; of a coupler -wrench . v -
+///            dissipation + supplied. Of all together: EnergyRecord.
+///            Round-off: that of the energy that passes through parts, and of
+///            positions, which stiff couplers answer: (|f| + k d) d, d = eps L
+/// Limits     a part's share has the error of the trapezoidal rule, which
+///            cancels in the sum.
+class EnergyLedger {
+ public:
+  /// @param model kept by reference
+  explicit EnergyLedger(const SystemModel& model);
+
+  /// @param terms at `state`, here and below
+  void start(const SystemState& state, const SystemTerms& terms);
+  /// The end of a step. @param totals work and dissipation since the start
+  void add(const SystemState& state, const SystemTerms& terms,
+           const StepResult& totals);
+  /// Whether what was evaluated in passing would make a new extreme, which is
+  /// to be had from `terms` of the very state: a stiff coupler makes much of
+  /// where Newton's method had not quite ended. Arguments as add().
+  [[nodiscard]] bool is_remarkable(const SystemState& state,
+                                   const SystemTerms& terms,
+                                   const StepResult& totals);
+  /// Forces jump at `state`: the next step begins with others.
+  void restart(const SystemState& state, const SystemTerms& terms);
+
+  [[nodiscard]] EnergyRecord find_record() const;
+
+  /// What it knows between steps.
+  void exchange_memory(Archive& archive);
+
+ private:
+  struct Part {
+    double energy = 0.0;  // [J]
+    double power = 0.0;   // [W]
+    double open = 0.0;    // [J]
+  };
+  struct Sums {
+    double kinetic = 0.0;
+    double elastic = 0.0;
+    double coupler = 0.0;
+    [[nodiscard]] double total() const { return kinetic + elastic + coupler; }
+  };
+  friend void exchange(Archive& archive, Part& part);
+
+  Sums evaluate(const SystemState& state, const SystemTerms& terms);
+  void evaluate_body(std::size_t b, const SystemState& state,
+                     const SystemTerms& terms, Sums& sums);
+  void evaluate_full(std::size_t b, const SystemState& state,
+                     const SystemTerms& terms, Sums& sums);
+  void include_energies(const Sums& sums, double t);
+  void note_drift(double drift, double t);
+  [[nodiscard]] double find_noise(const SystemTerms& terms) const;
+
+  const SystemModel& model_;
+  std::vector<Part> parts_;  // bodies, couplers, transmissions
+  std::vector<Part> now_;
+  std::vector<Matrix3X> scratch_;  // of unreduced bodies
+  double time_ = 0.0;              // of parts_ [s]
+  double initial_ = 0.0;           // stored [J]
+  double passed_ = 0.0;            // through parts [J]
+  double noise_ = 0.0;             // of couplers at a state, at most [J]
+  double steps_ = 0.0;
+  std::size_t worst_ = 0;  // part, at the drift's extreme
+  EnergyRecord record_;
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/energy_verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// "12 % of the energy ... are lost by t = ...".
+std::string describe(const EnergyRecord& energy) {
+  const double drift = energy.drift.value;
+  std::string text = fmt::format(
+      "{:.3g} J are {} by t = {:.6g} s that nothing accounts for, {:.3g} % of "
+      "the throughput of {:.3g} J",
+      std::abs(drift), drift < 0.0 ? "lost" : "gained", energy.drift.time,
+      100.0 * find_open_share(energy), energy.throughput);
+  if (!energy.place.empty()) {
+    text += fmt::format("; the largest share, {:.3g} J, in {}",
+                        std::abs(energy.share), energy.place);
+  }
+  return text;
+}
+
+bool is_forgiven(IntegratorKind integrator, const EnergyRecord& energy) {
+  return integrator == IntegratorKind::implicit_euler || energy.is_one_way;
+}
+
+std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
+  if (energy.is_one_way) {
+    return "level one-way drives modes by rotation and takes nothing back from "
+           "it; level coupled does";
+  }
+  if (integrator == IntegratorKind::implicit_euler) {
+    return "implicit-euler damps whatever its steps do not resolve; take "
+           "shorter steps or generalized-alpha";
+  }
+  return "take shorter steps, steps to a tolerance, or energy-conserving";
+}
+
+}  // namespace
+
+double find_open_share(const EnergyRecord& energy) {
+  const double drift = std::abs(energy.drift.value);
+  if (!(drift > energy.roundoff) || energy.throughput == 0.0) return 0.0;
+  return drift / energy.throughput;
+}
+
+void warn_of_energy(IntegratorKind integrator, const EnergyRecord& energy,
+                    std::vector<std::string>& warnings) {
+  if (!(find_open_share(energy) > kToldDrift)) return;
+  warnings.push_back(fmt::format("energy: {}; {}", describe(energy),
+                                 advise(integrator, energy)));
+}
+
+void check_energy(IntegratorKind integrator, const EnergyRecord& energy) {
+  if (!(find_open_share(energy) > kMostDrift)) return;
+  if (is_forgiven(integrator, energy)) return;
+  throw NumericalError(fmt::format("the energy does not balance: {}; {}",
+                                   describe(energy),
+                                   advise(integrator, energy)));
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/limit_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace limber::dynamics {
+namespace {
+
+constexpr long kMostEvents = 1000;
+
+const joints::Drive* find_limited(const joints::ScalarLaw& law) {
+  const auto* drive = std::get_if<joints::Drive>(&law);
+  const bool is_limited =
+      drive != nullptr && std::isfinite(drive->parameters().max_effort);
+  return is_limited ? drive : nullptr;
+}
+
+// The effort that a drive would give without its limit, over the limit. That of
+// an effort drive is as it was asked for.
+double find_load(const joints::Drive& drive, const joints::ScalarMotion& motion,
+                 const Instant& now) {
+  const joints::Drive::Parameters& p = drive.parameters();
+  if (p.mode == joints::DriveMode::effort) return 0.0;
+  const joints::SignalValue asked = joints::evaluate(p.signal, now);
+  const double pull = p.mode == joints::DriveMode::velocity
+                          ? p.damping * (motion.rate - asked.value)
+                          : p.stiffness * (motion.z - asked.value) +
+                                p.damping * (motion.rate - asked.rate);
+  return (p.pulls_only ? std::max(pull, 0.0) : std::abs(pull)) / p.max_effort;
+}
+
+}  // namespace
+
+LimitWatch::LimitWatch(const SystemModel& model) : model_(model) {
+  const auto add = [&](bool is_transmission, std::size_t index,
+                       std::size_t coordinate, const joints::ScalarLaw& law) {
+    const joints::Drive* drive = find_limited(law);
+    if (drive == nullptr) return;
+    Limited limited;
+    limited.is_transmission = is_transmission;
+    limited.index = index;
+    limited.coordinate = coordinate;
+    limited.drive = drive;
+    drives_.push_back(limited);
+  };
+  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+    const auto* joint = std::get_if<joints::Joint>(&model.couplers[c].law);
+    if (joint == nullptr) continue;
+    for (const joints::JointElement& element : joint->elements()) {
+      add(false, c, static_cast<std::size_t>(element.coordinate), element.law);
+    }
+  }
+  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
+    for (const joints::ScalarLaw& law : model.transmissions[i].laws) {
+      add(true, i, 0, law);
+    }
+  }
+}
+
+const std::string& LimitWatch::name_of(const Limited& limited) const {
+  return limited.is_transmission ? model_.transmissions[limited.index].name
+                                 : model_.couplers[limited.index].name;
+}
+
+joints::ScalarMotion LimitWatch::find_motion(const Limited& limited,
+                                             const SystemState& state,
+                                             const SystemTerms& terms) const {
+  if (limited.is_transmission) {
+    return terms.transmissions[limited.index].motion;
+  }
+  const auto& law = model_.couplers[limited.index].law;
+  const joints::CoordinateValue value =
+      evaluate(joints::coordinates_of(law)[limited.coordinate],
+               terms.couplers[limited.index].motion,
+               state.memory[limited.index].near[limited.coordinate]);
+  return {value.z, value.rate};
+}
+
+void LimitWatch::pass(Limited& limited, const joints::ScalarMotion& motion,
+                      double load, double t, std::vector<Event>& events) {
+  const double span = limited.has_begun ? t - limited.time : 0.0;
+  const double rise = load - limited.load;
+  const double share =
+      span > 0.0 && rise != 0.0 ? (1.0 - limited.load) / rise : 1.0;
+  const double when = t - (1.0 - share) * span;
+  const bool is_reached = load >= 1.0;
+  if (is_reached && limited.events == 0) {
+    limited.first_time = when;
+    limited.first_z = motion.z - (1.0 - share) * span * motion.rate;
+  }
+  limited.time_at += is_reached ? t - when : when - limited.time;
+  if (++limited.events > kMostEvents) return;
+  events.push_back({when, name_of(limited),
+                    is_reached ? "effort limit reached" : "effort limit left",
+                    motion.rate});
+}
+
+void LimitWatch::include(const SystemState& state, const SystemTerms& terms,
+                         std::vector<Event>& events) {
+  for (Limited& limited : drives_) {
+    const joints::ScalarMotion motion = find_motion(limited, state, terms);
+    const double load =
+        find_load(*limited.drive, motion, {state.t, Side::left});
+    const bool was_at = limited.has_begun && limited.load >= 1.0;
+    const bool is_at = load >= 1.0;
+    if (was_at != is_at) {
+      pass(limited, motion, load, state.t, events);
+    } else if (is_at) {
+      limited.time_at += state.t - limited.time;
+    }
+    limited.load = load;
+    limited.time = state.t;
+    limited.has_begun = true;
+  }
+}
+
+std::vector<std::string> LimitWatch::find_warnings() const {
+  std::vector<std::string> warnings;
+  for (const Limited& limited : drives_) {
+    if (limited.events == 0) continue;
+    warnings.push_back(fmt::format(
+        "the drive of '{}' reaches its largest effort of {:g} at t = {:.6g} s, "
+        "where its coordinate is {:.6g}; it gives no more for {:.3g} s in all "
+        "and does not follow its signal as it was asked to",
+        name_of(limited), limited.drive->parameters().max_effort,
+        limited.first_time, limited.first_z, limited.time_at));
+  }
+  return warnings;
+}
+
+void LimitWatch::exchange_memory(Archive& archive) {
+  for (Limited& limited : drives_) {
+    archive(limited.has_begun, limited.load, limited.time, limited.first_time,
+            limited.first_z, limited.time_at, limited.events);
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/peak_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/errors.hpp"
+#include "dynamics/archives.hpp"
+#include "dynamics/interpolation.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr int kMostSearches = 6;
+// Of three samples' time: searches that move less have arrived.
+constexpr double kClose = 1e-3;
+// A parabola is low by up to this share of what it adds.
+constexpr double kParabolaError = 0.5;
+// Of what three values span: more is not added to the largest.
+constexpr double kMostAdded = 0.5;
+
+// Of the largest value: a smaller change is none.
+constexpr double kSameValue = 1e-6;
+
+bool has_switched(const SystemState& a, const SystemState& b) {
+  for (std::size_t i = 0; i < a.memory.size(); ++i) {
+    if (a.memory[i].switches != b.memory[i].switches ||
+        a.memory[i].latch != b.memory[i].latch) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// y = y_b + slope (t - t_b) + bend (t - t_b)^2 through three points a, b, c.
+struct Parabola {
+  double slope = 0.0;
+  double bend = 0.0;
+};
+
+Parabola fit(const PeakPoints& points) {
+  const auto [a, b, c] = points;
+  const double left = b.t - a.t;
+  const double right = c.t - b.t;
+  const double rise = (b.y - a.y) / left;
+  const double fall = (c.y - b.y) / right;
+  return {(rise * right + fall * left) / (left + right),
+          (fall - rise) / (left + right)};
+}
+
+PeakPoint find_vertex(const PeakPoints& points, const Parabola& parabola) {
+  const double move = -0.5 * parabola.slope / parabola.bend;
+  return {points[1].t + move, points[1].y + 0.5 * parabola.slope * move};
+}
+
+// The three of four points about the one with the largest sign * y.
+PeakPoints replace(const PeakPoints& points, const PeakPoint& next,
+                   double sign) {
+  std::array<PeakPoint, 4> all{points[0], points[1], points[2], next};
+  std::sort(all.begin(), all.end(),
+            [](const PeakPoint& p, const PeakPoint& q) { return p.t < q.t; });
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    if (sign * all[i].y > sign * all[best].y) best = i;
+  }
+  const std::size_t first = best < 2 ? 0 : 1;
+  return {all[first], all[first + 1], all[first + 2]};
+}
+
+}  // namespace
+
+void exchange(Archive& archive, Extreme& extreme) {
+  archive(extreme.value, extreme.time);
+}
+
+void exchange(Archive& archive, PeakWatch::Sample& sample) {
+  archive(sample.state, sample.values);
+}
+
+PeakWatch::PeakWatch(const SystemModel& model, Followed followed)
+    : model_(model), followed_(std::move(followed)) {}
+
+void PeakWatch::start(const SystemState& state) {
+  if (is_idle()) return;
+  for (Sample& s : samples_) s.state = state;
+  begin_ = between_ = within_ = state;
+  peaks_.assign(followed_.courses.size(), {0.0, state.t});
+  begin_anew(state);
+}
+
+// What jumps at a time has its value before it at any time before.
+void PeakWatch::add(const SystemState& state, double t) {
+  newest_ = (newest_ + 1) % 3;
+  count_ = std::min(count_ + 1, 4);
+  Sample& s = sample(0);
+  s.state = state;
+  s.state.t = t;
+  followed_.evaluate(s.state, s.values);
+  s.state.t = state.t;
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    peaks_[i].include(s.values[i], s.state.t);
+  }
+  if (count_ >= 3) look({count_ == 3, false});
+}
+
+void PeakWatch::begin_anew(const SystemState& state) {
+  finish();
+  count_ = 0;
+  add(state, state.t);
+}
+
+void PeakWatch::cross_jump(const SystemState& state) {
+  if (is_idle()) return;
+  followed_.evaluate(state, values_);
+  bool jumps = false;
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    const double jump = std::abs(values_[i] - sample(0).values[i]);
+    jumps |= jump > kSameValue * std::abs(peaks_[i].value);
+  }
+  if (jumps) begin_anew(state);
+}
+
+void PeakWatch::include(const SystemState& state) {
+  if (is_idle()) return;
+  const SystemState& begin = sample(0).state;
+  const bool switches = has_switched(begin, state);
+  const double h = state.t - begin.t;
+  if (h > followed_.longest)
+    add_within(state, std::ceil(h / followed_.longest));
+  if (h > 0.0) {
+    const SystemState* end = &state;
+    if (switches) {
+      between_ = state;
+      between_.memory = begin.memory;
+      end = &between_;
+    }
+    add(*end, std::nextafter(state.t, -std::numeric_limits<double>::max()));
+  }
+  if (switches) begin_anew(state);
+}
+
+// At equal parts of the step to `end`.
+void PeakWatch::add_within(const SystemState& end, double parts) {
+  begin_ = sample(0).state;
+  for (double part = 1.0; part < parts; ++part) {
+    interpolate(model_, begin_, end, part / parts, between_);
+    add(between_, between_.t);
+  }
+}
+
+const std::vector<Extreme>& PeakWatch::finish() {
+  if (count_ >= 3) look({false, true});
+  return peaks_;
+}
+
+void PeakWatch::look(Edges edges) {
+  const Sample& a = sample(2);
+  const Sample& b = sample(1);
+  const Sample& c = sample(0);
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    look(i,
+         {{{a.state.t, a.values[i]},
+           {b.state.t, b.values[i]},
+           {c.state.t, c.values[i]}}},
+         edges);
+  }
+}
+
+// Each comparison is false of what is not a number.
+void PeakWatch::look(std::size_t scalar, const PeakPoints& points,
+                     Edges edges) {
+  const Parabola parabola = fit(points);
+  if (!(parabola.bend != 0.0)) return;
+  const double sign = parabola.bend < 0.0 ? 1.0 : -1.0;
+  const auto [a, b, c] = points;
+  const PeakPoint top = find_vertex(points, parabola);
+  const bool is_middle = sign * b.y >= sign * a.y && sign * b.y >= sign * c.y;
+  const bool is_first = edges.first && top.t > a.t && top.t < b.t;
+  const bool is_last = edges.last && top.t > b.t && top.t < c.t;
+  if (!is_middle && !is_first && !is_last) return;
+  if (edges.last && !is_last) return;  // has been looked for
+  const double largest = std::max({sign * a.y, sign * b.y, sign * c.y});
+  const double added = sign * top.y - largest;
+  const double record = std::abs(peaks_[scalar].value);
+  if (!(sign * top.y + kParabolaError * added > record)) return;
+  const double most =
+      kMostAdded * (largest - std::min({sign * a.y, sign * b.y, sign * c.y}));
+  PeakPoint found = top;
+  if (followed_.courses[scalar] == Course::motion) {
+    found = search(scalar, points, sign, top.t);
+    if (!(sign * found.y <= largest + most)) found = top;
+  }
+  found.y = sign * std::min(sign * found.y, largest + most);
+  peaks_[scalar].include(found.y, found.t);
+}
+
+double PeakWatch::evaluate_at(std::size_t scalar, double t) {
+  const bool is_early = t < sample(1).state.t;
+  const SystemState& begin = sample(is_early ? 2 : 1).state;
+  const SystemState& end = sample(is_early ? 1 : 0).state;
+  interpolate(model_, begin, end, (t - begin.t) / (end.t - begin.t), within_);
+  followed_.evaluate(within_, values_);
+  return values_[scalar];
+}
+
+// The largest of sign * y near t, by parabolas through the three best points.
+PeakPoint PeakWatch::search(std::size_t scalar, PeakPoints points, double sign,
+                            double t) {
+  const double close = kClose * (points[2].t - points[0].t);
+  for (int i = 0; i < kMostSearches; ++i) {
+    const PeakPoint next{t, evaluate_at(scalar, t)};
+    points = replace(points, next, sign);
+    const PeakPoint top = find_vertex(points, fit(points));
+    if (!(top.t > points[0].t && top.t < points[2].t)) break;
+    const bool is_there = std::any_of(
+        points.begin(), points.end(),
+        [&](const PeakPoint& p) { return std::abs(top.t - p.t) < close; });
+    if (is_there) break;
+    t = top.t;
+  }
+  return *std::max_element(points.begin(), points.end(),
+                           [&](const PeakPoint& p, const PeakPoint& q) {
+                             return sign * p.y < sign * q.y;
+                           });
+}
+
+void PeakWatch::exchange_memory(Archive& archive) {
+  archive(samples_, newest_, count_, peaks_);
+  if (!is_idle() && peaks_.size() != followed_.courses.size()) {
+    throw InputError("the record is of a run that followed other scalars");
+  }
+  if (archive.reads()) begin_ = between_ = within_ = samples_[0].state;
+}
+
+}  // namespace limber::dynamics

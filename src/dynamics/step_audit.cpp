@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/step_audit.hpp"
+
+#include "dynamics/equations.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr long kStride = 8;
+
+// Whose terms are those of a step's end; that of central differences needs
+// them for nothing else, where a product with the mass of a mesh counts.
+bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
+  switch (integrator) {
+    case IntegratorKind::generalized_alpha:
+    case IntegratorKind::implicit_euler:
+    case IntegratorKind::energy_conserving:
+      return true;
+    case IntegratorKind::central_differences:
+      return model.full_bodies.empty();
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+StepAudit::StepAudit(const SystemModel& model, IntegratorKind integrator)
+    : model_(model),
+      ledger_(model),
+      holds_(model),
+      limits_(model),
+      terms_(make_terms(model)),
+      stride_(leaves_terms(model, integrator) ? 1 : kStride) {}
+
+const SystemTerms& StepAudit::evaluate(const SystemState& state) {
+  calc_terms(model_, state, Side::right, terms_);
+  return terms_;
+}
+
+void StepAudit::start(const SystemState& state, const SystemTerms& terms,
+                      std::vector<Event>& events) {
+  ledger_.start(state, terms);
+  holds_.include(terms, state.t);
+  limits_.include(state, terms, events);
+}
+
+void StepAudit::cross_jump(const SystemState& state, const SystemTerms& terms) {
+  if (stride_ == 1) ledger_.restart(state, terms);
+}
+
+void StepAudit::include(const SystemState& state, const SystemTerms* terms,
+                        const StepResult& totals, bool is_last,
+                        std::vector<Event>& events) {
+  ++steps_;
+  const bool has_event = terms == nullptr;
+  if (!has_event && !is_last && steps_ % stride_ != 0) return;
+  const SystemTerms& now = has_event || stride_ > 1 ? evaluate(state) : *terms;
+  if (has_event && !is_last) {
+    ledger_.restart(state, now);
+  } else {
+    ledger_.add(state, now, totals);
+  }
+  holds_.include(now, state.t);
+  limits_.include(state, now, events);
+}
+
+std::vector<std::string> StepAudit::find_warnings() const {
+  std::vector<std::string> warnings = holds_.find_warnings();
+  for (std::string& text : limits_.find_warnings()) {
+    warnings.push_back(std::move(text));
+  }
+  return warnings;
+}
+
+void StepAudit::exchange_memory(Archive& archive) {
+  archive(steps_);
+  ledger_.exchange_memory(archive);
+  holds_.exchange_memory(archive);
+  limits_.exchange_memory(archive);
+}
+
+}  // namespace limber::dynamics

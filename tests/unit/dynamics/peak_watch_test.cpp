@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Extremes over all steps, against closed forms.
+#include "dynamics/peak_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/errors.hpp"
+#include "dynamics/run_record.hpp"
+#include "support/point_mass_body.hpp"
+#include "support/sliding_masses.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kOmega = 10.0;  // of the oscillator [rad/s]
+
+// A mass on a spring that is kicked: x = v sin(10 t) / 10.
+struct Kicked {
+  SystemModel model;
+  SystemState state;
+};
+Kicked make_kicked(double speed) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
+  joints::Bushing::Parameters spring;
+  spring.translational_stiffness = 200.0 * Matrix3::Identity();
+  builder.add_coupler("spring", joints::Bushing(spring),
+                      builder.attach_world("wall", {}), mass.frame);
+  Kicked out{builder.build(), {}};
+  out.state = make_state(out.model);
+  out.state.bodies[0].v_WB_W.x() = speed;
+  return out;
+}
+
+// Position and velocity of the first body along x, and the force on it.
+Followed follow_first() {
+  Followed followed;
+  followed.courses = {Course::motion, Course::motion, Course::values};
+  followed.evaluate = [](const SystemState& state,
+                         std::vector<double>& values) {
+    const BodyState& body = state.bodies[0];
+    values = {body.p_WB.x(), body.v_WB_W.x(), -200.0 * body.p_WB.x()};
+  };
+  return followed;
+}
+
+std::vector<double> sample(double end, double interval) {
+  std::vector<double> times;
+  for (int i = 0; i * interval < end * (1.0 - 1e-9); ++i) {
+    times.push_back(i * interval);
+  }
+  times.push_back(end);
+  return times;
+}
+
+std::vector<Extreme> run(const Kicked& scene,
+                         const SimulationSettings& settings,
+                         const Followed& followed) {
+  SimulationStatistics statistics;
+  RunRecord record;
+  SystemState state = scene.state;
+  simulate(scene.model, state, settings, {}, {}, statistics, {}, followed,
+           record);
+  return record.peaks;
+}
+
+class PeaksOf : public ::testing::TestWithParam<IntegratorKind> {};
+
+// The two outputs see nothing of the motion at all.
+TEST_P(PeaksOf, AnOscillatorAreThoseOfItsClosedFormWhateverTheOutputs) {
+  const Kicked scene = make_kicked(1.0);
+  SimulationSettings settings;
+  settings.integrator = GetParam();
+  settings.step = 2.0 * pi / kOmega / 40.3;
+  settings.end_time = 1.1 * pi / kOmega;
+  settings.output_times = {0.0, settings.end_time};
+  const std::vector<Extreme> peaks = run(scene, settings, follow_first());
+  ASSERT_EQ(peaks.size(), 3U);
+  // What the scheme itself makes of amplitude and period with such steps.
+  constexpr double kScheme = 0.005;
+  EXPECT_NEAR(peaks[0].value, 0.1, 0.1 * kScheme);
+  EXPECT_NEAR(peaks[0].time, 0.5 * pi / kOmega, 0.01 * pi / kOmega);
+  EXPECT_NEAR(peaks[2].value, -20.0, 20.0 * kScheme);
+  // Velocity: 1 at the start, -1 half a period on.
+  EXPECT_NEAR(std::abs(peaks[1].value), 1.0, kScheme);
+}
+
+INSTANTIATE_TEST_SUITE_P(, PeaksOf,
+                         ::testing::Values(IntegratorKind::generalized_alpha,
+                                           IntegratorKind::runge_kutta_4,
+                                           IntegratorKind::central_differences,
+                                           IntegratorKind::energy_conserving,
+                                           IntegratorKind::splitting));
+
+TEST(Peaks, AreTheSameForOutputsHalfAMillisecondAndFiftyApart) {
+  const Kicked scene = make_kicked(1.0);
+  std::vector<Extreme> first;
+  for (const double interval : {5e-4, 2e-3, 1e-2, 5e-2}) {
+    SimulationSettings settings;
+    settings.step = 5e-3;
+    settings.end_time = 1.0;
+    settings.output_times = sample(settings.end_time, interval);
+    const std::vector<Extreme> peaks = run(scene, settings, follow_first());
+    if (first.empty()) first = peaks;
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      EXPECT_NEAR(peaks[i].value / first[i].value, 1.0, 0.01) << interval;
+    }
+    EXPECT_NEAR(peaks[0].value, 0.1, 1e-4) << interval;
+    EXPECT_NEAR(peaks[0].time, 0.5 * pi / kOmega, 1e-3) << interval;
+  }
+}
+
+TEST(Peaks, OfStepsToAToleranceAreThoseOfTheLastPass) {
+  const Kicked scene = make_kicked(1.0);
+  SimulationSettings settings;
+  settings.step = settings.end_time = 0.4;
+  settings.tolerance = 1e-5;
+  settings.output_times = {0.0, settings.end_time};
+  const std::vector<Extreme> peaks = run(scene, settings, follow_first());
+  EXPECT_NEAR(peaks[0].value, 0.1, 2e-5);
+  EXPECT_NEAR(peaks[0].time, 0.5 * pi / kOmega, 1e-3);
+}
+
+// A mode of 50 rad/s and above under a load that begins at once: no steps.
+TEST(Peaks, OfModesInClosedFormAreFoundBetweenOutputs) {
+  testing::PointMassBody points =
+      testing::make_point_mass_body(20, 1, 4.0, 1.0, 50.0, 1);
+  points.reduced.clamped = true;
+  SystemBuilder builder;
+  const BodyIndex body = builder.add_flexible_body("b", testing::share(points),
+                                                   Fidelity::uncoupled, {});
+  const auto table = testing::make_interface(points, 0, 6);
+  const AttachmentIndex tip = builder.attach_interface(
+      "tip", body, table, {Matrix3::Identity(), table.p_B});
+  builder.add_load("load", tip, {30.0, -20.0, 50.0}, Vector3::Zero(),
+                   LoadFrame::body, Constant{});
+  const Kicked scene{builder.build(), {}};
+  SystemState state = make_state(scene.model);
+  const double lambda = scene.model.bodies[0].lambda[0];
+  const double force =
+      (table.Phi_B.transpose() * Vector3(30.0, -20.0, 50.0))[0];
+  SimulationSettings settings;
+  settings.step = 1.0;
+  settings.end_time = 3.0;
+  settings.output_times = {0.0, settings.end_time};
+  Followed followed;
+  followed.courses = {Course::motion};
+  followed.evaluate = [](const SystemState& at, std::vector<double>& values) {
+    values = {at.eta[0]};
+  };
+  SimulationStatistics statistics;
+  RunRecord record;
+  simulate(scene.model, state, settings, {}, {}, statistics, {}, followed,
+           record);
+  const std::vector<Extreme>& peaks = record.peaks;
+  EXPECT_EQ(statistics.steps, 0);
+  // Twice the static deflection, half a period on or some periods later.
+  const double period = 2.0 * pi / std::sqrt(lambda);
+  const double phase = peaks[0].time / period;
+  EXPECT_NEAR(peaks[0].value, 2.0 * force / lambda,
+              1e-5 * std::abs(force) / lambda);
+  EXPECT_NEAR(phase - std::floor(phase), 0.5, 0.01);
+}
+
+// A ramp that is cut off: its largest value is that before the jump.
+TEST(Peaks, OfWhatJumpsAreThoseBeforeAndAfterIt) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
+  Pulse pulse;
+  pulse.shape = PulseShape::rectangular;
+  pulse.start = 0.0;
+  pulse.duration = 0.5;
+  builder.add_load("push", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world, pulse);
+  Kicked scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  Followed followed;
+  followed.courses = {Course::values};
+  followed.evaluate = [](const SystemState& at, std::vector<double>& values) {
+    values = {at.t < 0.5 ? at.t : -0.1};
+  };
+  SimulationSettings settings;
+  settings.step = 0.03;
+  settings.end_time = 1.0;
+  settings.output_times = {0.0, settings.end_time};
+  const std::vector<Extreme> peaks = run(scene, settings, followed);
+  EXPECT_NEAR(peaks[0].value, 0.5, 1e-12);
+  EXPECT_EQ(peaks[0].time, 0.5);
+}
+
+TEST(Peaks, OfARunThatEndsEarlyAreThoseUpToThere) {
+  const Kicked scene = make_kicked(1.0);
+  SimulationSettings settings;
+  settings.integrator = IntegratorKind::runge_kutta_4;
+  settings.step = 0.5;  // far beyond stability
+  settings.end_time = 100.0;
+  SimulationStatistics statistics;
+  SystemState state = scene.state;
+  RunRecord record;
+  EXPECT_THROW(simulate(scene.model, state, settings, {}, {}, statistics, {},
+                        follow_first(), record),
+               NumericalError);
+  const std::vector<Extreme>& peaks = record.peaks;
+  ASSERT_EQ(peaks.size(), 3U);
+  EXPECT_GT(std::abs(peaks[0].value), 0.1);
+  EXPECT_LE(peaks[0].time, state.t);
+}
+
+}  // namespace
+}  // namespace limber::dynamics
