@@ -89,10 +89,7 @@ flexbody::ReducedBasis PushedBeam::make_basis(Source source, int count) const {
         join(flexbody::find_krylov_vectors(body_, body_.inverse.solve(load_),
                                            count - eigenmodes, kDropTolerance),
              vectors);
-  const flexbody::Support& support = body_.support;
-  return flexbody::make_reduced_basis(vectors, support.matrices.M_s,
-                                      support.matrices.K, support.R,
-                                      kDropTolerance);
+  return flexbody::make_reduced_basis(vectors, body_.support, kDropTolerance);
 }
 
 MatrixX PushedBeam::respond(const flexbody::ReducedBasis& basis,

@@ -11,6 +11,7 @@
 #include "fem/element_matrices.hpp"
 #include "fem/mesh_checks.hpp"
 #include "fem/parallel.hpp"
+#include "fem/stiffness_product.hpp"
 
 namespace limber::fem {
 namespace {
@@ -172,6 +173,7 @@ StructuralMatrices assemble(const Mesh& mesh,
   };
   for (const ElementBlock& block : mesh.blocks)
     add_block(block, calc, neighbours, progress, sum);
+  sum.product = std::make_shared<const StiffnessProduct>(mesh, materials);
   return sum;
 }
 

@@ -39,6 +39,7 @@ struct SparseCholesky::Impl {
   cholmod_dense* room_E = nullptr;
   double flops = 0.0;
   std::string what;
+  std::string causes;
 
   Impl() = default;
   Impl(const Impl&) = delete;
@@ -53,13 +54,15 @@ struct SparseCholesky::Impl {
 
 SparseCholesky::SparseCholesky(const SparseMatrix& lower,
                                const std::vector<int>& order,
-                               const std::string& what)
+                               const std::string& what,
+                               const std::string& causes)
     : impl_(std::make_unique<Impl>()) {
   cholmod_common* common = impl_->common.get();
   common->supernodal = CHOLMOD_SUPERNODAL;
   impl_->factor = analyze(lower, order, impl_->common);
   impl_->flops = common->fl;
   impl_->what = what;
+  impl_->causes = causes;
   factor(lower);
 }
 
@@ -69,9 +72,8 @@ void SparseCholesky::factor(const SparseMatrix& lower) {
   impl_->common.check(impl_->what);
   if (impl_->factor->minor < impl_->factor->n)
     throw NumericalError(fmt::format(
-        "{} is not positive definite (pivot {} of {}). A material far stiffer "
-        "than its neighbour, or nearly flat elements, make it so.",
-        impl_->what, impl_->factor->minor, impl_->factor->n));
+        "{} is not positive definite in double precision (pivot {} of {}).{}",
+        impl_->what, impl_->factor->minor, impl_->factor->n, impl_->causes));
 }
 
 SparseCholesky::~SparseCholesky() = default;

@@ -21,10 +21,11 @@ class SparseCholesky {
  public:
   /// @param lower lower triangle
   /// @param what names the matrix in errors
+  /// @param causes sentences on what may make it indefinite, for the error
   /// @throws NumericalError if the matrix is not positive definite or memory
   /// runs out.
   SparseCholesky(const SparseMatrix& lower, const std::vector<int>& order,
-                 const std::string& what);
+                 const std::string& what, const std::string& causes = {});
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;

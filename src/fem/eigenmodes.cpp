@@ -19,7 +19,19 @@ MatrixX dense_mass(const SparseMatrix& M_s) {
   return multiply_mass(M_s, MatrixX::Identity(3 * M_s.cols(), 3 * M_s.cols()));
 }
 
-/// Small models: every eigenpair at once, none can be missed.
+/// Rayleigh-Ritz on K and M themselves: free of the factor's roundoff.
+Eigenmodes polish(const ElasticInverse& inverse, const MatrixX& X) {
+  const StructuralMatrices& full = inverse.matrices();
+  const MatrixX V = inverse.project_motion(X);
+  const MatrixX M = V.transpose() * multiply_mass(full.M_s, V);
+  const MatrixX K = V.transpose() * multiply_stiffness(full, V);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> ritz(
+      0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
+  return {ritz.eigenvalues(), V * ritz.eigenvectors()};
+}
+
+/// Small models: every eigenpair at once, none can be missed. Each is good to
+/// eps of the highest eigenvalue, so the low ones are polished.
 Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   const StructuralMatrices& full = inverse.matrices();
   const MatrixX lower = MatrixX(full.K);
@@ -27,19 +39,16 @@ Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   const MatrixX M = dense_mass(full.M_s);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(K, M);
   const Eigen::Index rigid = inverse.rigid_count();
-  return {solver.eigenvalues().segment(rigid, count),
-          solver.eigenvectors().middleCols(rigid, count)};
-}
-
-/// Rayleigh-Ritz on K and M themselves: free of the factor's roundoff.
-Eigenmodes polish(const ElasticInverse& inverse, const MatrixX& X) {
-  const StructuralMatrices& full = inverse.matrices();
-  const MatrixX V = inverse.project_motion(X);
-  const MatrixX M = V.transpose() * multiply_mass(full.M_s, V);
-  const MatrixX K = V.transpose() * multiply_stiffness(full.K, V);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> ritz(
-      0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
-  return {ritz.eigenvalues(), V * ritz.eigenvectors()};
+  Eigenmodes modes{solver.eigenvalues().segment(rigid, count),
+                   solver.eigenvectors().middleCols(rigid, count)};
+  constexpr double kEnough = 1e-6;  // of the highest eigenvalue: ten digits
+  const double highest = solver.eigenvalues()[M.cols() - 1];
+  const Eigen::Index low = (modes.lambda.array() < kEnough * highest).count();
+  if (low == 0) return modes;
+  const Eigenmodes polished = polish(inverse, modes.Phi.leftCols(low));
+  modes.lambda.head(low) = polished.lambda;
+  modes.Phi.leftCols(low) = polished.Phi;
+  return modes;
 }
 
 /// @throws NumericalError. Roundoff in K phi is eps |K| |phi| whatever lambda
@@ -160,8 +169,8 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
   if (converged < count)
     throw NumericalError(
         fmt::format("eigenmodes: {} of {} converged in {} restarts; ask for "
-                    "fewer, or look for nearly flat elements.",
-                    converged, count, kRestarts));
+                    "fewer.{}",
+                    converged, count, kRestarts, inverse.conditioning()));
   return solver.eigenvectors();
 }
 

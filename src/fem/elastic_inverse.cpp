@@ -7,19 +7,18 @@
 #include <limits>
 
 #include "common/errors.hpp"
+#include "fem/conditioning.hpp"
 
 namespace limber::fem {
 namespace {
 
-/// All displacement fields quadratic in position: 18 columns. They hold the
+/// All displacement fields quadratic in position: 27 columns. They hold the
 /// bending, torsion and stretching of a simple body.
 MatrixX quadratic_fields(const Matrix3X& x) {
-  const Vector3 center = x.rowwise().mean();
-  const double length =
-      (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
+  const Matrix3X scaled = scale_positions(x);
   MatrixX fields = MatrixX::Zero(3 * x.cols(), 27);
   for (Eigen::Index n = 0; n < x.cols(); ++n) {
-    const Vector3 d = (x.col(n) - center) / length;
+    const Vector3 d = scaled.col(n);
     const Eigen::Matrix<double, 9, 1> monomials{
         d[0],        d[1],        d[2],        d[0] * d[0], d[1] * d[1],
         d[2] * d[2], d[0] * d[1], d[1] * d[2], d[2] * d[0]};
@@ -72,9 +71,10 @@ ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
       MR_(multiply_mass(matrices.M_s, R)),
       shift_(choose_shift(matrices, R_, MR_, x)),
       order_(order_dofs(matrices.M_s)),
+      conditioning_(fem::describe_conditioning(matrices, x)),
       factor_((report(progress, "factorising", 0.0),
                SparseCholesky(shift_stiffness(matrices, shift_), order_,
-                              "stiffness matrix"))) {
+                              "stiffness matrix", conditioning_))) {
   report(progress, "factorising", 1.0);
 }
 
@@ -94,27 +94,41 @@ MatrixX ElasticInverse::solve(const MatrixX& F) const {
   constexpr int kMaxSteps = 60;
   constexpr double kTolerance = 1e-13;  // correction, relative to the answer
   constexpr double kStalled = 1e-9;     // roundoff allowed for a hard matrix
+  constexpr double kCoarse = 1e-9;      // for which the matrix does, at best
   const MatrixX load = project_load(F);
   MatrixX X = solve_shifted(load);
   double previous = std::numeric_limits<double>::infinity();
+  bool is_fine = false;  // by the product, which costs more
   for (int step = 0; step < kMaxSteps; ++step) {
     const MatrixX correction =
-        solve_shifted(load - multiply_stiffness(matrices_->K, X));
+        solve_shifted(is_fine ? calc_residual(*matrices_, load, X)
+                              : load - multiply_stiffness(matrices_->K, X));
     X += correction;
     const double change =
         (correction.colwise().norm().array() /
          X.colwise().norm().array().max(std::numeric_limits<double>::min()))
             .maxCoeff();
-    if (change <= kTolerance) return X;
     const bool has_stalled = change > 0.5 * previous;
-    if (has_stalled && change <= kStalled) return X;
+    if (is_fine &&
+        (change <= kTolerance || (has_stalled && change <= kStalled)))
+      return X;
     previous = change;
+    if (is_fine || (change > kCoarse && !has_stalled)) continue;
+    is_fine = true;
+    previous = std::numeric_limits<double>::infinity();
   }
+  // Of the answers, the softest.
+  const VectorX stiffness =
+      X.cwiseProduct(load).colwise().sum().transpose().cwiseQuotient(
+          X.colwise().squaredNorm().transpose());
   throw NumericalError(fmt::format(
       "static solution: after {} refinements the correction is {:.3g} of the "
       "answer (tolerance {:.0g}). The stiffness matrix is too ill-conditioned: "
-      "look for nearly flat elements or extreme material contrast.",
-      kMaxSteps, previous, kStalled));
+      "a node alone is up to {:.1g} times as stiff as the body in the answer, "
+      "and double precision tells 1e16 apart.{}",
+      kMaxSteps, previous, kStalled,
+      matrices_->K.diagonal().maxCoeff() / stiffness.minCoeff(),
+      conditioning_));
 }
 
 }  // namespace limber::fem

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "common/progress.hpp"
 #include "fem/cholesky.hpp"
 #include "fem/matrices.hpp"
@@ -17,7 +20,11 @@ namespace limber::fem {
 ///            |s| / (lambda_1 + |s|) a step, so that the answer is exact to
 ///            roundoff although K is singular, and the one factorisation
 ///            also serves the eigenmodes.
-/// Limits     The six rigid motions must be the whole null space of K.
+///            Residuals F - K x are those of the product that `matrices`
+///            have (fem/stiffness_product.hpp), so that the answer is K's even
+///            where the factor is good to a few digits only.
+/// Limits     The six rigid motions must be the whole null space of K. Bodies
+///            up to some 1000 times as long as thick.
 class ElasticInverse {
  public:
   /// @param R 3N x 6 M-orthonormal rigid modes; 3N x 0 for a clamped body
@@ -44,6 +51,10 @@ class ElasticInverse {
   [[nodiscard]] double shift() const { return shift_; }  ///< s [rad^2/s^2]
   [[nodiscard]] Eigen::Index rigid_count() const { return R_.cols(); }
   [[nodiscard]] double factor_flops() const { return factor_.flops(); }
+  /// Sentences for an error on what makes the matrix ill-conditioned.
+  [[nodiscard]] const std::string& conditioning() const {
+    return conditioning_;
+  }
 
  private:
   const StructuralMatrices* matrices_;
@@ -51,6 +62,7 @@ class ElasticInverse {
   MatrixX MR_;
   double shift_ = 0.0;
   std::vector<int> order_;
+  std::string conditioning_;
   SparseCholesky factor_;
 };
 

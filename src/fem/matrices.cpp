@@ -5,6 +5,7 @@
 
 #include "common/errors.hpp"
 #include "fem/parallel.hpp"
+#include "fem/stiffness_product.hpp"
 
 namespace limber::fem {
 
@@ -37,6 +38,17 @@ MatrixX multiply_stiffness(const SparseMatrix& K_lower, const MatrixX& X) {
         K_lower.selfadjointView<Eigen::Lower>() * X.middleCols(first, count);
   });
   return Y;
+}
+
+MatrixX calc_residual(const StructuralMatrices& matrices, const MatrixX& F,
+                      const MatrixX& X) {
+  if (matrices.product) return matrices.product->subtract_from(F, X);
+  return F - multiply_stiffness(matrices.K, X);
+}
+
+MatrixX multiply_stiffness(const StructuralMatrices& matrices,
+                           const MatrixX& X) {
+  return -calc_residual(matrices, MatrixX::Zero(X.rows(), X.cols()), X);
 }
 
 SparseMatrix shift_stiffness(const StructuralMatrices& matrices, double shift) {
@@ -76,8 +88,12 @@ StructuralMatrices restrict_to(const StructuralMatrices& matrices,
   dofs.reserve(3 * nodes.size());
   for (const int node : nodes)
     for (int c = 0; c < 3; ++c) dofs.push_back(3 * node + c);
-  return {restrict_matrix(matrices.M_s, nodes),
-          restrict_matrix(matrices.K, dofs)};
+  StructuralMatrices part{restrict_matrix(matrices.M_s, nodes),
+                          restrict_matrix(matrices.K, dofs)};
+  if (matrices.product)
+    part.product = std::make_shared<const StiffnessProduct>(
+        matrices.product->restrict_to(nodes));
+  return part;
 }
 
 MassProperties calc_mass_properties(const SparseMatrix& M_s,

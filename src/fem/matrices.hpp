@@ -2,11 +2,14 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <memory>
 #include <vector>
 
 #include "common/types.hpp"
 
 namespace limber::fem {
+
+class StiffnessProduct;
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
@@ -15,6 +18,9 @@ struct StructuralMatrices {
   SparseMatrix
       M_s;         ///< N x N scalar mass, both triangles; M = M_s (x) I_3 [kg]
   SparseMatrix K;  ///< 3N x 3N stiffness, lower triangle only [N/m]
+  /// K once more, without the roundoff of its entries; null if all there is of
+  /// K is its matrix.
+  std::shared_ptr<const StiffnessProduct> product = nullptr;
 
   [[nodiscard]] Eigen::Index node_count() const { return M_s.cols(); }
   [[nodiscard]] Eigen::Index dof_count() const { return K.cols(); }
@@ -25,6 +31,12 @@ struct StructuralMatrices {
 
 /// K X, K given by its lower triangle.
 [[nodiscard]] MatrixX multiply_stiffness(const SparseMatrix& K_lower,
+                                         const MatrixX& X);
+
+/// F - K X and K X by the product where there is one, else by the matrix.
+[[nodiscard]] MatrixX calc_residual(const StructuralMatrices& matrices,
+                                    const MatrixX& F, const MatrixX& X);
+[[nodiscard]] MatrixX multiply_stiffness(const StructuralMatrices& matrices,
                                          const MatrixX& X);
 
 /// K - shift (M_s (x) I_3), lower triangle; shift in [rad^2/s^2].

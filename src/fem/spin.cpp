@@ -42,12 +42,11 @@ class CentrifugalProduct {
 };
 
 /// K and K^+ as Spectra wants them.
-class StiffnessProduct {
+class EnergyProduct {
  public:
   using Scalar = double;
 
-  explicit StiffnessProduct(const ElasticInverse& inverse)
-      : inverse_(inverse) {}
+  explicit EnergyProduct(const ElasticInverse& inverse) : inverse_(inverse) {}
   [[nodiscard]] Eigen::Index rows() const {
     return inverse_.matrices().dof_count();
   }
@@ -55,7 +54,7 @@ class StiffnessProduct {
   void perform_op(const double* in, double* out) const {
     const MatrixX x = Eigen::Map<const VectorX>(in, rows());
     Eigen::Map<VectorX>(out, rows()) =
-        multiply_stiffness(inverse_.matrices().K, x);
+        multiply_stiffness(inverse_.matrices(), x);
   }
   void solve(const double* in, double* out) const {
     const MatrixX f = Eigen::Map<const VectorX>(in, rows());
@@ -77,7 +76,7 @@ VectorX make_random(Eigen::Index size) {
 /// Omega^2 of one deformation: x^T K x / x^T M E x [rad^2/s^2].
 double calc_quotient(const ElasticInverse& inverse,
                      const CentrifugalProduct& product, const VectorX& x) {
-  return x.dot(multiply_stiffness(inverse.matrices().K, x).col(0)) /
+  return x.dot(multiply_stiffness(inverse.matrices(), x).col(0)) /
          x.dot(product.multiply(x));
 }
 
@@ -88,7 +87,7 @@ class SpunSolver {
       : inverse_(inverse), product_(inverse, axis), square_(speed * speed) {}
 
   [[nodiscard]] VectorX multiply(const VectorX& x) const {
-    const VectorX Kx = multiply_stiffness(inverse_.matrices().K, x);
+    const VectorX Kx = multiply_stiffness(inverse_.matrices(), x);
     return inverse_.project_load(Kx) - square_ * product_.multiply(x);
   }
 
@@ -166,21 +165,20 @@ double find_critical_speed(const ElasticInverse& inverse, const Vector3& axis) {
   constexpr Eigen::Index kWidth = 20;
   constexpr Eigen::Index kRestarts = 200;
   CentrifugalProduct product(inverse, axis);
-  StiffnessProduct stiffness(inverse);
+  EnergyProduct stiffness(inverse);
   const VectorX start =
       inverse.solve(product.multiply(make_random(product.rows())));
   product.scale_by(calc_quotient(inverse, product, start));
   const Eigen::Index room = product.rows() - inverse.rigid_count();
-  Spectra::SymGEigsSolver<CentrifugalProduct, StiffnessProduct,
+  Spectra::SymGEigsSolver<CentrifugalProduct, EnergyProduct,
                           Spectra::GEigsMode::RegularInverse>
       solver(product, stiffness, 1,
              std::clamp(room / 2, Eigen::Index{2}, kWidth));
   solver.init(start.data());
   if (solver.compute(Spectra::SortRule::LargestAlge, kRestarts, kTolerance) < 1)
     throw NumericalError(fmt::format(
-        "critical speed: Lanczos does not converge in {} restarts; look for "
-        "nearly flat elements.",
-        kRestarts));
+        "critical speed: Lanczos does not converge in {} restarts.{}",
+        kRestarts, inverse.conditioning()));
   return std::sqrt(
       calc_quotient(inverse, product, solver.eigenvectors().col(0)));
 }

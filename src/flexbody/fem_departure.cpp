@@ -48,9 +48,7 @@ DepartureModel project(const MeshedBody& body, const MatrixX& F,
                        const MatrixX& vectors, const Friction& friction) {
   const Support& support = body.support;
   DepartureModel model;
-  model.basis =
-      make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
-                         support.R, kDropTolerance);
+  model.basis = make_reduced_basis(vectors, support, kDropTolerance);
   const MatrixX& Phi = model.basis.Phi;
   model.C = Phi.transpose() * multiply_damping(body, friction, Phi);
   model.Q = Phi.transpose() * F;
@@ -80,7 +78,7 @@ SingleInputModel make_single_input_model(const MeshedBody& body,
   };
   return {quadratic(fem::multiply_mass(body.support.matrices.M_s, x)),
           quadratic(multiply_damping(body, friction, x)),
-          quadratic(fem::multiply_stiffness(body.support.matrices.K, x))};
+          quadratic(fem::multiply_stiffness(body.support.matrices, x))};
 }
 
 MatrixX DepartureModel::calc_static() const {
@@ -139,7 +137,7 @@ CarriedMotion carry_motion(const MeshedBody& body, const DepartureModel& from,
   const MatrixX& Phi = to.basis.Phi;
   CarriedMotion carried;
   carried.motion.r = to.basis.lambda.cwiseInverse().asDiagonal() *
-                     (Phi.transpose() * fem::multiply_stiffness(matrices.K, x));
+                     (Phi.transpose() * fem::multiply_stiffness(matrices, x));
   carried.motion.rdot = Phi.transpose() * fem::multiply_mass(matrices.M_s, v);
   carried.lost = calc_energy(from, motion) - calc_energy(to, carried.motion);
   return carried;

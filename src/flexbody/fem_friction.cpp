@@ -52,7 +52,7 @@ MatrixX multiply_damping(const MeshedBody& body, const Friction& friction,
   check(body, friction);
   const Support& support = body.support;
   MatrixX product =
-      friction.stiffness_time * fem::multiply_stiffness(support.matrices.K, X);
+      friction.stiffness_time * fem::multiply_stiffness(support.matrices, X);
   const fem::SparseMatrix drag = combine(body, friction);
   if (drag.nonZeros() > 0)
     product +=

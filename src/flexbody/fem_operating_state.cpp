@@ -89,7 +89,7 @@ void fill_state(const MeshedBody& body, const VectorX& x, const Matrix3X& load,
                 OperatingState& state) {
   const Support& support = body.support;
   const Eigen::Index nodes = body.mesh.x.cols();
-  const MatrixX Kx = fem::multiply_stiffness(support.matrices.K, x);
+  const MatrixX Kx = fem::multiply_stiffness(support.matrices, x);
   state.u = put_rows(x, support.free_nodes, nodes).reshaped(3, nodes);
   state.internal_force =
       put_rows(Kx, support.free_nodes, nodes).reshaped(3, nodes);

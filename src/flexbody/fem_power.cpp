@@ -20,7 +20,7 @@ VectorX multiply_mass(const MeshedBody& body, const VectorX& a) {
 }
 
 VectorX multiply_stiffness(const MeshedBody& body, const VectorX& x) {
-  return fem::multiply_stiffness(body.support.matrices.K, x);
+  return fem::multiply_stiffness(body.support.matrices, x);
 }
 
 }  // namespace

@@ -114,8 +114,7 @@ ReducedBasis join_basis(const MeshedBody& body,
   MatrixX vectors(support.matrices.dof_count(),
                   eigenmodes.Phi.cols() + modes.vectors.cols());
   vectors << eigenmodes.Phi, modes.vectors;
-  return make_reduced_basis(vectors, support.matrices.M_s, support.matrices.K,
-                            support.R, drop_tolerance);
+  return make_reduced_basis(vectors, support, drop_tolerance);
 }
 
 }  // namespace limber::flexbody

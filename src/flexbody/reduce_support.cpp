@@ -56,6 +56,15 @@ Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
   return support;
 }
 
+ReducedBasis make_reduced_basis(const MatrixX& vectors, const Support& support,
+                                double drop_tolerance) {
+  const auto multiply = [&](const MatrixX& X) {
+    return fem::multiply_stiffness(support.matrices, X);
+  };
+  return make_reduced_basis(vectors, support.matrices.M_s, multiply, support.R,
+                            drop_tolerance);
+}
+
 MatrixX take_rows(const MatrixX& full, const std::vector<int>& nodes) {
   MatrixX part(3 * static_cast<Eigen::Index>(nodes.size()), full.cols());
   for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -6,6 +6,7 @@
 #include "fem/matrices.hpp"
 #include "fem/mesh.hpp"
 #include "flexbody/recipe.hpp"
+#include "flexbody/reduced_basis.hpp"
 
 /// Which nodes of a body can move. Part of limber_reduction.
 namespace limber::flexbody {
@@ -27,6 +28,11 @@ struct Support {
 /// motion.
 [[nodiscard]] Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
                                    fem::StructuralMatrices matrices);
+
+/// make_reduced_basis on the support's matrices.
+[[nodiscard]] ReducedBasis make_reduced_basis(const MatrixX& vectors,
+                                              const Support& support,
+                                              double drop_tolerance);
 
 /// The rows (three a node) of `nodes`.
 [[nodiscard]] MatrixX take_rows(const MatrixX& full,

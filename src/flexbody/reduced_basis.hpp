@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <functional>
 
 #include "common/types.hpp"
 
@@ -21,14 +22,19 @@ struct ReducedBasis {
                                      const Eigen::SparseMatrix<double>& M_s,
                                      const MatrixX& R, double drop_tolerance);
 
+/// K X for 3N x k columns. [N for m]
+using StiffnessFunction = std::function<MatrixX(const MatrixX& X)>;
+
 /// Any vectors into the one form.
 ///
 /// Equation   Phi^T M Phi = I, Phi^T K Phi = diag(lambda), R^T M Phi = 0
 /// Source     design.md, section 1
-/// @param M_s N x N nodal mass, both triangles; @param K_lower lower triangle
+/// @param M_s N x N nodal mass, both triangles
+/// @throws NumericalError for a vector that is not finite, or one that has no
+/// stiffness.
 [[nodiscard]] ReducedBasis make_reduced_basis(
     const MatrixX& vectors, const Eigen::SparseMatrix<double>& M_s,
-    const Eigen::SparseMatrix<double>& K_lower, const MatrixX& R,
+    const StiffnessFunction& multiply_stiffness, const MatrixX& R,
     double drop_tolerance);
 
 }  // namespace limber::flexbody
