@@ -67,6 +67,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& lower,
 }
 
 void SparseCholesky::factor(const SparseMatrix& lower) {
+  const SerialBlas serial;
   cholmod_sparse matrix = view_lower(lower);
   cholmod_factorize(&matrix, impl_->factor, impl_->common.get());
   impl_->common.check(impl_->what);
@@ -87,8 +88,7 @@ MatrixX SparseCholesky::solve(const MatrixX& right_hand_side) const {
 }
 
 void SparseCholesky::solve_in_place(Eigen::Ref<MatrixX> x) const {
-  constexpr Eigen::Index kFew = 12;  // columns that win nothing by threads
-  const SerialBlas serial(x.cols() <= kFew);
+  const SerialBlas serial;
   cholmod_dense b{};
   b.nrow = static_cast<std::size_t>(x.rows());
   b.ncol = static_cast<std::size_t>(x.cols());

@@ -3,6 +3,8 @@
 
 #include <dlfcn.h>
 
+#include <mutex>
+
 namespace limber::fem {
 namespace {
 
@@ -12,39 +14,59 @@ Function find_function(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
 }
 
-using Set = void (*)(int);
-using Get = int (*)();
+// A number that a library keeps for the process.
+class Setting {
+ public:
+  Setting(const char* set, const char* get)
+      : set_(find_function<void (*)(int)>(set)),
+        get_(find_function<int (*)()>(get)) {}
 
-struct Switches {
-  Set set_blas = find_function<Set>("openblas_set_num_threads");
-  Get get_blas = find_function<Get>("openblas_get_num_threads");
-  Set set_omp = find_function<Set>("omp_set_max_active_levels");
-  Get get_omp = find_function<Get>("omp_get_max_active_levels");
+  void change(int value) {
+    if (set_ == nullptr || get_ == nullptr) return;
+    before_ = get_();
+    set_(value);
+  }
+  void restore() {
+    if (set_ != nullptr && get_ != nullptr) set_(before_);
+  }
+
+ private:
+  void (*set_)(int);
+  int (*get_)();
+  int before_ = 1;
 };
 
-const Switches& switches() {
-  static const Switches found;
-  return found;
+// Counts who asks for one thread.
+class Switch {
+ public:
+  void enter() {
+    const std::lock_guard lock(mutex_);
+    if (count_++ > 0) return;
+    blas_.change(1);
+    omp_.change(0);
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    if (--count_ > 0) return;
+    blas_.restore();
+    omp_.restore();
+  }
+
+ private:
+  std::mutex mutex_;
+  int count_ = 0;
+  Setting blas_{"openblas_set_num_threads", "openblas_get_num_threads"};
+  Setting omp_{"omp_set_max_active_levels", "omp_get_max_active_levels"};
+};
+
+Switch& process_switch() {
+  static Switch only;
+  return only;
 }
 
 }  // namespace
 
-SerialBlas::SerialBlas(bool is_on) {
-  if (!is_on) return;
-  const Switches& s = switches();
-  if (s.set_blas != nullptr && s.get_blas != nullptr) {
-    blas_threads_ = s.get_blas();
-    s.set_blas(1);
-  }
-  if (s.set_omp != nullptr && s.get_omp != nullptr) {
-    omp_levels_ = s.get_omp();
-    s.set_omp(0);
-  }
-}
-
-SerialBlas::~SerialBlas() {
-  if (blas_threads_ > 0) switches().set_blas(blas_threads_);
-  if (omp_levels_ > 0) switches().set_omp(omp_levels_);
-}
+SerialBlas::SerialBlas() { process_switch().enter(); }
+SerialBlas::~SerialBlas() { process_switch().leave(); }
 
 }  // namespace limber::fem

@@ -3,20 +3,19 @@
 
 namespace limber::fem {
 
-/// While it lives, BLAS and OpenMP use one thread, where they can be told to:
-/// on the small blocks of a triangular solution, waking threads costs several
+/// While one lives, in whatever thread, BLAS and OpenMP use one thread each,
+/// where they can be told to: sums are then taken in one order, so that
+/// factors and solutions are the same to the bit on any number of cores. On
+/// the small blocks of a triangular solution waking threads also costs several
 /// times what they win. Works with OpenBLAS and GNU OpenMP; elsewhere it does
-/// nothing. For the whole process: not to be held by two threads at once.
+/// nothing. Those settings belong to the whole process; the last to go restores
+/// what the first has found.
 class SerialBlas {
  public:
-  explicit SerialBlas(bool is_on = true);
+  SerialBlas();
   SerialBlas(const SerialBlas&) = delete;
   SerialBlas& operator=(const SerialBlas&) = delete;
   ~SerialBlas();
-
- private:
-  int blas_threads_ = 0;  // before; 0: left alone
-  int omp_levels_ = 0;
 };
 
 }  // namespace limber::fem
