@@ -20,7 +20,8 @@ endif()
 # their place inside it, built with other options.
 target_compile_options(limber_options INTERFACE -fvisibility=hidden)
 if(LIMBER_SANITIZE MATCHES "^(ON|address)$")
-  set(limber_sanitizers address,undefined)
+  # A double that its integer cannot hold is of no sanitizer's default.
+  set(limber_sanitizers address,undefined,float-cast-overflow)
 elseif(LIMBER_SANITIZE STREQUAL "thread")
   set(limber_sanitizers thread)
 elseif(LIMBER_SANITIZE)
@@ -30,14 +31,14 @@ endif()
 if(LIMBER_SANITIZE)
   # GCC's own advice: under sanitizers it takes set variables for unset ones.
   target_compile_options(limber_options INTERFACE
-    -fsanitize=${limber_sanitizers} -fno-sanitize-recover=undefined
+    -fsanitize=${limber_sanitizers}
+    -fno-sanitize-recover=undefined,float-cast-overflow
     -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
     $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/overflow.ignore>)
   target_link_options(limber_options INTERFACE -fsanitize=${limber_sanitizers})
 endif()
-# libFuzzer follows the paths that an input takes; a double that its integer
-# cannot hold is of no sanitizer's default.
+# libFuzzer follows the paths that an input takes.
 if(LIMBER_FUZZ)
   target_compile_options(limber_options INTERFACE
     -fsanitize=fuzzer-no-link,float-cast-overflow

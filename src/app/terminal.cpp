@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -37,7 +38,7 @@ struct Bar {
       return;
     }
     drawn = Clock::now();
-    const double done = std::clamp(fraction, 0.0, 1.0);
+    const double done = std::fmin(std::fmax(fraction, 0.0), 1.0);  // NaN: 0
     const int filled = static_cast<int>(done * kBarWidth);
     const std::string left =
         done > 0.01 ? fmt::format("{:.0f} s left",

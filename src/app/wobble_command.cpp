@@ -67,6 +67,13 @@ dynamics::Fidelity find_level(const Options& options) {
 }
 
 std::vector<double> find_output_times(double step, double duration) {
+  constexpr double kMostOutputs = 1e7;  // they stay in memory
+  if (!(duration / step <= kMostOutputs)) {
+    throw InputError(fmt::format(
+        "--step {:g} s takes {:.3g} steps until {:g} s, each an output; at "
+        "most {:g} can be kept",
+        step, duration / step, duration, kMostOutputs));
+  }
   std::vector<double> times;
   const auto count = static_cast<long>(std::ceil(duration / step - 1e-9));
   for (long i = 0; i < count; ++i) {

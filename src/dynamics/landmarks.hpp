@@ -16,6 +16,7 @@ struct Landmark {
 
 /// All landmarks after `start`, increasing; the last is the end. Times that
 /// differ by round-off alone are one.
+/// @throws InputError for steps so short that they cannot be told apart.
 [[nodiscard]] std::vector<Landmark> find_landmarks(
     const SystemModel& model, double start, const SimulationSettings& settings);
 

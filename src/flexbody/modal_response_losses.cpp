@@ -82,8 +82,9 @@ std::vector<double> ModalResponse::find_panels(
   std::vector<double> panels = {ends.front()};
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const double span = ends[i] - ends[i - 1];
-    const auto count = static_cast<int>(std::clamp(
-        std::ceil(span * rate / kPanelPhase), 1.0, double{kMostPanels}));
+    const auto count = static_cast<int>(
+        std::fmin(std::fmax(std::ceil(span * rate / kPanelPhase), 1.0),
+                  double{kMostPanels}));
     for (int j = 1; j < count; ++j) {
       panels.push_back(ends[i - 1] + span * j / count);
     }

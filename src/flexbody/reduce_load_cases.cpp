@@ -46,6 +46,7 @@ class Collection {
     constexpr double kDigits = 1e12;
     Eigen::Index largest = 0;
     load.cwiseAbs().maxCoeff(&largest);
+    LIMBER_EXPECT(load.allFinite() && load[largest] != 0.0);
     std::vector<long long> direction;
     for (const double value : load)
       direction.push_back(std::llround(kDigits * (value / load[largest])));
