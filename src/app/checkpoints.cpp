@@ -2,59 +2,115 @@
 #include "app/checkpoints.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
 
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
-#include "dynamics/fingerprint.hpp"
 #include "results/checkpoint_file.hpp"
 
 namespace limber::app {
 namespace {
 
-// @param history empty but for its columns
-dynamics::Checkpoint read_run(const std::filesystem::path& file,
-                              const std::string& fingerprint,
-                              results::History& history) {
-  results::CheckpointRecord record = results::read_checkpoint(file);
-  if (record.fingerprint != fingerprint) {
-    throw InputError(fmt::format(
-        "the checkpoint '{}' is of another run: the scenario, its robot or a "
-        "mesh have changed since; run without --resume",
-        file.string()));
+// Differences that are told; the first ones are usually the cause of the rest.
+constexpr std::size_t kMostTold = 5;
+
+void check_is_same_run(const std::filesystem::path& file,
+                       const Manifest& before, const Manifest& now) {
+  std::vector<std::string> differences = find_differences(before, now);
+  if (differences.empty()) return;
+  const std::size_t count = differences.size();
+  if (count > kMostTold) {
+    differences.resize(kMostTold);
+    differences.push_back(fmt::format("and {} more", count - kMostTold));
   }
-  history = std::move(record.history);
-  return std::move(record.run);
+  throw InputError(fmt::format(
+      "the checkpoint '{}' is of another run: {}; run without --resume, or "
+      "restore what was",
+      file.string(), fmt::join(differences, "; ")));
 }
+
+// Whatever it is.
+bool is_there(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::symlink_status(file, error).type() !=
+         std::filesystem::file_type::not_found;
+}
+
+void warn(const std::string& text, std::vector<std::string>& warnings) {
+  print_warnings({text});
+  warnings.push_back(text);
+}
+
+// Writes checkpoints for as long as the run lives.
+class Keeper {
+ public:
+  using MakeWriter = std::function<results::CheckpointWriter()>;
+  // `make_writer` is called at the first checkpoint.
+  Keeper(MakeWriter make_writer, const results::History& history,
+         std::vector<std::string>& warnings)
+      : make_writer_(std::move(make_writer)),
+        history_(history),
+        warnings_(warnings) {}
+
+  void go_on_with(results::CheckpointWriter writer) {
+    writer_.emplace(std::move(writer));
+  }
+
+  void keep(const dynamics::Checkpoint& run) {
+    try {
+      if (!writer_) writer_.emplace(make_writer_());
+      writer_->write(run, history_);
+    } catch (const InputError& error) {
+      if (std::exchange(has_warned_, true)) return;
+      warn(fmt::format("no checkpoint at t = {:.9g} s: {}; the run goes on",
+                       run.time, error.what()),
+           warnings_);
+    }
+  }
+
+ private:
+  MakeWriter make_writer_;
+  std::optional<results::CheckpointWriter> writer_;
+  const results::History& history_;
+  std::vector<std::string>& warnings_;
+  bool has_warned_ = false;
+};
 
 }  // namespace
 
-dynamics::Continuation make_continuation(const CheckpointPlan& plan,
-                                         const scene::BuiltScene& built,
-                                         results::History& history) {
+dynamics::Continuation make_continuation(
+    const CheckpointPlan& plan, const std::function<Manifest()>& describe,
+    results::History& history, std::vector<std::string>& warnings) {
   dynamics::Continuation continuation;
   if (plan.file.empty()) return continuation;
-  const std::string fingerprint =
-      dynamics::find_fingerprint(built.model, built.initial, built.settings);
+  const auto keeper = std::make_shared<Keeper>(
+      [file = plan.file, describe] {
+        return results::CheckpointWriter(file, describe());
+      },
+      history, warnings);
   continuation.keeper.interval = plan.interval;
-  continuation.keeper.keep = [file = plan.file, fingerprint,
-                              &history](const dynamics::Checkpoint& run) {
-    results::write_checkpoint(file, {fingerprint, run, history});
+  continuation.keeper.keep = [keeper](const dynamics::Checkpoint& run) {
+    keeper->keep(run);
   };
   if (!plan.resumes) return continuation;
-  if (std::filesystem::exists(plan.file)) {
-    continuation.from = read_run(plan.file, fingerprint, history);
-  } else {
-    print_warnings({fmt::format(
-        "there is no checkpoint '{}' to go on from; the run begins anew",
-        plan.file.string())});
+  if (!is_there(plan.file)) {
+    warn(fmt::format(
+             "there is no checkpoint '{}' to go on from; the run begins anew",
+             plan.file.string()),
+         warnings);
+    return continuation;
   }
+  results::CheckpointRecord record = results::read_checkpoint(plan.file);
+  check_is_same_run(plan.file, record.manifest, describe());
+  keeper->go_on_with(results::CheckpointWriter(plan.file, record));
+  history = std::move(record.history);
+  continuation.from = std::move(record.run);
   return continuation;
-}
-
-void remove_checkpoint(const CheckpointPlan& plan) {
-  if (plan.file.empty()) return;
-  std::error_code ignored;
-  std::filesystem::remove(plan.file, ignored);
 }
 
 }  // namespace limber::app

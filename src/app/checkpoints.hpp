@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
+#include "common/manifest.hpp"
 #include "dynamics/simulation.hpp"
 #include "results/history.hpp"
-#include "scene/scene.hpp"
 
 namespace limber::app {
 
@@ -17,14 +20,15 @@ struct CheckpointPlan {
 };
 
 /// The plan at work on a run. A checkpoint to go on from is read at once, with
-/// the history up to it; without one the run begins anew, with a warning.
+/// the history up to it; without one the run begins anew, with a warning. A
+/// checkpoint that cannot be written is a warning, once, and the run goes on.
+/// @param describe makes the run's manifest, when it is needed
 /// @param history outlives what is returned
-/// @throws InputError if the checkpoint is damaged or of another run.
+/// @param warnings likewise; what was printed as it came is added
+/// @throws InputError if the checkpoint is damaged or of another run, naming
+/// what has changed.
 [[nodiscard]] dynamics::Continuation make_continuation(
-    const CheckpointPlan& plan, const scene::BuiltScene& built,
-    results::History& history);
-
-/// Of a run that has ended.
-void remove_checkpoint(const CheckpointPlan& plan);
+    const CheckpointPlan& plan, const std::function<Manifest()>& describe,
+    results::History& history, std::vector<std::string>& warnings);
 
 }  // namespace limber::app

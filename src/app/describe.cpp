@@ -97,14 +97,6 @@ Json describe_results(const std::filesystem::path& file) {
               {"events", contents.events}};
 }
 
-Json describe_checkpoint(const std::filesystem::path& file) {
-  const results::CheckpointRecord record = results::read_checkpoint(file);
-  return Json{{"kind", "checkpoint"},
-              {"time", record.run.time},
-              {"outputs", record.history.times.size()},
-              {"goes_on_by", "limber run SCENARIO --resume"}};
-}
-
 Json describe_field(const flexbody::ProjectedField& field) {
   return Json{{"modes", to_json(MatrixX(field.eta))},
               {"rigid_share", field.rigid_share},
@@ -167,8 +159,15 @@ Json describe_robot(const std::filesystem::path& file) {
               {"warnings", robot.warnings}};
 }
 
+Json describe_checkpoint(const std::filesystem::path& file) {
+  const results::CheckpointRecord record = results::read_checkpoint(file);
+  return Json{{"kind", "checkpoint"},
+              {"time", record.run.time},
+              {"outputs", record.history.times.size()},
+              {"goes_on_by", "limber run SCENARIO --resume"}};
+}
+
 Json describe_hdf5(const std::filesystem::path& file) {
-  if (results::is_checkpoint_file(file)) return describe_checkpoint(file);
   return results::is_results_file(file) ? describe_results(file)
                                         : describe_body(file);
 }

@@ -11,6 +11,7 @@ namespace limber::app {
 
 [[nodiscard]] Json describe_scenario(const std::filesystem::path& file);
 [[nodiscard]] Json describe_robot(const std::filesystem::path& file);
+[[nodiscard]] Json describe_checkpoint(const std::filesystem::path& file);
 /// A reduced body or the results of a run.
 [[nodiscard]] Json describe_hdf5(const std::filesystem::path& file);
 /// @param unit metres per mesh unit [m].

@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/describe.hpp"
 #include "common/errors.hpp"
+#include "results/checkpoint_file.hpp"
 
 namespace limber::app {
 namespace {
@@ -30,6 +31,9 @@ Json describe(const Options& options) {
   if (!std::filesystem::exists(options.file)) {
     throw InputError(fmt::format("{}: no such file", options.file));
   }
+  if (results::is_checkpoint_file(options.file)) {
+    return describe_checkpoint(options.file);
+  }
   const std::string extension = extension_of(options.file);
   if (extension == ".toml") return describe_scenario(options.file);
   if (extension == ".urdf" || extension == ".xml") {
@@ -43,7 +47,8 @@ Json describe(const Options& options) {
     return describe_mesh(options.file, options.unit);
   }
   throw InputError(fmt::format(
-      "{}: info knows .toml, .urdf, .h5, .msh, .geo, .step and .stp files",
+      "{}: info knows .toml, .urdf, .h5, .msh, .geo, .step and .stp files, and "
+      "checkpoints",
       options.file));
 }
 

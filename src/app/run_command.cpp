@@ -9,6 +9,7 @@
 #include "app/run_scene.hpp"
 #include "app/validators.hpp"
 #include "dynamics/fidelity.hpp"
+#include "results/checkpoint_file.hpp"
 
 namespace limber::app {
 namespace {
@@ -40,13 +41,13 @@ void run(const Options& options) {
   const std::filesystem::path folder = find_folder(options, scene.scenario);
   check_output_folder(folder);
   const CheckpointPlan checkpoints = {
-      folder / "checkpoint.h5",
+      folder / "checkpoint.bin",
       options.checkpoint_interval.value_or(
           scene.scenario.output.checkpoint_interval),
       options.resumes};
   const Run result = run_scene(scene, options.cache, checkpoints);
   write_run(result, folder, options.xdmf || scene.scenario.output.xdmf);
-  remove_checkpoint(checkpoints);
+  results::remove_checkpoint(checkpoints.file);
   finish_run(result, folder, options.json);
 }
 

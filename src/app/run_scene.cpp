@@ -11,6 +11,7 @@
 #include "app/event_report.hpp"
 #include "app/mode_options.hpp"
 #include "app/reducer.hpp"
+#include "app/run_manifest.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
 #include "dynamics/energy_verdict.hpp"
@@ -120,8 +121,9 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
       scene, reducer, cache.empty() ? flexbody::default_cache_folder() : cache,
       make_full_maker(progress));
   add_columns(run);
-  const dynamics::Continuation continuation =
-      make_continuation(checkpoints, run.built, run.history);
+  const dynamics::Continuation continuation = make_continuation(
+      checkpoints, [&] { return make_manifest(run.scene, run.built); },
+      run.history, run.told);
   try {
     simulate(run.built, progress, run.history, run.statistics, run.record,
              continuation);
@@ -201,8 +203,8 @@ Json summarize(const Run& run) {
     json["levels"].push_back(to_json(level));
   }
   json["warnings"] = run.built.warnings;
-  for (const std::string& text : run.statistics.warnings) {
-    json["warnings"].push_back(text);
+  for (const auto& texts : {run.statistics.warnings, run.told}) {
+    for (const std::string& text : texts) json["warnings"].push_back(text);
   }
   return json;
 }

@@ -21,6 +21,7 @@ struct Run {
   results::History history;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;     ///< peaks of the probes' columns, and energy
+  std::vector<std::string> told;  ///< warnings that were printed as they came
   std::vector<BodyLevel> levels;  ///< whether each body's was justified
   std::exception_ptr failure;     ///< the NumericalError that ended it early
 };

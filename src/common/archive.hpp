@@ -2,19 +2,23 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "common/errors.hpp"
-#include "common/pose.hpp"
+#include "common/fields.hpp"
 #include "common/types.hpp"
+#include "common/whole_number.hpp"
 
 namespace limber {
 
 /// Values in a row as numbers, to the bit: written, and read again by the same
-/// list of them. What a checkpoint is made of.
+/// list of them. What a checkpoint is made of. An aggregate goes in by all
+/// fields that fields_of() lists (common/fields.hpp), other things by an
+/// `exchange` of their own:
 ///
 ///     void exchange(Archive& archive, Thing& thing) {
 ///       archive(thing.size, thing.names);
@@ -30,6 +34,8 @@ class Archive {
       : numbers_(std::move(numbers)), reads_(true) {}
 
   [[nodiscard]] bool reads() const { return reads_; }
+  /// When reading: whether there are numbers that were not read yet.
+  [[nodiscard]] bool has_more() const { return next_ < numbers_.size(); }
   [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
 
   /// Writes the values, or reads them.
@@ -57,9 +63,19 @@ class Archive {
     size = static_cast<std::size_t>(number);
   }
 
+  /// A whole number; read, one that `Number` can hold.
+  template <typename Number>
+  void pass_whole(Number& value) {
+    auto number = static_cast<double>(value);
+    pass(number);
+    if (!fits<Number>(number)) fail();
+    value = static_cast<Number>(number);
+  }
+
  private:
   [[noreturn]] static void fail() {
-    throw InputError("the record is damaged: it ends before what it describes");
+    throw InputError(
+        "the record is damaged: it is not what it says that it holds");
   }
 
   std::vector<double> numbers_;
@@ -67,12 +83,19 @@ class Archive {
   bool reads_ = false;
 };
 
-template <typename Number>
-std::enable_if_t<std::is_arithmetic_v<Number> || std::is_enum_v<Number>>
-exchange(Archive& archive, Number& value) {
-  auto number = static_cast<double>(value);
-  archive.pass(number);
-  value = static_cast<Number>(number);
+inline void exchange(Archive& archive, double& value) { archive.pass(value); }
+
+template <std::integral Number>
+void exchange(Archive& archive, Number& value) {
+  archive.pass_whole(value);
+}
+
+template <typename Enum>
+requires std::is_enum_v<Enum>
+void exchange(Archive& archive, Enum& value) {
+  auto number = static_cast<std::underlying_type_t<Enum>>(value);
+  archive.pass_whole(number);
+  value = static_cast<Enum>(number);
 }
 
 inline void exchange(Archive& archive, std::string& text) {
@@ -115,6 +138,10 @@ inline void exchange(Archive& archive, Quaternion& q) {
   exchange(archive, q.coeffs());
 }
 
-inline void exchange(Archive& archive, Pose& pose) { archive(pose.R, pose.p); }
+/// All its fields, in order.
+template <HasFields T>
+void exchange(Archive& archive, T& thing) {
+  std::apply([&](auto&... fields) { archive(fields...); }, tie_fields(thing));
+}
 
 }  // namespace limber

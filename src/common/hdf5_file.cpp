@@ -14,62 +14,21 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/hdf5_handle.hpp"
 
 namespace limber {
 namespace {
 
+using hdf5::checked;
+using hdf5::Failure;
+using hdf5::Handle;
+using hdf5::leave_out_times;
+using hdf5::prepare_library;
+using hdf5::Quiet;
+using hdf5::with_path;
+
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// What went wrong inside a file; `with_path` adds which file.
-class Failure : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-template <typename Work>
-auto with_path(const std::filesystem::path& file, const Work& work) {
-  try {
-    return work();
-  } catch (const Failure& failure) {
-    throw InputError(fmt::format("'{}': {}", file.string(), failure.what()));
-  }
-}
-
-// Passes on what an HDF5 call answers, unless it is the sign of failure.
-template <typename Answer>
-Answer checked(Answer answer) {
-  if (answer < 0) throw Failure("HDF5 reports an error; the file is damaged");
-  return answer;
-}
-
-// Closes an HDF5 identifier of any kind.
-class Handle {
- public:
-  using Closer = herr_t (*)(hid_t);
-  Handle(hid_t id, Closer closer) : id_(checked(id)), closer_(closer) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() {
-    if (id_ >= 0) closer_(id_);
-  }
-  [[nodiscard]] hid_t get() const { return id_; }
-  // For what was written: closing may be what fills the disk.
-  void close() { checked(closer_(std::exchange(id_, -1))); }
-
- private:
-  hid_t id_;
-  Closer closer_;
-};
-
-// HDF5 prints its own error stack otherwise; ours is the one clear text. And
-// at exit it would close what a full disk kept it from closing, and crash
-// (h5py issue 914): every file is closed before, or has failed with an error.
-void prepare_library() {
-  static const herr_t before_first_use = H5dont_atexit();
-  static_cast<void>(before_first_use);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
 
 Handle make_text_type() { return {H5Tcopy(H5T_C_S1), H5Tclose}; }
 
@@ -120,6 +79,7 @@ void write_checked(hid_t file, const Dataset& values) {
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   checked(H5Pset_create_intermediate_group(links.get(), 1));
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  leave_out_times(creation.get());
   const std::vector<hsize_t>& shape = values.shape;
   const bool is_empty =
       std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
@@ -282,6 +242,7 @@ std::vector<std::string> list_of(hid_t file, const std::string& group) {
 hid_t create_file(const std::filesystem::path& file, std::uint64_t user_block) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   checked(H5Pset_userblock(creation.get(), user_block));
+  leave_out_times(creation.get());
   return H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
 }
 
@@ -300,6 +261,7 @@ Hdf5File::Hdf5File(Hdf5File&& other) noexcept
       file_(std::move(other.file_)) {}
 
 Hdf5File::~Hdf5File() {
+  const Quiet quiet;
   if (handle_ >= 0) H5Fclose(handle_);
 }
 
@@ -325,6 +287,7 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, error)) {
     throw InputError(fmt::format("'{}' does not exist", file.string()));
   }
+  const Quiet quiet;
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) {
     throw InputError(fmt::format("'{}' is not an HDF5 file, or it is truncated",
@@ -391,6 +354,7 @@ void Hdf5File::write_array(const std::string& name,
 
 bool Hdf5File::has(const std::string& name) const {
   // An error says here that a group on the way does not exist.
+  const Quiet quiet;
   return H5Lexists(handle_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
@@ -413,6 +377,7 @@ std::vector<std::string> Hdf5File::list(const std::string& group) const {
 }
 
 void Hdf5File::close() {
+  const Quiet quiet;
   const std::int64_t handle = std::exchange(handle_, -1);
   if (handle >= 0 && H5Fclose(handle) < 0) {
     throw InputError(fmt::format("'{}': cannot be closed; is the disk full?",

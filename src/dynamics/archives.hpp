@@ -7,43 +7,40 @@
 #include "dynamics/residual.hpp"
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_state.hpp"
+#include "joints/fields.hpp"
 
-/// What of a run goes into a checkpoint, and in which order.
-namespace limber::joints {
-
-inline void exchange(Archive& archive, CouplerMemory& memory) {
-  archive(memory.near, memory.switches, memory.latch, memory.X_FM);
-}
-
-}  // namespace limber::joints
-
+/// What of a run goes into a checkpoint, field by field (common/fields.hpp).
 namespace limber::dynamics {
 
-inline void exchange(Archive& archive, BodyState& body) {
-  archive(body.p_WB, body.quat_WB, body.v_WB_W, body.w_WB_B);
+constexpr auto fields_of(const BodyState*) {
+  return list_fields("body", "position [m]", "rotation", "velocity [m/s]",
+                     "angular velocity [rad/s]");
 }
 
-inline void exchange(Archive& archive, SystemState& state) {
-  archive(state.t, state.bodies, state.eta, state.etadot, state.X_WH, state.u_H,
-          state.udot_H, state.memory);
+constexpr auto fields_of(const SystemState*) {
+  return list_fields("state", "time [s]", "bodies", "eta [kg^1/2 m]",
+                     "etadot [kg^1/2 m/s]", "homes", "nodal displacements [m]",
+                     "nodal velocities [m/s]", "memories");
 }
 
-inline void exchange(Archive& archive, Rates& rates) {
-  archive(rates.translation, rates.rotation, rates.modes, rates.nodes);
+constexpr auto fields_of(const Rates*) {
+  return list_fields("rates", "translation", "rotation", "modes", "nodes");
 }
 
-inline void exchange(Archive& archive, Accelerations& a) {
-  archive(a.a_WB_W, a.dw_WB_B, a.etaddot, a.uddot_H);
+constexpr auto fields_of(const Accelerations*) {
+  return list_fields("accelerations", "a_WB_W [m/s^2]", "dw_WB_B [rad/s^2]",
+                     "etaddot [kg^1/2 m/s^2]", "uddot_H [m/s^2]");
 }
 
-inline void exchange(Archive& archive, Event& event) {
-  archive(event.time, event.source, event.what, event.rate);
+constexpr auto fields_of(const Event*) {
+  return list_fields("event", "time [s]", "source", "what",
+                     "rate [m/s, rad/s]");
 }
 
-inline void exchange(Archive& archive, EnergyBalance& energy) {
-  archive(energy.kinetic_rigid, energy.kinetic_modal, energy.elastic,
-          energy.coupler, energy.dissipated, energy.work,
-          energy.linear_momentum, energy.angular_momentum);
+constexpr auto fields_of(const EnergyBalance*) {
+  return list_fields("energy", "kinetic rigid [J]", "kinetic modal [J]",
+                     "elastic [J]", "coupler [J]", "dissipated [J]", "work [J]",
+                     "linear momentum [kg m/s]", "angular momentum [kg m^2/s]");
 }
 
 /// Counts of work, which add up over a run.

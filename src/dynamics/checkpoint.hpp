@@ -11,6 +11,9 @@ namespace limber::dynamics {
 struct Checkpoint {
   double time = 0.0;            ///< [s]
   std::vector<double> numbers;  ///< of an Archive
+  /// What grows with the time: when kept, what came since the checkpoint
+  /// before; to go on from, that of all checkpoints in a row.
+  std::vector<double> log = {};
 };
 
 /// Who keeps checkpoints, and how often.

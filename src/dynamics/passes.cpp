@@ -28,12 +28,28 @@ double to_length(double allowed) { return std::cbrt(allowed); }  // of steps
 
 // What a pass leaves at its outputs.
 struct Record {
+  int pass = 0;
   std::vector<SystemState> states;
   std::vector<EnergyBalance> balances;
 };
 
-void exchange(Archive& archive, Record& record) {
-  archive(record.states, record.balances);
+constexpr auto fields_of(const Record*) {
+  return list_fields("record", "pass", "states", "balances");
+}
+
+// What a record holds from an output on.
+Record cut(const Record& record, std::size_t from) {
+  const auto first = static_cast<std::ptrdiff_t>(from);
+  return {record.pass,
+          {record.states.begin() + first, record.states.end()},
+          {record.balances.begin() + first, record.balances.end()}};
+}
+
+void append(const Record& part, Record& record) {
+  record.states.insert(record.states.end(), part.states.begin(),
+                       part.states.end());
+  record.balances.insert(record.balances.end(), part.balances.begin(),
+                         part.balances.end());
 }
 
 // Between two passes, and of what a checkpoint holds.
@@ -42,13 +58,11 @@ struct Course {
   double allowed = 0.0;         // error of a step of this pass [m]
   double allowed_before = 0.0;  // of the pass before
   double estimate = 0.0;        // error of the pass that ended last [m]
-  Record before;
-  Record now;
 };
 
-void exchange(Archive& archive, Course& course) {
-  archive(course.pass, course.allowed, course.allowed_before, course.estimate,
-          course.before, course.now);
+constexpr auto fields_of(const Course*) {
+  return list_fields("course", "pass", "allowed [m]", "allowed before [m]",
+                     "estimate [m]");
 }
 
 double measure_distance(const MotionScale& scale, const Record& a,
@@ -103,7 +117,7 @@ class Passes {
     }
   }
 
-  [[nodiscard]] const Record& record() const { return course_.now; }
+  [[nodiscard]] const Record& record() const { return now_; }
 
  private:
   void run_pass(SystemState& state) {
@@ -114,8 +128,8 @@ class Passes {
         1L);
     const Observer observer = [this](const SystemState& at,
                                      const EnergyBalance& balance) {
-      course_.now.states.push_back(at);
-      course_.now.balances.push_back(balance);
+      now_.states.push_back(at);
+      now_.balances.push_back(balance);
     };
     Continuation continuation{keeper_, std::move(inner_)};
     inner_.reset();
@@ -142,8 +156,7 @@ class Passes {
   // Estimates the pass that ended.
   bool is_good_enough() {
     if (course_.pass < 2) return false;
-    const double distance =
-        measure_distance(scale_, course_.before, course_.now);
+    const double distance = measure_distance(scale_, before_, now_);
     const double shrinkage = to_error(course_.allowed_before / course_.allowed);
     course_.estimate = distance / (shrinkage - 1.0);
     statistics_.estimated_error = course_.estimate;
@@ -165,8 +178,10 @@ class Passes {
     }
     course_.allowed_before = course_.allowed;
     course_.allowed = next;
-    course_.before = std::move(course_.now);
-    course_.now = {};
+    before_ = std::move(now_);
+    before_logged_ = now_logged_;
+    now_ = {course_.pass, {}, {}};
+    now_logged_ = 0;
   }
 
   Checkpoint wrap(const Checkpoint& inner) {
@@ -174,7 +189,18 @@ class Passes {
     std::vector<double> numbers = inner.numbers;
     archive(numbers, course_);
     exchange_costs(archive, statistics_);
-    return {inner.time, archive.numbers()};
+    return {inner.time, archive.numbers(), take_log()};
+  }
+
+  // What the two records that are needed hold, and no log has yet.
+  std::vector<double> take_log() {
+    Archive log;
+    Record before = cut(before_, before_logged_);
+    Record now = cut(now_, now_logged_);
+    log(before, now);
+    before_logged_ = before_.states.size();
+    now_logged_ = now_.states.size();
+    return log.numbers();
   }
 
   void unwrap(const Checkpoint& checkpoint) {
@@ -183,6 +209,17 @@ class Passes {
     inner_->time = checkpoint.time;
     archive(inner_->numbers, course_);
     exchange_costs(archive, statistics_);
+    before_.pass = course_.pass - 1;
+    now_.pass = course_.pass;
+    Archive log(checkpoint.log);
+    while (log.has_more()) {
+      Record part;
+      log(part);
+      if (part.pass == before_.pass) append(part, before_);
+      if (part.pass == now_.pass) append(part, now_);
+    }
+    before_logged_ = before_.states.size();
+    now_logged_ = now_.states.size();
   }
 
   const SystemModel& model_;
@@ -196,6 +233,10 @@ class Passes {
   CheckpointKeeper keeper_;
   std::optional<Checkpoint> inner_;  // of the pass that goes on
   Course course_;
+  Record before_;  // of the pass before
+  Record now_;
+  std::size_t before_logged_ = 0;  // outputs that are in a log
+  std::size_t now_logged_ = 0;
 };
 
 }  // namespace

@@ -3,103 +3,219 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+#include <system_error>
+#include <utility>
+
 #include "common/archive.hpp"
-#include "common/digest.hpp"
 #include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
-#include "common/whole_file.hpp"
+#include "common/sealed_file.hpp"
 #include "dynamics/archives.hpp"
 
 namespace limber::results {
 
-void exchange(Archive& archive, ProbeColumn& column) {
-  archive(column.name, column.unit);
+constexpr auto fields_of(const ProbeColumn*) {
+  return list_fields("column", "name", "unit");
 }
 
-void exchange(Archive& archive, History& history) {
-  archive(history.columns, history.times, history.probe_rows, history.states,
-          history.energies, history.events);
+constexpr auto fields_of(const History*) {
+  return list_fields("history", "columns", "times [s]", "probe rows", "states",
+                     "energies", "events");
 }
 
 namespace {
 
-const std::string kFormat = "limber checkpoint";
-constexpr std::int64_t kVersion = 2;
+constexpr std::string_view kKind = "limber checkpoint";
+constexpr Seal kSeal = {kKind, 3};
 
-bool has_format(const Hdf5File& in) {
-  return in.has("format") && in.read_text("format") == kFormat;
+// What the file itself holds.
+struct Head {
+  double time = 0.0;
+  std::vector<double> numbers;
+  std::string log;  // name of the file beside it
+  std::uint64_t length = 0;
+  std::string digest;
+};
+
+constexpr auto fields_of(const Head*) {
+  return list_fields("checkpoint", "time [s]", "numbers", "log", "length",
+                     "digest");
 }
 
-MatrixX to_column(const std::vector<double>& numbers) {
-  return Eigen::Map<const VectorX>(numbers.data(), std::ssize(numbers));
+// A block of the log but the first, which is the manifest.
+struct Entry {
+  std::vector<double> run;
+  History history;  // what came since the entry before
+};
+
+constexpr auto fields_of(const Entry*) {
+  return list_fields("entry", "run", "history");
 }
 
-std::vector<double> to_numbers(const MatrixX& column) {
-  return {column.data(), column.data() + column.size()};
+template <typename Thing>
+std::string to_bytes(Thing thing) {
+  Archive archive;
+  archive(thing);
+  const std::vector<double>& numbers = archive.numbers();
+  return {reinterpret_cast<const char*>(numbers.data()),
+          numbers.size() * sizeof(double)};
 }
 
-std::string find_digest(const MatrixX& run, const MatrixX& history) {
-  Digest digest;
-  digest.add(run);
-  digest.add(history);
-  return digest.text();
+template <typename Thing>
+Thing from_bytes(const std::string& bytes) {
+  std::vector<double> numbers(bytes.size() / sizeof(double));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+  Archive archive(std::move(numbers));
+  Thing thing;
+  archive(thing);
+  return thing;
+}
+
+// The two logs that take turns: a new run's does not touch that of the
+// checkpoint that it replaces.
+std::filesystem::path find_log(const std::filesystem::path& file, int turn) {
+  std::filesystem::path log = file;
+  log.replace_filename(fmt::format("{}-{}.log", file.stem().string(), turn));
+  return log;
+}
+
+Head read_head(const std::filesystem::path& file) {
+  return from_bytes<Head>(read_sealed(file, kSeal));
+}
+
+std::filesystem::path choose_log(const std::filesystem::path& file) {
+  const std::filesystem::path first = find_log(file, 1);
+  try {
+    if (first.filename() == read_head(file).log) return find_log(file, 2);
+  } catch (const InputError&) {  // no checkpoint to be kept
+  }
+  return first;
+}
+
+std::vector<std::size_t> find_ends(const History& history) {
+  std::vector<std::size_t> ends;
+  for_each_field(history, [&](const char*, const auto& list) {
+    ends.push_back(list.size());
+  });
+  return ends;
+}
+
+// What is beyond the ends.
+History cut(const History& history, const std::vector<std::size_t>& ends) {
+  History part;
+  std::apply(
+      [&](const auto&... lists) {
+        std::size_t i = 0;
+        const auto rest = [&](const auto& list) {
+          const auto first = static_cast<std::ptrdiff_t>(ends[i++]);
+          return std::decay_t<decltype(list)>(list.begin() + first, list.end());
+        };
+        part = History{rest(lists)...};
+      },
+      tie_fields(history));
+  return part;
+}
+
+template <typename Value>
+void move_to_end(std::vector<Value>& part, std::vector<Value>& all) {
+  all.insert(all.end(), std::make_move_iterator(part.begin()),
+             std::make_move_iterator(part.end()));
+}
+
+void move_to_end(History& part, History& all) {
+  auto parts = tie_fields(part);
+  std::apply(
+      [&](auto&... lists) {
+        std::apply([&](auto&... ends) { (move_to_end(lists, ends), ...); },
+                   tie_fields(all));
+      },
+      parts);
+}
+
+CheckpointRecord read_record(const std::filesystem::path& file) {
+  Head head = read_head(file);
+  CheckpointRecord record;
+  record.log = file;
+  record.log.replace_filename(std::filesystem::path(head.log).filename());
+  record.part = {head.length, head.digest};
+  record.run = {head.time, std::move(head.numbers), {}};
+  const std::vector<std::string> blocks = read_blocks(record.log, record.part);
+  if (blocks.empty()) throw InputError("its log is empty");
+  record.manifest = Manifest(blocks.front());
+  for (std::size_t i = 1; i < blocks.size(); ++i) {
+    auto entry = from_bytes<Entry>(blocks[i]);
+    move_to_end(entry.run, record.run.log);
+    move_to_end(entry.history, record.history);
+  }
+  return record;
 }
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& file,
-                      const CheckpointRecord& record) {
-  Archive archive;
-  History history = record.history;
-  archive(history);
-  const MatrixX run = to_column(record.run.numbers);
-  const MatrixX rest = to_column(archive.numbers());
-  write_whole(file, [&](const std::filesystem::path& part) {
-    Hdf5File out = Hdf5File::create(part);
-    out.write("format", kFormat, "what this file is");
-    out.write("version", std::vector<std::int64_t>{kVersion}, "1",
-              "layout of this file");
-    out.write("fingerprint", record.fingerprint, "of the run");
-    out.write("digest", find_digest(run, rest), "XXH3 of run and history");
-    out.write("time", MatrixX::Constant(1, 1, record.run.time), "s",
-              "how far the run was");
-    out.write("run", run, "1", "the run between two steps");
-    out.write("history", rest, "1", "what it had left behind by then");
-    out.close();
-  });
+CheckpointWriter::CheckpointWriter(std::filesystem::path file,
+                                   Manifest manifest)
+    : file_(std::move(file)),
+      manifest_(std::move(manifest)),
+      ends_(find_ends({})) {}
+
+CheckpointWriter::CheckpointWriter(std::filesystem::path file,
+                                   const CheckpointRecord& record)
+    : file_(std::move(file)),
+      manifest_(record.manifest),
+      log_file_(record.log),
+      ends_(find_ends(record.history)) {
+  log_ = std::make_unique<AppendFile>(record.log, record.part);
+}
+
+void CheckpointWriter::begin_log() {
+  log_file_ = choose_log(file_);
+  log_ = std::make_unique<AppendFile>(log_file_);
+  try {
+    log_->append(manifest_.text());
+  } catch (const InputError&) {
+    log_.reset();
+    throw;
+  }
+}
+
+void CheckpointWriter::write(const dynamics::Checkpoint& run,
+                             const History& history) {
+  pending_.insert(pending_.end(), run.log.begin(), run.log.end());
+  const bool is_first = !log_;
+  if (is_first) begin_log();
+  log_->append(to_bytes(Entry{pending_, cut(history, ends_)}));
+  pending_.clear();
+  ends_ = find_ends(history);
+  const FilePart part = log_->part();
+  write_sealed(file_, kSeal,
+               to_bytes(Head{run.time, run.numbers, log_file_.filename(),
+                             part.length, part.digest}));
+  if (!is_first) return;
+  const int other = log_file_ == find_log(file_, 1) ? 2 : 1;
+  std::error_code ignored;
+  std::filesystem::remove(find_log(file_, other), ignored);
+}
+
+void remove_checkpoint(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  for (const int turn : {1, 2}) {
+    std::filesystem::remove(find_log(file, turn), ignored);
+  }
 }
 
 bool is_checkpoint_file(const std::filesystem::path& file) {
-  return has_format(Hdf5File::open(file));
+  return has_seal(file, kKind);
 }
 
 CheckpointRecord read_checkpoint(const std::filesystem::path& file) {
-  const Hdf5File in = Hdf5File::open(file);
-  if (!has_format(in)) {
-    throw InputError(
-        fmt::format("'{}' is no checkpoint of a run", file.string()));
-  }
-  const auto version = in.read_integers("version");
-  if (version.size() != 1 || version[0] != kVersion) {
+  try {
+    return read_record(file);
+  } catch (const InputError& error) {
     throw InputError(fmt::format(
-        "the checkpoint '{}' is of another version of Limber; run without "
-        "--resume",
-        file.string()));
+        "the checkpoint '{}' cannot be gone on from: {}; run without --resume",
+        file.string(), error.what()));
   }
-  const MatrixX run = in.read_matrix("run");
-  const MatrixX rest = in.read_matrix("history");
-  if (in.read_text("digest") != find_digest(run, rest)) {
-    throw InputError(fmt::format(
-        "the checkpoint '{}' is damaged; run without --resume", file.string()));
-  }
-  CheckpointRecord record;
-  record.fingerprint = in.read_text("fingerprint");
-  const MatrixX time = in.read_matrix("time");
-  record.run.time = time.size() > 0 ? time(0) : 0.0;
-  record.run.numbers = to_numbers(run);
-  Archive archive(to_numbers(rest));
-  archive(record.history);
-  return record;
 }
 
 }  // namespace limber::results

@@ -19,7 +19,7 @@ KILL_WITHIN = 60.0  # s
 
 def _is_kept(out):
     """Whether a checkpoint that can be resumed is there."""
-    return (out / "checkpoint.h5").exists()
+    return (out / "checkpoint.bin").exists()
 
 
 def interrupt_run(limber, words=RUN, by=signal.SIGKILL):

@@ -182,14 +182,14 @@ ODD_FILES = {
     "memory": lambda path: path.symlink_to("/proc/self/mem"),
 }
 ODD_PLACES = ["arm.toml", "arm.urdf", "bar.geo", "bar.msh", "bar.step",
-              "body.h5", "values.txt", "checkpoint.h5"]
+              "body.h5", "values.txt", "checkpoint.bin"]
 
 
 def _put_odd_file(limber, name, make):
     """Puts a file in the place of one that the scene reads."""
     place = limber.place
     path = place / name
-    if name == "checkpoint.h5":
+    if name == "checkpoint.bin":
         (place / "out").mkdir()
         path = place / "out" / name
     elif name in ("bar.msh", "bar.step"):
@@ -216,7 +216,7 @@ def attack_odd_file(number, limber):
     kind = list(ODD_FILES)[number % len(ODD_FILES)]
     scene.lay_out(limber.place)
     _put_odd_file(limber, name, ODD_FILES[kind])
-    words = RESUME if name == "checkpoint.h5" else RUN
+    words = RESUME if name == "checkpoint.bin" else RUN
     ended = limber.run(*words, before=_limit(resource.RLIMIT_AS, 4 << 30))
     if ended.status != 2:
         ended.problems.append(f"{kind} as {name}: status {ended.status}")

@@ -11,13 +11,12 @@ namespace {
 
 TEST(Describe, TellsThatAFileIsACheckpointAndOfWhichTime) {
   const auto file = std::filesystem::temp_directory_path() /
-                    ("limber_checkpoint_" + std::to_string(getpid()) + ".h5");
-  results::CheckpointRecord record;
-  record.fingerprint = "of a run";
-  record.run = {0.25, {1.0, 2.0}};
-  results::write_checkpoint(file, record);
-  const Json json = describe_hdf5(file);
-  std::filesystem::remove(file);
+                    ("limber_checkpoint_" + std::to_string(getpid()) + ".bin");
+  Manifest manifest;
+  manifest.add("of", "a run");
+  results::CheckpointWriter(file, manifest).write({0.25, {1.0, 2.0}}, {});
+  const Json json = describe_checkpoint(file);
+  results::remove_checkpoint(file);
   EXPECT_EQ(json["kind"].get<std::string>(), "checkpoint");
   EXPECT_EQ(json["time"].get<double>(), 0.25);
   EXPECT_EQ(json["outputs"].get<int>(), 0);

@@ -70,9 +70,11 @@ Trace run(const Scene& scene, const SimulationSettings& settings,
   trace.end = scene.state;
   Continuation continuation;
   continuation.keeper.interval = 0.0;
+  std::vector<double> log;
   if (kept != nullptr) {
     continuation.keeper.keep = [&](const Checkpoint& c) {
-      kept->push_back({c, trace.states.size()});
+      log.insert(log.end(), c.log.begin(), c.log.end());
+      kept->push_back({{c.time, c.numbers, log}, trace.states.size()});
     };
   }
   if (from != nullptr) continuation.from = *from;
@@ -200,6 +202,21 @@ TEST(Checkpoint, OfStepsToAToleranceGoesOnInItsPass) {
       make_settings(IntegratorKind::generalized_alpha, 0.5, 0.5);
   settings.tolerance = 1e-6;
   expect_runs_go_on(make_spinning_chain(), settings);
+}
+
+// Each holds what it needs and logs what came since: none grows with the time.
+TEST(Checkpoint, OfALongRunIsNoLargerThanOfAShortOne) {
+  SimulationSettings settings =
+      make_settings(IntegratorKind::generalized_alpha, 2.0, 0.5);
+  settings.tolerance = 1e-6;
+  settings.output_times = sample(2.0, 2000);
+  std::vector<Kept> kept;
+  const Trace whole = run(make_spinning_chain(), settings, &kept, nullptr);
+  ASSERT_GE(kept.size(), 4U);
+  EXPECT_EQ(kept.back().checkpoint.numbers.size(),
+            kept.front().checkpoint.numbers.size());
+  const std::size_t each = to_numbers(whole.end).size();
+  EXPECT_LT(kept.back().checkpoint.numbers.size(), 20 * each);
 }
 
 TEST(Checkpoint, ThatIsCutShortIsRefused) {

@@ -9,6 +9,7 @@
 
 #include "fem/assembly.hpp"
 #include "fem/eigenmodes.hpp"
+#include "fem/mesh_reader.hpp"
 
 namespace limber::fem {
 namespace {

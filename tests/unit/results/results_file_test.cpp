@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "common/hdf5_file.hpp"
 #include "flexbody/body_file.hpp"
@@ -106,6 +108,17 @@ void check_layout(const SmallRun& run) {
     ASSERT_TRUE(data.attributes.contains("meaning"));
     EXPECT_NE(data.attributes.at("meaning"), "");
   }
+}
+
+// HDF5's time stamps count seconds.
+TEST(ResultsFile, OfTheSameRunIsTheSameToTheByteAtAnyTime) {
+  const TemporaryFolder folder;
+  const SmallRun run = make_small_run();
+  write_results(folder.path() / "a.h5", run.model, run.history);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  write_results(folder.path() / "b.h5", run.model, run.history);
+  EXPECT_EQ(test::read_bytes(folder.path() / "a.h5"),
+            test::read_bytes(folder.path() / "b.h5"));
 }
 
 TEST(ResultsFile, HoldsTheDocumentedDatasetsWithShapesAndUnits) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/sealed_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "common/digest.hpp"
+#include "common/errors.hpp"
+#include "common/whole_file.hpp"
+
+namespace limber {
+namespace {
+
+std::string make_head(const Seal& seal, std::string_view content) {
+  Digest digest;
+  digest.add_bytes(content.data(), content.size());
+  return fmt::format("{}\nlayout {}\nxxh128 {}\n", seal.kind, seal.layout,
+                     digest.text());
+}
+
+// As much as there is of `size` bytes.
+std::string read_start(const std::filesystem::path& file, std::size_t size) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};
+  std::string start(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(size));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start;
+}
+
+}  // namespace
+
+void write_sealed(const std::filesystem::path& file, const Seal& seal,
+                  std::string_view content) {
+  const std::string head = make_head(seal, content);
+  write_whole(file, [&](const std::filesystem::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out << head << content;
+    out.close();
+    if (!out) {
+      throw InputError(fmt::format("'{}' cannot be written; is the disk full?",
+                                   file.string()));
+    }
+  });
+}
+
+bool has_seal(const std::filesystem::path& file, std::string_view kind) {
+  return read_start(file, kind.size() + 1) == std::string(kind) + '\n';
+}
+
+std::string read_sealed(const std::filesystem::path& file, const Seal& seal) {
+  const auto refuse = [&](const char* what) {
+    throw InputError(
+        fmt::format("'{}' {} '{}'", file.string(), what, seal.kind));
+  };
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error || !has_seal(file, seal.kind)) refuse("is no");
+  std::string content = read_start(file, size);
+  const std::size_t head_size = make_head(seal, {}).size();
+  const std::string head = content.substr(0, head_size);
+  content.erase(0, head_size);
+  if (head == make_head(seal, content)) return content;
+  const std::string layout =
+      fmt::format("{}\nlayout {}\n", seal.kind, seal.layout);
+  if (!head.starts_with(layout)) refuse("has another layout than this");
+  refuse("is a damaged");
+  return {};
+}
+
+}  // namespace limber

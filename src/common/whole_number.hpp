@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace limber {
+
+/// Whether `x`, cut to a whole number, is one that `Integer` holds. A cast of
+/// any other is not defined in C++, and gives any number.
+template <std::integral Integer>
+[[nodiscard]] bool fits(double x) {
+  const double limit = std::ldexp(1.0, std::numeric_limits<Integer>::digits);
+  const double lowest = std::is_signed_v<Integer> ? -limit : 0.0;
+  return x > lowest - 1.0 && x < limit;
+}
+
+/// The same of `x` without a fraction.
+template <std::integral Integer>
+[[nodiscard]] bool is_whole(double x) {
+  return fits<Integer>(x) && x == std::trunc(x);
+}
+
+}  // namespace limber

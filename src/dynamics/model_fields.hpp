@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/manifest.hpp"
+#include "dynamics/simulation.hpp"
+#include "flexbody/fields.hpp"
+#include "joints/fields.hpp"
+
+/// What a system and its settings are made of, field by field
+/// (common/fields.hpp).
+namespace limber::dynamics {
+
+constexpr auto fields_of(const Constant*) {
+  return list_fields("constant", "from [s]", "until [s]");
+}
+
+constexpr auto fields_of(const StepSequence*) {
+  return list_fields("steps", "times [s]", "values");
+}
+
+constexpr auto fields_of(const Pulse*) {
+  return list_fields("pulse", "shape", "start [s]", "duration [s]");
+}
+
+constexpr auto fields_of(const Sinusoid*) {
+  return list_fields("sinusoid", "frequency [Hz]", "phase [rad]", "from [s]",
+                     "until [s]");
+}
+
+constexpr auto fields_of(const Harmonic*) {
+  return list_fields("term", "omega [rad/s]", "cosine", "sine");
+}
+
+constexpr auto fields_of(const HarmonicSum*) {
+  return list_fields("sum of sinusoids", "mean", "terms", "from [s]",
+                     "until [s]");
+}
+
+constexpr auto fields_of(const Table*) {
+  return list_fields("table", "times [s]", "values");
+}
+
+constexpr auto fields_of(const ModalInertia*) {
+  return list_fields("inertia by mode", "J1", "J2", "beta");
+}
+
+constexpr auto fields_of(const BodyModel*) {
+  return list_fields("body", "name", "level", "clamped", "mass [kg]",
+                     "inertia [kg m^2]", "modes", "offset",
+                     "eigenvalues [rad^2/s^2]", "damping [1/s]",
+                     "inertia by mode", "P [kg^1/2]", "reduced", "full");
+}
+
+constexpr auto fields_of(const FullModel*) {
+  return list_fields("unreduced body", "body", "first", "mesh", "damped modes",
+                     "damping [1/s]", "needs frame");
+}
+
+constexpr auto fields_of(const NodalFrame*) {
+  return list_fields("nodal frame", "nodes", "weights", "mean [m]", "arm [m]",
+                     "turns", "turning nodes", "d_B [m]", "y_B [m]",
+                     "lever [m]", "line [m^2]");
+}
+
+constexpr auto fields_of(const Attachment*) {
+  return list_fields("attachment", "name", "body", "origin [m]", "axes",
+                     "Phi_B", "Psi_B", "nodal");
+}
+
+constexpr auto fields_of(const Coupler*) {
+  return list_fields("coupler", "name", "law", "frame F", "frame M");
+}
+
+constexpr auto fields_of(const PathCoordinate*) {
+  return list_fields("path", "points");
+}
+
+constexpr auto fields_of(const JointSum::Term*) {
+  return list_fields("term", "coupler", "coordinate", "factor");
+}
+
+constexpr auto fields_of(const JointSum*) {
+  return list_fields("sum of joints", "terms", "offset");
+}
+
+constexpr auto fields_of(const Transmission*) {
+  return list_fields("transmission", "name", "coordinate", "law");
+}
+
+constexpr auto fields_of(const Load*) {
+  return list_fields("load", "name", "attachment", "force [N]", "moment [N m]",
+                     "in world", "time");
+}
+
+constexpr auto fields_of(const BodyLoad*) {
+  return list_fields("load", "name", "body", "history", "nodal forces [N]");
+}
+
+constexpr auto fields_of(const SystemModel*) {
+  return list_fields("system", "bodies", "attachments", "couplers",
+                     "transmissions", "loads", "body loads", "gravity [m/s^2]",
+                     "modal coordinates", "unreduced bodies",
+                     "nodal coordinates");
+}
+
+inline std::string_view to_string(IntegratorKind kind) {
+  return integrator_names()[static_cast<std::size_t>(kind)];
+}
+
+constexpr auto fields_of(const StepChange*) {
+  return list_fields("step change", "from [s]", "step [s]");
+}
+
+constexpr auto fields_of(const SimulationSettings*) {
+  return list_fields("settings", "integrator", "end [s]", "step [s]",
+                     "tolerance [m]", "most steps", "step changes",
+                     "output times [s]", "rho_inf", "Newton's tolerance",
+                     "Newton's iterations", "exact modes");
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/fields.hpp"
+#include "flexbody/full_body.hpp"
+#include "flexbody/nodal_load.hpp"
+#include "flexbody/reduced_body.hpp"
+
+/// What bodies are made of, field by field (common/fields.hpp).
+namespace limber::flexbody {
+
+constexpr auto fields_of(const InertiaShapeIntegrals*) {
+  return list_fields("integrals", "S0 [kg m^2]", "S1 [kg^1/2 m]", "S2",
+                     "P [kg^1/2]");
+}
+
+constexpr auto fields_of(const NodeRows*) {
+  return list_fields("rows", "tags", "x_B [m]", "Phi_B [kg^-1/2]");
+}
+
+constexpr auto fields_of(const NodeGroup*) {
+  return list_fields("group", "name", "dimension", "tags", "weights");
+}
+
+constexpr auto fields_of(const InterfaceTable*) {
+  return list_fields("interface", "name", "p_B [m]", "Phi_B", "Psi_B",
+                     "rotation axes", "nodes", "flexibility [m/N, rad/(N m)]");
+}
+
+constexpr auto fields_of(const InertialLevers*) {
+  return list_fields("levers", "lumped [kg m]", "consistent [kg m]",
+                     "displacement [m s^2]");
+}
+
+constexpr auto fields_of(const ProjectedField*) {
+  return list_fields("field", "eta", "rigid share", "missed share", "key");
+}
+
+constexpr auto fields_of(const InitialDeformation*) {
+  return list_fields("initial", "displacement", "velocity");
+}
+
+// The records tell how modes were chosen, to people alone.
+constexpr auto fields_of(const ReducedBody*) {
+  return list_fields(
+      "reduced body", "name", "clamped", "mass [kg]", "centre of mass [m]",
+      "size [m]", "integrals", "levers", "eigenvalues [rad^2/s^2]", "rows",
+      "groups", "interfaces", "triangles", "mesh nodes", "mesh elements",
+      "mesh boundary nodes", nullptr, nullptr, "initial", "content key");
+}
+
+constexpr auto fields_of(const NodeSet*) {
+  return list_fields("node set", "name", "nodes", "weights");
+}
+
+constexpr auto fields_of(const FullOptions*) {
+  return list_fields("level full", "material law", "nodal mass");
+}
+
+// The solver is made of the recipe, whose digest the reduced body has, and of
+// FullOptions.
+constexpr auto fields_of(const FullBody*) {
+  return list_fields("mesh", "nodes [m]", "nodal masses [kg]",
+                     "first moments [kg m]", "held nodes", "interfaces",
+                     nullptr);
+}
+
+constexpr auto fields_of(const NodalLoad*) {
+  return list_fields("history", "times [s]", "force [N]", "moment [N m]",
+                     "moment by mode [N m]", "modal force [kg^-1/2 N]");
+}
+
+}  // namespace limber::flexbody

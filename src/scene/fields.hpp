@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dynamics/model_fields.hpp"
+#include "scene/probe.hpp"
+
+/// What probes are made of, field by field (common/fields.hpp).
+namespace limber::scene {
+
+constexpr auto fields_of(const PointProbe*) {
+  return list_fields("point", "quantity", "body", "place [m]", "Phi_B", "Psi_B",
+                     "nodal", "axes of the link", "start [m]", "start's axes");
+}
+
+constexpr auto fields_of(const CouplerProbeSpec*) {
+  return list_fields("what", "coupler", "quantity", "side", "axes");
+}
+
+constexpr auto fields_of(const CouplerProbe*) {
+  return list_fields("coupler", "what", "of a transmission", "index",
+                     "coordinates");
+}
+
+constexpr auto fields_of(const Probe*) {
+  return list_fields("probe", "name", "of");
+}
+
+}  // namespace limber::scene
