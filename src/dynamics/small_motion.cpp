@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/small_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+#include "dynamics/equations.hpp"
+#include "dynamics/newton_matrix.hpp"
+#include "dynamics/newton_measures.hpp"
+#include "dynamics/residual_derivative.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using Index = Eigen::Index;
+
+// Loads that jump at the state's time have jumped.
+SystemState just_after(const SystemState& state) {
+  SystemState after = state;
+  after.t += 1e-12 * (1.0 + std::abs(state.t));
+  return after;
+}
+
+/// Derivatives of the equations of motion by coordinates as the state has
+/// them: places in world axes, turns in a body's own.
+class Derivatives {
+ public:
+  Derivatives(const SystemModel& model, const SystemState& state,
+              SmallMotion& out)
+      : model_(model),
+        state_(just_after(state)),
+        out_(out),
+        terms_(make_terms(model)),
+        acceleration_(make_rates(model)),
+        no_turn_(model.bodies.size(), Vector3::Zero()),
+        derivative_(model) {
+    list_coordinates();
+    calc_terms(model, state_, Side::left, terms_);
+    Accelerations a = make_accelerations(model);
+    solve_accelerations(model, terms_, a);
+    acceleration_ = {a.a_WB_W, a.dw_WB_B, a.etaddot, a.uddot_H};
+  }
+
+  /// D as C, rest as that of K_q.
+  void fill() {
+    const Index n = std::ssize(rows_);
+    out_.M = out_.D = MatrixX::Zero(n, n);
+    out_.lambda = VectorX::Zero(n);
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) fill_body(b);
+    fill_links();
+    MatrixX laws;
+    MatrixX rate_laws;
+    out_.rest = differentiate(0.0, laws);
+    const MatrixX by_rate = differentiate(1.0, rate_laws) - out_.rest;
+    out_.rest -= out_.G.transpose() * laws;
+    out_.D += by_rate + out_.G.transpose() * (damp(out_.G) - rate_laws + laws);
+    fill_noise();
+  }
+
+ private:
+  void list_coordinates() {
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyModel& body = model_.bodies[b];
+      const Index row = 6 * static_cast<Index>(b) + body.offset;
+      out_.places.push_back(body.has_rigid_motion() ? std::ssize(rows_) : -1);
+      for (Index i = body.has_rigid_motion() ? 0 : 6; i < 6 + body.modes; ++i) {
+        if (i == 6) break;
+        rows_.push_back(row + i);
+      }
+      out_.modes.push_back(std::ssize(rows_));
+      for (Index i = 0; i < body.modes; ++i) rows_.push_back(row + 6 + i);
+    }
+  }
+
+  void fill_body(std::size_t b) {
+    const BodyModel& body = model_.bodies[b];
+    const BodyTerms& t = terms_.bodies[b];
+    const Index m = out_.modes[b];
+    for (Index k = 0; k < body.modes; ++k) {
+      out_.M(m + k, m + k) = 1.0;
+      out_.D(m + k, m + k) = body.damping[k];
+      out_.lambda[m + k] = body.lambda[k];
+    }
+    const Index p = out_.places[b];
+    if (p < 0) return;
+    const Vector3& w = state_.bodies[b].w_WB_B;
+    out_.M.block<3, 3>(p, p).diagonal().setConstant(body.mass);
+    out_.M.block<3, 3>(p + 3, p + 3) = t.J;
+    out_.M.block(p + 3, m, 3, body.modes) = t.H;
+    out_.M.block(m, p + 3, body.modes, 3) = t.H.transpose();
+    out_.D.block<3, 3>(p + 3, p + 3) = skew(w) * t.J - skew(t.J * w);
+  }
+
+  // Laws of unit stiffness change by minus the motions.
+  void fill_links() {
+    for (CouplerTerms& c : terms_.couplers) {
+      out_.K.push_back(c.response.stiffness);
+      c.response.stiffness.setIdentity();
+    }
+    for (TransmissionTerms& t : terms_.transmissions) {
+      out_.K.push_back(Matrix6::Zero());
+      out_.K.back()(0, 0) = t.response.stiffness;
+      t.response.stiffness = 1.0;
+    }
+    NewtonMatrix matrix(model_);
+    matrix.factor(model_, state_, terms_, no_turn_, {1.0, 0.0});
+    const Index couplers = std::ssize(terms_.couplers);
+    out_.G = MatrixX::Zero(6 * std::ssize(out_.K), std::ssize(rows_));
+    VectorX changes;
+    for (Index j = 0; j < out_.G.cols(); ++j) {
+      matrix.find_wrench_changes(terms_, unit(j), changes);
+      out_.G.col(j).head(6 * couplers) = -changes.head(6 * couplers);
+      for (Index i = 0; i < std::ssize(terms_.transmissions); ++i) {
+        out_.G(6 * (couplers + i), j) = -changes[6 * couplers + i];
+      }
+    }
+    for (std::size_t i = 0; i < out_.K.size(); ++i) {
+      const auto t = static_cast<Index>(i) - couplers;
+      if (t < 0) {
+        terms_.couplers[i].response.stiffness = out_.K[i];
+      } else {
+        terms_.transmissions[static_cast<std::size_t>(t)].response.stiffness =
+            out_.K[i](0, 0);
+      }
+    }
+  }
+
+  MatrixX damp(const MatrixX& motions) const {
+    MatrixX forces(motions.rows(), motions.cols());
+    Index row = 0;
+    for (const CouplerTerms& c : terms_.couplers) {
+      forces.middleRows<6>(row) =
+          c.response.damping * motions.middleRows<6>(row);
+      row += 6;
+    }
+    for (const TransmissionTerms& t : terms_.transmissions) {
+      forces.middleRows<6>(row) =
+          t.response.damping * motions.middleRows<6>(row);
+      row += 6;
+    }
+    return forces;
+  }
+
+  // Of what is neither stiff nor in M and D already, velocities changing by
+  // `velocity` times the positions.
+  MatrixX differentiate(double velocity, MatrixX& laws) {
+    const Index n = std::ssize(rows_);
+    MatrixX rest(n, n);
+    laws.resize(out_.G.rows(), n);
+    derivative_.set_point(state_, terms_, acceleration_, no_turn_,
+                          {0.0, velocity});
+    VectorX residual;
+    std::vector<Vector6> changes;
+    for (Index j = 0; j < n; ++j) {
+      derivative_.apply_rest(unit(j), residual, changes);
+      rest.col(j) = residual(rows_);
+      for (std::size_t i = 0; i < changes.size(); ++i) {
+        laws.block<6, 1>(6 * static_cast<Index>(i), j) = changes[i];
+      }
+    }
+    return rest;
+  }
+
+  // Forces that turn are linear in the wrenches.
+  void fill_noise() {
+    std::vector<Vector6> gaps;
+    find_roundoff_gaps(model_, terms_, 0.0, gaps);
+    MatrixX laws;
+    exert(gaps);
+    out_.noise = differentiate(0.0, laws);
+    for (Vector6& gap : gaps) gap.setZero();
+    exert(gaps);
+    out_.noise -= differentiate(0.0, laws);
+  }
+
+  void exert(const std::vector<Vector6>& wrenches) {
+    for (std::size_t c = 0; c < terms_.couplers.size(); ++c) {
+      terms_.couplers[c].applied = wrenches[c];
+    }
+    for (std::size_t i = 0; i < terms_.transmissions.size(); ++i) {
+      terms_.transmissions[i].applied = wrenches[terms_.couplers.size() + i][0];
+    }
+  }
+
+  [[nodiscard]] VectorX unit(Index j) const {
+    return VectorX::Unit(NewtonMatrix::size(model_),
+                         rows_[static_cast<std::size_t>(j)]);
+  }
+
+  const SystemModel& model_;
+  SystemState state_;
+  SmallMotion& out_;
+  SystemTerms terms_;
+  Rates acceleration_;
+  std::vector<Vector3> no_turn_;
+  ResidualDerivative derivative_;
+  std::vector<Index> rows_;  // of NewtonMatrix, one a coordinate
+};
+
+// From the axes to those of the state.
+MatrixX make_turn(const SmallMotion& motion, const SystemState& state,
+                  const Matrix3& R) {
+  MatrixX P = MatrixX::Identity(motion.size(), motion.size());
+  for (std::size_t b = 0; b < motion.places.size(); ++b) {
+    const Index p = motion.places[b];
+    if (p < 0) continue;
+    const Matrix3 R_WB = state.bodies[b].quat_WB.toRotationMatrix();
+    P.block<3, 3>(p, p) = R;
+    P.block<3, 3>(p + 3, p + 3) = R_WB.transpose() * R;
+  }
+  return P;
+}
+
+// W and V of the equation.
+std::pair<MatrixX, MatrixX> make_spins(const SmallMotion& motion,
+                                       const SystemState& state,
+                                       const TurningAxes& axes) {
+  const Index n = motion.size();
+  MatrixX W = MatrixX::Zero(n, n);
+  MatrixX V = MatrixX::Zero(n, n);
+  const Vector3 w = axes.R.transpose() * axes.w_W;
+  for (std::size_t b = 0; b < motion.places.size(); ++b) {
+    const Index p = motion.places[b];
+    if (p < 0) continue;
+    const BodyState& body = state.bodies[b];
+    const Vector3 w_W = body.quat_WB * body.w_WB_B;
+    W.block<3, 3>(p, p) = W.block<3, 3>(p + 3, p + 3) = skew(w);
+    V.block<3, 3>(p, p) = skew(w);
+    V.block<3, 3>(p + 3, p + 3) = skew(w - axes.R.transpose() * w_W);
+  }
+  return {W, V};
+}
+
+void check_levels(const SystemModel& model) {
+  for (const FullModel& full : model.full_bodies) {
+    throw InputError(fmt::format(
+        "body '{}' is at level full, with {} coordinates of nodes: frequencies "
+        "are those of a dense matrix, which is made of reduced bodies alone. "
+        "Take --fidelity coupled, with as many eigenmodes as the frequencies "
+        "asked for need",
+        model.bodies[static_cast<std::size_t>(full.body)].name, full.dofs()));
+  }
+}
+
+// Directions in which a coupler's stiffness is not round-off, as columns.
+MatrixX find_held(const Matrix6& K) {
+  constexpr double kRoundoff = 1e-13;
+  Vector6 scale;  // so that units, and soft directions along axes, do not count
+  for (Index i = 0; i < 6; ++i) scale[i] = std::sqrt(std::abs(K(i, i)));
+  const Vector6 inverse =
+      (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
+  const Matrix6 scaled =
+      inverse.asDiagonal() * (0.5 * (K + K.transpose())) * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
+  MatrixX held(6, 0);
+  for (Index i = 0; i < 6; ++i) {
+    if (std::abs(eigen.eigenvalues()[i]) <= kRoundoff) continue;
+    held.conservativeResize(6, held.cols() + 1);
+    held.rightCols<1>() = scale.asDiagonal() * eigen.eigenvectors().col(i);
+  }
+  return held;
+}
+
+}  // namespace
+
+MatrixX SmallMotion::project_stiffness(const MatrixX& Q) const {
+  const MatrixX motions = G * Q;
+  MatrixX forces(motions.rows(), motions.cols());
+  for (std::size_t i = 0; i < K.size(); ++i) {
+    const Index row = 6 * static_cast<Index>(i);
+    forces.middleRows<6>(row) = K[i] * motions.middleRows<6>(row);
+  }
+  return Q.transpose() * (lambda.asDiagonal() * Q) +
+         motions.transpose() * forces + Q.transpose() * (rest * Q);
+}
+
+MatrixX SmallMotion::find_holds() const {
+  std::vector<VectorX> rows;
+  for (Index i = 0; i < size(); ++i) {
+    if (lambda[i] != 0.0) rows.emplace_back(VectorX::Unit(size(), i));
+  }
+  for (std::size_t i = 0; i < K.size(); ++i) {
+    const MatrixX held = find_held(K[i]).transpose() *
+                         G.middleRows<6>(6 * static_cast<Index>(i));
+    for (Index k = 0; k < held.rows(); ++k) {
+      if (!held.row(k).isZero(0.0)) rows.emplace_back(held.row(k));
+    }
+  }
+  MatrixX holds(std::ssize(rows), size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    holds.row(static_cast<Index>(i)) = rows[i];
+  }
+  return holds;
+}
+
+SmallMotion find_small_motion(const SystemModel& model,
+                              const SystemState& state,
+                              const TurningAxes& axes) {
+  check_levels(model);
+  SmallMotion motion;
+  Derivatives(model, state, motion).fill();
+  const MatrixX P = make_turn(motion, state, axes.R);
+  const auto [W, V] = make_spins(motion, state, axes);
+  const MatrixX C = P.transpose() * motion.D * P;
+  motion.M = (P.transpose() * motion.M * P).eval();
+  motion.D = C + motion.M * (W + V);
+  motion.G *= P;
+  motion.rest =
+      (P.transpose() * motion.rest * P + C * W + motion.M * V * W).eval();
+  motion.noise = (P.transpose() * motion.noise * P).eval();
+  return motion;
+}
+
+}  // namespace limber::dynamics
