@@ -199,12 +199,14 @@ void Driver::enter_mark(SystemState& state) {
                      : span / static_cast<double>(parts_);
   try {
     if (!has_started_) {
-      marcher_.start(state, h_);
+      if (const auto impulse = marcher_.start(state, h_)) {
+        statistics_.warnings.push_back(describe(*impulse, state.t, h_));
+      }
       const double stored = calc_energy(model_, state, terms_).total();
       watch_ = EnergyWatch(stored);
       clash_ = find_start_clash(model_, terms_, stored, h_);
       peaks_.start(state);
-      audit_.start(state, terms_, statistics_.events);
+      audit_.start(state, terms_, marcher_.totals(), statistics_.events);
     }
     if (at_jump_) {
       marcher_.cross_jump(state, h_);

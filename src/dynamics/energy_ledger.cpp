@@ -141,11 +141,12 @@ void EnergyLedger::include_energies(const Sums& sums, double t) {
       {record_.throughput, std::abs(sums.total()), std::abs(sums.kinetic)});
 }
 
-void EnergyLedger::start(const SystemState& state, const SystemTerms& terms) {
+void EnergyLedger::start(const SystemState& state, const SystemTerms& terms,
+                         const StepResult& totals) {
   const Sums sums = evaluate(state, terms);
   parts_ = now_;
   time_ = state.t;
-  initial_ = sums.total();
+  initial_ = sums.total() + totals.dissipated - totals.load_work;
   noise_ = find_noise(terms);
   record_ = {};
   include_energies(sums, state.t);

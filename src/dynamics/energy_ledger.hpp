@@ -29,7 +29,9 @@ class EnergyLedger {
   explicit EnergyLedger(const SystemModel& model);
 
   /// @param terms at `state`, here and below
-  void start(const SystemState& state, const SystemTerms& terms);
+  /// @param totals of what happened before the first step, an impulse
+  void start(const SystemState& state, const SystemTerms& terms,
+             const StepResult& totals);
   /// The end of a step. @param totals work and dissipation since the start
   void add(const SystemState& state, const SystemTerms& terms,
            const StepResult& totals);

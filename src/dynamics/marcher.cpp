@@ -22,12 +22,23 @@ Marcher::Marcher(const SystemModel& model, const SimulationSettings& settings,
     }
   }
   keeps_before_ = settings.tolerance > 0.0 || !watch_.is_empty();
+  is_implicit_ = settings.integrator == IntegratorKind::generalized_alpha ||
+                 settings.integrator == IntegratorKind::implicit_euler ||
+                 settings.integrator == IntegratorKind::energy_conserving;
 }
 
-void Marcher::start(SystemState& state, double h) {
+std::optional<DamperImpulse> Marcher::start(SystemState& state, double h) {
   watch_.start(state, events_);
+  std::optional<DamperImpulse> impulse;
+  if (is_implicit_) impulse = apply_damper_impulse(model_, h, state);
+  if (impulse) {
+    totals_.dissipated += impulse->dissipated;
+    totals_.load_work += impulse->work;
+    watch_.accept(state);
+  }
   stepper_.start(state, h);
   if (keeps_before_) before_ = state;  // so that no step allocates
+  return impulse;
 }
 
 void Marcher::cross_jump(const SystemState& state, double h) {

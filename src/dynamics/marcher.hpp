@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "dynamics/damper_impulse.hpp"
 #include "dynamics/event_watch.hpp"
 #include "dynamics/stepper.hpp"
 
@@ -26,8 +28,9 @@ class Marcher {
           std::vector<Event>& events);
 
   /// Before the first step, which will be about `h` long [s]. Latches within
-  /// reach close.
-  void start(SystemState& state, double h);
+  /// reach close; before implicit steps velocities are brought onto what
+  /// dampers allow. @returns what that took, if it was called for
+  std::optional<DamperImpulse> start(SystemState& state, double h);
   /// After a step that ended where a load jumps.
   void cross_jump(const SystemState& state, double h);
 
@@ -75,6 +78,7 @@ class Marcher {
   EventWatch watch_;
   std::vector<Angle> angles_;
   std::vector<Event>& events_;
+  bool is_implicit_ = false;
   bool keeps_before_ = false;
   SystemState before_;
   double h_ = 0.0;  // of the step that was attempted

@@ -39,8 +39,8 @@ const SystemTerms& StepAudit::evaluate(const SystemState& state) {
 }
 
 void StepAudit::start(const SystemState& state, const SystemTerms& terms,
-                      std::vector<Event>& events) {
-  ledger_.start(state, terms);
+                      const StepResult& totals, std::vector<Event>& events) {
+  ledger_.start(state, terms, totals);
   holds_.include(terms, state.t);
   limits_.include(state, terms, events);
 }

@@ -22,9 +22,9 @@ class StepAudit {
  public:
   StepAudit(const SystemModel& model, IntegratorKind integrator);
 
-  /// @param terms at `state`
+  /// @param terms at `state` @param totals of what happened before it
   void start(const SystemState& state, const SystemTerms& terms,
-             std::vector<Event>& events);
+             const StepResult& totals, std::vector<Event>& events);
   /// Forces jump at the end of the last step. @param terms of the integrator
   void cross_jump(const SystemState& state, const SystemTerms& terms);
   /// The end of a step. @param terms of the integrator there; null where

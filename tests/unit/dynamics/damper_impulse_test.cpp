@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Starts against dampers that a step is far too long to follow.
+#include "dynamics/damper_impulse.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "dynamics/energy.hpp"
+#include "support/point_mass_body.hpp"
+#include "support/sliding_masses.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::run_from;
+using testing::RunOutcome;
+
+constexpr double kMassA = 3.0;
+constexpr double kMassB = 1.0;
+constexpr double kSpeed = 4.0;  // of B towards A [m/s]
+
+// Two bodies, free in space, with a bushing between their centres.
+struct Pair {
+  SystemModel model;
+  SystemState state;
+};
+
+Pair make_pair(double stiffness, double damping) {
+  SystemBuilder builder;
+  const int a = builder.add_rigid_body("a", {kMassA, Matrix3::Identity()});
+  const int b = builder.add_rigid_body("b", {kMassB, Matrix3::Identity()});
+  builder.add_coupler("pad",
+                      joints::make_joint(joints::JointKind::fixed,
+                                         Vector3::UnitZ(), Vector3::UnitX(),
+                                         {.translational_stiffness = stiffness,
+                                          .rotational_stiffness = stiffness,
+                                          .translational_damping = damping,
+                                          .rotational_damping = damping}),
+                      builder.attach_frame("at_a", a, {}),
+                      builder.attach_frame("at_b", b, {}));
+  Pair pair{builder.build(), {}};
+  pair.state = make_state(pair.model);
+  pair.state.bodies[1].v_WB_W = {kSpeed, 0, 0};
+  return pair;
+}
+
+SimulationSettings make_settings(IntegratorKind integrator, double end,
+                                 double step) {
+  SimulationSettings settings;
+  settings.integrator = integrator;
+  settings.end_time = end;
+  settings.step = step;
+  settings.output_times = {0.0, end};
+  return settings;
+}
+
+constexpr std::array kImplicit = {IntegratorKind::generalized_alpha,
+                                  IntegratorKind::implicit_euler,
+                                  IntegratorKind::energy_conserving};
+
+TEST(DamperImpulse, IsTheInelasticImpactOfTwoBodies) {
+  const double common = kMassB * kSpeed / (kMassA + kMassB);
+  const double lost =
+      0.5 * kMassA * kMassB / (kMassA + kMassB) * kSpeed * kSpeed;
+  // m / c is 7.5e-9 s and the spring has 400 periods in a step: whatever the
+  // bodies store there is the scheme's own.
+  const Pair pair = make_pair(1e14, 1e8);
+  for (const IntegratorKind integrator : kImplicit) {
+    SCOPED_TRACE(static_cast<int>(integrator));
+    const RunOutcome run =
+        run_from(pair.model, pair.state, make_settings(integrator, 0.1, 1e-3));
+    EXPECT_NEAR(run.state.bodies[0].v_WB_W.x(), common, 1e-6 * common);
+    EXPECT_NEAR(run.state.bodies[1].v_WB_W.x(), common, 1e-6 * common);
+    EXPECT_NEAR(run.state.bodies[0].p_WB.x(), 0.1 * common, 1e-6);
+    EXPECT_NEAR(run.state.bodies[1].p_WB.x(), 0.1 * common, 1e-6);
+    const EnergyBalance& start = run.energies.front();
+    const EnergyBalance& end = run.energies.back();
+    EXPECT_NEAR(end.dissipated, lost, 1e-6 * lost);
+    EXPECT_NEAR(end.total() + end.dissipated, start.total(),
+                1e-6 * start.total());
+    EXPECT_THAT(run.statistics.warnings, ElementsAre(HasSubstr("'pad'")));
+    EXPECT_THAT(run.statistics.warnings, ElementsAre(HasSubstr("6 J of 8 J")));
+  }
+}
+
+TEST(DamperImpulse, LeavesDampersAloneThatTheStepFollows) {
+  // h c / m from 1e-4 to 0.7.
+  for (const double damping : {0.075, 7.5, 75.0, 525.0}) {
+    Pair pair = make_pair(1e3, damping);
+    EXPECT_FALSE(apply_damper_impulse(pair.model, 1e-3, pair.state));
+    EXPECT_EQ(pair.state.bodies[1].v_WB_W.x(), kSpeed);
+    EXPECT_EQ(pair.state.bodies[0].v_WB_W.x(), 0.0);
+  }
+}
+
+TEST(DamperImpulse, LeavesMotionAloneThatDampersAllow) {
+  Pair pair = make_pair(1e14, 1e8);
+  const Vector3 w(0.3, -1.0, 2.0);
+  for (std::size_t b = 0; b < 2; ++b) {
+    pair.state.bodies[b].w_WB_B = w;
+    pair.state.bodies[b].v_WB_W = {kSpeed, 1.0, 0.1};
+  }
+  EXPECT_FALSE(apply_damper_impulse(pair.model, 1e-3, pair.state));
+  EXPECT_EQ(pair.state.bodies[0].w_WB_B, w);
+}
+
+TEST(DamperImpulse, BringsABodyToTheRateOfItsDrive) {
+  constexpr double kMass = 2.0;
+  constexpr double kRate = 0.7;  // [m/s]
+  joints::Drive::Parameters drive;
+  drive.mode = joints::DriveMode::velocity;
+  drive.signal.base = joints::ConstantSignal{kRate};
+  drive.damping = 1e9;
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "sledge", kMass);
+  testing::add_rail(builder, mass, "rail", {{0, joints::Drive(drive)}});
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  const auto impulse = apply_damper_impulse(model, 1e-3, state);
+  ASSERT_TRUE(impulse);
+  EXPECT_NEAR(state.bodies[0].v_WB_W.x(), kRate, 1e-9);
+  // A body that slips into motion takes as much heat as energy.
+  const double kinetic = 0.5 * kMass * kRate * kRate;
+  EXPECT_NEAR(impulse->work, 2.0 * kinetic, 1e-6 * kinetic);
+  EXPECT_NEAR(impulse->dissipated, kinetic, 1e-6 * kinetic);
+}
+
+TEST(DamperImpulse, KeepsMomentaOfAFreeChainThatBends) {
+  const testing::PointMassBody body =
+      testing::make_point_mass_body(24, 6, 4.0, 1.0, 60.0, 42);
+  const auto reduced = testing::share(body);
+  const auto near = testing::make_interface(body, 0, 6);
+  const auto far = testing::make_interface(body, 6, 12);
+  SystemBuilder builder;
+  std::array<int, 2> ends{};
+  for (int b = 0; b < 2; ++b) {
+    const int link = builder.add_flexible_body("link" + std::to_string(b),
+                                               reduced, Fidelity::coupled, {});
+    const auto& end = b == 0 ? far : near;
+    ends[static_cast<std::size_t>(b)] = builder.attach_interface(
+        "end" + std::to_string(b), link, end, {Matrix3::Identity(), end.p_B});
+  }
+  builder.add_coupler("hinge",
+                      joints::make_joint(joints::JointKind::revolute,
+                                         Vector3::UnitX(), Vector3::UnitY(),
+                                         {.translational_stiffness = 1e10,
+                                          .rotational_stiffness = 1e10,
+                                          .translational_damping = 1e8,
+                                          .rotational_damping = 1e8}),
+                      ends[0], ends[1]);
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  state.bodies[1].p_WB = far.p_B - near.p_B;
+  state.bodies[0].w_WB_B = {1.0, 3.0, -2.0};
+  state.bodies[1].v_WB_W = {0.0, 5.0, 1.0};
+  const EnergyBalance before = calc_energy(model, state);
+  ASSERT_TRUE(apply_damper_impulse(model, 1e-3, state));
+  const EnergyBalance after = calc_energy(model, state);
+  EXPECT_LT((after.linear_momentum - before.linear_momentum).norm(),
+            1e-12 * before.linear_momentum.norm());
+  EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(),
+            1e-12 * before.angular_momentum.norm());
+  EXPECT_LT(after.total(), before.total());
+  const joints::RelativeMotion motion = find_relative_motion(model, state, 0);
+  EXPECT_LT(motion.v_FM_F.norm(), 1e-6);
+  EXPECT_LT(motion.w_FM_F.tail<2>().norm(), 1e-6);  // held
+  EXPECT_GT(std::abs(motion.w_FM_F.x()), 0.1);      // free
+}
+
+}  // namespace
+}  // namespace limber::dynamics
