@@ -8,6 +8,7 @@
 
 #include "common/pose.hpp"
 #include "dynamics/fidelity.hpp"
+#include "dynamics/name_register.hpp"
 #include "dynamics/system_model.hpp"
 #include "dynamics/time_function.hpp"
 #include "flexbody/reduced_body.hpp"
@@ -17,8 +18,11 @@ namespace limber::dynamics {
 
 /// Mass of a rigid body about its centre of mass, body axes.
 struct RigidInertia {
-  double mass = 0.0;                  ///< > 0 [kg]
-  Matrix3 inertia = Matrix3::Zero();  ///< positive definite [kg m^2]
+  double mass = 0.0;  ///< > 0 [kg]
+  /// Symmetric, positive definite, and that of a mass: no principal moment
+  /// more than the sum of the others, but for rounding to three digits
+  /// [kg m^2].
+  Matrix3 inertia = Matrix3::Zero();
 };
 
 /// Damping of a flexible body's modes: ratio_k omega_k 2 plus Rayleigh
@@ -26,15 +30,17 @@ struct RigidInertia {
 struct ModalDamping {
   double rayleigh_mass = 0.0;       ///< alpha >= 0 [1/s]
   double rayleigh_stiffness = 0.0;  ///< beta >= 0 [s]
-  std::vector<double> ratios;       ///< per mode [-]; one value: all modes
+  std::vector<double> ratios;       ///< >= 0 per mode [-]; one value: all
 };
 
 /// Frame in which a load's components are constant.
 enum class LoadFrame { body, world };
 
-/// Puts a system together; `build` checks it whole. Every method throws
-/// InputError for values outside their range and ContractError for foreign
-/// indices.
+/// Puts a system together, each method checking what it is given: names that
+/// are empty or twice among bodies, couplers, transmissions or loads, and
+/// values that are not finite or outside their range throw InputError; indices
+/// of what does not exist and tables of another size ContractError. Texts name
+/// the thing; what was refused is not added. Frames' names may repeat.
 class SystemBuilder {
  public:
   /// Body with frame B at its centre of mass.
@@ -54,7 +60,8 @@ class SystemBuilder {
                           std::shared_ptr<const flexbody::FullBody> full,
                           const ModalDamping& damping);
 
-  /// A frame fixed to a rigid body's material: pose X_BF.
+  /// A frame fixed to frame B of a body, whose deformation it does not feel:
+  /// pose X_BF.
   AttachmentIndex attach_frame(const std::string& name, BodyIndex body,
                                const Pose& X_BF);
   /// A frame on a flexible body's interface; X_BF its undeformed pose.
@@ -81,8 +88,8 @@ class SystemBuilder {
   TransmissionIndex add_joint_sum(const std::string& name, const JointSum& sum,
                                   const std::vector<joints::ScalarLaw>& laws);
 
-  /// Force and moment at an attachment, constant components in the body frame
-  /// B or the world frame, times `function`.
+  /// Force and moment at a body's attachment, constant components in the body
+  /// frame B or the world frame, times `function`.
   LoadIndex add_load(const std::string& name, AttachmentIndex where,
                      const Vector3& force, const Vector3& moment,
                      LoadFrame frame, const TimeFunction& function);
@@ -96,14 +103,20 @@ class SystemBuilder {
   /// Uniform gravitational acceleration [m/s^2], world frame.
   void set_gravity(const Vector3& gravity_W);
 
-  /// @throws InputError with every problem found.
+  /// @throws InputError if no body was added.
   [[nodiscard]] SystemModel build() const;
 
  private:
+  BodyIndex add_body(const std::string& name, BodyModel body);
   [[nodiscard]] std::shared_ptr<const ModalInertia> find_inertia(
-      const flexbody::ReducedBody& reduced);
+      const std::string& what, const flexbody::ReducedBody& reduced);
+  [[nodiscard]] const BodyModel& find_body(const std::string& what,
+                                           BodyIndex body) const;
+  [[nodiscard]] const Attachment& find_frame(const std::string& what,
+                                             AttachmentIndex frame) const;
 
   SystemModel model_;
+  NameRegister names_;
   std::map<const flexbody::ReducedBody*, std::shared_ptr<const ModalInertia>>
       inertias_;
 };

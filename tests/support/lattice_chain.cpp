@@ -49,7 +49,8 @@ void LatticeChain::add(Fidelity fidelity, int modes,
 }
 
 void LatticeChain::join(double stiffness, double damping) {
-  builder.add_coupler("joint", make_bushing(stiffness, damping),
+  builder.add_coupler("joint" + std::to_string(ends_.size()),
+                      make_bushing(stiffness, damping),
                       ends_[ends_.size() - 2].second, ends_.back().first);
 }
 

@@ -201,8 +201,8 @@ TEST(Equations, CouplersExertNoNetForceOrMoment) {
   SystemBuilder builder;
   std::vector<int> ends;
   for (int i = 0; i < 2; ++i) {
-    const int b = builder.add_flexible_body("b", testing::share(body),
-                                            Fidelity::coupled, {});
+    const int b = builder.add_flexible_body(
+        "b" + std::to_string(i), testing::share(body), Fidelity::coupled, {});
     const auto interface = testing::make_interface(body, 5 * i, 5 * i + 6);
     ends.push_back(builder.attach_interface(
         "i", b, interface, {exp_rotation(Vector3(1, 2, 3)), interface.p_B}));

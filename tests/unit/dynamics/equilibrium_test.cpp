@@ -353,7 +353,8 @@ TEST(Equilibrium, OfAHangingChainIsTheDiscreteCatenary) {
   ends.push_back(builder.attach_world(
       "right", {Matrix3::Identity(), Vector3(kSpan, 0, 0)}));
   for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
-    builder.add_coupler("hinge", make_hinge(1e12), ends[i], ends[i + 1]);
+    builder.add_coupler("hinge" + std::to_string(i), make_hinge(1e12), ends[i],
+                        ends[i + 1]);
   }
   const SystemModel model = builder.build();
   // A V of the right span, which is no equilibrium.

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/builder_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "dynamics/name_register.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+std::string to_text(const Vector3& v) {
+  return fmt::format("({:g}, {:g}, {:g})", v[0], v[1], v[2]);
+}
+
+void check_finite(const std::string& what, const std::string& value,
+                  bool is_finite) {
+  if (is_finite) return;
+  throw InputError(fmt::format("{}: {} is not finite", what, value));
+}
+
+void check_size(const std::string& what, const std::string& table,
+                Eigen::Index found, Eigen::Index expected) {
+  if (found == expected) return;
+  throw ContractError(fmt::format("{}: {} has {} columns; expected {}", what,
+                                  table, found, expected));
+}
+
+void check_rate(const std::string& what, const std::string& value,
+                double rate) {
+  if (rate >= 0.0 && std::isfinite(rate)) return;
+  throw InputError(fmt::format(
+      "{}: {} is {:g}; expected a finite number, not negative, which would "
+      "feed energy in",
+      what, value, rate));
+}
+
+}  // namespace
+
+std::string NameRegister::check(const std::string& kind,
+                                const std::string& name) const {
+  if (name.empty()) {
+    throw InputError(fmt::format("a {} has no name; give it one", kind));
+  }
+  if (taken_.count({kind, name}) > 0) {
+    throw InputError(
+        fmt::format("{} '{}': another {} has this name; give each its own",
+                    kind, name, kind));
+  }
+  return fmt::format("{} '{}'", kind, name);
+}
+
+// The principal moments of any mass obey I1 + I2 >= I3, with equality for what
+// is flat. Printed digits leave it by their rounding.
+void check_inertia(const std::string& what, double mass,
+                   const Matrix3& inertia) {
+  constexpr double kPrinted = 1e-3;    // of the largest moment
+  constexpr double kSymmetric = 1e-9;  // of the largest entry
+  if (!(mass > 0.0) || !std::isfinite(mass)) {
+    throw InputError(fmt::format(
+        "{}: mass is {:g} kg; a body that moves needs mass > 0", what, mass));
+  }
+  check_finite(what, "its inertia", inertia.allFinite());
+  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() >
+      kSymmetric * inertia.cwiseAbs().maxCoeff()) {
+    throw InputError(fmt::format(
+        "{}: its inertia is not symmetric; xy, xz, yz are products of inertia "
+        "that stand there twice",
+        what));
+  }
+  const Vector3 principal =
+      Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  if (!(principal.minCoeff() > 0.0)) {
+    throw InputError(fmt::format(
+        "{}: its inertia has the principal moments {} kg m^2; expected all > 0",
+        what, to_text(principal)));
+  }
+  if (principal[0] + principal[1] < (1.0 - kPrinted) * principal[2]) {
+    throw InputError(fmt::format(
+        "{}: its inertia has the principal moments {} kg m^2, the largest more "
+        "than the sum of the others, which no mass has. Look at units, and "
+        "whether it is about the centre of mass",
+        what, to_text(principal)));
+  }
+}
+
+void check_reduced(const std::string& what,
+                   const flexbody::ReducedBody& reduced, bool has_modes) {
+  check_inertia(what, reduced.mass, reduced.inertia());
+  if (!has_modes) return;
+  for (Eigen::Index k = 0; k < reduced.lambda.size(); ++k) {
+    if (reduced.lambda[k] >= 0.0 && std::isfinite(reduced.lambda[k])) continue;
+    throw InputError(fmt::format(
+        "{}: eigenvalue {} is {:g} rad^2/s^2; expected a finite number, not "
+        "negative",
+        what, k + 1, reduced.lambda[k]));
+  }
+  if (reduced.clamped) {
+    check_size(what, "what gravity does to its modes",
+               reduced.integrals.P.cols(), reduced.mode_count());
+    check_finite(what, "what gravity does to its modes",
+                 reduced.integrals.P.allFinite());
+  }
+}
+
+void check_integrals(const std::string& what,
+                     const flexbody::ReducedBody& reduced) {
+  const flexbody::InertiaShapeIntegrals& integrals = reduced.integrals;
+  const auto modes = static_cast<Eigen::Index>(reduced.mode_count());
+  check_size(what, "the shape integral S1", std::ssize(integrals.S1), modes);
+  check_size(what, "the shape integral S2", std::ssize(integrals.S2),
+             modes * modes);
+  const auto is_finite = [](const std::vector<Matrix3>& blocks) {
+    return std::all_of(blocks.begin(), blocks.end(),
+                       [](const Matrix3& block) { return block.allFinite(); });
+  };
+  check_finite(what, "the shape integral S1", is_finite(integrals.S1));
+  check_finite(what, "the shape integral S2", is_finite(integrals.S2));
+}
+
+VectorX check_damping(const std::string& what, const ModalDamping& damping,
+                      const VectorX& lambda) {
+  const auto& ratios = damping.ratios;
+  const auto modes = static_cast<std::size_t>(lambda.size());
+  if (ratios.size() > 1 && ratios.size() != modes) {
+    throw InputError(fmt::format(
+        "{}: {} damping ratios for {} modes; give one for all or one a mode",
+        what, ratios.size(), modes));
+  }
+  check_rate(what, "Rayleigh damping of mass [1/s]", damping.rayleigh_mass);
+  check_rate(what, "Rayleigh damping of stiffness [s]",
+             damping.rayleigh_stiffness);
+  for (const double ratio : ratios) check_rate(what, "a damping ratio", ratio);
+  VectorX c(lambda.size());
+  for (std::size_t k = 0; k < modes; ++k) {
+    const double ratio =
+        ratios.empty() ? 0.0 : ratios[ratios.size() == 1 ? 0 : k];
+    const auto i = static_cast<Eigen::Index>(k);
+    c[i] = 2.0 * ratio * std::sqrt(lambda[i]) + damping.rayleigh_mass +
+           damping.rayleigh_stiffness * lambda[i];
+  }
+  check_finite(what, "the damping of its highest mode", c.allFinite());
+  return c;
+}
+
+void check_same_nodes(const std::string& what,
+                      const flexbody::ReducedBody& reduced,
+                      const flexbody::FullBody& full) {
+  constexpr double kSame = 1e-9;  // of the body's size
+  const Matrix3X& x = reduced.rows.x_B;
+  if (x.cols() != full.node_count()) {
+    throw InputError(fmt::format(
+        "{}: its reduced body keeps {} of {} nodes; level full needs the rows "
+        "of all",
+        what, x.cols(), full.node_count()));
+  }
+  if (!((x - full.x_B).cwiseAbs().maxCoeff() <= kSame * reduced.size.norm())) {
+    throw InputError(fmt::format(
+        "{}: the mesh's nodes are not those of its reduced body; reduce it "
+        "again",
+        what));
+  }
+  const MatrixX& Phi = reduced.rows.Phi_B;
+  check_size(what, "its table of mode shapes", Phi.cols(),
+             reduced.mode_count());
+  if (Phi.rows() != 3 * x.cols()) {
+    throw ContractError(fmt::format("{}: {} rows of mode shapes; expected {}",
+                                    what, Phi.rows(), 3 * x.cols()));
+  }
+  check_finite(what, "its table of mode shapes", Phi.allFinite());
+}
+
+void check_index(const std::string& what, const std::string& kind, int index,
+                 std::size_t count) {
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return;
+  throw ContractError(fmt::format("{}: there is no {} {}; the system has {}",
+                                  what, kind, index, count));
+}
+
+void check_pose(const std::string& what, const Pose& pose) {
+  constexpr double kRotation = 1e-9;
+  check_finite(what, "its pose", pose.p.allFinite() && pose.R.allFinite());
+  const double error =
+      (pose.R.transpose() * pose.R - Matrix3::Identity()).norm();
+  if (error <= kRotation && pose.R.determinant() > 0.0) return;
+  throw InputError(fmt::format(
+      "{}: its axes are not those of a rotation: R^T R is off the identity by "
+      "{:.3g}, the determinant is {:.6g}",
+      what, error, pose.R.determinant()));
+}
+
+void check_interface(const std::string& what,
+                     const flexbody::InterfaceTable& interface,
+                     Eigen::Index modes) {
+  const std::string table = fmt::format("interface '{}'", interface.name);
+  check_size(what, table + ", translation", interface.Phi_B.cols(), modes);
+  check_size(what, table + ", rotation", interface.Psi_B.cols(), modes);
+  check_finite(what, table,
+               interface.p_B.allFinite() && interface.Phi_B.allFinite() &&
+                   interface.Psi_B.allFinite());
+}
+
+void check_nodes(const std::string& what, const flexbody::NodeSet& nodes,
+                 Eigen::Index node_count) {
+  constexpr double kSum = 1e-9;
+  if (nodes.nodes.empty() || nodes.weights.size() != std::ssize(nodes.nodes)) {
+    throw ContractError(
+        fmt::format("{}: node set '{}' has {} nodes and {} weights", what,
+                    nodes.name, nodes.nodes.size(), nodes.weights.size()));
+  }
+  for (const int node : nodes.nodes) {
+    check_index(fmt::format("{}, node set '{}'", what, nodes.name), "node",
+                node, static_cast<std::size_t>(node_count));
+  }
+  if (!(std::abs(nodes.weights.sum() - 1.0) <= kSum)) {
+    throw InputError(fmt::format(
+        "{}: the weights of node set '{}' sum to {:.9g}; expected 1", what,
+        nodes.name, nodes.weights.sum()));
+  }
+}
+
+void check_joint_sum(const std::string& what, const JointSum& sum,
+                     const SystemModel& model) {
+  if (sum.terms.empty()) {
+    throw ContractError(what + ": its sum has no joint");
+  }
+  check_finite(what, "its offset", std::isfinite(sum.offset));
+  for (const JointSum::Term& term : sum.terms) {
+    check_index(what, "coupler", term.coupler, model.couplers.size());
+    const Coupler& coupler =
+        model.couplers[static_cast<std::size_t>(term.coupler)];
+    check_index(fmt::format("{}, coupler '{}'", what, coupler.name),
+                "coordinate", term.coordinate,
+                joints::coordinates_of(coupler.law).size());
+    if (term.factor == 0.0 || !std::isfinite(term.factor)) {
+      throw InputError(fmt::format(
+          "{}: the factor of '{}' is {:g}; expected a finite number other than "
+          "0",
+          what, coupler.name, term.factor));
+    }
+  }
+}
+
+void check_nodal_load(const std::string& what,
+                      const flexbody::NodalLoad& history, Eigen::Index modes) {
+  const auto count = static_cast<Eigen::Index>(history.times.size());
+  check_size(what, "its force", history.force.cols(), count);
+  check_size(what, "its moment", history.moment.cols(), count);
+  if (modes > 0) {
+    check_size(what, "its modal force", history.modal.cols(), count);
+    check_size(what, "its moment by mode", history.moment_by_mode.cols(),
+               modes * count);
+    if (history.modal.rows() != modes) {
+      throw ContractError(fmt::format("{}: {} rows of modal force; expected {}",
+                                      what, history.modal.rows(), modes));
+    }
+  }
+  check_finite(what, "a force",
+               history.force.allFinite() && history.moment.allFinite() &&
+                   history.modal.allFinite() &&
+                   history.moment_by_mode.allFinite());
+  for (std::size_t i = 0; i < history.times.size(); ++i) {
+    const bool is_later = i == 0 || history.times[i] > history.times[i - 1];
+    if (is_later && std::isfinite(history.times[i])) continue;
+    throw InputError(fmt::format(
+        "{}: time {} is {:g} s; expected finite times that increase", what,
+        i + 1, history.times[i]));
+  }
+}
+
+}  // namespace limber::dynamics

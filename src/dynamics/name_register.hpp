@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+
+namespace limber::dynamics {
+
+/// Names that a system's things have, each kind's once.
+class NameRegister {
+ public:
+  /// "KIND 'NAME'", for errors.
+  /// @throws InputError for a name that is empty or taken.
+  [[nodiscard]] std::string check(const std::string& kind,
+                                  const std::string& name) const;
+  void add(const std::string& kind, const std::string& name) {
+    taken_.emplace(kind, name);
+  }
+
+ private:
+  std::set<std::pair<std::string, std::string>> taken_;
+};
+
+}  // namespace limber::dynamics
