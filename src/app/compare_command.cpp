@@ -151,6 +151,9 @@ void compare(const Options& options) {
     (void)scene::load_scene(options.scenario, to_overrides(choice));
   }
   check_output_folder(settings.folder);
+  // Before the runs: who does not want it need not wait for them.
+  const std::string note = describe_default_reference(plan);
+  if (!note.empty()) fmt::print(stderr, "limber: {}\n", note);
   const Comparison comparison = run_comparison(plan, settings);
   if (scene.scenario.output.pictures) {
     draw_comparison(comparison, settings.folder,
@@ -190,7 +193,8 @@ void add_axes(CLI::App& command, Options& options) {
 
 void add_reference(CLI::App& command, Options& options) {
   command.add_option("--reference", options.reference,
-                     "Level of the reference (default: the highest)");
+                     "Level of the reference (default: the costliest with a "
+                     "reduced basis; `full` takes whole meshes)");
   command
       .add_option("--reference-modes", options.wish.eigenmodes,
                   "Its eigenmodes (default: the most that are compared)")

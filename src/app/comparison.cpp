@@ -56,6 +56,7 @@ class Runner {
     double longest = 0.0;
     for (const Choice& choice : plan.runs) {
       longest = std::max(longest, choice.step.value_or(0.0));
+      total_ += estimate_cost(choice, plan.reference);
     }
     times_ = thin_times(
         scene::load_scene(settings.scenario).scenario.settings.output_times,
@@ -65,6 +66,7 @@ class Runner {
   Comparison run() {
     Comparison comparison;
     comparison.scenario = settings_.scenario;
+    comparison.reference_note = describe_default_reference(plan_);
     const Run reference = simulate(plan_.reference);
     keep(plan_.reference, reference);
     if (reference.failure) std::rethrow_exception(reference.failure);
@@ -98,17 +100,37 @@ class Runner {
     scene::Scene scene = scene::load_scene(settings_.scenario, overrides);
     scene.scenario.settings.output_times = times_;
     ++started_;
-    const Progress progress = [this](std::string_view what, double fraction) {
-      report(bar_,
-             fmt::format("run {} of {}, {}", started_, plan_.runs.size() + 1,
-                         what),
-             fraction);
+    const double cost = estimate_cost(choice, plan_.reference);
+    const Progress progress = [this, cost](std::string_view what,
+                                           double fraction) {
+      report_run(what, cost, fraction);
     };
     Run run = simulate_scene(scene, make_timed_reducer(progress),
                              settings_.cache, progress);
+    done_ += cost;
     clear_progress_bar();
     warn(run.built.warnings);
     return run;
+  }
+
+  /// Of simulations as one, all that the plan has; of other work as it is.
+  void report_run(std::string_view what, double cost, double fraction) const {
+    const std::size_t count = plan_.runs.size() + 1;
+    if (what == "simulating") {
+      report(bar_, fmt::format("all {} runs", count),
+             (done_ + cost * fraction) / total_);
+      return;
+    }
+    report(bar_, fmt::format("run {} of {}, {}", started_, count, what),
+           fraction);
+  }
+
+  void report_repeat(int again, double fraction) const {
+    if (settings_.repeats < 2) return;  // short: until they last kEnough
+    report(bar_,
+           fmt::format("run {} of {}, timed again", started_,
+                       plan_.runs.size() + 1),
+           (again - 1 + fraction) / (settings_.repeats - 1));
   }
 
   /// Notes how long each reduction takes.
@@ -175,7 +197,11 @@ class Runner {
       return total >= kEnough || cost.repeats >= kMostRepeats;
     };
     while (!run.failure && !is_enough()) {
-      const double seconds = time_again(run);
+      const int again = cost.repeats;
+      const double seconds =
+          time_again(run, [&](std::string_view, double fraction) {
+            report_repeat(again, fraction);
+          });
       least = std::min(least, seconds);
       total += seconds;
       ++cost.repeats;
@@ -204,6 +230,8 @@ class Runner {
   Progress bar_;
   std::vector<double> times_;
   std::size_t started_ = 0;
+  double done_ = 0.0;   ///< costs of runs, the reference's is 1
+  double total_ = 1.0;  ///< of all runs
   std::map<std::string, double> reduction_seconds_;  ///< by content key
   std::set<std::string> warned_;
 };

@@ -46,6 +46,7 @@ struct ComparedRun {
 
 struct Comparison {
   std::filesystem::path scenario;
+  std::string reference_note;  ///< describe_default_reference
   ComparedRun reference;
   std::vector<ComparedRun> runs;
 };

@@ -20,24 +20,17 @@ bool has_flexible_link(const scene::Scene& scene) {
                      [](const scene::Link& link) { return link.flexible; });
 }
 
-bool has_saved_body(const scene::Scene& scene) {
-  return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
-                     [](const scene::Link& link) {
-                       return link.flexible &&
-                              !link.flexible->reduced_file.empty();
-                     });
-}
-
 /// Whether a level moves its bodies by a reduced basis.
 bool has_basis(Fidelity level) {
   return level != Fidelity::rigid && level <= Fidelity::coupled;
 }
 
-/// Levels above `coupled` need the mesh, which a saved body has no more.
-Fidelity find_highest_level(const scene::Scene& scene) {
-  const auto last =
-      static_cast<Fidelity>(dynamics::fidelity_names().size() - 1);
-  return has_saved_body(scene) ? std::min(last, Fidelity::coupled) : last;
+/// The costliest level with a reduced basis, unless a higher one is among those
+/// that were asked for: whole meshes may cost hours.
+Fidelity find_highest_level(const Axes& axes) {
+  Fidelity highest = Fidelity::coupled;
+  for (const Fidelity level : axes.levels) highest = std::max(highest, level);
+  return highest;
 }
 
 std::vector<Fidelity> find_levels(const Axes& axes, Fidelity reference) {
@@ -106,7 +99,7 @@ BasisChoice find_largest_basis(const Axes& axes, const ReferenceWish& wish) {
 Choice find_reference(const Axes& axes, const ReferenceWish& wish,
                       const scene::Scene& scene) {
   Choice reference;
-  reference.level = wish.level.value_or(find_highest_level(scene));
+  reference.level = wish.level.value_or(find_highest_level(axes));
   if (has_basis(reference.level) && has_flexible_link(scene)) {
     reference.basis = find_largest_basis(axes, wish);
   }
@@ -222,6 +215,7 @@ ComparisonPlan make_plan(const Axes& axes, const ReferenceWish& wish,
   ComparisonPlan plan;
   (void)combine_bases(axes);  // names are right, whoever takes them
   plan.reference = find_reference(axes, wish, scene);
+  plan.reference_is_default = !wish.level;
   check_reference(plan, axes, wish, scene);
   const bool is_flexible = has_flexible_link(scene);
   for (Fidelity level : find_levels(axes, plan.reference.level)) {
@@ -240,6 +234,41 @@ ComparisonPlan make_plan(const Axes& axes, const ReferenceWish& wish,
   }
   check_runs(plan, axes);
   return plan;
+}
+
+std::string describe_default_reference(const ComparisonPlan& plan) {
+  if (!plan.reference_is_default) return "";
+  if (!has_basis(plan.reference.level)) {
+    return fmt::format(
+        "The reference is the highest level asked for, '{}'; choose another by "
+        "--reference.",
+        to_string(plan.reference.level));
+  }
+  return fmt::format(
+      "The reference is the costliest reduced level, '{}': what whole meshes "
+      "would tell beyond it shows nowhere. --reference full takes these, at "
+      "their cost.",
+      to_string(plan.reference.level));
+}
+
+double estimate_cost(const Choice& choice, const Choice& reference) {
+  const auto of_level = [](Fidelity level) {
+    switch (level) {
+      case Fidelity::rigid:
+        return 0.2;
+      case Fidelity::uncoupled:
+      case Fidelity::one_way:
+        return 0.5;
+      case Fidelity::coupled:
+        return 1.0;
+      case Fidelity::full:
+        break;
+    }
+    return 100.0;
+  };
+  const double steps =
+      choice.step && reference.step ? *reference.step / *choice.step : 0.5;
+  return steps * of_level(choice.level) / of_level(reference.level);
 }
 
 std::string describe(const Choice& choice) {

@@ -31,7 +31,7 @@ struct Axes {
   std::vector<double> steps;         ///< [s]
 };
 
-/// What is asked of the reference; else it is the costliest.
+/// What is asked of the reference; else it is the costliest that is reduced.
 struct ReferenceWish {
   std::optional<dynamics::Fidelity> level;
   std::optional<int> eigenmodes;
@@ -42,6 +42,7 @@ struct ReferenceWish {
 struct ComparisonPlan {
   std::vector<Choice> runs;  ///< none twice
   Choice reference;
+  bool reference_is_default = false;  ///< its level was not asked for
 };
 
 /// "eigenmodes", "interfaces", "loads", "all": eigenmodes alone, or with the
@@ -52,14 +53,25 @@ struct ComparisonPlan {
 
 /// The product of the axes. Levels without a reduced basis have no basis axes;
 /// neither has a scene without flexible links, which has but one level. The
-/// reference has the highest level that the scene can run, the most
-/// eigenmodes and all the sources among the axes, and half of the shortest
-/// step of any run, so that the error of the step shows in every run.
+/// reference has the costliest level with a reduced basis, or a higher one that
+/// is among the axes, the most eigenmodes and all the sources among the axes,
+/// and half of the shortest step of any run, so that the error of the step
+/// shows in every run.
 /// @throws InputError for a name that is unknown, or a reference that leaves
 /// out what a run computes.
 [[nodiscard]] ComparisonPlan make_plan(const Axes& axes,
                                        const ReferenceWish& wish,
                                        const scene::Scene& scene);
+
+/// What a reference that was not asked for is, and what it leaves out; empty
+/// for one that was.
+[[nodiscard]] std::string describe_default_reference(
+    const ComparisonPlan& plan);
+
+/// What a run will cost, in parts of what the reference costs: a rough model
+/// by level and step.
+[[nodiscard]] double estimate_cost(const Choice& choice,
+                                   const Choice& reference);
 
 /// For tables: "coupled, 10 eigenmodes + interfaces, 0.001 s".
 [[nodiscard]] std::string describe(const Choice& choice);

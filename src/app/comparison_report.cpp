@@ -159,9 +159,13 @@ Json to_json(const Comparison& comparison) {
         cost > 0.0 ? Json(comparison.reference.cost.online / cost)
                    : Json(nullptr);
   }
-  return Json{{"scenario", comparison.scenario.string()},
-              {"reference", to_json(comparison.reference)},
-              {"runs", runs}};
+  Json json{{"scenario", comparison.scenario.string()},
+            {"reference", to_json(comparison.reference)},
+            {"runs", runs}};
+  if (!comparison.reference_note.empty()) {
+    json["reference"]["note"] = comparison.reference_note;
+  }
+  return json;
 }
 
 std::string to_text(const Comparison& comparison) {
@@ -177,6 +181,9 @@ std::string to_text(const Comparison& comparison) {
   for (const ComparedRun& run : comparison.runs) {
     if (run.stopped.empty()) continue;
     text += fmt::format("'{}' {}\n", describe(run.choice), run.stopped);
+  }
+  if (!comparison.reference_note.empty()) {
+    text += comparison.reference_note + "\n";
   }
   return text +
          "Errors: RMS over nodes and times (largest over times), relative to "

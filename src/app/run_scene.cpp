@@ -134,11 +134,11 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
   return run;
 }
 
-double time_again(const Run& run) {
+double time_again(const Run& run, const Progress& progress) {
   results::History history;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;
-  simulate(run.built, {}, history, statistics, record);
+  simulate(run.built, progress, history, statistics, record);
   return statistics.seconds;
 }
 

@@ -41,7 +41,7 @@ struct Run {
                             const CheckpointPlan& checkpoints = {});
 
 /// Wall time that simulating the run once more takes, outputs included [s].
-[[nodiscard]] double time_again(const Run& run);
+[[nodiscard]] double time_again(const Run& run, const Progress& progress);
 
 /// Makes `folder` and checks that it can be written, before a long run.
 /// @throws InputError if not.

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/time_estimate.hpp"
+
 namespace limber::app {
 namespace {
 
@@ -18,35 +20,39 @@ using Clock = std::chrono::steady_clock;
 constexpr int kBarWidth = 30;
 constexpr double kRefresh = 0.1;  // s
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double now() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
 bool is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-/// What is being done, since when, and when it was last drawn.
+/// What is being done, how long it will take, and when it was last drawn.
 struct Bar {
-  std::string what;
-  Clock::time_point start = Clock::now();
-  Clock::time_point drawn = start;
+  TimeEstimate estimate;
+  double drawn = 0.0;  // wall time [s]
 
-  void draw(std::string_view now, double fraction) {
-    if (now != what) {
-      what = now;
-      start = Clock::now();
-    } else if (fraction < 1.0 && seconds_since(drawn) < kRefresh) {
-      return;
+  void note(std::string_view what, double fraction) {
+    const bool is_new = what != estimate.what();
+    const double time = now();
+    estimate.note(what, fraction, time);
+    const std::string line = estimate.take_announcement();
+    if (!line.empty()) {
+      clear_progress_bar();
+      fmt::print(stderr, "limber: {}\n", line);
     }
-    drawn = Clock::now();
+    if (!is_terminal()) return;
+    if (!is_new && fraction < 1.0 && time - drawn < kRefresh) return;
+    drawn = time;
+    draw(fraction);
+  }
+
+  void draw(double fraction) const {
     const double done = std::fmin(std::fmax(fraction, 0.0), 1.0);  // NaN: 0
     const int filled = static_cast<int>(done * kBarWidth);
-    const std::string left =
-        done > 0.01 ? fmt::format("{:.0f} s left",
-                                  seconds_since(start) * (1.0 - done) / done)
-                    : "";
-    fmt::print(stderr, "\r\033[K{:<24} [{:<{}}] {:3.0f} %  {}", what,
+    const std::optional<double> left = estimate.left();
+    fmt::print(stderr, "\r\033[K{:<24} [{:<{}}] {:3.0f} %  {}", estimate.what(),
                std::string(static_cast<std::size_t>(filled), '#'), kBarWidth,
-               100.0 * done, left);
+               100.0 * done, left ? to_duration(*left) + " left" : "");
     std::fflush(stderr);
   }
 };
@@ -54,10 +60,9 @@ struct Bar {
 }  // namespace
 
 Progress make_progress_bar() {
-  if (!is_terminal()) return {};
   return
       [bar = std::make_shared<Bar>()](std::string_view what, double fraction) {
-        bar->draw(what, fraction);
+        bar->note(what, fraction);
       };
 }
 

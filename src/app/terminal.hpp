@@ -8,7 +8,7 @@
 
 namespace limber::app {
 
-/// A bar with the time left on standard error; silent if that is no terminal.
+/// A bar on standard error if that is a terminal; a line if work will be long.
 [[nodiscard]] Progress make_progress_bar();
 
 /// Removes the bar, so that other lines can follow.

@@ -360,7 +360,8 @@ void Driver::run(SystemState& state, const Visit& visit,
       inspect(state);
     }
     if (part_ == parts_) leave_mark(state, visit);
-    if (steps % kStepsBetweenProgress == 0) {
+    // A step of whole meshes may take seconds.
+    if (steps % kStepsBetweenProgress == 0 || !model_.full_bodies.empty()) {
       report(progress, "simulating",
              (state.t - start_) / (settings_.end_time - start_));
     }

@@ -102,15 +102,19 @@ void add_ends(const dynamics::SystemState& initial,
   if (times.back() < settings.end_time) times.push_back(settings.end_time);
 }
 
+/// Several runs as one: the part [begin, begin + width] of them.
+Progress report_part(const Progress& progress, double begin, double width) {
+  return [&progress, begin, width](std::string_view, double fraction) {
+    report(progress, "all our runs", begin + width * fraction);
+  };
+}
+
 /// The witness, run once, and what runs of ours are held against it.
 class Comparison {
  public:
   Comparison(const scene::Scene& scene, const scene::BuiltScene& built,
              const VerificationOptions& options, const Progress& progress)
-      : built_(built),
-        options_(options),
-        progress_(progress),
-        settings_(built.settings) {
+      : built_(built), options_(options), settings_(built.settings) {
     LIMBER_EXPECT(options.refinements >= 0);
     add_ends(built.initial, settings_);
     witness_ = simulate(
@@ -120,7 +124,8 @@ class Comparison {
   }
 
   /// Ours with joints `factor` times as stiff.
-  [[nodiscard]] Verification run(double factor) const {
+  [[nodiscard]] Verification run(double factor,
+                                 const Progress& progress) const {
     Verification verification;
     for (const dynamics::BodyModel& body : built_.model.bodies) {
       verification.bodies.push_back(body.name);
@@ -129,10 +134,12 @@ class Comparison {
     measure_witness(witness_.snapshots, verification);
     const dynamics::SystemModel model =
         factor == 1.0 ? built_.model : stiffen_joints(built_.model, factor);
+    const double total = std::exp2(options_.refinements + 1) - 1.0;
     for (int i = 0; i <= options_.refinements; ++i) {
-      verification.runs.push_back(run_ours(model, built_.initial,
-                                           halve_steps(settings_, i),
-                                           witness_.snapshots, progress_));
+      const double steps = std::exp2(i);  // of the first run
+      verification.runs.push_back(run_ours(
+          model, built_.initial, halve_steps(settings_, i), witness_.snapshots,
+          report_part(progress, (steps - 1.0) / total, steps / total)));
     }
     return verification;
   }
@@ -140,7 +147,6 @@ class Comparison {
  private:
   const scene::BuiltScene& built_;
   VerificationOptions options_;
-  const Progress& progress_;
   dynamics::SimulationSettings settings_;
   WitnessRun witness_;
 };
@@ -200,7 +206,7 @@ Agreement compare(const std::vector<Snapshot>& witness,
 Verification verify(const scene::Scene& scene, const scene::BuiltScene& built,
                     const VerificationOptions& options,
                     const Progress& progress) {
-  return Comparison(scene, built, options, progress).run(1.0);
+  return Comparison(scene, built, options, progress).run(1.0, progress);
 }
 
 StiffenedVerification verify_stiffened(const scene::Scene& scene,
@@ -215,9 +221,12 @@ StiffenedVerification verify_stiffened(const scene::Scene& scene,
   }
   const Comparison comparison(scene, built, options, progress);
   StiffenedVerification all;
-  for (const double factor : factors) {
+  const double width = 1.0 / static_cast<double>(factors.size());
+  for (std::size_t i = 0; i < factors.size(); ++i) {
     try {
-      all.results.push_back(comparison.run(factor));
+      const Progress part =
+          report_part(progress, static_cast<double>(i) * width, width);
+      all.results.push_back(comparison.run(factors[i], part));
     } catch (const NumericalError& error) {
       if (all.results.size() < 2) throw;
       all.ended = error.what();

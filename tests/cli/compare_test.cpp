@@ -77,6 +77,41 @@ TEST(Compare, ErrorsOfTheStepFallWithItsSquare) {
   EXPECT_NEAR(order, 2.0, 0.1);
 }
 
+TEST(Compare, TakesNoWholeMeshForItsReferenceUnlessAskedAndSaysSo) {
+  const Workspace place;
+  write_push(place);
+  const CommandResult text =
+      place.limber("compare push.toml --repeat 1 --out o --fidelity rigid");
+  ASSERT_EQ(text.status, 0) << text.errors;
+  constexpr auto kNote = "The reference is the costliest reduced level";
+  EXPECT_THAT(text.out, HasSubstr(kNote));
+  EXPECT_THAT(text.errors, HasSubstr(kNote));  // before the first run
+  const json found = compare(place, "--fidelity rigid");
+  EXPECT_EQ(found["reference"]["fidelity"], "coupled");
+  EXPECT_THAT(found["reference"]["note"].get<std::string>(),
+              HasSubstr("--reference full"));
+  const json asked = compare(place, "--fidelity rigid --reference coupled");
+  EXPECT_FALSE(asked["reference"].contains("note"));
+}
+
+// Ended by hand: what is looked at is said in its first seconds, in a pipe too.
+TEST(Compare, SaysHowLongItWillTakeBeforeItTakesLong) {
+  const Workspace place;
+  write_push(place, {100.0, 2e-6, "generalized-alpha", ""});
+  for (const std::string command :
+       {"compare long.toml --fidelity rigid", "run long.toml"}) {
+    std::filesystem::rename(place.folder() / "push.toml",
+                            place.folder() / "long.toml");
+    const CommandResult result = place.limber(
+        command +
+        " --out o >a 2>b & P=$!; for i in $(seq 60); do sleep 0.5; grep -q "
+        "'to go' b && break; done; kill $P; wait $P; cat b");
+    EXPECT_THAT(result.out, HasSubstr("to go, by its first")) << command;
+    std::filesystem::rename(place.folder() / "long.toml",
+                            place.folder() / "push.toml");
+  }
+}
+
 TEST(Compare, StepsTheReferenceExplicitlyWhereAsked) {
   const Workspace place;
   write_push(place);

@@ -10,6 +10,7 @@ namespace {
 
 using dynamics::Fidelity;
 using scene::test::input_error;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -43,16 +44,41 @@ TEST(ComparisonPlan, WithoutAxesHoldsEveryLevelWithABasisAndRigid) {
   EXPECT_EQ(plan.reference.step, 0.5e-3);
 }
 
-TEST(ComparisonPlan, HasTheHighestLevelAsReference) {
-  const auto& names = dynamics::fidelity_names();
-  const auto highest = static_cast<Fidelity>(names.size() - 1);
-  EXPECT_EQ(make_plan({}, {}, make_scene()).reference.level, highest);
+TEST(ComparisonPlan, TakesTheCostliestReducedLevelAsReferenceAndSaysSo) {
+  const ComparisonPlan plan = make_plan({}, {}, make_scene());
+  EXPECT_EQ(plan.reference.level, Fidelity::coupled);
+  EXPECT_THAT(describe_default_reference(plan),
+              AllOf(HasSubstr("costliest reduced level, 'coupled'"),
+                    HasSubstr("--reference full")));
 }
 
-TEST(ComparisonPlan, OfASavedBodyNeedsNoMeshForItsReference) {
-  scene::Scene scene = make_scene();
-  scene.robot.links[0].flexible->reduced_file = "arm.h5";
-  EXPECT_EQ(make_plan({}, {}, scene).reference.level, Fidelity::coupled);
+TEST(ComparisonPlan, TakesWholeMeshesOnlyWhenAsked) {
+  const ComparisonPlan asked =
+      make_plan({}, {Fidelity::full, {}, {}}, make_scene());
+  EXPECT_EQ(asked.reference.level, Fidelity::full);
+  EXPECT_EQ(describe_default_reference(asked), "");
+  Axes axes;
+  axes.levels = {Fidelity::coupled, Fidelity::full};
+  const ComparisonPlan compared = make_plan(axes, {}, make_scene());
+  EXPECT_EQ(compared.reference.level, Fidelity::full);
+  EXPECT_THAT(describe_default_reference(compared),
+              HasSubstr("highest level asked for, 'full'"));
+}
+
+// Of the reference's cost, which has half the step.
+TEST(ComparisonPlan, EstimatesCostsByLevelAndStep) {
+  Axes axes;
+  axes.levels = {Fidelity::rigid, Fidelity::coupled};
+  axes.steps = {1e-3, 2e-3};
+  const ComparisonPlan plan = make_plan(axes, {}, make_scene());
+  ASSERT_EQ(plan.runs.size(), 4U);
+  const auto cost = [&](std::size_t i) {
+    return estimate_cost(plan.runs[i], plan.reference);
+  };
+  EXPECT_EQ(estimate_cost(plan.reference, plan.reference), 1.0);
+  EXPECT_DOUBLE_EQ(cost(2), 0.5);
+  EXPECT_DOUBLE_EQ(cost(3), 0.25);
+  EXPECT_LT(cost(0), cost(2));
 }
 
 TEST(ComparisonPlan, CombinesAxesButGivesRigidNoBasis) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/time_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limber::app {
+
+void TimeEstimate::note(std::string_view what, double fraction, double now) {
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  if (what != what_ || fraction < fraction_) {
+    what_ = what;
+    start_ = now;
+    first_ = fraction;
+  }
+  now_ = now;
+  fraction_ = fraction;
+}
+
+std::optional<double> TimeEstimate::left() const {
+  if (!(fraction_ > first_) || !(now_ > start_)) return std::nullopt;
+  return (now_ - start_) * (1.0 - fraction_) / (fraction_ - first_);
+}
+
+std::string TimeEstimate::take_announcement() {
+  const double measured = now_ - start_;
+  const std::optional<double> rest = left();
+  if (!rest || measured < kPiece || measured + *rest < kLong) return "";
+  if (!told_.insert(what_).second) return "";
+  return fmt::format("{}: about {} to go, by its first {}", what_,
+                     to_duration(*rest), to_duration(measured));
+}
+
+std::string to_duration(double seconds) {
+  constexpr double kMinute = 60.0;
+  constexpr double kHour = 3600.0;
+  if (seconds < 1.5 * kMinute) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 1.5 * kHour)
+    return fmt::format("{:.0f} min", seconds / kMinute);
+  if (seconds < 48.0 * kHour) return fmt::format("{:.1f} h", seconds / kHour);
+  return fmt::format("{:.0f} days", seconds / (24.0 * kHour));
+}
+
+}  // namespace limber::app

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/time_estimate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace limber::app {
+namespace {
+
+using testing::HasSubstr;
+
+/// Work that goes on evenly for `total` seconds, reported every 0.1 s until
+/// `end`: what was said of it.
+std::string follow(TimeEstimate& estimate, const std::string& what,
+                   double total, double end, double begin = 0.0) {
+  std::string said;
+  for (int i = 0; 0.1 * i <= end; ++i) {
+    estimate.note(what, 0.1 * i / total, begin + 0.1 * i);
+    said += estimate.take_announcement();
+  }
+  return said;
+}
+
+TEST(TimeEstimate, TellsWorkOfMoreThanAMinuteOnceAfterItsFirstSeconds) {
+  TimeEstimate estimate;
+  EXPECT_EQ(follow(estimate, "simulating", 600.0, 1.9), "");
+  const std::string said = follow(estimate, "simulating", 600.0, 300.0);
+  EXPECT_EQ(said, "simulating: about 10 min to go, by its first 2 s");
+  ASSERT_TRUE(estimate.left());
+  EXPECT_NEAR(*estimate.left(), 300.0, 1.0);
+}
+
+TEST(TimeEstimate, SaysNothingOfShorterWork) {
+  TimeEstimate estimate;
+  EXPECT_EQ(follow(estimate, "simulating", 55.0, 55.0), "");
+}
+
+TEST(TimeEstimate, TellsEachWorkApart) {
+  TimeEstimate estimate;
+  EXPECT_EQ(follow(estimate, "assembling", 10.0, 10.0), "");
+  EXPECT_THAT(follow(estimate, "simulating", 7200.0, 5.0, 10.0),
+              HasSubstr("about 2.0 h to go"));
+}
+
+// What a first part of the work does not tell of the rest: halfway in, the rate
+// counts from there.
+TEST(TimeEstimate, GoesByTheRateSinceTheWorkBegan) {
+  TimeEstimate estimate;
+  estimate.note("all 2 runs", 0.5, 100.0);
+  EXPECT_FALSE(estimate.left());
+  estimate.note("all 2 runs", 0.6, 110.0);
+  ASSERT_TRUE(estimate.left());
+  EXPECT_NEAR(*estimate.left(), 40.0, 1e-9);
+  estimate.note("all 2 runs", 0.0, 120.0);  // begun anew
+  EXPECT_FALSE(estimate.left());
+}
+
+TEST(TimeEstimate, WritesDurationsAsOneSaysThem) {
+  EXPECT_EQ(to_duration(75.4), "75 s");
+  EXPECT_EQ(to_duration(720.0), "12 min");
+  EXPECT_EQ(to_duration(3.4 * 3600.0), "3.4 h");
+  EXPECT_EQ(to_duration(72.0 * 3600.0), "3 days");
+}
+
+}  // namespace
+}  // namespace limber::app
