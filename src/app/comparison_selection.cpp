@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "app/comparison_report.hpp"
+#include "common/echo.hpp"
 #include "common/errors.hpp"
 #include "common/names.hpp"
+#include "common/parse_number.hpp"
 
 namespace limber::app {
 namespace {
@@ -45,22 +47,17 @@ double parse_tolerance(const std::string& text) {
     throw InputError(fmt::format(
         "--tolerance: '{}' {}; expected a share between 0 and 1, as in 1% or "
         "0.01",
-        text, why));
+        echo(text), why));
   };
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    refuse("is no number");
-  }
-  std::string unit = text.substr(used);
-  std::erase(unit, ' ');
-  if (unit != "" && unit != "%") refuse("is no number");
-  if (unit == "%") value /= 100.0;
-  if (!std::isfinite(value) || !(value > 0.0) || !(value < 1.0)) {
-    refuse(std::isfinite(value) ? fmt::format("is {:g} %", 100.0 * value)
-                                : "is not finite");
+  std::string_view number = text;
+  const bool is_percent = number.ends_with('%');
+  if (is_percent) number.remove_suffix(1);
+  while (number.ends_with(' ')) number.remove_suffix(1);
+  const std::optional<double> given = parse_number(number);
+  if (!given) refuse("is no finite number");
+  const double value = is_percent ? *given / 100.0 : *given;
+  if (!(value > 0.0) || !(value < 1.0)) {
+    refuse(fmt::format("is {:g} %", 100.0 * value));
   }
   return value;
 }

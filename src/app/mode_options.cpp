@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "app/validators.hpp"
+#include "common/echo.hpp"
 #include "common/errors.hpp"
 
 namespace limber::app {
@@ -18,7 +19,7 @@ int parse_count(const std::string& text) {
   const auto [after, error] = std::from_chars(text.data(), end, count);
   if (error != std::errc() || after != end || count < 0)
     throw InputError(fmt::format(
-        "'{}' eigenmodes; expected a number, 0 or more, or auto", text));
+        "'{}' eigenmodes; expected a number, 0 or more, or auto", echo(text)));
   return count;
 }
 

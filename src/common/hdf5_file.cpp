@@ -10,11 +10,12 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/hdf5_exit.hpp"
 #include "common/hdf5_handle.hpp"
+#include "common/input_file.hpp"
 
 namespace limber {
 namespace {
@@ -23,9 +24,11 @@ using hdf5::checked;
 using hdf5::Failure;
 using hdf5::Handle;
 using hdf5::leave_out_times;
-using hdf5::prepare_library;
 using hdf5::Quiet;
 using hdf5::with_path;
+
+// Histories of many bodies are large; a device has no end.
+constexpr InputKind kHdf5 = {"HDF5 file", std::uint64_t{1} << 38};
 
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -253,6 +256,8 @@ std::uint64_t count_entries(const std::vector<std::uint64_t>& shape) {
 
 }  // namespace
 
+void leave_hdf5_alone_at_exit() { H5dont_atexit(); }
+
 Hdf5File::Hdf5File(std::int64_t handle, std::filesystem::path file)
     : handle_(handle), file_(std::move(file)) {}
 
@@ -261,15 +266,15 @@ Hdf5File::Hdf5File(Hdf5File&& other) noexcept
       file_(std::move(other.file_)) {}
 
 Hdf5File::~Hdf5File() {
+  if (handle_ < 0) return;
   const Quiet quiet;
-  if (handle_ >= 0) H5Fclose(handle_);
+  H5Fclose(handle_);
 }
 
 Hdf5File Hdf5File::create(const std::filesystem::path& file,
                           std::uint64_t user_block) {
   LIMBER_EXPECT(user_block == 0 ||
                 (user_block >= 512 && std::has_single_bit(user_block)));
-  prepare_library();
   const hid_t id =
       with_path(file, [&] { return create_file(file, user_block); });
   if (id < 0) {
@@ -282,11 +287,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file,
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
-  prepare_library();
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
-    throw InputError(fmt::format("'{}' does not exist", file.string()));
-  }
+  check_input(file, kHdf5);
   const Quiet quiet;
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) {

@@ -72,13 +72,6 @@ class Handle {
   Closer closer_;
 };
 
-/// At exit HDF5 would close what a full disk kept it from closing, and crash
-/// (h5py issue 914): every file is closed before, or has failed with an error.
-inline void prepare_library() {
-  static const herr_t before_first_use = H5dont_atexit();
-  static_cast<void>(before_first_use);
-}
-
 /// A file is what was written into it, not when: the same values give the same
 /// bytes.
 inline void leave_out_times(hid_t creation) {

@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
+#include "common/echo.hpp"
 #include "common/errors.hpp"
 
 namespace limber {
@@ -24,8 +26,10 @@ std::string list_names(const std::vector<std::string>& names) {
       names.size() > kMostListed
           ? fmt::format(" and {} more", names.size() - kMostListed)
           : "";
-  return fmt::format(
-      "{}{}", fmt::join(names.begin(), names.begin() + listed, ", "), more);
+  std::vector<std::string> shown;
+  std::transform(names.begin(), names.begin() + listed,
+                 std::back_inserter(shown), echo);
+  return fmt::format("{}{}", fmt::join(shown, ", "), more);
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -65,8 +69,8 @@ std::string describe_unknown(std::string_view kind, std::string_view name,
                              const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(name, known);
   const std::string hint =
-      nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  return fmt::format("unknown {} '{}'{} (known: {})", kind, name, hint,
+      nearest.empty() ? "" : fmt::format("; did you mean '{}'?", echo(nearest));
+  return fmt::format("unknown {} '{}'{} (known: {})", kind, echo(name), hint,
                      list_names(known));
 }
 

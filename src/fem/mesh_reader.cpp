@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "common/echo.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
 #include "fem/gmsh_session.hpp"
 #include "fem/mesh_checks.hpp"
 
@@ -31,10 +32,12 @@ std::string lower_extension(const std::filesystem::path& file) {
 }
 
 void check_readable(const std::filesystem::path& file) {
-  if (std::ifstream(file) && !std::filesystem::is_directory(file)) return;
-  throw InputError(
-      fmt::format("{}: cannot be read. Expected a .msh, .geo or .step file.",
-                  file.string()));
+  try {
+    check_input(file, kMeshInput);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}. Expected a .msh, .geo or .step file.", error.what()));
+  }
 }
 
 void check_request(const std::filesystem::path& file,
@@ -179,6 +182,12 @@ std::vector<RawGroup> read_groups() {
     group.dimension = dimension;
     gmsh::model::getPhysicalName(dimension, tag, group.name);
     if (group.name.empty()) group.name = std::to_string(tag);
+    if (has_control(group.name) || group.name.size() > kMostNameBytes) {
+      throw InputError(fmt::format(
+          "physical group '{}': a name has no control characters, and at most "
+          "{} bytes",
+          echo(group.name), kMostNameBytes));
+    }
     gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
     groups.push_back(std::move(group));
   }

@@ -13,6 +13,7 @@
 #include "common/digest.hpp"
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "common/input_file.hpp"
 #include "common/whole_file.hpp"
 #include "flexbody/body_file_reader.hpp"
 #include "flexbody/body_file_records.hpp"
@@ -21,6 +22,7 @@ namespace limber::flexbody {
 namespace {
 
 const char* const kFormat = "limber reduced body";
+constexpr InputKind kReducedBody = {"reduced body", std::uint64_t{1} << 36};
 
 // HDF5 leaves this many bytes at the start to the seal.
 constexpr std::size_t kSealSize = 512;
@@ -32,14 +34,15 @@ std::string make_seal(int version, const std::string& digest) {
   return seal;
 }
 
-// Digest of all bytes from where `in` stands.
-std::string calc_digest(std::istream& in) {
+// Digest of all bytes that `read(block, size)` still gives.
+template <typename Read>
+std::string calc_digest(const Read& read) {
   Digest digest;
   std::vector<char> block(std::size_t{1} << 20);
-  do {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    digest.add_bytes(block.data(), static_cast<std::size_t>(in.gcount()));
-  } while (in);
+  for (std::size_t count = block.size(); count == block.size();) {
+    count = read(block.data(), block.size());
+    digest.add_bytes(block.data(), count);
+  }
   return digest.text();
 }
 
@@ -225,10 +228,9 @@ void check_seal(const std::filesystem::path& file) {
   const auto problem = [&](const std::string& what) {
     return InputError(fmt::format("'{}' {}", file.string(), what));
   };
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw problem("cannot be read; does it exist?");
+  InputFile in(file, kReducedBody);
   std::string seal(kSealSize, '\0');
-  in.read(seal.data(), kSealSize);
+  const bool is_whole = in.read(seal.data(), kSealSize) == kSealSize;
   const std::optional<int> version = version_of(seal);
   if (!version) {
     throw problem(
@@ -240,7 +242,10 @@ void check_seal(const std::filesystem::path& file) {
                     "reduced body anew",
                     *version, kBodyFileVersion));
   }
-  if (!in || seal != make_seal(*version, calc_digest(in))) {
+  const auto read = [&](char* out, std::size_t size) {
+    return in.read(out, size);
+  };
+  if (!is_whole || seal != make_seal(*version, calc_digest(read))) {
     throw problem(
         "is damaged (its digest does not match its content); make the reduced "
         "body anew");
@@ -256,7 +261,11 @@ void seal_body_file(const std::filesystem::path& file) {
     throw InputError(fmt::format("'{}' cannot be sealed; is it a reduced body?",
                                  file.string()));
   }
-  const std::string seal = make_seal(kBodyFileVersion, calc_digest(stream));
+  const auto read = [&](char* out, std::size_t size) {
+    stream.read(out, static_cast<std::streamsize>(size));
+    return static_cast<std::size_t>(stream.gcount());
+  };
+  const std::string seal = make_seal(kBodyFileVersion, calc_digest(read));
   stream.clear();  // of the end of the file, to which the digest has read
   stream.seekp(0);
   stream.write(seal.data(), static_cast<std::streamsize>(seal.size()));

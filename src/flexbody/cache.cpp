@@ -5,8 +5,6 @@
 
 #include <cstdlib>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -14,7 +12,7 @@
 #include <utility>
 
 #include "common/digest.hpp"
-#include "common/errors.hpp"
+#include "common/input_file.hpp"
 #include "common/overloaded.hpp"
 #include "flexbody/body_file.hpp"
 
@@ -24,21 +22,12 @@ namespace {
 // Raise when the reduction itself changes: it makes old entries unknown.
 constexpr int kReductionVersion = 2;
 
-std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw InputError(fmt::format(
-        "mesh file '{}' cannot be read; does it exist?", file.string()));
-  }
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // Adds a .geo script and the files that it pulls in by its Include and Merge
 // lines, and those that they pull in; `seen` ends a circle.
 void add_script(const std::filesystem::path& file, Digest& digest,
                 std::set<std::filesystem::path>& seen) {
   if (!seen.insert(file.lexically_normal()).second) return;
-  const std::string script = read_bytes(file);
+  const std::string script = read_input(file, kMeshInput);
   digest.add(script);
   for (const char* keyword : {"Include", "Merge"}) {
     for (std::size_t at = script.find(keyword); at != std::string::npos;
@@ -63,7 +52,7 @@ void add_mesh(const MeshSource& mesh, Digest& digest) {
     std::set<std::filesystem::path> seen;
     add_script(mesh.file, digest, seen);
   } else {
-    digest.add(read_bytes(mesh.file));
+    digest.add(read_input(mesh.file, kMeshInput));
   }
   digest.add(mesh.size);
   digest.add(mesh.order);

@@ -5,18 +5,22 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <map>
+#include <optional>
+#include <sstream>
 #include <string>
 
+#include "common/echo.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
 #include "common/names.hpp"
+#include "common/parse_number.hpp"
 #include "scene/range.hpp"
 
 namespace limber::scene {
 namespace {
+
+constexpr InputKind kMaterial = {"material file", std::uint64_t{1} << 26};
 
 struct Token {
   std::string text;
@@ -83,25 +87,24 @@ class Parser {
   void expect(const std::string& mark) {
     const Token& token = take();
     if (token.text != mark) {
-      fail(fmt::format("expected '{}', found '{}'", mark, token.text));
+      fail(fmt::format("expected '{}', found '{}'", mark, echo(token.text)));
     }
   }
 
   double number(const std::string& key, const std::string& text,
                 const Range& range) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || end != text.c_str() + text.size() ||
-        !std::isfinite(value) || !range.contains(value)) {
-      fail(fmt::format("{} is '{}'; expected a number {}", key, text,
+    const std::optional<double> value = parse_number(text);
+    if (!value || !range.contains(*value)) {
+      fail(fmt::format("{} is '{}'; expected a number {}", key, echo(text),
                        range.text()));
     }
-    return value;
+    return *value;
   }
 
   flexbody::MaterialRegion read_section() {
     if (const std::string law = take().text; law != "elastic") {
-      fail(fmt::format("material law '{}'; only 'elastic' is known", law));
+      fail(
+          fmt::format("material law '{}'; only 'elastic' is known", echo(law)));
     }
     expect("[");
     flexbody::MaterialRegion region;
@@ -120,6 +123,9 @@ class Parser {
   void set(flexbody::MaterialRegion& region, const std::string& key,
            const std::string& value) {
     if (key == "name") {
+      if (has_control(value)) {
+        fail(fmt::format("name '{}' holds a control character", echo(value)));
+      }
       region.group = value;
     } else if (key == "rho") {
       region.material.density = number("rho [kg/m^3]", value, kPositive);
@@ -142,11 +148,7 @@ class Parser {
 
 std::vector<flexbody::MaterialRegion> read_akantu_materials(
     const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw InputError(
-        fmt::format("{}: cannot read this material file", file.string()));
-  }
+  std::istringstream stream(read_input(file, kMaterial));
   return Parser(file, read_tokens(stream)).run();
 }
 

@@ -3,33 +3,37 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "common/echo.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
+#include "common/parse_number.hpp"
 
 namespace limber::scene {
 namespace {
 
 using Row = std::vector<double>;
 
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
+
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const char* kind)
-      : file_(file), stream_(file) {
-    if (!stream_) {
-      throw InputError(
-          fmt::format("{}: cannot read this {}", file.string(), kind));
-    }
-  }
+      : file_(file),
+        text_(read_input(file, {kind, kMostBytes})),
+        left_(text_) {}
 
   /// The next row that is not blank; false at the end.
   bool next(Row& row) {
-    for (std::string line; std::getline(stream_, line);) {
+    while (!left_.empty()) {
+      const std::size_t end = std::min(left_.find('\n'), left_.size());
       ++line_;
-      row = parse(line);
+      row = parse(left_.substr(0, end));
+      left_.remove_prefix(std::min(end + 1, left_.size()));
       if (!row.empty()) return true;
     }
     return false;
@@ -40,34 +44,25 @@ class Reader {
   }
 
  private:
-  Row parse(const std::string& line) const {
-    // strtod would end there in silence.
-    if (line.find('\0') != std::string::npos) {
-      fail("it holds a byte 0, so it is no text of numbers");
-    }
+  Row parse(std::string_view line) const {
     Row row;
-    const char* at = line.c_str();
-    for (;;) {
-      char* end = nullptr;
-      const double value = std::strtod(at, &end);
-      if (end == at) break;
-      if (!std::isfinite(value)) {
-        fail(fmt::format("value {} is {}; expected a finite number",
-                         row.size() + 1, value));
+    for (const std::string_view word : split_words(line)) {
+      const std::optional<double> value = parse_number(word);
+      if (!value) {
+        if (word.find('\0') != std::string_view::npos) {
+          fail("it holds a byte 0, so it is no text of numbers");
+        }
+        fail(fmt::format("value {}: '{}' is not a number, or not a finite one",
+                         row.size() + 1, echo(word)));
       }
-      row.push_back(value);
-      at = end;
-    }
-    const std::string rest = at;
-    if (const auto junk = rest.find_first_not_of(" \t\r");
-        junk != std::string::npos) {
-      fail(fmt::format("'{}' is not a number", rest.substr(junk, 20)));
+      row.push_back(*value);
     }
     return row;
   }
 
   const std::filesystem::path& file_;
-  std::ifstream stream_;
+  std::string text_;
+  std::string_view left_;
   int line_ = 0;
 };
 

@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "common/echo.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
 #include "scene/extension_reader.hpp"
 #include "scene/urdf_joints.hpp"
 #include "scene/urdf_tree.hpp"
@@ -16,6 +15,8 @@
 
 namespace limber::scene {
 namespace {
+
+constexpr InputKind kRobot = {"robot file", std::uint64_t{1} << 28};
 
 /// Keeps what urdfdom would print, for as long as it lives.
 class LogCapture : public console_bridge::OutputHandler {
@@ -154,7 +155,7 @@ void read_standard_part(const std::string& xml, Robot& robot,
                         Problems& problems) {
   LogCapture capture;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(xml);
-  for (const std::string& text : capture.errors) problems.add(0, text);
+  for (const std::string& text : capture.errors) problems.add(0, echo(text));
   if (!model || !problems.empty()) {
     if (problems.empty()) problems.add(0, "not a URDF robot");
     return;
@@ -163,13 +164,7 @@ void read_standard_part(const std::string& xml, Robot& robot,
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
-    throw InputError(
-        fmt::format("{}: cannot read this robot file", file.string()));
-  }
-  const std::string xml = text.str();
+  std::string xml = read_input(file, kRobot);
   if (xml.find('\0') != std::string::npos) {
     throw InputError(fmt::format(
         "{}: holds a byte 0, so it is not the text of a robot; save it as "
@@ -195,6 +190,45 @@ const TiXmlElement& parse_root(TiXmlDocument& document, const std::string& xml,
   return *root;
 }
 
+// A line break between two numbers is fine, one in a name is not.
+std::string find_problem(std::string_view attribute, std::string value) {
+  const bool is_name = attribute == "name" || attribute == "link" ||
+                       attribute == "joint" || attribute == "group" ||
+                       attribute == "interface";
+  if (is_name && value.size() > kMostNameBytes) {
+    return fmt::format("is too long; a name has {} bytes at most",
+                       kMostNameBytes);
+  }
+  if (!is_name) {
+    std::erase_if(value,
+                  [](char c) { return c == '\n' || c == '\r' || c == '\t'; });
+  }
+  return has_control(value)
+             ? "holds a control character, which no name or number has"
+             : "";
+}
+
+void check_text(const TiXmlElement& root, Problems& problems) {
+  std::vector<const TiXmlElement*> left = {&root};
+  while (!left.empty()) {
+    const TiXmlElement* element = left.back();
+    left.pop_back();
+    for (const TiXmlAttribute* a = element->FirstAttribute(); a != nullptr;
+         a = a->Next()) {
+      const std::string problem = find_problem(a->NameTStr(), a->ValueStr());
+      if (problem.empty()) continue;
+      problems.add(
+          element->Row(),
+          fmt::format("<{}> {}=\"{}\" {}", echo(element->ValueStr()),
+                      echo(a->NameTStr()), echo(a->ValueStr()), problem));
+    }
+    for (const TiXmlElement* child = element->FirstChildElement();
+         child != nullptr; child = child->NextSiblingElement()) {
+      left.push_back(child);
+    }
+  }
+}
+
 }  // namespace
 
 Robot read_robot(const std::filesystem::path& file) {
@@ -204,6 +238,7 @@ Robot read_robot(const std::filesystem::path& file) {
   problems.raise();
   TiXmlDocument document;
   const TiXmlElement& root = parse_root(document, xml, problems);
+  check_text(root, problems);
   check_urdf_tree(root, problems);
   problems.raise();
   check_urdf_joints(root, problems);

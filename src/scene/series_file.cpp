@@ -5,58 +5,65 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 
+#include "common/echo.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
+#include "common/parse_number.hpp"
 
 namespace limber::scene {
 namespace {
 
-bool is_passed_over(const std::string& line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  return first == std::string::npos || line[first] == '#';
-}
+constexpr InputKind kTable = {"table", std::uint64_t{1} << 30};
 
-bool is_heading(const std::string& line) {
+bool is_heading(std::string_view line) {
   return std::none_of(line.begin(), line.end(),
                       [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+struct Point {
+  double time;
+  double value;
+};
+
+std::optional<Point> read_point(std::string line) {
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == ',' || c == ';'; },
+      ' ');
+  const auto words = split_words(line);
+  if (words.size() != 2) return std::nullopt;
+  const auto time = parse_number(words[0]);
+  const auto value = parse_number(words[1]);
+  if (!time || !value) return std::nullopt;
+  return Point{*time, *value};
 }
 
 }  // namespace
 
 Series read_series(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw InputError(fmt::format("{}: cannot read this table", file.string()));
-  }
+  std::istringstream text(read_input(file, kTable));
   Series series;
   int number = 0;
   bool may_be_heading = true;
-  for (std::string line; std::getline(stream, line);) {
+  for (std::string line; std::getline(text, line);) {
     ++number;
-    if (is_passed_over(line)) continue;
+    const auto words = split_words(line);
+    if (words.empty() || words.front().starts_with('#')) continue;
     const bool skip = may_be_heading && is_heading(line);
     may_be_heading = false;
     if (skip) continue;
-    std::string text = line;
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; },
-        ' ');
-    std::istringstream words(text);
-    double time = 0.0;
-    double value = 0.0;
-    std::string rest;
-    if (!(words >> time >> value) || words >> rest || !std::isfinite(time) ||
-        !std::isfinite(value)) {
+    const std::optional<Point> point = read_point(line);
+    if (!point) {
       throw InputError(fmt::format(
           "{}:{}: '{}' is not a time [s] and a value, two finite numbers",
-          file.string(), number, line.substr(0, 40)));
+          file.string(), number, echo(line)));
     }
-    series.times.push_back(time);
-    series.values.push_back(value);
+    series.times.push_back(point->time);
+    series.values.push_back(point->value);
   }
   return series;
 }

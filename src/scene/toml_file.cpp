@@ -3,22 +3,20 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "common/echo.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
 #include "scene/key_depth.hpp"
 
 namespace limber::scene {
+namespace {
+
+constexpr InputKind kScenario = {"scenario file", std::uint64_t{1} << 26};
+
+}  // namespace
 
 toml::table parse_toml_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
-    throw InputError(
-        fmt::format("{}: cannot read this scenario file", file.string()));
-  }
-  const std::string toml = text.str();
+  const std::string toml = read_input(file, kScenario);
   if (const auto line = find_overlong_key(toml)) {
     throw InputError(
         fmt::format("{}:{}: a key of more than {} parts; no key of a scenario "
@@ -30,7 +28,7 @@ toml::table parse_toml_file(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     throw InputError(fmt::format("{}:{}: not valid TOML: {}", file.string(),
                                  error.source().begin.line,
-                                 error.description()));
+                                 echo(error.description())));
   }
 }
 

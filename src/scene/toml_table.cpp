@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/echo.hpp"
+
 namespace limber::scene {
 namespace {
 
@@ -33,7 +35,7 @@ void TomlTable::fail(const std::string& text) const {
 
 void TomlTable::fail(const std::string& key, const std::string& text) const {
   const toml::node* node = table_.get(key);
-  const std::string where = path_.empty() ? key : path_ + "." + key;
+  const std::string where = path_.empty() ? echo(key) : path_ + "." + echo(key);
   problems_.add(node == nullptr ? line() : line_of(*node), where + ": " + text);
 }
 
@@ -50,8 +52,20 @@ const toml::node* TomlTable::find(const std::string& key) {
 std::optional<std::string> TomlTable::text(const std::string& key) {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
-  if (node->is_string()) return node->value<std::string>();
-  fail_type(key, *node, "a string");
+  if (!node->is_string()) {
+    fail_type(key, *node, "a string");
+    return std::nullopt;
+  }
+  std::string value = *node->value<std::string>();
+  if (has_control(value)) {
+    fail(key, fmt::format("'{}' holds a control character, which no name has",
+                          echo(value)));
+  } else if (key == "name" && value.size() > kMostNameBytes) {
+    fail(key, fmt::format("'{}' is too long; a name has {} bytes at most",
+                          echo(value), kMostNameBytes));
+  } else {
+    return value;
+  }
   return std::nullopt;
 }
 

@@ -3,29 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
-#include <sstream>
+#include <string_view>
 
+#include "common/echo.hpp"
 #include "common/names.hpp"
+#include "common/parse_number.hpp"
 
 namespace limber::scene {
-namespace {
-
-std::optional<double> parse_number(const std::string& text) {
-  double value = 0.0;
-  const char* first = text.data();
-  const char* last = first + text.size();
-  if (first != last && *first == '+') ++first;
-  const auto [end, error] = std::from_chars(first, last, value);
-  if (error != std::errc{} || end != last || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-}  // namespace
-
 void XmlElement::fail(const std::string& text) const {
   problems_.add(line(), fmt::format("<{}> {}", tag(), text));
 }
@@ -50,11 +35,11 @@ std::optional<std::vector<double>> XmlElement::numbers(const std::string& name,
   const std::optional<std::string> value = text(name);
   if (!value) return std::nullopt;
   std::vector<double> result;
-  std::istringstream words(*value);
-  for (std::string word; words >> word;) {
+  for (const std::string_view word : split_words(*value)) {
     const std::optional<double> number = parse_number(word);
     if (!number || !range.contains(*number)) {
-      fail(fmt::format("{}=\"{}\": expected {}", name, *value, range.text()));
+      fail(fmt::format("{}=\"{}\": expected {}", name, echo(*value),
+                       range.text()));
       return std::nullopt;
     }
     result.push_back(*number);
@@ -97,7 +82,7 @@ std::optional<bool> XmlElement::boolean(const std::string& name) {
   if (!value) return std::nullopt;
   if (*value == "true" || *value == "1") return true;
   if (*value == "false" || *value == "0") return false;
-  fail(fmt::format("{}=\"{}\": expected true or false", name, *value));
+  fail(fmt::format("{}=\"{}\": expected true or false", name, echo(*value)));
   return std::nullopt;
 }
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/echo.hpp"
+
+#include <fmt/format.h>
+
+namespace limber {
+namespace {
+
+constexpr std::size_t kMostCharacters = 200;
+
+unsigned char byte_at(std::string_view text, std::size_t at) {
+  return static_cast<unsigned char>(text[at]);
+}
+
+// Bytes of the control character at `at`, or none. In UTF-8 U+0080 to U+009F
+// take two.
+std::size_t measure_control(std::string_view text, std::size_t at) {
+  const unsigned char first = byte_at(text, at);
+  if (first < 0x20 || first == 0x7f) return 1;
+  if (first != 0xc2 || at + 1 == text.size()) return 0;
+  const unsigned char second = byte_at(text, at + 1);
+  return second >= 0x80 && second < 0xa0 ? 2 : 0;
+}
+
+std::string spell_out(std::string_view control) {
+  if (control == "\n") return "\\n";
+  if (control == "\t") return "\\t";
+  std::string text;
+  for (std::size_t i = 0; i < control.size(); ++i) {
+    text += fmt::format("\\x{:02x}", byte_at(control, i));
+  }
+  return text;
+}
+
+bool continues(unsigned char byte) { return (byte & 0xc0U) == 0x80U; }
+
+// How much of it is not more than so many characters of UTF-8.
+std::size_t measure_start(std::string_view text, std::size_t characters) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (continues(byte_at(text, at)) && at < 4 * characters) continue;
+    if (count++ == characters) return at;
+  }
+  return text.size();
+}
+
+std::string rewrite(std::string_view text, bool keeps_lines) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t size = measure_control(text, at);
+    if (size == 0 || (keeps_lines && text[at] == '\n')) {
+      out += text[at++];
+      continue;
+    }
+    out += spell_out(text.substr(at, size));
+    at += size;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string echo(std::string_view text) {
+  const std::size_t shown = measure_start(text, kMostCharacters);
+  std::string out = rewrite(text.substr(0, shown), false);
+  if (shown < text.size()) {
+    out += fmt::format("... ({} bytes in all)", text.size());
+  }
+  return out;
+}
+
+std::string spell_out_controls(std::string_view message) {
+  return rewrite(message, true);
+}
+
+bool has_control(std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (measure_control(text, at) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace limber
