@@ -100,13 +100,13 @@ void BlockLu::scale_row(int row, const Matrix6& factor) {
   }
 }
 
-bool BlockLu::factor() {
+std::optional<int> BlockLu::factor() {
   for (const Pivot& pivot : pivots_) {
     const std::size_t row = index(pivot.row);
     // A row's diagonal block is the first that was added to it.
     Matrix6& diagonal = blocks_[index(index_[row].front().second)];
     inverses_[row] = diagonal.inverse();
-    if (!inverses_[row].allFinite()) return false;
+    if (!inverses_[row].allFinite()) return pivot.row;
     for (const int lower : pivot.lower) {
       const Matrix6 product = blocks_[index(lower)] * inverses_[row];
       blocks_[index(lower)] = product;
@@ -116,7 +116,7 @@ bool BlockLu::factor() {
           blocks_[index(u.lower)] * blocks_[index(u.upper)];
     }
   }
-  return true;
+  return std::nullopt;
 }
 
 void BlockLu::solve(std::vector<Vector6>& x) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,8 +28,9 @@ class BlockLu {
   Matrix6& block(int row, int column);
   /// Multiplies every block of a row from the left.
   void scale_row(int row, const Matrix6& factor);
-  /// Factors in place. @returns false if a pivot block is singular.
-  [[nodiscard]] bool factor();
+  /// Factors in place. @returns the row whose pivot block is singular, if one
+  /// is: there it shows; rows eliminated before share in it.
+  [[nodiscard]] std::optional<int> factor();
   /// Solves in place, `x` in blocks of six.
   void solve(std::vector<Vector6>& x) const;
 

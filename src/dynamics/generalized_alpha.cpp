@@ -331,8 +331,10 @@ double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
       // What new frames do not mend, new stiffnesses may.
       try {
         refactor(result.factorizations > 0);
-      } catch (const NumericalError&) {
-        fail(from, h, correction, "Newton's method diverged");
+      } catch (const NumericalError& error) {
+        // It names its own body or coupler; no correction tells of it.
+        throw NumericalError(fmt::format(
+            "{} (a step of {:.3g} s to t = {:.9g} s)", error.what(), h, end));
       }
       ++result.factorizations;
       factored_step_ = h;

@@ -348,6 +348,24 @@ void NewtonMatrix::factor_full(const SystemModel& model,
   }
 }
 
+// What is not finite is the cause, wherever the elimination meets it first.
+std::string NewtonMatrix::describe_singular(const SystemModel& model,
+                                            const SystemTerms& terms,
+                                            int row) const {
+  const auto name = [&](std::size_t link) {
+    return link < couplers_
+               ? fmt::format("coupler '{}'", model.couplers[link].name)
+               : fmt::format("transmission '{}'",
+                             model.transmissions[link - couplers_].name);
+  };
+  for (std::size_t link = 0; link < rows_.size(); ++link) {
+    if (find_stiffness(terms, link, 1.0).allFinite()) continue;
+    return name(link) + ": its stiffness or damping is no longer finite";
+  }
+  return name(index(row)) +
+         ": the matrix of what it holds, and bodies give way, is singular";
+}
+
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           SystemTerms& terms,
                           const std::vector<Vector3>& rotation_increments,
@@ -363,9 +381,8 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
     if (end_terms != nullptr) calc_modal_rows(model, *end_terms, end);
   }
   assemble(terms, coefficients);
-  if (!lu_.factor()) {
-    throw NumericalError(
-        "the couplers' flexibility matrix is singular or not finite");
+  if (const std::optional<int> row = lu_.factor()) {
+    throw NumericalError(describe_singular(model, terms, *row));
   }
 }
 

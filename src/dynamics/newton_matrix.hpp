@@ -139,6 +139,9 @@ class NewtonMatrix {
   void solve_body(const BodyModel& body, const BodyFactor& factor,
                   double* x) const;
   void assemble(const SystemTerms& terms, const Coefficients& c);
+  [[nodiscard]] std::string describe_singular(const SystemModel& model,
+                                              const SystemTerms& terms,
+                                              int row) const;
 
   std::vector<BodyFactor> bodies_;
   std::vector<FullFactor> full_;
