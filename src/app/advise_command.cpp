@@ -8,8 +8,8 @@
 
 #include "app/commands.hpp"
 #include "app/levels.hpp"
+#include "app/output_folder.hpp"
 #include "app/reducer.hpp"
-#include "app/run_scene.hpp"
 #include "app/terminal.hpp"
 #include "app/text_file.hpp"
 #include "app/validators.hpp"
@@ -77,23 +77,25 @@ Json summarize(const scene::Scene& scene, const std::vector<BodyLevel>& levels,
 
 void advise(const Options& options) {
   const scene::Scene scene = load(options);
-  const std::filesystem::path folder =
-      options.out.empty()
-          ? std::filesystem::path("out") / (scene.scenario.name + "-advise")
-          : std::filesystem::path(options.out);
-  check_output_folder(folder);
+  const OutputFolder folder(options.out.empty()
+                                ? std::filesystem::path("out") /
+                                      (scene.scenario.name + "-advise")
+                                : std::filesystem::path(options.out));
   const std::vector<BodyLevel> levels = advise_scene(scene, options.cache);
-  const Json json = summarize(scene, levels, folder);
-  write_text(folder / "advice.json", to_text(json));
-  if (scene.scenario.output.pictures) {
-    write_picture(folder / "advice.png", scene.scenario.name, levels);
-  }
+  const Json json = summarize(scene, levels, folder.path());
+  folder.write([&](const std::filesystem::path& place) {
+    write_text(place / "advice.json", to_text(json));
+    if (scene.scenario.output.pictures) {
+      write_picture(place / "advice.png", scene.scenario.name, levels);
+    }
+  });
   if (options.json) {
     fmt::print("{}\n", to_text(json));
     return;
   }
   for (const BodyLevel& level : levels) fmt::print("{}\n", to_text(level));
-  fmt::print("{}\nresults in {}\n", to_fidelity_table(levels), folder.string());
+  fmt::print("{}\nresults in {}\n", to_fidelity_table(levels),
+             folder.path().string());
 }
 
 }  // namespace

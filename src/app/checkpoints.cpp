@@ -87,6 +87,7 @@ dynamics::Continuation make_continuation(
     const CheckpointPlan& plan, const std::function<Manifest()>& describe,
     results::History& history, std::vector<std::string>& warnings) {
   dynamics::Continuation continuation;
+  if (plan.signals != nullptr) plan.signals->begin();
   if (plan.file.empty()) return continuation;
   const auto keeper = std::make_shared<Keeper>(
       [file = plan.file, describe] {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/interruption.hpp"
 #include "common/manifest.hpp"
 #include "dynamics/simulation.hpp"
 #include "results/history.hpp"
@@ -17,11 +18,13 @@ struct CheckpointPlan {
   std::filesystem::path file;  ///< empty: none
   double interval = 60.0;      ///< of wall time [s]
   bool resumes = false;
+  DeferredSignals* signals = nullptr;  ///< deferred from when steps begin
 };
 
 /// The plan at work on a run. A checkpoint to go on from is read at once, with
 /// the history up to it; without one the run begins anew, with a warning. A
 /// checkpoint that cannot be written is a warning, once, and the run goes on.
+/// From then on `plan.signals` ends the run between two steps.
 /// @param describe makes the run's manifest, when it is needed
 /// @param history outlives what is returned
 /// @param warnings likewise; what was printed as it came is added

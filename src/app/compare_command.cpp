@@ -8,6 +8,7 @@
 #include "app/comparison.hpp"
 #include "app/comparison_report.hpp"
 #include "app/comparison_selection.hpp"
+#include "app/output_folder.hpp"
 #include "app/text_file.hpp"
 #include "app/validators.hpp"
 #include "common/errors.hpp"
@@ -76,12 +77,11 @@ ComparisonSettings make_settings(const Options& options) {
   return settings;
 }
 
-fs::path write_chosen(const ComparedRun& run, const Demand& demand,
-                      const ComparisonSettings& settings) {
-  fs::path file = settings.folder / "chosen.toml";
+void write_chosen(const ComparedRun& run, const Demand& demand,
+                  const ComparisonSettings& settings, const fs::path& place) {
   const auto error = find_error(run.error->error, demand.measure);
   write_text(
-      file,
+      place / "chosen.toml",
       fmt::format(
           "# {}: the cheapest choice within {} that limber compare found,\n"
           "#   {}\n"
@@ -90,7 +90,6 @@ fs::path write_chosen(const ComparedRun& run, const Demand& demand,
           describe(run.choice), to_percent(error),
           scene::rewrite_scenario(settings.scenario, to_overrides(run.choice),
                                   settings.folder)));
-  return file;
 }
 
 Json chosen_to_json(const Demand& demand, const ComparedRun* chosen,
@@ -116,28 +115,52 @@ std::string describe_chosen(const Demand& demand, const ComparedRun& chosen,
       comparison.reference.cost.online / chosen.cost.online, file.string());
 }
 
-void report(const Comparison& comparison, const std::optional<Demand>& demand,
-            const ComparisonSettings& settings, bool as_json) {
-  const ComparedRun* chosen =
-      demand ? find_cheapest(comparison, *demand) : nullptr;
-  // What an earlier comparison chose would pass for this one's.
-  fs::remove(settings.folder / "chosen.toml");
-  fs::path file;
-  if (chosen != nullptr) file = write_chosen(*chosen, *demand, settings);
-  Json json = to_json(comparison);
-  if (demand) json["chosen"] = chosen_to_json(*demand, chosen, file);
-  write_text(settings.folder / "comparison.json", to_text(json));
-  if (as_json) {
-    json["folder"] = settings.folder.string();
-    fmt::print("{}\n", to_text(json));
-    return;
+/// What the comparison says and draws.
+class ComparisonWriter {
+ public:
+  ComparisonWriter(const Comparison& comparison,
+                   const std::optional<Demand>& demand,
+                   const ComparisonSettings& settings)
+      : comparison_(comparison),
+        demand_(demand),
+        settings_(settings),
+        chosen_(demand ? find_cheapest(comparison, *demand) : nullptr),
+        file_(chosen_ == nullptr ? fs::path()
+                                 : settings.folder / "chosen.toml"),
+        json_(to_json(comparison)) {
+    if (demand) json_["chosen"] = chosen_to_json(*demand, chosen_, file_);
   }
-  fmt::print("{}", to_text(comparison));
-  if (chosen != nullptr) {
-    fmt::print("{}", describe_chosen(*demand, *chosen, comparison, file));
+
+  void write(const fs::path& place, bool pictures) const {
+    if (chosen_ != nullptr) write_chosen(*chosen_, *demand_, settings_, place);
+    write_text(place / "comparison.json", to_text(json_));
+    if (!pictures) return;
+    draw_comparison(comparison_, place,
+                    demand_ ? std::optional(demand_->tolerance) : std::nullopt);
   }
-  fmt::print("results in {}\n", settings.folder.string());
-}
+
+  void print(bool as_json) const {
+    if (as_json) {
+      Json json = json_;
+      json["folder"] = settings_.folder.string();
+      fmt::print("{}\n", to_text(json));
+      return;
+    }
+    fmt::print("{}", to_text(comparison_));
+    if (chosen_ != nullptr) {
+      fmt::print("{}", describe_chosen(*demand_, *chosen_, comparison_, file_));
+    }
+    fmt::print("results in {}\n", settings_.folder.string());
+  }
+
+ private:
+  const Comparison& comparison_;
+  const std::optional<Demand>& demand_;
+  const ComparisonSettings& settings_;
+  const ComparedRun* chosen_;
+  fs::path file_;
+  Json json_;
+};
 
 void compare(const Options& options) {
   const Axes axes = make_axes(options);
@@ -150,16 +173,16 @@ void compare(const Options& options) {
   for (const Choice& choice : plan.runs) {
     (void)scene::load_scene(options.scenario, to_overrides(choice));
   }
-  check_output_folder(settings.folder);
+  const OutputFolder folder(settings.folder);
   // Before the runs: who does not want it need not wait for them.
   const std::string note = describe_default_reference(plan);
   if (!note.empty()) fmt::print(stderr, "limber: {}\n", note);
   const Comparison comparison = run_comparison(plan, settings);
-  if (scene.scenario.output.pictures) {
-    draw_comparison(comparison, settings.folder,
-                    demand ? std::optional(demand->tolerance) : std::nullopt);
-  }
-  report(comparison, demand, settings, options.json);
+  const ComparisonWriter writer(comparison, demand, settings);
+  folder.write([&](const fs::path& place) {
+    writer.write(place, scene.scenario.output.pictures);
+  });
+  writer.print(options.json);
   if (demand && find_cheapest(comparison, *demand) == nullptr) {
     refuse(comparison, *demand);
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/output_folder.hpp"
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
@@ -156,11 +157,12 @@ class Runner {
     const bool is_reference = choice == plan_.reference;
     const std::filesystem::path folder =
         settings_.folder / (is_reference ? "reference" : name);
-    check_output_folder(folder);
     Run judged = run;
     judged.levels =
         judge_run(run.scene, run.built, run.history, settings_.cache);
-    write_run(judged, folder, run.scene.scenario.output.xdmf);
+    OutputFolder(folder).write([&](const std::filesystem::path& place) {
+      write_run(judged, place, run.scene.scenario.output.xdmf);
+    });
   }
 
   ComparedRun assess(const Choice& choice, const Run& run,

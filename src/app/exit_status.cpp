@@ -3,41 +3,93 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <filesystem>
+#include <iostream>
 #include <new>
+#include <system_error>
 
+#include "app/interruption.hpp"
+#include "app/terminal.hpp"
 #include "common/errors.hpp"
+#include "dynamics/interrupted.hpp"
 
 namespace limber::app {
 namespace {
 
-int fail(const char* text, ExitStatus status) {
-  fmt::print(stderr, "limber: error: {}\n", text);
+ExitStatus fail(const std::string& text, ExitStatus status) {
+  print_error(text);
   return status;
 }
 
-}  // namespace
+int refuse(const InputError& error) {
+  for (const std::string& text : error.problems()) print_error(text);
+  return kBadInput;
+}
 
-int run_guarded(const std::function<void()>& work) {
+int fail_output(const std::string& why) {
+  return fail(fmt::format("standard output cannot be written ({}); files that "
+                          "were asked for are whole",
+                          why),
+              kBadInput);
+}
+
+// What is printed waits in a buffer: only now is it known to be written.
+bool has_written_output() {
+  return std::cout.flush() && std::fflush(stdout) == 0 &&
+         std::ferror(stdout) == 0;
+}
+
+bool lacks_resources(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return system != nullptr &&
+         (system->code() == std::errc::resource_unavailable_try_again ||
+          system->code() == std::errc::not_enough_memory ||
+          system->code() == std::errc::too_many_files_open);
+}
+
+int find_status(const std::function<void()>& work) {
   try {
     work();
     return kSuccess;
   } catch (const InputError& error) {
-    for (const std::string& text : error.problems()) {
-      fmt::print(stderr, "limber: error: {}\n", text);
-    }
-    return kBadInput;
+    return refuse(error);
+  } catch (const dynamics::Interrupted& end) {
+    print_notice(end.what());
+    return 128 + find_noted_signal();
   } catch (const NumericalError& error) {
     return fail(error.what(), kNoSolution);
   } catch (const std::bad_alloc&) {
     return fail("out of memory; a coarser mesh or fewer outputs need less",
                 kNoSolution);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(error.what(), kBadInput);
   } catch (const std::exception& error) {
-    fmt::print(stderr,
-               "limber: error: a defect of limber, not of your input: {}\n",
-               error.what());
-    return kDefect;
+    if (std::ferror(stdout) != 0) return fail_output(error.what());
+    if (lacks_resources(error)) {
+      return fail(
+          fmt::format("no more threads, files or memory: {}", error.what()),
+          kNoSolution);
+    }
+    return fail(
+        fmt::format("a defect of limber, not of your input: {}", error.what()),
+        kDefect);
   }
+}
+
+}  // namespace
+
+int run_guarded(const std::function<void()>& work) {
+  const int status = find_status(work);
+  errno = 0;
+  if (!has_written_output() && status == kSuccess) {
+    return fail_output(std::generic_category().message(errno));
+  }
+  if (status != kSuccess || find_noted_signal() == 0) return status;
+  print_notice(fmt::format("{} came after the end; all files are whole",
+                           name_signal(find_noted_signal())));
+  return 128 + find_noted_signal();
 }
 
 }  // namespace limber::app

@@ -4,14 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/commands.hpp"
 #include "app/mesh_options.hpp"
 #include "app/operate.hpp"
-#include "app/run_scene.hpp"
+#include "app/output_folder.hpp"
 #include "app/terminal.hpp"
 #include "app/text_file.hpp"
 #include "common/hdf5_file.hpp"
+#include "common/whole_file.hpp"
 
 namespace limber::app {
 namespace {
@@ -49,16 +51,18 @@ OperatingRequest make_request(const Options& options) {
 
 void write_fields(const OperatingAnswer& answer,
                   const std::filesystem::path& file) {
-  Hdf5File out = Hdf5File::create(file);
-  out.write("tags",
-            std::vector<std::int64_t>(answer.tags.begin(), answer.tags.end()),
-            "1", "Gmsh tags of the nodes");
-  out.write("x", MatrixX(answer.surface.points), "m",
-            "undeformed nodes, mesh frame, 3 x N");
-  out.write("u", MatrixX(answer.u), "m", "their displacements, 3 x N");
-  out.write("internal_force", MatrixX(answer.internal_force), "N",
-            "elastic nodal forces K u, 3 x N");
-  out.close();
+  write_whole(file, [&](const std::filesystem::path& part) {
+    Hdf5File out = Hdf5File::create(part);
+    out.write("tags",
+              std::vector<std::int64_t>(answer.tags.begin(), answer.tags.end()),
+              "1", "Gmsh tags of the nodes");
+    out.write("x", MatrixX(answer.surface.points), "m",
+              "undeformed nodes, mesh frame, 3 x N");
+    out.write("u", MatrixX(answer.u), "m", "their displacements, 3 x N");
+    out.write("internal_force", MatrixX(answer.internal_force), "N",
+              "elastic nodal forces K u, 3 x N");
+    out.close();
+  });
 }
 
 /// To a tenth of the body's size, if it is less.
@@ -84,12 +88,15 @@ void operate(const Options& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
   const OperatingRequest request = make_request(options);
-  if (!options.out.empty()) check_output_folder(options.out);
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out);
   const OperatingAnswer answer =
       find_operating_state(recipe, request, make_progress_bar());
   clear_progress_bar();
-  if (!options.out.empty()) {
-    write(answer, recipe.name + ", " + options.state, options.out);
+  if (folder) {
+    folder->write([&](const std::filesystem::path& place) {
+      write(answer, recipe.name + ", " + options.state, place);
+    });
   }
   if (!answer.trust.empty()) print_warnings({answer.trust});
   fmt::print("{}\n",

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "app/commands.hpp"
+#include "app/interruption.hpp"
+#include "app/output_folder.hpp"
 #include "app/run_scene.hpp"
 #include "app/validators.hpp"
 #include "dynamics/fidelity.hpp"
@@ -38,17 +40,19 @@ void run(const Options& options) {
     overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
   }
   const scene::Scene scene = scene::load_scene(options.scenario, overrides);
-  const std::filesystem::path folder = find_folder(options, scene.scenario);
-  check_output_folder(folder);
+  const OutputFolder folder(find_folder(options, scene.scenario));
+  DeferredSignals signals;
   const CheckpointPlan checkpoints = {
-      folder / "checkpoint.bin",
+      folder.path() / "checkpoint.bin",
       options.checkpoint_interval.value_or(
           scene.scenario.output.checkpoint_interval),
-      options.resumes};
+      options.resumes, &signals};
   const Run result = run_scene(scene, options.cache, checkpoints);
-  write_run(result, folder, options.xdmf || scene.scenario.output.xdmf);
-  results::remove_checkpoint(checkpoints.file);
-  finish_run(result, folder, options.json);
+  folder.write([&](const std::filesystem::path& place) {
+    write_run(result, place, options.xdmf || scene.scenario.output.xdmf);
+  });
+  if (find_noted_signal() == 0) results::remove_checkpoint(checkpoints.file);
+  finish_run(result, folder.path(), options.json);
 }
 
 }  // namespace

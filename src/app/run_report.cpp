@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "app/event_report.hpp"
+#include "app/interruption.hpp"
 #include "app/run_scene.hpp"
 #include "app/terminal.hpp"
+#include "dynamics/interrupted.hpp"
 #include "results/energy_audit.hpp"
 
 namespace limber::app {
@@ -69,12 +71,25 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("results in {}\n", folder.string());
 }
 
+void raise_failure(const Run& run, const std::filesystem::path& folder) {
+  try {
+    std::rethrow_exception(run.failure);
+  } catch (const dynamics::Interrupted& end) {
+    throw dynamics::Interrupted(
+        fmt::format("{} by {}; results up to there are in '{}'{}", end.what(),
+                    name_signal(find_noted_signal()), folder.string(),
+                    std::filesystem::exists(folder / "checkpoint.bin")
+                        ? "; go on with --resume"
+                        : ""));
+  }
+}
+
 }  // namespace
 
 void finish_run(const Run& run, const std::filesystem::path& folder,
                 bool json) {
   print_warnings(find_level_warnings(run.levels));
-  if (run.failure) std::rethrow_exception(run.failure);
+  if (run.failure) raise_failure(run, folder);
   if (json) {
     Json summary = summarize(run);
     summary["folder"] = folder.string();

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/run_scene.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "app/event_report.hpp"
+#include "app/interruption.hpp"
 #include "app/mode_options.hpp"
 #include "app/reducer.hpp"
 #include "app/run_manifest.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
 #include "dynamics/energy_verdict.hpp"
+#include "dynamics/interrupted.hpp"
 #include "flexbody/cache.hpp"
 #include "results/energy_audit.hpp"
 #include "scene/followed_probes.hpp"
@@ -108,6 +106,17 @@ Json summarize_selections(const Run& run) {
   return json;
 }
 
+/// Ends a run between two steps once a signal was noted.
+Progress watch_signals(const Progress& bar) {
+  return [bar](std::string_view what, double fraction) {
+    const bool is_done = fraction >= 1.0;
+    if (find_noted_signal() != 0 && !is_done) {
+      throw dynamics::Interrupted("interrupted");
+    }
+    report(bar, what, fraction);
+  };
+}
+
 int count_modes(const Run& run) { return run.built.model.modal_count; }
 
 }  // namespace
@@ -144,27 +153,15 @@ double time_again(const Run& run, const Progress& progress) {
 
 Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
               const CheckpointPlan& checkpoints) {
-  const Progress progress = make_progress_bar();
+  const Progress progress = watch_signals(make_progress_bar());
   Run run = simulate_scene(scene, make_reducer(progress), cache, progress,
                            checkpoints);
   clear_progress_bar();
   print_warnings(run.built.warnings);
   print_warnings(run.statistics.warnings);
-  run.levels = judge_run(scene, run.built, run.history, cache);
+  if (find_noted_signal() == 0)
+    run.levels = judge_run(scene, run.built, run.history, cache);
   return run;
-}
-
-void check_output_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const std::filesystem::path probe =
-      folder / fmt::format(".limber-{}", getpid());
-  const bool written = !error && std::ofstream(probe).put('x').flush().good();
-  std::filesystem::remove(probe, error);
-  if (written) return;
-  throw InputError(fmt::format(
-      "results folder '{}' cannot be written; choose another with --out",
-      folder.string()));
 }
 
 Json summarize(const Run& run) {

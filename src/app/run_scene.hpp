@@ -43,17 +43,14 @@ struct Run {
 /// Wall time that simulating the run once more takes, outputs included [s].
 [[nodiscard]] double time_again(const Run& run, const Progress& progress);
 
-/// Makes `folder` and checks that it can be written, before a long run.
-/// @throws InputError if not.
-void check_output_folder(const std::filesystem::path& folder);
-
 /// The run in figures: steps, times, energy, probes (name -> final,
 /// peak, peak_time).
 [[nodiscard]] Json summarize(const Run& run);
 
 /// Prints the run's summary, as JSON or as text.
 /// @param folder where its files are
-/// @throws NumericalError if the run ended early.
+/// @throws NumericalError if the run ended early; Interrupted says how to go
+/// on.
 void finish_run(const Run& run, const std::filesystem::path& folder, bool json);
 
 /// Writes results.h5, probes.csv, summary.json and what the scenario asks for.

@@ -7,8 +7,8 @@
 
 #include "app/commands.hpp"
 #include "app/levels.hpp"
+#include "app/output_folder.hpp"
 #include "app/reducer.hpp"
-#include "app/run_scene.hpp"
 #include "app/static_report.hpp"
 #include "app/terminal.hpp"
 #include "app/text_file.hpp"
@@ -175,23 +175,24 @@ void print(const StaticRun& run, const std::filesystem::path& folder) {
 }
 
 void find_static(const Options& options) {
-  const std::filesystem::path folder =
+  const OutputFolder folder(
       options.out.empty()
           ? std::filesystem::path("out") /
                 (std::filesystem::path(options.scenario).stem().string() +
                  "_static")
-          : std::filesystem::path(options.out);
-  check_output_folder(folder);
+          : std::filesystem::path(options.out));
   const StaticRun run = find(options);
-  write(run, folder, options.xdmf || run.scene.scenario.output.xdmf);
+  folder.write([&](const std::filesystem::path& place) {
+    write(run, place, options.xdmf || run.scene.scenario.output.xdmf);
+  });
   print_warnings(run.warnings);
   if (options.json) {
     Json summary = summarize(run);
-    summary["folder"] = folder.string();
+    summary["folder"] = folder.path().string();
     fmt::print("{}\n", to_text(summary));
     return;
   }
-  print(run, folder);
+  print(run, folder.path());
 }
 
 }  // namespace

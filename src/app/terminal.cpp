@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <new>
 
 #include "app/time_estimate.hpp"
+#include "common/echo.hpp"
 
 namespace limber::app {
 namespace {
@@ -72,10 +74,25 @@ void clear_progress_bar() {
   std::fflush(stderr);
 }
 
-void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& text : warnings) {
-    fmt::print(stderr, "limber: warning: {}\n", text);
+void print_notice(const std::string& text) noexcept {
+  try {
+    const std::string line = "limber: " + spell_out_controls(text) + "\n";
+    static_cast<void>(!std::fwrite(line.data(), 1, line.size(), stderr));
+  } catch (const std::bad_alloc&) {
+    std::fputs("limber: error: out of memory\n", stderr);
   }
+}
+
+void print_error(const std::string& text) noexcept {
+  try {
+    print_notice("error: " + text);
+  } catch (const std::bad_alloc&) {
+    std::fputs("limber: error: out of memory\n", stderr);
+  }
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& text : warnings) print_notice("warning: " + text);
 }
 
 }  // namespace limber::app

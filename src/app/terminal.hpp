@@ -14,7 +14,14 @@ namespace limber::app {
 /// Removes the bar, so that other lines can follow.
 void clear_progress_bar();
 
-/// "limber: warning: ..." lines on standard error.
+/// "limber: error: ..." on standard error, control characters spelt out. Like
+/// all that goes there it is no matter if nobody can read it.
+void print_error(const std::string& text) noexcept;
+
+/// The same without "error: ".
+void print_notice(const std::string& text) noexcept;
+
+/// "limber: warning: ..." lines likewise.
 void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace limber::app

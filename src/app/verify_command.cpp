@@ -3,10 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/commands.hpp"
+#include "app/output_folder.hpp"
 #include "app/reducer.hpp"
-#include "app/run_scene.hpp"
 #include "app/stiffening_report.hpp"
 #include "app/terminal.hpp"
 #include "app/text_file.hpp"
@@ -68,33 +69,42 @@ reference::JointModel find_joint_model(const Options& options) {
                                  : reference::JointModel::ideal;
 }
 
-/// Prints a report, and writes it if there is a folder for it.
-template <typename Report>
-void tell(const Options& options, const Report& report) {
+/// Where a report goes, if anywhere.
+using Folder = std::optional<OutputFolder>;
+
+/// Writes a report and its picture if there is a folder for it, and prints it.
+/// @param draw_in draws in a folder, and says why there is no picture if so
+template <typename Report, typename Draw>
+void tell(const Options& options, const Folder& folder, const Report& report,
+          const Draw& draw_in) {
   clear_progress_bar();
   const Json json = to_json(report);
+  if (folder) {
+    folder->write([&](const std::filesystem::path& place) {
+      write_text(place / "verification.json", to_text(json));
+      const std::string why = draw_in(place);
+      if (!why.empty()) print_warnings({why});
+    });
+  }
   fmt::print("{}\n", options.json ? to_text(json) : to_text(report));
-  if (options.out.empty()) return;
-  write_text(std::filesystem::path(options.out) / "verification.json",
-             to_text(json));
 }
 
-void stiffen(const Options& options, const scene::Scene& scene,
-             const scene::BuiltScene& built, const VerificationReport& common) {
+void stiffen(const Options& options, const Folder& folder,
+             const scene::Scene& scene, const scene::BuiltScene& built,
+             const VerificationReport& common) {
   StiffeningReport report;
   report.common = common;
   report.factors = options.stiffen;
   report.study = reference::verify_stiffened(
       scene, built, options.stiffen, common.options, make_progress_bar());
-  tell(options, report);
-  if (options.out.empty()) return;
-  const std::string why =
-      draw(report, std::filesystem::path(options.out) / "stiffness.png");
-  if (!why.empty()) print_warnings({why});
+  tell(options, folder, report, [&](const std::filesystem::path& place) {
+    return draw(report, place / "stiffness.png");
+  });
 }
 
 void verify(const Options& options) {
-  if (!options.out.empty()) check_output_folder(options.out);
+  Folder folder;
+  if (!options.out.empty()) folder.emplace(options.out);
   VerificationReport report;
   report.scenario = options.scenario;
   report.options.witness.joints = find_joint_model(options);
@@ -107,12 +117,13 @@ void verify(const Options& options) {
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
   if (!options.stiffen.empty()) {
-    stiffen(options, scene, built, report);
+    stiffen(options, folder, scene, built, report);
     return;
   }
   report.result =
       reference::verify(scene, built, report.options, make_progress_bar());
-  tell(options, report);
+  tell(options, folder, report,
+       [](const std::filesystem::path&) { return std::string(); });
 }
 
 #else

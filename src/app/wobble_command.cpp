@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/interruption.hpp"
 #include "app/mode_options.hpp"
+#include "app/output_folder.hpp"
 #include "app/run_scene.hpp"
 #include "app/validators.hpp"
 #include "common/errors.hpp"
@@ -119,13 +121,17 @@ void wobble(const Options& options) {
   scene::Scene scene;
   scene.robot = make_robot(options);
   scene.scenario = make_scenario(options, scene.robot.name);
-  const std::filesystem::path folder =
+  const OutputFolder folder(
       options.out.empty() ? std::filesystem::path("out") / scene.scenario.name
-                          : std::filesystem::path(options.out);
-  check_output_folder(folder);
-  const Run result = run_scene(scene, options.cache);
-  write_run(result, folder, options.xdmf);
-  finish_run(result, folder, options.json);
+                          : std::filesystem::path(options.out));
+  DeferredSignals signals;
+  CheckpointPlan none;
+  none.signals = &signals;
+  const Run result = run_scene(scene, options.cache, none);
+  folder.write([&](const std::filesystem::path& place) {
+    write_run(result, place, options.xdmf);
+  });
+  finish_run(result, folder.path(), options.json);
 }
 
 }  // namespace

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/whole_file.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "common/errors.hpp"
+#include "common/unfinished_files.hpp"
 
 namespace limber {
 namespace {
 
-// Of nobody else: processes and threads may write the same file.
-std::filesystem::path make_part_name(const std::filesystem::path& file) {
-  static std::atomic<unsigned> count{0};
-  std::filesystem::path part = file;
-  part += fmt::format(".part{}-{}", getpid(), count++);
-  return part;
+// The place is what a user knows, not the name on the way to it.
+InputError rename(const InputError& error, const std::string& part,
+                  const std::string& file) {
+  std::vector<std::string> problems = error.problems();
+  for (std::string& text : problems) {
+    const std::size_t at = text.find(part);
+    if (at != std::string::npos) text.replace(at, part.size(), file);
+  }
+  return InputError(problems);
 }
 
 }  // namespace
@@ -31,20 +32,13 @@ void write_whole(
     write(file);
     return;
   }
-  const std::filesystem::path part = make_part_name(file);
-  std::error_code error;
+  UnfinishedFile part(file);
   try {
-    write(part);
-    std::filesystem::rename(part, file, error);
-  } catch (...) {
-    std::filesystem::remove(part, error);
-    throw;
+    write(part.path());
+  } catch (const InputError& error) {
+    throw rename(error, part.path().string(), file.string());
   }
-  if (!error) return;
-  const std::string why = error.message();
-  std::filesystem::remove(part, error);
-  throw InputError(
-      fmt::format("'{}' cannot be written: {}", file.string(), why));
+  part.move_to(file);
 }
 
 }  // namespace limber

@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "dynamics/archives.hpp"
 #include "dynamics/interpolation.hpp"
+#include "dynamics/interrupted.hpp"
 #include "dynamics/trouble.hpp"
 
 namespace limber::dynamics {
@@ -16,10 +17,13 @@ namespace {
 
 constexpr int kMostHalvings = 10;
 constexpr double kSame = 1e-9;  // of a step: where it ends
-constexpr long kStepsBetweenProgress = 64;
+constexpr long kMostStepsBetweenProgress = 64;
 constexpr long kStepsBetweenLooks = 32;         // at the energy
 constexpr long kStepsBetweenCheckpoints = 256;  // at least
-constexpr double kFewestStepsToAMark = 4.0;     // to a tolerance
+constexpr std::chrono::milliseconds kShortSilence(2);
+constexpr std::chrono::milliseconds kLongSilence(20);
+constexpr std::chrono::seconds kLongestWait(1);  // of who asks for the end
+constexpr double kFewestStepsToAMark = 4.0;      // to a tolerance
 // Of the whole time: steps to a tolerance do not get shorter.
 constexpr double kShortest = 1e-12;
 
@@ -63,7 +67,8 @@ Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
       within_(state),
-      kept_(Clock::now()) {}
+      kept_(Clock::now()),
+      told_(kept_) {}
 
 Losses Driver::losses() const {
   return {marcher_.totals().load_work, marcher_.totals().dissipated};
@@ -86,16 +91,40 @@ void Driver::resume(const Checkpoint& checkpoint, SystemState& state) {
   exchange_memory(archive, state);
 }
 
-void Driver::keep_checkpoint(SystemState& state,
-                             const CheckpointKeeper& keeper) {
+void Driver::keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
+                             bool is_last) {
   marcher_.refresh();
   if (!keeper.keep) return;
   const std::chrono::duration<double> since = Clock::now() - kept_;
-  if (since.count() < keeper.interval) return;
+  if (since.count() < keeper.interval && !is_last) return;
   Archive archive;
   exchange_memory(archive, state);
   keeper.keep({state.t, archive.numbers()});
   kept_ = Clock::now();
+}
+
+// Every few milliseconds, however long steps are.
+void Driver::tell_progress(const SystemState& state, const Progress& progress) {
+  const auto now = Clock::now();
+  if (now - told_ < kShortSilence) {
+    stride_ = std::min(2 * stride_, kMostStepsBetweenProgress);
+  } else if (now - told_ > kLongSilence) {
+    stride_ = std::max(stride_ / 2, 1L);
+  }
+  told_ = now;
+  told_step_ = statistics_.steps;
+  try {
+    report(progress, "simulating",
+           (state.t - start_) / (settings_.end_time - start_));
+  } catch (const Interrupted& asked) {
+    if (!asked_) asked_ = now;
+    words_ = asked.what();
+  }
+}
+
+// Where others may make a checkpoint, or a moment after it was asked for.
+bool Driver::ends_here(bool is_even) const {
+  return asked_ && (is_even || Clock::now() - *asked_ > kLongestWait);
 }
 
 void Driver::fail(const SystemState& state, double h,
@@ -360,12 +389,13 @@ void Driver::run(SystemState& state, const Visit& visit,
       inspect(state);
     }
     if (part_ == parts_) leave_mark(state, visit);
-    // A step of whole meshes may take seconds.
-    if (steps % kStepsBetweenProgress == 0 || !model_.full_bodies.empty()) {
-      report(progress, "simulating",
-             (state.t - start_) / (settings_.end_time - start_));
+    if (steps - told_step_ >= stride_) tell_progress(state, progress);
+    const bool is_even = steps % kStepsBetweenCheckpoints == 0;
+    const bool is_last = mark_ < marks_.size() && ends_here(is_even);
+    if (is_even || is_last) keep_checkpoint(state, keeper, is_last);
+    if (is_last) {
+      throw Interrupted(fmt::format("{} at t = {:.9g} s", words_, state.t));
     }
-    if (steps % kStepsBetweenCheckpoints == 0) keep_checkpoint(state, keeper);
   }
 }
 

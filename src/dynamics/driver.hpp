@@ -47,7 +47,8 @@ class Driver {
   void resume(const Checkpoint& checkpoint, SystemState& state);
 
   /// @throws NumericalError naming the body or coupler and the time, and the
-  /// likely cause; `state` is then that of the last good step.
+  /// likely cause; `state` is then that of the last good step. Interrupted, if
+  /// `progress` does.
   void run(SystemState& state, const Visit& visit, const Progress& progress,
            const CheckpointKeeper& keeper);
 
@@ -72,7 +73,10 @@ class Driver {
   void count_step(const StepResult& since);
   void watch_step(const SystemState& state, std::size_t events);
   void inspect(const SystemState& state);
-  void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper);
+  void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
+                       bool is_last);
+  void tell_progress(const SystemState& state, const Progress& progress);
+  [[nodiscard]] bool ends_here(bool is_even) const;
   void exchange_memory(Archive& archive, SystemState& state);
   [[noreturn]] void fail(const SystemState& state, double h,
                          const std::string& what) const;
@@ -111,6 +115,14 @@ class Driver {
   std::string clash_;       // of velocities at the start
   std::size_t output_ = 0;  // next of outputs_
   Clock::time_point kept_;  // when the last checkpoint was
+
+  // Progress: when and at which step it was told last, after how many it is
+  // again, and when and in which words it asked for the end.
+  Clock::time_point told_;
+  long told_step_ = 0;
+  long stride_ = 1;
+  std::optional<Clock::time_point> asked_;
+  std::string words_;
 };
 
 /// When a Driver visits: the output times, those that agree with other

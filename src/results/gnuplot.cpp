@@ -2,38 +2,27 @@
 #include "results/gnuplot.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
-#include <csignal>
-#include <cstdio>
-#include <ctime>
+#include <atomic>
+#include <chrono>
+
+#include "results/gnuplot_process.hpp"
 
 namespace limber::results {
 namespace {
 
-// While it lives, writing to a program that has ended fails in this thread,
-// and does not end ours too.
-class BrokenPipesFail {
- public:
-  BrokenPipesFail() {
-    sigemptyset(&broken_pipe_);
-    sigaddset(&broken_pipe_, SIGPIPE);
-    pthread_sigmask(SIG_BLOCK, &broken_pipe_, &before_);
-  }
-  BrokenPipesFail(const BrokenPipesFail&) = delete;
-  BrokenPipesFail& operator=(const BrokenPipesFail&) = delete;
-  ~BrokenPipesFail() {
-    if (sigismember(&before_, SIGPIPE) == 0) {
-      const timespec at_once = {};
-      sigtimedwait(&broken_pipe_, nullptr, &at_once);
-    }
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
+constexpr std::chrono::seconds kLimit(20);
+// Of every picture after one that hung: the next will, too.
+constexpr std::chrono::seconds kLimitAfterHang(1);
 
- private:
-  sigset_t broken_pipe_;
-  sigset_t before_;
-};
+std::atomic<bool> has_hung = false;
+
+GnuplotEnd run_script(const std::string& script) {
+  const GnuplotEnd end =
+      run_gnuplot(script, has_hung ? kLimitAfterHang : kLimit);
+  if (end == GnuplotEnd::hung) has_hung = true;
+  return end;
+}
 
 }  // namespace
 
@@ -70,24 +59,23 @@ void GnuplotScript::add(const std::string& line) {
 std::string GnuplotScript::run() const {
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
-  // The command is fixed; names travel inside the script, quoted. A picture
-  // without a place would go to our own output.
-  std::FILE* pipe = popen("gnuplot >/dev/null 2>&1", "w");
-  if (pipe == nullptr) return "no picture: gnuplot cannot be started";
-  // After the start: gnuplot itself gets the usual signals.
-  const BrokenPipesFail guard;
-  const std::size_t written = std::fwrite(text_.data(), 1, text_.size(), pipe);
-  const int status = pclose(pipe);
-  if (status == 0 && written == text_.size() &&
-      std::filesystem::exists(file_, ignored)) {
-    return {};
+  switch (run_script(text_)) {
+    case GnuplotEnd::missing:
+      return "no pictures: gnuplot is not installed (Debian: gnuplot-nox)";
+    case GnuplotEnd::hung:
+      std::filesystem::remove(file_, ignored);
+      return fmt::format(
+          "no picture '{}': gnuplot did not end by itself, and was ended",
+          file_.filename().string());
+    case GnuplotEnd::done:
+      if (std::filesystem::exists(file_, ignored)) return {};
+      break;
+    case GnuplotEnd::failed:
+      break;
   }
-  constexpr int kNotFound = 127;  // the shell's word for a missing program
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound) {
-    return "no pictures: gnuplot is not installed (Debian: gnuplot-nox)";
-  }
+  std::filesystem::remove(file_, ignored);
   return fmt::format("no picture '{}': gnuplot could not draw or write it",
-                     file_.string());
+                     file_.filename().string());
 }
 
 }  // namespace limber::results

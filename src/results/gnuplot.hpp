@@ -16,7 +16,8 @@ class GnuplotScript {
   /// Appends one line of commands or data.
   void add(const std::string& line);
 
-  /// Runs gnuplot. @returns an empty string, or why there is no picture.
+  /// Runs gnuplot, for 20 s at most; once one has hung, for 1 s.
+  /// @returns an empty string, or why there is no picture.
   [[nodiscard]] std::string run() const;
 
  private:

@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
+#include "common/whole_file.hpp"
 #include "dynamics/node_motion.hpp"
 
 namespace limber::results {
@@ -88,6 +89,53 @@ void write_item(std::ostream& out, const char* number, const std::string& shape,
              shape, number, place);
 }
 
+std::string name_step(std::size_t i) { return fmt::format("steps/{:06}/", i); }
+
+void write_motion(const std::filesystem::path& file, const SystemModel& model,
+                  const Surface& surface, const History& history) {
+  Hdf5File out = Hdf5File::create(file);
+  out.write_array("triangles", surface.corners, {surface.corners.size() / 3, 3},
+                  "1", "node indices");
+  for (std::size_t i = 0; i < history.times.size(); ++i) {
+    const Fields fields = move_surface(model, surface, history.states[i]);
+    out.write_array(name_step(i) + "points", fields.points, {surface.nodes, 3},
+                    "m", "positions, world frame");
+    out.write_array(name_step(i) + "deformation", fields.deformation,
+                    {surface.nodes}, "m", "|Phi eta|");
+  }
+  out.close();
+}
+
+void write_step(std::ostream& out, const Surface& surface, double time,
+                const std::string& data, const std::string& step) {
+  const std::size_t triangles = surface.corners.size() / 3;
+  fmt::print(out,
+             "<Grid Name=\"bodies\" GridType=\"Uniform\">"
+             "<Time Value=\"{:.17g}\"/>\n<Topology "
+             "TopologyType=\"Triangle\" NumberOfElements=\"{}\">\n",
+             time, triangles);
+  write_item(out, "Int", fmt::format("{} 3", triangles), data + ":/triangles");
+  out << "</Topology><Geometry GeometryType=\"XYZ\">\n";
+  write_item(out, "Float", fmt::format("{} 3", surface.nodes),
+             fmt::format("{}:/{}points", data, step));
+  out << "</Geometry><Attribute Name=\"deformation\" "
+         "AttributeType=\"Scalar\" Center=\"Node\">\n";
+  write_item(out, "Float", fmt::format("{}", surface.nodes),
+             fmt::format("{}:/{}deformation", data, step));
+  out << "</Attribute></Grid>\n";
+}
+
+void write_index(std::ostream& out, const Surface& surface,
+                 const History& history, const std::string& data) {
+  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
+         "<Grid Name=\"bodies\" GridType=\"Collection\" "
+         "CollectionType=\"Temporal\">\n";
+  for (std::size_t i = 0; i < history.times.size(); ++i) {
+    write_step(out, surface, history.times[i], data, name_step(i));
+  }
+  out << "</Grid></Domain></Xdmf>\n";
+}
+
 }  // namespace
 
 void write_xdmf(const std::filesystem::path& file, const SystemModel& model,
@@ -99,45 +147,17 @@ void write_xdmf(const std::filesystem::path& file, const SystemModel& model,
   }
   std::filesystem::path data = file;
   data.replace_extension(".h5");
-  Hdf5File heavy = Hdf5File::create(data);
-  const std::size_t triangles = surface.corners.size() / 3;
-  heavy.write_array("triangles", surface.corners, {triangles, 3}, "1",
-                    "node indices");
-
-  std::ofstream out(file);
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
-         "<Grid Name=\"bodies\" GridType=\"Collection\" "
-         "CollectionType=\"Temporal\">\n";
-  const std::string name = escape(data.filename().string());
-  for (std::size_t i = 0; i < history.times.size(); ++i) {
-    const Fields fields = move_surface(model, surface, history.states[i]);
-    const std::string at = fmt::format("steps/{:06}/", i);
-    heavy.write_array(at + "points", fields.points, {surface.nodes, 3}, "m",
-                      "positions, world frame");
-    heavy.write_array(at + "deformation", fields.deformation, {surface.nodes},
-                      "m", "|Phi eta|");
-    fmt::print(out,
-               "<Grid Name=\"bodies\" GridType=\"Uniform\">"
-               "<Time Value=\"{:.17g}\"/>\n<Topology "
-               "TopologyType=\"Triangle\" NumberOfElements=\"{}\">\n",
-               history.times[i], triangles);
-    write_item(out, "Int", fmt::format("{} 3", triangles),
-               name + ":/triangles");
-    out << "</Topology><Geometry GeometryType=\"XYZ\">\n";
-    write_item(out, "Float", fmt::format("{} 3", surface.nodes),
-               fmt::format("{}:/{}points", name, at));
-    out << "</Geometry><Attribute Name=\"deformation\" "
-           "AttributeType=\"Scalar\" Center=\"Node\">\n";
-    write_item(out, "Float", fmt::format("{}", surface.nodes),
-               fmt::format("{}:/{}deformation", name, at));
-    out << "</Attribute></Grid>\n";
-  }
-  out << "</Grid></Domain></Xdmf>\n";
-  heavy.close();
-  out.flush();
-  if (!out) {
-    throw InputError(fmt::format("'{}' cannot be written", file.string()));
-  }
+  write_whole(data, [&](const std::filesystem::path& part) {
+    write_motion(part, model, surface, history);
+  });
+  write_whole(file, [&](const std::filesystem::path& part) {
+    std::ofstream out(part);
+    write_index(out, surface, history, escape(data.filename().string()));
+    out.flush();
+    if (out) return;
+    throw InputError(fmt::format("'{}' cannot be written; is the disk full?",
+                                 file.string()));
+  });
 }
 
 }  // namespace limber::results

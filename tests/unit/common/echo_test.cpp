@@ -34,7 +34,7 @@ TEST(Echo, CutsBetweenCharactersOfUtf8) {
 
 // Bytes that continue nothing are no reason to echo a million of them.
 TEST(Echo, EndsWhateverTheBytes) {
-  EXPECT_LT(echo(std::string(1000000, '\x80')).size(), 1000U);
+  EXPECT_LT(echo(std::string(1000000, '\x80')).size(), 1200U);
 }
 
 TEST(Echo, KeepsTheLinesOfAWholeMessage) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/interruption.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+
+#include "common/unfinished_files.hpp"
+
+namespace limber::app {
+namespace {
+
+// A handler sees nothing but variables of the process.
+std::atomic<bool> is_deferred = false;
+std::atomic<int> noted = 0;
+
+void say(const char* text) {
+  static_cast<void>(!write(STDERR_FILENO, text, std::strlen(text)));
+}
+
+// Only what POSIX allows in a signal handler.
+void handle(int signal) {
+  int none = 0;
+  if (is_deferred && noted.compare_exchange_strong(none, signal)) {
+    say("\nlimber: ending between two steps; a second signal ends at once\n");
+    return;
+  }
+  remove_unfinished_files();
+  say("\nlimber: ended by ");
+  say(name_signal(signal));
+  say("; no file is half written\n");
+  _exit(128 + signal);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;
+    struct sigaction action = {};
+    action.sa_handler = handle;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+void DeferredSignals::begin() { is_deferred = true; }
+DeferredSignals::~DeferredSignals() { is_deferred = false; }
+
+int find_noted_signal() { return noted; }
+
+const char* name_signal(int signal) {
+  return signal == SIGINT ? "SIGINT" : "SIGTERM";
+}
+
+}  // namespace limber::app

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/terminal.hpp"
+#include "app/text_file.hpp"
+#include "common/errors.hpp"
+#include "common/input_file.hpp"
+#include "common/unfinished_files.hpp"
+
+namespace limber::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;  // of files, from their folder
+
+constexpr const char* kList = ".limber-files";
+constexpr const char* kStaging = ".limber-part-";
+constexpr InputKind kListInput = {"list of files", std::uint64_t{1} << 26};
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
+  throw InputError(fmt::format(
+      "results folder '{}' cannot be written ({}); choose another with --out",
+      folder.string(), why));
+}
+
+fs::path make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) refuse(folder, error.message());
+  return folder;
+}
+
+std::optional<fs::path> make_private_folder(const fs::path& start) {
+  std::string name = start.string() + "XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) return std::nullopt;
+  return name;
+}
+
+// A folder beside the files' places, gone with its object.
+class Staging {
+ public:
+  explicit Staging(const fs::path& folder) {
+    const auto made = make_private_folder(folder / kStaging);
+    if (!made) refuse(folder, std::generic_category().message(errno));
+    path_ = *made;
+  }
+  Staging(const Staging&) = delete;
+  Staging& operator=(const Staging&) = delete;
+  ~Staging() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Names find_files(const fs::path& folder) {
+  Names names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+// A name that leads elsewhere is none of ours.
+bool is_plain(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." &&
+         name.find('/') == std::string::npos;
+}
+
+Names read_list(const fs::path& folder) {
+  Names names;
+  std::error_code error;
+  if (!fs::is_regular_file(folder / kList, error)) return names;
+  std::istringstream text(read_input(folder / kList, kListInput));
+  for (std::string name; std::getline(text, name);) {
+    if (is_plain(name)) names.insert(name);
+  }
+  return names;
+}
+
+void write_list(const fs::path& folder, const Names& names) {
+  std::string text = "files of limber's, which its next command here replaces:";
+  for (const std::string& name : names) text += "\n" + name;
+  write_text(folder / kList, text);
+}
+
+void remove_stale_folders(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (name.starts_with(kStaging) &&
+        name.size() == std::string(kStaging).size() + 6 &&
+        fs::symlink_status(entry->path(), ignored).type() ==
+            fs::file_type::directory) {
+      stale.push_back(entry->path());
+    }
+  }
+  for (const fs::path& path : stale) fs::remove_all(path, error);
+}
+
+void replace_all(std::string& text, const std::string& old,
+                 const std::string& by) {
+  for (std::size_t at = text.find(old); at != std::string::npos;
+       at = text.find(old, at + by.size())) {
+    text.replace(at, old.size(), by);
+  }
+}
+
+void replace_in_all(std::vector<std::string>& problems, const fs::path& made,
+                    const fs::path& meant) {
+  for (std::string& text : problems) {
+    replace_all(text, made.string(), meant.string());
+  }
+}
+
+std::optional<fs::path> make_rescue_folder() {
+  const char* const asked = std::getenv("TMPDIR");
+  const fs::path temporary = asked == nullptr ? "/tmp" : asked;
+  if (auto made = make_private_folder(temporary / "limber-results-")) {
+    return made;
+  }
+  return make_private_folder(fs::path("limber-results-"));
+}
+
+// Where the files were written instead; nothing if they cannot be anywhere.
+std::optional<fs::path> rescue(const OutputFolder::Writer& writer) {
+  const std::optional<fs::path> folder = make_rescue_folder();
+  if (!folder) return std::nullopt;
+  try {
+    writer(*folder);
+    return folder;
+  } catch (const InputError&) {
+    std::error_code ignored;
+    fs::remove_all(*folder, ignored);
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder)
+    : path_(make_folder(folder)), lock_(path_) {
+  if (!lock_.is_held()) {
+    print_warnings({fmt::format(
+        "the file system of results folder '{}' has no locks: let no other "
+        "command write there at the same time",
+        path_.string())});
+  }
+  remove_stale_parts(path_);
+  remove_stale_folders(path_);
+  const Staging probe(path_);
+  write_text(probe.path() / "probe", "x");
+}
+
+// What is there already may be of use to somebody until the new is whole.
+void OutputFolder::place(const fs::path& made, bool is_all) const {
+  const Names before = read_list(path_);
+  const Names now = find_files(made);
+  Names both = before;
+  both.insert(now.begin(), now.end());
+  write_list(path_, both);
+  for (const std::string& name : now) {
+    std::error_code error;
+    fs::rename(made / name, path_ / name, error);
+    if (error) refuse(path_, name + ": " + error.message());
+  }
+  if (!is_all) return;
+  for (const std::string& name : before) {
+    std::error_code ignored;
+    if (!now.contains(name)) fs::remove(path_ / name, ignored);
+  }
+  write_list(path_, now);
+}
+
+void OutputFolder::write(const Writer& writer) const {
+  std::optional<Staging> staging;
+  std::vector<std::string> problems;
+  try {
+    staging.emplace(path_);
+    writer(staging->path());
+    place(staging->path(), true);
+    return;
+  } catch (const InputError& error) {
+    problems = error.problems();
+  }
+  // Where files are to be is what the user knows, not where they are made.
+  if (staging) replace_in_all(problems, staging->path(), path_);
+  if (const std::optional<fs::path> elsewhere = rescue(writer)) {
+    problems.push_back(fmt::format("what was computed is in '{}' instead",
+                                   elsewhere->string()));
+  } else if (staging) {
+    place_if_possible(staging->path());  // it is not for want of room
+  }
+  throw InputError(problems);
+}
+
+void OutputFolder::place_if_possible(const fs::path& made) const {
+  try {
+    place(made, false);
+  } catch (const InputError&) {  // told already
+  }
+}
+
+}  // namespace limber::app

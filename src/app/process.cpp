@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <thread>
+
+#include "app/exit_status.hpp"
+#include "app/interruption.hpp"
+#include "app/terminal.hpp"
+#include "common/hdf5_exit.hpp"
+#include "common/parse_number.hpp"
+
+namespace limber::app {
+namespace {
+
+constexpr std::size_t kMebi = std::size_t{1} << 20;
+constexpr std::size_t kBufferOfAThread = 129 * kMebi;  // OpenBLAS's own
+constexpr std::size_t kRest = 256 * kMebi;  // the least that any command takes
+
+// A file would take the number of a stream that is closed, and what is printed.
+// One that can only be read stands in: printing fails.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) {
+      static_cast<void>(open("/dev/null", O_RDONLY));
+    }
+  }
+}
+
+std::size_t count_blas_threads() {
+  const auto cores =
+      std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
+    const char* const text = std::getenv(name);
+    const std::optional<double> count =
+        text == nullptr ? std::nullopt : parse_number(text);
+    if (count && *count >= 1.0 && *count < static_cast<double>(cores)) {
+      return static_cast<std::size_t>(*count);
+    }
+  }
+  return cores;
+}
+
+bool is_limited() {
+  rlimit limit = {};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+bool has_address_space(std::size_t bytes) {
+  void* const found = mmap(nullptr, bytes, PROT_NONE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (found == MAP_FAILED) return false;
+  munmap(found, bytes);
+  return true;
+}
+
+}  // namespace
+
+void prepare_process() {
+  open_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  install_signal_handlers();
+  leave_hdf5_alone_at_exit();
+}
+
+void check_address_space() {
+  if (!is_limited()) return;
+  const std::size_t threads = count_blas_threads();
+  const std::size_t needed = threads * kBufferOfAThread + kRest;
+  if (has_address_space(needed)) return;
+  print_error(fmt::format(
+      "out of memory: the limit of address space (ulimit -v) leaves less than "
+      "the {} MiB that linear algebra by {} threads takes; raise it, or set "
+      "OPENBLAS_NUM_THREADS=1",
+      needed / kMebi, threads));
+  _exit(kNoSolution);  // a thread of OpenBLAS's may never end
+}
+
+int end_process(int status) {
+  if (!is_limited()) return status;
+  std::fflush(nullptr);
+  _exit(status);
+}
+
+}  // namespace limber::app

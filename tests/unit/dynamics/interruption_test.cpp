@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs that are asked to end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "dynamics/interrupted.hpp"
+#include "dynamics/simulation.hpp"
+#include "support/chain.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Scene {
+  SystemModel model;
+  SystemState state;
+};
+
+Scene make_scene() {
+  testing::Chain chain =
+      testing::make_chain({.bodies = 2,
+                           .modes = 2,
+                           .stiffness = 1e5,
+                           .damping = 10.0,
+                           .joint = joints::JointKind::revolute});
+  chain.builder.set_gravity({0.0, 0.0, -9.81});
+  return {chain.builder.build(), chain.state};
+}
+
+SimulationSettings make_settings(double tolerance = 0.0) {
+  SimulationSettings settings;
+  settings.end_time = 0.2;
+  settings.step = 1e-4;
+  settings.tolerance = tolerance;
+  settings.output_times = {0.0, 0.1, 0.2};
+  return settings;
+}
+
+struct End {
+  SystemState state;
+  SimulationStatistics statistics;
+  std::size_t outputs = 0;
+  std::string words;  // of Interrupted
+};
+
+End run(const Scene& scene, const SimulationSettings& settings,
+        const Continuation& continuation, const Progress& progress = {}) {
+  End end{scene.state, {}, 0, ""};
+  const auto count = [&](const SystemState&, const EnergyBalance&) {
+    ++end.outputs;
+  };
+  try {
+    simulate(scene.model, end.state, settings, count, progress, end.statistics,
+             continuation);
+  } catch (const Interrupted& stop) {
+    end.words = stop.what();
+  }
+  return end;
+}
+
+// A run's own checkpoints are an age apart.
+Continuation keep_in(std::optional<Checkpoint>& kept) {
+  Continuation continuation;
+  continuation.keeper.interval = 1e9;
+  continuation.keeper.keep = [&](const Checkpoint& c) { kept = c; };
+  return continuation;
+}
+
+Progress ask_after(double share) {
+  return [share](std::string_view, double fraction) {
+    if (fraction >= share && fraction < 1.0) throw Interrupted("asked to end");
+  };
+}
+
+void expect_same_end(const Scene& scene, const SimulationSettings& settings) {
+  const End whole = run(scene, settings, {});
+  ASSERT_EQ(whole.words, "");
+  for (const double share : {0.0, 0.1, 0.6}) {
+    std::optional<Checkpoint> kept;
+    const End stopped = run(scene, settings, keep_in(kept), ask_after(share));
+    EXPECT_THAT(stopped.words, HasSubstr("asked to end at t = "));
+    ASSERT_TRUE(kept.has_value());
+    EXPECT_EQ(kept->time, stopped.state.t);
+    Continuation rest;
+    rest.from = kept;
+    const End resumed = run(scene, settings, rest);
+    EXPECT_EQ(resumed.words, "");
+    EXPECT_EQ(resumed.state.eta, whole.state.eta);
+    EXPECT_EQ(resumed.state.bodies[1].p_WB, whole.state.bodies[1].p_WB);
+    EXPECT_EQ(resumed.statistics.steps, whole.statistics.steps);
+  }
+}
+
+TEST(Interruption, KeepsACheckpointThatGoesOnToTheBit) {
+  expect_same_end(make_scene(), make_settings());
+}
+
+TEST(Interruption, OfPassesToAToleranceDoesToo) {
+  expect_same_end(make_scene(), make_settings(1e-6));
+}
+
+TEST(Interruption, KeepsWhatWasComputed) {
+  std::optional<Checkpoint> kept;
+  const End stopped =
+      run(make_scene(), make_settings(), keep_in(kept), ask_after(0.55));
+  EXPECT_EQ(stopped.outputs, 2U);  // those of 0 and 0.1 s
+  EXPECT_GT(stopped.statistics.steps, 1000);
+  EXPECT_LT(stopped.state.t, 0.2);
+}
+
+// Who has asked does not wait for 256 steps of a whole mesh.
+TEST(Interruption, WaitsNoLongerThanASecondForABetterMoment) {
+  std::optional<Checkpoint> kept;
+  const Progress slow = [](std::string_view, double) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    throw Interrupted("asked to end");
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const End stopped = run(make_scene(), make_settings(), keep_in(kept), slow);
+  EXPECT_NE(stopped.words, "");
+  EXPECT_TRUE(kept.has_value());
+  EXPECT_LT(stopped.statistics.steps, 64);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+TEST(Interruption, AfterTheLastStepIsNone) {
+  std::optional<Checkpoint> kept;
+  const End end =
+      run(make_scene(), make_settings(), keep_in(kept), ask_after(0.99999));
+  EXPECT_EQ(end.words, "");
+  EXPECT_FALSE(kept.has_value());
+}
+
+}  // namespace
+}  // namespace limber::dynamics
