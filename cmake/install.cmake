@@ -1,5 +1,4 @@
 # Installs the libraries, the command, and what find_package(limber) reads.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(layers common flexbody joints dynamics results scene)
@@ -16,7 +15,9 @@ endforeach()
 set(targets limber_all)
 if(LIMBER_REDUCTION)
   list(APPEND layers fem)
-  list(APPEND targets limber_reduction)
+  list(APPEND targets limber_gmsh limber_reduction)
+  install(TARGETS limber_mesh
+    DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/limber)
   set(without_reduction)
 else()
   set(without_reduction

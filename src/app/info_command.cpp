@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "app/commands.hpp"
 #include "app/describe.hpp"
@@ -19,6 +22,10 @@ struct Options {
   double unit = 1.0;
   bool json = false;
 };
+
+constexpr std::array<std::string_view, 12> kMeshes = {
+    ".msh", ".geo", ".step", ".stp", ".brep", ".iges",
+    ".igs", ".bdf", ".nas",  ".unv", ".med",  ".vtk"};
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -42,14 +49,13 @@ Json describe(const Options& options) {
   if (extension == ".h5" || extension == ".hdf5") {
     return describe_hdf5(options.file);
   }
-  if (extension == ".msh" || extension == ".geo" || extension == ".step" ||
-      extension == ".stp") {
+  if (std::count(kMeshes.begin(), kMeshes.end(), extension) > 0) {
     return describe_mesh(options.file, options.unit);
   }
-  throw InputError(fmt::format(
-      "{}: info knows .toml, .urdf, .h5, .msh, .geo, .step and .stp files, and "
-      "checkpoints",
-      options.file));
+  throw InputError(
+      fmt::format("{}: info knows .toml, .urdf and .h5 files, checkpoints, and "
+                  "meshes: {}",
+                  options.file, fmt::join(kMeshes, ", ")));
 }
 
 }  // namespace

@@ -9,36 +9,82 @@ std::mutex& gmsh_mutex() {
   static std::mutex mutex;
   return mutex;
 }
+
+// Gmsh 4.8 cannot be asked. A function that needs it leaves its result alone.
+bool is_initialized() {
+  constexpr double kUntouched = -1.0;
+  double value = kUntouched;
+  try {
+    gmsh::option::getNumber("General.Terminal", value);
+  } catch (...) {
+    return false;
+  }
+  return value != kUntouched;
+}
+
+std::vector<std::string> read_log() {
+  std::vector<std::string> log;
+  try {
+    gmsh::logger::get(log);
+  } catch (...) {  // not started
+    log.clear();
+  }
+  return log;
+}
 }  // namespace
 
-GmshSession::GmshSession() : lock_(gmsh_mutex()) {
-  // A user's ~/.gmshrc must not change what a body is.
-  constexpr bool kReadConfigFiles = false;
-  gmsh::initialize(0, nullptr, kReadConfigFiles);
+GmshSession::GmshSession() : lock_(gmsh_mutex()), is_guest_(is_initialized()) {
+  if (is_guest_) {
+    gmsh::model::getCurrent(host_model_);
+    gmsh::option::getNumber("General.Terminal", host_terminal_);
+    host_lines_ = read_log().size();
+  } else {
+    // A user's ~/.gmshrc must not change what a body is.
+    constexpr bool kReadConfigFiles = false;
+    gmsh::initialize(0, nullptr, kReadConfigFiles);
+    gmsh::option::setNumber("General.AbortOnError", 0);
+  }
   gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::option::setNumber("General.AbortOnError", 0);
-  gmsh::logger::start();
+  if (host_lines_ == 0) gmsh::logger::start();
 }
 
 GmshSession::~GmshSession() {
   try {
-    gmsh::logger::stop();
-    gmsh::finalize();
+    if (host_lines_ == 0) gmsh::logger::stop();
+    if (!is_guest_) {
+      gmsh::finalize();
+      return;
+    }
+    gmsh::model::remove();
+    gmsh::model::setCurrent(host_model_);
+    gmsh::option::setNumber("General.Terminal", host_terminal_);
   } catch (...) {  // NOLINT: nothing is left to be done with it
   }
 }
+
+void GmshSession::open(const std::filesystem::path& file) {
+  if (!is_guest_) {
+    gmsh::open(file.string());
+    return;
+  }
+  gmsh::model::add("limber " + file.string());
+  gmsh::merge(file.string());
+}
+
+void GmshSession::speak() { gmsh::option::setNumber("General.Terminal", 1); }
 
 std::vector<std::string> GmshSession::errors() const {
   constexpr std::string_view kPrefix = "Error: ";
   // Gmsh says so of third-order prisms. Closures tell how the faces of two
   // elements match in Gmsh's own solvers; nothing here uses them.
   constexpr std::string_view kHarmless = "Error: FaceClosureFull";
-  std::vector<std::string> log;
-  gmsh::logger::get(log);
+  const std::vector<std::string> log = read_log();
   std::vector<std::string> errors;
-  for (const std::string& line : log)
+  for (std::size_t i = host_lines_; i < log.size(); ++i) {
+    const std::string& line = log[i];
     if (line.starts_with(kPrefix) && !line.starts_with(kHarmless))
       errors.push_back(line.substr(kPrefix.size()));
+  }
   return errors;
 }
 

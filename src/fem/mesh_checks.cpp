@@ -116,9 +116,13 @@ void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
     if (det > least) continue;
     throw InputError(fmt::format(
         "{}: element {} ({}) is {}: its Jacobian determinant is {:.6g} m^3. "
-        "Expected positive; mend the element's nodes or their order.",
+        "Expected positive; {}.",
         mesh.source, block.tags[e], element.name,
-        det < -least ? "inverted" : "degenerate", det));
+        det < -least ? "inverted" : "degenerate", det,
+        element.order > 1
+            ? "where a curved edge did it, take a finer mesh or straight edges "
+              "(Mesh.SecondOrderLinear = 1); else mend the element's nodes"
+            : "mend the element's nodes or their order"));
   }
 }
 

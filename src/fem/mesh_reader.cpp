@@ -1,344 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fem/mesh_reader.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gmsh.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <map>
-#include <set>
-#include <unordered_map>
 #include <utility>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "fem/gmsh_session.hpp"
 #include "fem/mesh_checks.hpp"
+#include "fem/mesh_file_kind.hpp"
 
 namespace limber::fem {
-namespace {
 
-using Tags = std::vector<std::size_t>;
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
-void check_readable(const std::filesystem::path& file) {
-  try {
-    check_input(file, kMeshInput);
-  } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}. Expected a .msh, .geo or .step file.", error.what()));
-  }
-}
-
-void check_request(const std::filesystem::path& file,
-                   const MeshOptions& options, bool is_geometry) {
-  const std::string name = file.string();
-  std::vector<std::string> problems;
-  if (!(options.unit > 0.0) || !std::isfinite(options.unit))
-    problems.push_back(
-        fmt::format("{}: length unit {} m; expected a positive number.", name,
-                    options.unit));
-  if (!(options.size >= 0.0) || !std::isfinite(options.size))
-    problems.push_back(fmt::format(
-        "{}: mesh size {}; expected a positive number, or 0 for the file's "
-        "own.",
-        name, options.size));
-  if (options.order < 0 || options.order > 3)
-    problems.push_back(
-        fmt::format("{}: element order {}; expected 1, 2 or 3, or 0 for the "
-                    "file's own.",
-                    name, options.order));
-  if (!is_geometry && (options.size > 0.0 || options.order > 0))
-    problems.push_back(fmt::format(
-        "{}: a mesh size or order was given, but the file is a finished mesh. "
-        "Leave them out, or give its geometry (.geo, .step).",
-        name));
-  if (!problems.empty()) throw InputError(problems);
-}
-
-bool is_geometry_file(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  if (extension == ".msh") return false;
-  if (extension == ".geo" || extension == ".step" || extension == ".stp")
-    return true;
-  throw InputError(
-      fmt::format("{}: unknown kind of file '{}'. Expected .msh, .geo, .step "
-                  "or .stp.",
-                  file.string(), extension));
-}
-
-/// Runs a Gmsh call and turns whatever it reports into an InputError.
-template <typename Call>
-void guarded(const GmshSession& session, const std::filesystem::path& file,
-             const std::string& doing, const Call& call) {
-  bool has_failed = false;
-  try {
-    call();
-  } catch (const InputError&) {
-    throw;
-  } catch (...) {  // Gmsh throws ints and strings, by version
-    has_failed = true;
-  }
-  const std::vector<std::string> errors = session.errors();
-  if (!has_failed && errors.empty()) return;
-  throw InputError(
-      fmt::format("{}: Gmsh cannot {} it: {}", file.string(), doing,
-                  errors.empty() ? "no reason given"
-                                 : fmt::format("{}", fmt::join(errors, "; "))));
-}
-
-bool has_solids() {
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 3);
-  return !types.empty();
-}
-
-void mesh_geometry(const MeshOptions& options) {
-  if (options.size > 0.0) {
-    gmsh::option::setNumber("Mesh.MeshSizeMin", options.size);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", options.size);
-  }
-  if (options.order > 0)
-    gmsh::option::setNumber("Mesh.ElementOrder", options.order);
-  if (!has_solids()) gmsh::model::mesh::generate(3);
-}
-
-/// Makes element types once and shares them.
-class ElementTypes {
- public:
-  explicit ElementTypes(std::string source) : source_(std::move(source)) {}
-
-  /// @throws InputError naming the file, for a type that is not supported.
-  std::shared_ptr<const ReferenceElement> get(int gmsh_type) {
-    auto& entry = types_[gmsh_type];
-    if (!entry) entry = make(gmsh_type);
-    return entry;
-  }
-
- private:
-  std::shared_ptr<const ReferenceElement> make(int gmsh_type) const {
-    try {
-      return std::make_shared<const ReferenceElement>(
-          make_reference_element(gmsh_type));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", source_, error.what()));
-    }
-  }
-
-  std::string source_;
-  std::map<int, std::shared_ptr<const ReferenceElement>> types_;
-};
-
-/// Elements as Gmsh hands them over, nodes still by tag.
-struct RawBlock {
-  int type = 0;
-  int nodes_each = 0;
-  Tags elements;
-  Tags nodes;
-  std::vector<int> regions;
-};
-
-void append_entity(std::map<int, RawBlock>& blocks, int dimension, int entity,
-                   int region) {
-  std::vector<int> types;
-  std::vector<Tags> elements;
-  std::vector<Tags> nodes;
-  gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
-  for (std::size_t i = 0; i < types.size(); ++i) {
-    if (elements[i].empty()) continue;
-    RawBlock& block = blocks[types[i]];
-    block.type = types[i];
-    block.nodes_each = static_cast<int>(nodes[i].size() / elements[i].size());
-    block.elements.insert(block.elements.end(), elements[i].begin(),
-                          elements[i].end());
-    block.nodes.insert(block.nodes.end(), nodes[i].begin(), nodes[i].end());
-    block.regions.insert(block.regions.end(), elements[i].size(), region);
-  }
-}
-
-/// A physical group, not yet tied to the solid's nodes.
-struct RawGroup {
-  std::string name;
-  int dimension = 0;
-  std::vector<int> entities;
-};
-
-std::vector<RawGroup> read_groups() {
-  gmsh::vectorpair dim_tags;
-  gmsh::model::getPhysicalGroups(dim_tags);
-  std::vector<RawGroup> groups;
-  for (const auto& [dimension, tag] : dim_tags) {
-    RawGroup group;
-    group.dimension = dimension;
-    gmsh::model::getPhysicalName(dimension, tag, group.name);
-    if (group.name.empty()) group.name = std::to_string(tag);
-    if (has_control(group.name) || group.name.size() > kMostNameBytes) {
-      throw InputError(fmt::format(
-          "physical group '{}': a name has no control characters, and at most "
-          "{} bytes",
-          echo(group.name), kMostNameBytes));
-    }
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-[[noreturn]] void fail_without_solids(const std::filesystem::path& file) {
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 2);
-  throw InputError(fmt::format(
-      "{}: the mesh has {} but no solid elements. Expected tetrahedra, "
-      "hexahedra, prisms or pyramids; mesh a volume (gmsh -3) and save it.",
-      file.string(), types.empty() ? "no surfaces" : "surfaces"));
-}
-
-/// Solid elements of the whole model, and which groups each volume is in.
-std::map<int, RawBlock> read_solids(const std::filesystem::path& file,
-                                    const std::vector<RawGroup>& groups,
-                                    bool is_geometry, Mesh& mesh) {
-  const bool only_grouped =
-      is_geometry && std::any_of(groups.begin(), groups.end(),
-                                 [](auto& g) { return g.dimension == 3; });
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  std::map<int, RawBlock> blocks;
-  for (const auto& [dimension, entity] : volumes) {
-    std::vector<std::string> names;
-    for (const RawGroup& group : groups)
-      if (group.dimension == 3 &&
-          std::count(group.entities.begin(), group.entities.end(), entity) > 0)
-        names.push_back(group.name);
-    if (only_grouped && names.empty()) continue;
-    append_entity(blocks, dimension, entity,
-                  static_cast<int>(mesh.volume_groups.size()));
-    mesh.volume_groups.push_back(names);
-  }
-  if (blocks.empty()) fail_without_solids(file);
-  return blocks;
-}
-
-/// Index of each node tag that a solid element uses; -1 elsewhere.
-class NodeIndex {
- public:
-  explicit NodeIndex(const std::map<int, RawBlock>& solids) {
-    for (const auto& [type, block] : solids)
-      for (const std::size_t tag : block.nodes) used_.insert(tag);
-    int next = 0;
-    for (const std::size_t tag : used_) index_[tag] = next++;
-  }
-  [[nodiscard]] int of(std::size_t tag) const {
-    const auto found = index_.find(tag);
-    return found == index_.end() ? -1 : found->second;
-  }
-  [[nodiscard]] Tags tags() const { return {used_.begin(), used_.end()}; }
-
- private:
-  std::set<std::size_t> used_;
-  std::unordered_map<std::size_t, int> index_;
-};
-
-/// With nodes as indices; elements off the solid are left out.
-ElementBlock make_block(const RawBlock& raw, const NodeIndex& index,
-                        ElementTypes& types) {
-  ElementBlock block;
-  block.element = types.get(raw.type);
-  const auto each = static_cast<std::size_t>(raw.nodes_each);
-  for (std::size_t e = 0; e < raw.elements.size(); ++e) {
-    std::vector<int> nodes;
-    for (std::size_t i = 0; i < each; ++i)
-      nodes.push_back(index.of(raw.nodes[e * each + i]));
-    if (std::count(nodes.begin(), nodes.end(), -1) > 0) continue;
-    block.tags.push_back(raw.elements[e]);
-    block.regions.push_back(raw.regions[e]);
-    block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
-  }
-  return block;
-}
-
-PhysicalGroup make_group(const RawGroup& raw, const NodeIndex& index,
-                         ElementTypes& types) {
-  std::map<int, RawBlock> blocks;
-  for (const int entity : raw.entities)
-    append_entity(blocks, raw.dimension, entity, 0);
-  PhysicalGroup group;
-  group.name = raw.name;
-  group.dimension = raw.dimension;
-  std::set<int> nodes;
-  for (const auto& [type, block] : blocks) {
-    group.blocks.push_back(make_block(block, index, types));
-    nodes.insert(group.blocks.back().nodes.begin(),
-                 group.blocks.back().nodes.end());
-  }
-  group.nodes.assign(nodes.begin(), nodes.end());
-  return group;
-}
-
-void read_positions(const NodeIndex& index, double unit, Mesh& mesh) {
-  mesh.tags = index.tags();
-  mesh.x.resize(3, static_cast<Eigen::Index>(mesh.tags.size()));
-  Tags tags;
-  std::vector<double> x;
-  std::vector<double> parameters;
-  gmsh::model::mesh::getNodes(tags, x, parameters);
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    const int node = index.of(tags[i]);
-    if (node >= 0)
-      mesh.x.col(node) = unit * Eigen::Map<const Vector3>(x.data() + 3 * i);
-  }
-}
-
-Mesh take_mesh(const std::filesystem::path& file, const MeshOptions& options,
-               bool is_geometry) {
-  Mesh mesh;
-  mesh.source = file.string();
-  const std::vector<RawGroup> groups = read_groups();
-  const std::map<int, RawBlock> solids =
-      read_solids(file, groups, is_geometry, mesh);
-  const NodeIndex index(solids);
-  ElementTypes types(mesh.source);
-  for (const auto& [type, block] : solids)
-    mesh.blocks.push_back(make_block(block, index, types));
-  for (const RawGroup& raw : groups) {
-    PhysicalGroup group = make_group(raw, index, types);
-    if (!group.nodes.empty()) mesh.groups.push_back(std::move(group));
-  }
-  read_positions(index, options.unit, mesh);
-  return mesh;
-}
-
-}  // namespace
-
-Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {
-  const bool is_geometry = is_geometry_file(file);
-  check_readable(file);
-  check_request(file, options, is_geometry);
-  Mesh mesh;
-  {
-    const GmshSession session;
-    // Before the file, so that the file may say otherwise.
-    gmsh::option::setNumber("Mesh.ElementOrder", 2);
-    guarded(session, file, "read", [&] { gmsh::open(file.string()); });
-    if (is_geometry)
-      guarded(session, file, "mesh", [&] { mesh_geometry(options); });
-    guarded(session, file, "use",
-            [&] { mesh = take_mesh(file, options, is_geometry); });
-  }
+void complete_mesh(Mesh& mesh) {
   check_elements(mesh);
   find_boundary(mesh);
   check_faces(mesh);
   check_connected(mesh);
-  return mesh;
+}
+
+TracedMesh read_traced_mesh(const std::filesystem::path& file,
+                            const MeshOptions& options, const Mesher& mesher) {
+  check_mesh_options(file, find_mesh_file_kind(file), options);
+  MeshReply reply = ask_mesher(mesher, file, options);
+  complete_mesh(reply.mesh);
+  return {std::move(reply.mesh), std::move(reply.notices),
+          std::move(reply.files), reply.is_repeatable};
+}
+
+Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options,
+               const Mesher& mesher) {
+  return read_traced_mesh(file, options, mesher).mesh;
+}
+
+Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {
+  // The user's file comes before our installation.
+  check_mesh_options(file, find_mesh_file_kind(file), options);
+  return read_mesh(file, options, find_mesher());
 }
 
 }  // namespace limber::fem

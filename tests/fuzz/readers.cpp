@@ -2,6 +2,10 @@
 #include "fuzz/readers.hpp"
 
 #include "common/errors.hpp"
+#ifdef LIMBER_HAS_REDUCTION
+#include "fem/mesh_checks.hpp"
+#include "fem/mesh_wire.hpp"
+#endif
 #include "flexbody/body_file.hpp"
 #include "fuzz/body_edits.hpp"
 #include "scene/akantu_material.hpp"
@@ -75,14 +79,32 @@ void read_edited_body(std::string_view edits) {
   (void)flexbody::read_body(file);
 }
 
+#ifdef LIMBER_HAS_REDUCTION
+// What a mesher that a geometry took over may send.
+void read_mesh_reply(std::string_view bytes) {
+  fem::Mesh mesh = fem::unpack_reply(std::string(bytes)).mesh;
+  fem::check_elements(mesh);
+  fem::find_boundary(mesh);
+  fem::check_faces(mesh);
+  fem::check_connected(mesh);
+}
+#endif
+
 }  // namespace
 
 const std::vector<Reader>& all_readers() {
   static const std::vector<Reader> readers = {
-      {"scenario", read_scenario}, {"robot", read_robot},
-      {"forces", read_forces},     {"field", read_field},
-      {"series", read_series},     {"material", read_material},
-      {"body", read_body},         {"body_content", read_edited_body},
+      {"scenario", read_scenario},
+      {"robot", read_robot},
+      {"forces", read_forces},
+      {"field", read_field},
+      {"series", read_series},
+      {"material", read_material},
+      {"body", read_body},
+      {"body_content", read_edited_body},
+#ifdef LIMBER_HAS_REDUCTION
+      {"mesh_reply", read_mesh_reply},
+#endif
   };
   return readers;
 }

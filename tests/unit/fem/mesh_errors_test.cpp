@@ -54,12 +54,12 @@ TEST(MeshErrors, UnknownExtension) {
 }
 
 TEST(MeshErrors, TextThatIsNoMesh) {
-  EXPECT_THAT(reading_error(write_file("bad.msh", "what is this?\n")),
+  EXPECT_THAT(reading_error(write_file("bad.geo", "what is this?\n")),
               AllOf(HasSubstr("Gmsh cannot read it"), HasSubstr("line 1")));
 }
 
 TEST(MeshErrors, EmptyFile) {
-  EXPECT_THAT(reading_error(write_file("empty.msh", "")),
+  EXPECT_THAT(reading_error(write_file("empty.geo", "")),
               HasSubstr("no solid elements"));
 }
 
@@ -94,7 +94,7 @@ TEST(MeshErrors, GeometryWithoutAVolume) {
   EXPECT_THAT(reading_error(write_file("flat.geo",
                                        "SetFactory(\"OpenCASCADE\");\n"
                                        "Rectangle(1) = {0, 0, 0, 1, 1};\n")),
-              HasSubstr("surfaces but no solid elements"));
+              HasSubstr("surfaces but no volume"));
 }
 
 TEST(MeshErrors, InvertedElement) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/reference_element.hpp"
-
 #include <fmt/format.h>
 #include <gmsh.h>
 
@@ -9,6 +7,7 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "fem/reference_element.hpp"
 
 namespace limber::fem {
 namespace {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "fem/mesh_options.hpp"
+
+namespace limber::fem {
+
+/// Whether a file holds nodes and elements, or a geometry to be meshed.
+enum class MeshFileKind { mesh, geometry };
+
+/// By the file's extension, which must agree with how its content begins: what
+/// Gmsh does not know as anything else it runs as a program.
+/// @throws InputError naming the file, if it is no regular file that can be
+/// read, of an unknown kind, or of another kind than its name says.
+[[nodiscard]] MeshFileKind find_mesh_file_kind(
+    const std::filesystem::path& file);
+
+/// All extensions that are known, ".msh, .geo, ...", for messages.
+[[nodiscard]] std::string_view mesh_file_extensions();
+
+/// @throws InputError naming every option that is out of range, or that a
+/// finished mesh cannot follow.
+void check_mesh_options(const std::filesystem::path& file, MeshFileKind kind,
+                        const MeshOptions& options);
+
+}  // namespace limber::fem

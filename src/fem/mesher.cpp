@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fem/mesher.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/child_process.hpp"
+#include "common/errors.hpp"
+
+namespace limber::fem {
+namespace {
+
+constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+constexpr double kSeconds = 300.0;
+constexpr const char* kName = "limber-mesh";
+
+std::optional<double> read_positive(const char* name) {
+  const char* text = std::getenv(name);
+  if (!text) return std::nullopt;
+  double value = 0.0;
+  const char* end = text + std::strlen(text);
+  const auto [rest, error] = std::from_chars(text, end, value);
+  if (error == std::errc() && rest == end && value > 0.0 &&
+      std::isfinite(value)) {
+    return value;
+  }
+  throw InputError(
+      fmt::format("{} is '{:.200}'; expected a positive number.", name, text));
+}
+
+double find_half_of_memory() {
+  return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+bool can_run(const std::filesystem::path& program) {
+  return std::filesystem::is_regular_file(program) &&
+         access(program.c_str(), X_OK) == 0;
+}
+
+std::filesystem::path find_program() {
+  if (const char* named = std::getenv("LIMBER_MESHER")) {
+    if (can_run(named)) return std::filesystem::absolute(named);
+    throw InputError(fmt::format(
+        "LIMBER_MESHER names '{}', which is no program that can be run.",
+        named));
+  }
+  std::error_code unknown;
+  const std::filesystem::path folder =
+      std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
+  const std::vector<std::filesystem::path> places = {
+      folder / kName, folder.parent_path() / "libexec/limber" / kName,
+      std::filesystem::path(LIMBER_LIBEXEC_DIR) / kName};
+  for (const std::filesystem::path& place : places) {
+    if (can_run(place)) return place;
+  }
+  throw InputError(fmt::format(
+      "the mesher '{}' is not there: looked for {}, {} and {}. Name it by "
+      "LIMBER_MESHER.",
+      kName, places[0].string(), places[1].string(), places[2].string()));
+}
+
+/// A geometry sees no environment, so that its mesh cannot depend on one.
+std::vector<std::string> make_environment() {
+  std::vector<std::string> environment = {
+      "HOME=/nonexistent",  "LC_ALL=C",          "OMP_NUM_THREADS=1",
+      "OMP_THREAD_LIMIT=1", "OMP_STACKSIZE=16M", "OPENBLAS_NUM_THREADS=1"};
+  if (const char* libraries = std::getenv("LD_LIBRARY_PATH")) {
+    environment.push_back(fmt::format("LD_LIBRARY_PATH={}", libraries));
+  }
+  return environment;
+}
+
+/// The end of what the mesher said, in one line, without control characters.
+std::string last_words(const ChildEnd& end) {
+  constexpr std::size_t kMost = 300;
+  std::string words;
+  for (const char c : end.words) {
+    const bool is_plain = static_cast<unsigned char>(c) >= ' ';
+    if (is_plain) words += c;
+    if (c == '\n' && !words.empty() && !words.ends_with("; ")) words += "; ";
+  }
+  while (words.ends_with("; ")) words.resize(words.size() - 2);
+  if (words.size() > kMost) {
+    words = "..." + words.substr(words.size() - kMost);
+  }
+  return words.empty() ? "It said nothing." : "Its last words: " + words;
+}
+
+/// Why no mesh came.
+std::string explain(const Mesher& mesher, const ChildEnd& end) {
+  const std::string memory = fmt::format(
+      "more than the {:.3g} GiB of memory that it may take. Mend the file, or "
+      "allow more by LIMBER_MESH_MEMORY (in GiB)",
+      static_cast<double>(mesher.memory) / kGibibyte);
+  const std::string words = last_words(end);
+  if (end.is_out_of_time) {
+    return fmt::format(
+        "meshing did not end within {:.6g} s, and was ended. Mend the file, or "
+        "allow more by LIMBER_MESH_SECONDS. {}",
+        mesher.seconds, words);
+  }
+  if (end.is_reply_too_long) return "its mesh needs " + memory + ".";
+  if (end.exit_status == kMesherOutOfMemory) {
+    return fmt::format("meshing needs {}. {}", memory, words);
+  }
+  if (end.exit_status == kMesherRefused) {
+    const std::size_t at = end.words.rfind("it tries to ");
+    return at == std::string::npos ? words : end.words.substr(at);
+  }
+  // A library blocks signals while it starts a process; then the words fail.
+  if (end.signal == SIGSYS) {
+    return "it tries to run a program. A geometry may read files, and do "
+           "nothing else here.";
+  }
+  if (end.signal != 0) {
+    return fmt::format("the mesher was ended by signal {} ({}). {}", end.signal,
+                       strsignal(end.signal), words);
+  }
+  return fmt::format(
+      "Gmsh left with status {} before there was a mesh, as Exit or Abort in a "
+      "geometry do. {}",
+      end.exit_status, words);
+}
+
+/// Texts begin with the file's absolute name; a user knows it by another.
+std::vector<std::string> rename(std::vector<std::string> texts,
+                                const std::filesystem::path& place,
+                                const std::filesystem::path& file) {
+  for (std::string& text : texts) {
+    if (text.starts_with(place.string())) {
+      text.replace(0, place.string().size(), file.string());
+    }
+  }
+  return texts;
+}
+
+}  // namespace
+
+Mesher find_mesher() {
+  const double gibibytes = read_positive("LIMBER_MESH_MEMORY")
+                               .value_or(find_half_of_memory() / kGibibyte);
+  constexpr double kMost = 1e6;
+  return {find_program(),
+          read_positive("LIMBER_MESH_SECONDS").value_or(kSeconds),
+          static_cast<std::uint64_t>(std::min(gibibytes, kMost) * kGibibyte)};
+}
+
+MeshReply ask_mesher(const Mesher& mesher, const std::filesystem::path& file,
+                     const MeshOptions& options) {
+  const std::filesystem::path place = std::filesystem::absolute(file);
+  const ChildEnd end = run_child(
+      {mesher.program,
+       {place.string(), fmt::format("{}", options.size),
+        fmt::format("{}", options.order), fmt::format("{}", options.unit)},
+       make_environment(),
+       mesher.seconds,
+       mesher.memory});
+  if (end.exit_status != 0 || end.signal != 0 || end.is_out_of_time ||
+      end.is_reply_too_long || end.reply.empty()) {
+    throw InputError(
+        fmt::format("{}: {}", file.string(), explain(mesher, end)));
+  }
+  MeshReply reply;
+  try {
+    reply = unpack_reply(end.reply);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}. {}", file.string(), error.what(),
+                                 last_words(end)));
+  }
+  if (!reply.problems.empty()) {
+    throw InputError(rename(reply.problems, place, file));
+  }
+  reply.notices = rename(reply.notices, place, file);
+  reply.mesh.source = file.string();
+  return reply;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// limber-mesh FILE SIZE ORDER UNIT: meshes one file by Gmsh, which it alone
+// links. Limber starts it; the mesh goes to descriptor 3, see fem/mesher.hpp.
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "common/child_process.hpp"
+#include "common/errors.hpp"
+#include "fem/gmsh_reader.hpp"
+#include "fem/gmsh_session.hpp"
+#include "fem/mesher.hpp"
+#include "mesher/trace.hpp"
+#include "mesher/walls.hpp"
+
+namespace {
+
+using limber::fem::MeshReply;
+
+constexpr int kUsage = 64;
+
+[[noreturn]] void end_out_of_memory() {
+  _exit(limber::fem::kMesherOutOfMemory);
+}
+
+template <typename Number>
+Number read_number(const char* text) {
+  Number value{};
+  const char* end = text + std::strlen(text);
+  const auto [rest, error] = std::from_chars(text, end, value);
+  if (error != std::errc() || rest != end) {
+    std::fprintf(stderr, "limber-mesh: '%s' is no number\n", text);
+    std::exit(kUsage);
+  }
+  return value;
+}
+
+MeshReply make_reply(limber::fem::GmshSession& session, const char* file,
+                     const limber::fem::MeshOptions& options) {
+  MeshReply reply;
+  try {
+    limber::fem::RawMesh raw = limber::fem::make_mesh(session, file, options);
+    reply.mesh = std::move(raw.mesh);
+    reply.notices = std::move(raw.notices);
+  } catch (const limber::InputError& error) {
+    reply.problems = error.problems();
+  } catch (const std::bad_alloc&) {
+    end_out_of_memory();
+  }
+  return reply;
+}
+
+bool send(const std::string& bytes) {
+  const char* next = bytes.data();
+  std::size_t left = bytes.size();
+  while (left > 0) {
+    const ssize_t count = write(limber::kReplyDescriptor, next, left);
+    if (count <= 0) return false;
+    next += count;
+    left -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 5) {
+    std::fprintf(stderr,
+                 "usage: limber-mesh FILE SIZE ORDER UNIT, mesh to "
+                 "descriptor %d\n",
+                 limber::kReplyDescriptor);
+    return kUsage;
+  }
+  std::set_new_handler(end_out_of_memory);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  const limber::fem::MeshOptions options{read_number<double>(argv[2]),
+                                         read_number<int>(argv[3]),
+                                         read_number<double>(argv[4])};
+  // What a geometry names is beside it, wherever Limber runs.
+  const std::string folder = std::filesystem::path(argv[1]).parent_path();
+  if (!folder.empty() && chdir(folder.c_str()) != 0) std::perror("chdir");
+  const limber::mesher::Walls walls = limber::mesher::put_up_walls();
+  // Its window library writes preferences, or tries to.
+  limber::fem::GmshSession session;
+  session.speak();  // its last words may be all that is left
+  limber::mesher::watch_walls();
+  limber::mesher::start_trace(walls);
+  MeshReply reply = make_reply(session, argv[1], options);
+  limber::mesher::Trace trace = limber::mesher::finish_trace();
+  reply.files = std::move(trace.files);
+  reply.is_repeatable = trace.is_repeatable;
+  const bool is_sent = send(limber::fem::pack_reply(reply));
+  std::fflush(nullptr);
+  _exit(is_sent ? 0 : 1);  // not through what libraries left for the end
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesher/walls.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "common/landlock.hpp"
+#include "fem/mesher.hpp"
+#include "mesher/seccomp.hpp"
+
+namespace limber::mesher {
+namespace {
+
+// Commands of Gmsh 4 that run programs or write files, whatever follows.
+constexpr std::array kDangerous = {"SystemCall", "NonBlockingSystemCall",
+                                   "System",     "UnixCmd",
+                                   "OnelabRun",  "OnelabAction",
+                                   "Save",       "Print",
+                                   "CreateFile", "Plugin",
+                                   "Parse",      "ParseString",
+                                   "WriteFile",  "Background"};
+
+constexpr std::array kFleeting = {"Cpu",    "Memory", "TotalMemory", "Today",
+                                  "GetEnv", "Rand",   "TIME",        "Time"};
+
+bool is_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// The text without comments; strings become "".
+std::string strip(std::string_view text) {
+  std::string bare;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = text.substr(i);
+    std::size_t end = 0;
+    if (rest.starts_with("//")) {
+      end = rest.find('\n');
+    } else if (rest.starts_with("/*")) {
+      end = rest.find("*/", 2);
+      if (end != std::string_view::npos) end += 2;
+    } else if (rest[0] == '"' || rest[0] == '\'') {
+      end = rest.find(rest[0], 1);
+      if (end != std::string_view::npos) ++end;
+      bare += "\"\"";
+    } else {
+      bare += rest[0];
+      end = 1;
+    }
+    if (end == std::string_view::npos) break;
+    i += end;
+  }
+  return bare;
+}
+
+/// Calls `use` with each name and what follows it, until it answers true.
+template <typename Use>
+bool find_name(std::string_view text, const Use& use) {
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (end < text.size() && is_name(text[end])) ++end;
+    if (end > i && use(text.substr(i, end - i), text.substr(end))) return true;
+    i = std::max(end, i + 1);
+  }
+  return false;
+}
+
+template <typename List>
+bool is_in(const List& list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// Printf("...") > "file"
+bool prints_to_file(std::string_view name, std::string_view rest) {
+  if (name != "Printf" && name != "Error" && name != "Warning") return false;
+  return rest.substr(0, rest.find(';')).find('>') != std::string_view::npos;
+}
+
+}  // namespace
+
+Walls put_up_walls() {
+  if (apply_seccomp(Refusing::quietly)) return Walls::kernel;
+  // Before this program began it was kept from writing by Landlock, if there
+  // is any.
+  const int rule = make_landlock(LandlockRule::no_execution);
+  const bool holds = apply_landlock(rule);
+  if (rule >= 0) close(rule);
+  return holds ? Walls::kernel : Walls::words;
+}
+
+void watch_walls() { apply_seccomp(Refusing::with_words); }
+
+std::optional<std::string> find_dangerous_word(std::string_view text) {
+  std::optional<std::string> found;
+  find_name(strip(text), [&](std::string_view name, std::string_view rest) {
+    if (is_in(kDangerous, name) || prints_to_file(name, rest)) {
+      found = std::string(name);
+    }
+    return found.has_value();
+  });
+  return found;
+}
+
+bool has_fleeting_word(std::string_view text) {
+  return find_name(text, [](std::string_view name, std::string_view) {
+    return is_in(kFleeting, name);
+  });
+}
+
+void refuse(std::string_view what) {
+  constexpr std::string_view kBefore = "it tries to ";
+  constexpr std::string_view kAfter =
+      ". A geometry may read files, and do nothing else here.";
+  for (const std::string_view part : {kBefore, what, kAfter}) {
+    static_cast<void>(!write(STDERR_FILENO, part.data(), part.size()));
+  }
+  _exit(fem::kMesherRefused);
+}
+
+}  // namespace limber::mesher
