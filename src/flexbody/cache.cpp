@@ -2,58 +2,48 @@
 #include "flexbody/cache.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <set>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include "common/digest.hpp"
+#include "common/errors.hpp"
 #include "common/input_file.hpp"
 #include "common/overloaded.hpp"
 #include "flexbody/body_file.hpp"
+#include "flexbody/cache_file.hpp"
+#include "flexbody/geometry_files.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 // Raise when the reduction itself changes: it makes old entries unknown.
-constexpr int kReductionVersion = 2;
+constexpr int kReductionVersion = 3;
 
-// Adds a .geo script and the files that it pulls in by its Include and Merge
-// lines, and those that they pull in; `seen` ends a circle.
-void add_script(const std::filesystem::path& file, Digest& digest,
-                std::set<std::filesystem::path>& seen) {
-  if (!seen.insert(file.lexically_normal()).second) return;
-  const std::string script = read_input(file, kMeshInput);
-  digest.add(script);
-  for (const char* keyword : {"Include", "Merge"}) {
-    for (std::size_t at = script.find(keyword); at != std::string::npos;
-         at = script.find(keyword, at + 1)) {
-      const std::size_t open = script.find('"', at);
-      if (open == std::string::npos) break;
-      const std::size_t close = script.find('"', open + 1);
-      if (close == std::string::npos) break;
-      const std::filesystem::path other =
-          file.parent_path() / script.substr(open + 1, close - open - 1);
-      std::error_code ignored;
-      if (std::filesystem::is_regular_file(other, ignored)) {
-        add_script(other, digest, seen);
-      }
-    }
-  }
+// Of this run of the program alone: nothing before or after has it.
+std::string find_run_mark() {
+  static const std::string mark =
+      fmt::format("{} {}", getpid(),
+                  std::chrono::system_clock::now().time_since_epoch().count());
+  return mark;
 }
 
 void add_mesh(const MeshSource& mesh, Digest& digest) {
   digest.add(mesh.file.extension().string());
-  if (mesh.file.extension() == ".geo") {
-    std::set<std::filesystem::path> seen;
-    add_script(mesh.file, digest, seen);
-  } else {
-    digest.add(read_input(mesh.file, kMeshInput));
+  digest.add(read_input(mesh.file, kMeshInput));
+  const GeometryFiles geometry = find_geometry_files(mesh.file);
+  for (const std::filesystem::path& file : geometry.files) {
+    std::error_code unknown;
+    const bool is_there = std::filesystem::is_regular_file(file, unknown);
+    digest.add(is_there);
+    if (is_there) digest.add(read_input(file, kMeshInput));
   }
+  if (!geometry.is_complete) digest.add(find_run_mark());
   digest.add(mesh.size);
   digest.add(mesh.order);
   digest.add(mesh.unit);
@@ -89,7 +79,7 @@ void add_selection(const NodeSelection& nodes, Digest& digest) {
 std::optional<ReducedBody> find_entry(const std::filesystem::path& file,
                                       const std::string& key) {
   try {
-    if (!std::filesystem::exists(file)) return std::nullopt;
+    if (!is_own_file(file)) return std::nullopt;
     ReducedBody body = read_body(file);
     if (body.content_key == key) return body;
   } catch (const std::exception&) {
@@ -100,8 +90,9 @@ std::optional<ReducedBody> find_entry(const std::filesystem::path& file,
 // An entry that cannot be kept only makes the next run take longer.
 void keep_entry(const ReducedBody& body, const std::filesystem::path& file) {
   try {
-    std::filesystem::create_directories(file.parent_path());
-    write_body(body, file);
+    write_own_file(file, [&](const std::filesystem::path& place) {
+      write_body(body, place);
+    });
   } catch (const std::exception&) {
   }
 }
@@ -162,14 +153,22 @@ std::string content_key(const Recipe& recipe) {
 }
 
 std::filesystem::path default_cache_folder() {
-  if (const char* own = std::getenv("LIMBER_CACHE")) return own;
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME")) {
-    return std::filesystem::path(xdg) / "limber";
+  const auto find = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value ? value : "");
+  };
+  if (const auto own = find("LIMBER_CACHE"); !own.empty()) return own;
+  // Relative ones are to be ignored (XDG Base Directory Specification).
+  if (const auto xdg = find("XDG_CACHE_HOME"); xdg.is_absolute()) {
+    return xdg / "limber";
   }
-  if (const char* home = std::getenv("HOME")) {
-    return std::filesystem::path(home) / ".cache" / "limber";
+  if (const auto home = find("HOME"); home.is_absolute()) {
+    return home / ".cache" / "limber";
   }
-  return std::filesystem::temp_directory_path() / "limber-cache";
+  throw InputError(
+      "there is no place to keep reduced bodies: none of LIMBER_CACHE, "
+      "XDG_CACHE_HOME and HOME names a folder. Set one of them, or give "
+      "--cache FOLDER.");
 }
 
 CachedBody load_or_reduce(
@@ -184,7 +183,10 @@ CachedBody load_or_reduce(
   }
   CachedBody made{reduce(recipe), false};
   made.body.content_key = key;
-  keep_entry(made.body, file);
+  // No other run could use it.
+  if (find_geometry_files(recipe.mesh.file).is_complete) {
+    keep_entry(made.body, file);
+  }
   return made;
 }
 

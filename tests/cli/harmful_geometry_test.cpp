@@ -61,7 +61,7 @@ TEST(HarmfulGeometry, IsRefusedByEveryCommandThatReadsMeshes) {
               "robot = \"evil.urdf\"\n[time]\nduration = 0.001\nstep = 1e-3\n");
   for (const Order& order : list_orders()) {
     place.write("evil.geo", kBox + order.text + "\n");
-    for (const std::string& command :
+    for (const std::string command :
          {"info evil.geo", "run evil.toml", "static evil.toml",
           "compare evil.toml --fidelity rigid,coupled --reference coupled",
           "modes evil.geo", "reduce evil.geo -o body.h5"}) {

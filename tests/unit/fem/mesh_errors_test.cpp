@@ -39,13 +39,13 @@ std::string reading_error(const MshText& text) {
 
 TEST(MeshErrors, MissingFile) {
   EXPECT_THAT(reading_error(testing::make_test_folder() / "absent.msh"),
-              AllOf(HasSubstr("cannot be read"), HasSubstr("Expected")));
+              AllOf(HasSubstr("cannot read this mesh"), HasSubstr("Expected")));
 }
 
 TEST(MeshErrors, FolderInPlaceOfAFile) {
   const auto folder = testing::make_test_folder() / "folder.msh";
   std::filesystem::create_directories(folder);
-  EXPECT_THAT(reading_error(folder), HasSubstr("cannot be read"));
+  EXPECT_THAT(reading_error(folder), HasSubstr("cannot read this mesh"));
 }
 
 TEST(MeshErrors, UnknownExtension) {

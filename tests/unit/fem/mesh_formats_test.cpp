@@ -4,7 +4,10 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "common/errors.hpp"
@@ -54,7 +57,13 @@ std::filesystem::path write_box(const std::string& name, bool is_mesh) {
     gmsh::option::setNumber("Mesh.MeshSizeMax", 0.1);
     gmsh::model::mesh::generate(3);
   }
-  gmsh::write(file.string());
+  // Gmsh reads names in capitals, and does not write them.
+  std::string small = name;
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  const auto written = testing::make_test_folder() / small;
+  gmsh::write(written.string());
+  if (written != file) std::filesystem::rename(written, file);
   return file;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "flexbody/body_file.hpp"
+#include "flexbody/geometry_files.hpp"
 #include "unit/flexbody/files.hpp"
 #include "unit/flexbody/small_body.hpp"
 
@@ -230,6 +233,45 @@ TEST_F(ContentKey, OfAMissingMeshIsAnInputErrorThatNamesIt) {
   }
 }
 
+TEST_F(ContentKey, FollowsWhateverASecondFileIsNamedBy) {
+  const auto script = folder_.path() / "ARM.GEO";
+  const auto part = folder_.path() / "part.txt";
+  for (const std::string text :
+       {"Merge 'part.txt';", "Include \"part.txt\";",
+        "v() = ShapeFromFile(\"part.txt\");", "l() = ListFromFile('part.txt');",
+        "Field[1].FileName = \"part.txt\";", "If(FileExists(\"part.txt\"))",
+        "Include /* a */ \"part.txt\" // b\n;"}) {
+    write_bytes(script, text);
+    write_bytes(part, "one");
+    const std::string key = content_key(make_recipe(script));
+    EXPECT_EQ(content_key(make_recipe(script)), key) << text;
+    write_bytes(part, "two");
+    const std::string other = content_key(make_recipe(script));
+    EXPECT_NE(other, key) << text;
+    std::filesystem::remove(part);
+    EXPECT_NE(content_key(make_recipe(script)), other) << text;
+    EXPECT_TRUE(find_geometry_files(script).is_complete) << text;
+  }
+}
+
+TEST_F(ContentKey, KnowsWhenAScriptPutsNamesTogether) {
+  const auto script = folder_.path() / "arm.geo";
+  for (const std::string text :
+       {"Include Sprintf(\"a%g\", 1);", "Include Str(\"a\", \"b\");",
+        "Merge name;", "Include \"a\" + x;", "l() = ListFromFile(name);",
+        "Field[1].FileName = Str(\"a\");", "Plugin(Skin).Run;",
+        "MergeWithBoundingBox StrCat(\"a\", \"b\");"}) {
+    write_bytes(script, text);
+    EXPECT_FALSE(find_geometry_files(script).is_complete) << text;
+  }
+  for (const std::string text :
+       {"", "Point(1) = {0, 0, 0};", "// Include Sprintf(\"a\");",
+        "/* Merge name; */", "x = \"Include name\";", "Include \"a\";"}) {
+    write_bytes(script, text);
+    EXPECT_TRUE(find_geometry_files(script).is_complete) << text;
+  }
+}
+
 // Asks a cache of its own, and counts how often it had to reduce.
 class Cache : public ::testing::Test {
  protected:
@@ -362,6 +404,36 @@ TEST_F(Cache, GivesThreadsThatAskAtOnceTheSameBody) {
   }
 }
 
+TEST_F(Cache, RefusesEntriesThatOthersOwnOrCanWrite) {
+  using std::filesystem::perms;
+  for (const perms others : {perms::group_write, perms::others_write}) {
+    (void)ask();
+    std::filesystem::permissions(entry(), others,
+                                 std::filesystem::perm_options::add);
+    expect_made_anew();
+  }
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  ASSERT_EQ(chown(entry().c_str(), 12345, 12345), 0);
+  expect_made_anew();
+}
+
+TEST_F(Cache, FollowsNoLinkInAnEntrysPlace) {
+  (void)ask();
+  std::filesystem::rename(entry(), folder_.path() / "elsewhere");
+  std::filesystem::create_symlink(folder_.path() / "elsewhere", entry());
+  EXPECT_FALSE(ask().was_cached);
+}
+
+TEST_F(Cache, IsForItsOwnerAloneWhateverTheUmask) {
+  const mode_t old = umask(0);
+  (void)ask();
+  umask(old);
+  EXPECT_TRUE(ask().was_cached);
+  struct stat info {};
+  ASSERT_EQ(stat(cache().c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0700U);
+}
+
 // Sets a variable of the environment, or takes it away, for a while.
 class Variable {
  public:
@@ -394,6 +466,16 @@ TEST(DefaultCacheFolder, IsTheFirstOfLimbersXdgsAndHomes) {
   EXPECT_EQ(default_cache_folder(), "/xdg/limber");
   const Variable own("LIMBER_CACHE", "/own");
   EXPECT_EQ(default_cache_folder(), "/own");
+}
+
+TEST(DefaultCacheFolder, IsNotGuessedWhereThereIsNoHome) {
+  const Variable no_xdg("XDG_CACHE_HOME", nullptr);
+  const Variable no_own("LIMBER_CACHE", nullptr);
+  for (const char* home : {static_cast<const char*>(nullptr), "", "relative"}) {
+    const Variable set("HOME", home);
+    EXPECT_THAT(find_input_error([] { (void)default_cache_folder(); }),
+                HasSubstr("--cache"));
+  }
 }
 
 }  // namespace
