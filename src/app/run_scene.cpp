@@ -33,15 +33,15 @@ void simulate(const scene::BuiltScene& built, const Progress& progress,
               results::History& history,
               dynamics::SimulationStatistics& statistics,
               dynamics::RunRecord& record,
-              const dynamics::Continuation& continuation = {}) {
+              const dynamics::Continuation& continuation,
+              const dynamics::Followed& followed) {
   dynamics::SystemState state = built.initial;
   const auto observer = [&](const dynamics::SystemState& now,
                             const dynamics::EnergyBalance& energy) {
     observe(built, now, energy, history);
   };
   dynamics::simulate(built.model, state, built.settings, observer, progress,
-                     statistics, continuation,
-                     scene::follow(built.probes, built.model), record);
+                     statistics, continuation, followed, record);
 }
 
 void add_columns(Run& run) {
@@ -135,7 +135,7 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
       run.history, run.told);
   try {
     simulate(run.built, progress, run.history, run.statistics, run.record,
-             continuation);
+             continuation, scene::follow(run.built.probes, run.built.model));
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
@@ -147,7 +147,7 @@ double time_again(const Run& run, const Progress& progress) {
   results::History history;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;
-  simulate(run.built, progress, history, statistics, record);
+  simulate(run.built, progress, history, statistics, record, {}, {});
   return statistics.seconds;
 }
 

@@ -26,7 +26,8 @@ std::string describe(const EnergyRecord& energy) {
 }
 
 bool is_forgiven(IntegratorKind integrator, const EnergyRecord& energy) {
-  return integrator == IntegratorKind::implicit_euler || energy.is_one_way;
+  return integrator == IntegratorKind::implicit_euler ||
+         integrator == IntegratorKind::explicit_euler || energy.is_one_way;
 }
 
 std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
@@ -37,6 +38,10 @@ std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
   if (integrator == IntegratorKind::implicit_euler) {
     return "implicit-euler damps whatever its steps do not resolve; take "
            "shorter steps or generalized-alpha";
+  }
+  if (integrator == IntegratorKind::explicit_euler) {
+    return "explicit-euler is of first order, and takes work from the start of "
+           "a step; take shorter steps or another integrator";
   }
   return "take shorter steps, steps to a tolerance, or energy-conserving";
 }

@@ -11,7 +11,8 @@
 namespace limber::dynamics {
 
 /// Of the throughput: a drift beyond it is told, one beyond the other ends a
-/// run, unless its integrator is known to damp or a level takes nothing back.
+/// run, unless its integrator is known to damp (implicit Euler) or has no work
+/// of its own (explicit Euler), or a level takes nothing back (one-way).
 inline constexpr double kToldDrift = 0.01;
 inline constexpr double kMostDrift = 0.5;
 
