@@ -37,14 +37,13 @@ CouplerAssembly::CouplerAssembly(const Scene& scene, const BodyPlans& plans,
       mounts_(mounts),
       builder_(builder),
       warnings_(warnings),
+      loads_(scene, plans, mounts.start()),
       at_zero_(find_motions_at_zero(scene.robot, scene.scenario)),
       starts_(find_joint_starts(scene.robot, scene.scenario)) {}
 
 void CouplerAssembly::add_all() {
   const Robot& robot = scene_.robot;
-  for (const int joint : plans_.coupled_joints) {
-    add_joint(robot.joints[index(joint)]);
-  }
+  for (const int joint : plans_.coupled_joints) add_joint(joint);
   const auto add_each = [](const char* what, const auto& all, const auto& add) {
     for (const auto& one : all) {
       naming(fmt::format("{} '{}'", what, one.name), [&] { add(one); });
@@ -101,7 +100,7 @@ dynamics::CouplerIndex CouplerAssembly::add_coupler(
 void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
                                 const Mount& M) {
   const joints::JointParameters held =
-      find_joint_parameters(spec.coupler, F.side, M.side);
+      find_joint_parameters(spec.coupler, F.side, M.side, spec.load);
   const auto coordinates =
       joints::find_coordinates(spec.kind, spec.axis, spec.second);
   std::vector<joints::JointElement> elements = make_elements(
@@ -124,15 +123,17 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
   }
 }
 
-void CouplerAssembly::add_joint(const Joint& joint) {
+void CouplerAssembly::add_joint(int i) {
+  const Joint& joint = scene_.robot.joints[index(i)];
   const bool free = joint.kind == joints::JointKind::floating;
   if (free && joint.coupler.free_damping.value_or(0.0) == 0.0) return;
   const Mount F = mount_joint(joint, joint.parent, joint.X_PJ);
   const Mount M = mount_joint(joint, joint.child, Pose{});
   naming("joint '" + joint.name + "'", [&] {
-    add_joint({joint.name, joint.kind, joint.axis_J, joint.second_J,
-               joint.coupler, joint.actions, joint.max_effort, joint.max_speed},
-              F, M);
+    add_joint(
+        {joint.name, joint.kind, joint.axis_J, joint.second_J, joint.coupler,
+         joint.actions, joint.max_effort, joint.max_speed, loads_.of_joint(i)},
+        F, M);
   });
 }
 
@@ -155,11 +156,11 @@ void CouplerAssembly::add_loop(const Loop& loop) {
   const Pose X_WF = mounts_.find_pose(loop.from, at_zero_);
   check_gap(X_WF, mounts_.find_pose(loop.to, at_zero_),
             "where all joints are at zero");
-  add_joint(
-      {loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
-       loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited},
-      mounts_.find_mount(loop.from, X_WF, at_zero_),
-      mounts_.find_mount(loop.to, X_WF, at_zero_));
+  add_joint({loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
+             loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited,
+             loads_.of_loop(loop)},
+            mounts_.find_mount(loop.from, X_WF, at_zero_),
+            mounts_.find_mount(loop.to, X_WF, at_zero_));
 }
 
 void CouplerAssembly::add_connector(const Connector& connector) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/carried_load.hpp"
 #include "scene/coupler_laws.hpp"
 #include "scene/mounts.hpp"
 
@@ -33,6 +34,7 @@ class CouplerAssembly {
     const std::vector<JointAction>& actions;
     double max_effort;
     double max_speed;
+    CarriedLoad load;
   };
   /// A joint of the model with one coordinate, for gears.
   struct Geared {
@@ -42,7 +44,7 @@ class CouplerAssembly {
     std::array<Mount, 2> mounts;  ///< of F and M
   };
 
-  void add_joint(const Joint& joint);
+  void add_joint(int index);
   void add_joint(const JointSpec& spec, const Mount& F, const Mount& M);
   Mount mount_joint(const Joint& joint, int link, const Pose& X_LF);
   void check_joint_interface(const Joint& joint, int link, const Mount& mount);
@@ -62,6 +64,7 @@ class CouplerAssembly {
   const Mounts& mounts_;
   dynamics::SystemBuilder& builder_;
   std::vector<std::string>& warnings_;
+  CarriedLoads loads_;
   std::vector<LinkMotion> at_zero_;  ///< links where all joints are at zero
   std::map<std::string, JointStart> starts_;  ///< of the tree, gears followed
   std::map<std::string, Geared> geared_;

@@ -37,11 +37,11 @@ double stiffness_at(double frequency, double mu) {
 }
 
 double find_stiffness(const CouplerSide& side_F, const CouplerSide& side_M,
-                      int first, double mu) {
+                      int first, double mu, double carried) {
   const double flexibility = std::min(find_flexibility(side_F, first),
                                       find_flexibility(side_M, first));
   if (std::isfinite(flexibility)) return kStiffnessRatio / flexibility;
-  return stiffness_at(kRigidFrequency, mu);
+  return std::max(stiffness_at(kRigidFrequency, mu), carried / kRigidShare);
 }
 
 double find_damping(double stiffness, double mu) {
@@ -52,14 +52,15 @@ double find_damping(double stiffness, double mu) {
 
 joints::JointParameters find_joint_parameters(const CouplerOptions& options,
                                               const CouplerSide& side_F,
-                                              const CouplerSide& side_M) {
+                                              const CouplerSide& side_M,
+                                              const CarriedLoad& load) {
   const double mass = reduce(side_F.mass, side_M.mass);
   const double inertia = reduce(side_F.inertia, side_M.inertia);
   joints::JointParameters parameters;
   parameters.translational_stiffness = options.translational_stiffness.value_or(
-      find_stiffness(side_F, side_M, 0, mass));
+      find_stiffness(side_F, side_M, 0, mass, load.force / load.size));
   parameters.rotational_stiffness = options.rotational_stiffness.value_or(
-      find_stiffness(side_F, side_M, 3, inertia));
+      find_stiffness(side_F, side_M, 3, inertia, load.moment));
   parameters.translational_damping = options.translational_damping.value_or(
       find_damping(parameters.translational_stiffness, mass));
   parameters.rotational_damping = options.rotational_damping.value_or(

@@ -19,10 +19,20 @@ struct CouplerSide {
   std::optional<Matrix6> flexibility;
 };
 
+/// What a coupler may have to carry, of bodies of this size; zero: not known.
+struct CarriedLoad {
+  double force = 0.0;                                     ///< [N]
+  double moment = 0.0;                                    ///< [N m]
+  double size = std::numeric_limits<double>::infinity();  ///< [m]
+};
+
 /// Stiffness over that of the stiffer side's own interface [-].
 inline constexpr double kStiffnessRatio = 100.0;
 /// Frequency at which two rigid sides would swing on their coupler [Hz].
 inline constexpr double kRigidFrequency = 1000.0;
+/// What a coupler of two rigid sides may give way by under what it carries:
+/// of the sides' size, and in rotation [-, rad].
+inline constexpr double kRigidShare = 1e-4;
 /// Share of critical damping of the two masses on their coupler [-].
 inline constexpr double kDampingRatio = 0.01;
 
@@ -36,14 +46,16 @@ inline constexpr double kStopFrequency = 50.0;
 /// where c is the largest principal flexibility of the interface (translation
 /// or rotation): the coupler then adds at most 1 % to the flexibility of the
 /// stiffer side. If both sides are rigid,
-///   k = mu (2 pi kRigidFrequency)^2,   1/mu = 1/mu_F + 1/mu_M,
-/// with mu the mass (or moment of inertia). The damping is
+///   k = max(mu (2 pi kRigidFrequency)^2, load / (kRigidShare size)),
+///   1/mu = 1/mu_F + 1/mu_M,
+/// with mu the mass (or moment of inertia), load the force (or moment) that it
+/// carries and size that of the bodies (or 1 rad). The damping is
 ///   c = 2 kDampingRatio sqrt(k mu).
 /// A free direction has no damping unless the URDF gives one. The flexibility
 /// counts at every fidelity, so that a change of level changes nothing else.
 [[nodiscard]] joints::JointParameters find_joint_parameters(
     const CouplerOptions& options, const CouplerSide& side_F,
-    const CouplerSide& side_M);
+    const CouplerSide& side_M, const CarriedLoad& load = {});
 
 /// Of an end stop whose file gives none.
 struct StopStiffness {

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/carried_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/overloaded.hpp"
+
+namespace limber::scene {
+namespace {
+
+// Frames nearer than this share of a body's farthest two are one.
+constexpr double kSamePlace = 1e-6;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+double find_largest(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+// Bound on a load's factor.
+double find_peak(const dynamics::TimeFunction& function) {
+  return std::visit(Overloaded{[](const dynamics::StepSequence& s) {
+                                 return find_largest(s.values);
+                               },
+                               [](const dynamics::Table& t) {
+                                 return find_largest(t.values);
+                               },
+                               [](const dynamics::HarmonicSum& sum) {
+                                 double peak = std::abs(sum.mean);
+                                 for (const dynamics::Harmonic& h : sum.terms) {
+                                   peak += std::hypot(h.cosine, h.sine);
+                                 }
+                                 return peak;
+                               },
+                               [](const auto&) { return 1.0; }},
+                    function);
+}
+
+// Largest angular speed that a drive commands; 0 of what moves along a line.
+double find_turn(const DriveSpec& drive, joints::JointKind kind) {
+  const auto coordinates =
+      joints::find_coordinates(kind, Vector3::UnitZ(), Vector3::UnitX());
+  const auto i = index(drive.coordinate - 1);
+  if (i >= coordinates.size() ||
+      coordinates[i].kind != joints::AxisCoordinate::Kind::angle) {
+    return 0.0;
+  }
+  const joints::SignalValue most = joints::find_largest(drive.drive.signal);
+  switch (drive.drive.mode) {
+    case joints::DriveMode::position:
+      return most.rate;
+    case joints::DriveMode::velocity:
+      return most.value;
+    case joints::DriveMode::effort:
+      break;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+CarriedLoads::CarriedLoads(const Scene& scene, const BodyPlans& plans,
+                           const std::vector<LinkMotion>& start)
+    : scene_(scene),
+      plans_(plans),
+      start_(start),
+      frames_(plans.bodies.size()) {
+  find_frames();
+  find_parts();
+}
+
+// joints[i] leads to links[i + 1], whose frame it is.
+void CarriedLoads::find_frames() {
+  const auto add_frame = [&](int link, const Vector3& at) {
+    frames_[index(plans_.body_of_link[index(link)])].push_back(at);
+  };
+  for (const int j : plans_.coupled_joints) {
+    const Joint& joint = scene_.robot.joints[index(j)];
+    if (joint.kind == joints::JointKind::floating) continue;
+    const Vector3& at = start_[index(joint.child)].X_WL.p;
+    add_frame(joint.parent, at);
+    add_frame(joint.child, at);
+  }
+  for (const Loop& loop : scene_.robot.loops) {
+    for (const ConnectorEnd* end : {&loop.from, &loop.to}) {
+      if (end->where.link == "world") continue;
+      add_frame(find_link(scene_.robot, end->where.link), place(end->where));
+    }
+  }
+}
+
+void CarriedLoads::find_parts() {
+  const double w = find_speed();
+  const double g = scene_.scenario.gravity.norm();
+  for (const BodyPlan& plan : plans_.bodies) {
+    if (plan.is_world) continue;
+    const int link = plan.links.front();
+    const Vector3 centre = find_centre(plan);
+    const double a = w * w * find_radius(link, centre) + g;
+    parts_.push_back({link, plan.mass * a, 0.0, centre});
+  }
+  for (const LoadSpec& load : scene_.scenario.loads) {
+    const double peak = find_peak(load.time);
+    parts_.push_back({find_link(scene_.robot, load.where.link),
+                      peak * load.force.norm(), peak * load.moment.norm(),
+                      place(load.where)});
+  }
+}
+
+double CarriedLoads::find_speed() const {
+  double largest = 0.0;
+  for (const LinkMotion& link : start_) {
+    largest = std::max(largest, link.w_WL_W.norm());
+  }
+  std::vector<double> driven(scene_.robot.links.size(), 0.0);
+  for (std::size_t j = 0; j < scene_.robot.joints.size(); ++j) {
+    const Joint& joint = scene_.robot.joints[j];
+    double& speed = driven[index(joint.child)];
+    speed = driven[index(joint.parent)];
+    for (const DriveSpec& drive : scene_.scenario.drives) {
+      if (drive.joint == joint.name) speed += find_turn(drive, joint.kind);
+    }
+    largest = std::max(largest, speed);
+  }
+  for (const Loop& loop : scene_.robot.loops) {
+    for (const DriveSpec& drive : scene_.scenario.drives) {
+      if (drive.joint != loop.name) continue;
+      largest = std::max(largest, find_turn(drive, loop.kind));
+    }
+  }
+  return largest;
+}
+
+// Interfaces of flexible links count as at the link's origin.
+Vector3 CarriedLoads::place(const Place& where) const {
+  const int link = find_link(scene_.robot, where.link);
+  return start_[index(link)].X_WL * where.point.value_or(Vector3::Zero());
+}
+
+bool CarriedLoads::is_beyond(int link, int joint) const {
+  for (int l = link; l > 0; l = scene_.robot.joints[index(l - 1)].parent) {
+    if (l - 1 == joint) return true;
+  }
+  return false;
+}
+
+Vector3 CarriedLoads::find_centre(const BodyPlan& plan) const {
+  const auto link = index(plan.links.front());
+  return start_[link].X_WL * plans_.X_BL[link].inverse().p;
+}
+
+double CarriedLoads::find_radius(int link, const Vector3& centre) const {
+  double radius = 0.0;
+  for (int l = link; l > 0; l = scene_.robot.joints[index(l - 1)].parent) {
+    radius = std::max(radius, (centre - start_[index(l)].X_WL.p).norm());
+  }
+  return radius;
+}
+
+// Least distance of two couplers on a link's body, or what its inertia says.
+double CarriedLoads::find_size(int link) const {
+  const auto b = index(plans_.body_of_link[index(link)]);
+  const BodyPlan& plan = plans_.bodies[b];
+  if (plan.is_world) return std::numeric_limits<double>::infinity();
+  const std::vector<Vector3>& at = frames_[b];
+  double farthest = 0.0;
+  for (const Vector3& p : at) {
+    for (const Vector3& q : at) farthest = std::max(farthest, (p - q).norm());
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3& p : at) {
+    for (const Vector3& q : at) {
+      const double distance = (p - q).norm();
+      if (distance > kSamePlace * farthest) least = std::min(least, distance);
+    }
+  }
+  if (std::isfinite(least)) return least;
+  const double offset =
+      at.empty() ? 0.0 : (at.front() - find_centre(plan)).norm();
+  const double size =
+      std::max(offset, std::sqrt(0.5 * plan.inertia.trace() / plan.mass));
+  return size > 0.0 ? size : std::numeric_limits<double>::infinity();
+}
+
+void CarriedLoads::add(const Part& part, const Vector3& at,
+                       CarriedLoad& sum) const {
+  sum.force += part.force;
+  sum.moment += part.moment + part.force * (part.at - at).norm();
+}
+
+CarriedLoad CarriedLoads::of_joint(int joint) const {
+  const Joint& j = scene_.robot.joints[index(joint)];
+  CarriedLoad sum{.size = std::min(find_size(j.parent), find_size(j.child))};
+  for (const Part& part : parts_) {
+    if (scene_.robot.loops.empty() && !is_beyond(part.link, joint)) continue;
+    add(part, start_[index(j.child)].X_WL.p, sum);
+  }
+  return sum;
+}
+
+CarriedLoad CarriedLoads::of_loop(const Loop& loop) const {
+  CarriedLoad sum{.size = std::numeric_limits<double>::infinity()};
+  Vector3 at = loop.from.where.point.value_or(Vector3::Zero());
+  for (const ConnectorEnd* end : {&loop.to, &loop.from}) {
+    if (end->where.link == "world") continue;
+    at = place(end->where);
+    sum.size =
+        std::min(sum.size, find_size(find_link(scene_.robot, end->where.link)));
+  }
+  for (const Part& part : parts_) add(part, at, sum);
+  return sum;
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "scene/body_plan.hpp"
+#include "scene/default_stiffness.hpp"
+#include "scene/link_motion.hpp"
+#include "scene/scene.hpp"
+
+namespace limber::scene {
+
+/// Estimates what joints carry in a scene from what its files say, for default
+/// stiffness.
+///
+/// Equation   force  = sum_i m_i (w^2 r_i + g) + sum_l |f_l|,
+///            moment = sum_i m_i (w^2 r_i + g) d_i + sum_l (|f_l| d_l + |t_l|),
+///            of the bodies i and loads l beyond the joint, of all of them if
+///            the robot has loops; d the distance from the joint, r_i the
+///            largest one of body i's centre of mass from a joint between it
+///            and the root; w the largest angular speed of a link at the start
+///            or the largest sum, along a way from the root, of what drives
+///            command
+/// Limits     an upper bound where all turn as one, else an estimate: speeds
+///            that loads or effort drives bring about, shocks, and what drives
+///            take to speed up are left out.
+class CarriedLoads {
+ public:
+  CarriedLoads(const Scene& scene, const BodyPlans& plans,
+               const std::vector<LinkMotion>& start);
+
+  /// At a joint of the tree.
+  [[nodiscard]] CarriedLoad of_joint(int joint) const;
+  /// At a loop's joint.
+  [[nodiscard]] CarriedLoad of_loop(const Loop& loop) const;
+
+ private:
+  struct Part {
+    int link = 0;
+    double force = 0.0;   // [N]
+    double moment = 0.0;  // [N m]
+    Vector3 at = Vector3::Zero();
+  };
+  void find_frames();
+  void find_parts();
+  [[nodiscard]] double find_speed() const;
+  [[nodiscard]] Vector3 place(const Place& where) const;
+  [[nodiscard]] bool is_beyond(int link, int joint) const;
+  [[nodiscard]] Vector3 find_centre(const BodyPlan& plan) const;
+  [[nodiscard]] double find_radius(int link, const Vector3& centre) const;
+  [[nodiscard]] double find_size(int link) const;
+  void add(const Part& part, const Vector3& at, CarriedLoad& sum) const;
+
+  const Scene& scene_;
+  const BodyPlans& plans_;
+  const std::vector<LinkMotion>& start_;
+  std::vector<std::vector<Vector3>> frames_;  // of couplers, one a plan
+  std::vector<Part> parts_;
+};
+
+}  // namespace limber::scene
