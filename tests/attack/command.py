@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 PATIENCE = 60.0  # s, after which a command counts as hung
-STOP_AFTER = 20.0  # s, after which a long run is asked to end
+STOP_AFTER = 30.0  # s, after which a long run is asked to end
 STOP_WITHIN = 10.0  # s, in which it has to
 ALLOWED = {0, 2, 3, 130, 143}
 PR_SET_CHILD_SUBREAPER = 36

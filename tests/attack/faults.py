@@ -88,7 +88,9 @@ def attack_limit(number, limber):
     prepared = prepare(limber)
     scene.lay_out(limber.place)
     ended = limber.run(*RUN, before=before)
-    if name.startswith(("stack", "3 open", "4 open")) and ended.status == 127:
+    if name.startswith(("memory", "stack", "3 open", "4 open")) and (
+        ended.status == 127
+    ):
         ended.problems.clear()  # the loader's word, before any of ours
     _expect_the_answer(limber, ended, prepared)
     return ended
@@ -153,8 +155,8 @@ def attack_environment(number, limber):
     elif "cache" not in name and "HOME" not in name:
         cache = ["--cache", "fresh_cache"]
     ended = limber.run(*RUN, *cache, environment=changes)
-    if ended.stopped and ended.status == 130:
-        ended.problems.append("took more than 20 s")
+    if ended.stopped:
+        ended.problems.append("took more than 30 s")
     _expect_the_answer(limber, ended, prepared)
     return ended
 
