@@ -65,8 +65,10 @@ TEST(Bodies, OfOneReductionKeepItsModalInertiaOnce) {
   const auto other =
       testing::share(make_point_mass_body(30, kModes, 5.0, 2.0, 9.0, 2));
   SystemBuilder builder;
+  int count = 0;
   for (const auto& reduced : {one, other, one}) {
-    builder.add_flexible_body("body", reduced, Fidelity::coupled, {});
+    builder.add_flexible_body("body" + std::to_string(count++), reduced,
+                              Fidelity::coupled, {});
   }
   const SystemModel model = builder.build();
   EXPECT_EQ(model.bodies[0].inertia, model.bodies[2].inertia);

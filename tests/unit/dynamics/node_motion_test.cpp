@@ -24,7 +24,8 @@ class NodeMotion : public ::testing::Test {
     builder.add_rigid_body("frame", {1.0, Matrix3::Identity()});
     for (const Fidelity level :
          {Fidelity::coupled, Fidelity::rigid, Fidelity::uncoupled}) {
-      builder.add_flexible_body("b", testing::share(body_), level, {});
+      builder.add_flexible_body(std::string(to_string(level)),
+                                testing::share(body_), level, {});
     }
     model_ = builder.build();
     std::mt19937 random(3);

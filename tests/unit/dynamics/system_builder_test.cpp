@@ -176,8 +176,9 @@ TEST_F(SystemBuilderTest, RefusesAMassThatIsNotPositiveAndFinite) {
 
 TEST_F(SystemBuilderTest, RefusesDampingThatFeedsEnergyIn) {
   for (const double bad : {-1e-3, kNaN, kInf}) {
-    refuse_damping({.rayleigh_mass = bad}, "Rayleigh damping of mass");
-    refuse_damping({.rayleigh_stiffness = bad},
+    refuse_damping({.rayleigh_mass = bad, .ratios = {}},
+                   "Rayleigh damping of mass");
+    refuse_damping({.rayleigh_stiffness = bad, .ratios = {}},
                    "Rayleigh damping of stiffness");
     refuse_damping({.ratios = {bad}}, "a damping ratio is");
     refuse_damping({.ratios = {0.1, 0.1, bad, 0.1}}, "a damping ratio is");
@@ -185,7 +186,7 @@ TEST_F(SystemBuilderTest, RefusesDampingThatFeedsEnergyIn) {
   // Not made good by what another kind adds.
   refuse_damping({.rayleigh_mass = -1.0, .ratios = {0.9}}, "of mass");
   refuse_damping({.ratios = {0.1, 0.1}}, "2 damping ratios for 4 modes");
-  refuse_damping({.rayleigh_stiffness = 1e308}, "highest mode");
+  refuse_damping({.rayleigh_stiffness = 1e308, .ratios = {}}, "highest mode");
 }
 
 TEST_F(SystemBuilderTest, RefusesAReducedBodyThatIsNotWhole) {
