@@ -265,7 +265,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     correction = measure_increments();
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
-      fail(correction, "its motion is no longer finite");
+      fail(correction, "the motion is no longer finite");
     }
     apply_increments(h);
     advance(state, h, end);

@@ -344,7 +344,7 @@ double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
     correction = measure_correction(model_, x_);
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
-      fail(from, h, correction, "its motion is no longer finite");
+      fail(from, h, correction, "the motion is no longer finite");
     }
     apply_increments(h);
     advance(from, h, end);

@@ -51,9 +51,32 @@ std::string describe_mode(const NewtonFailure& f) {
       mode + 1, std::sqrt(body.lambda[mode]) / (2.0 * std::numbers::pi));
 }
 
+std::size_t count_links(const SystemModel& model) {
+  return model.couplers.size() + model.transmissions.size();
+}
+
+const std::string& name_link(const SystemModel& model, std::size_t link) {
+  const std::size_t couplers = model.couplers.size();
+  return link < couplers ? model.couplers[link].name
+                         : model.transmissions[link - couplers].name;
+}
+
+// A force that is not finite makes every correction NaN, those of bodies that
+// it does not act on too: it is told in place of a body.
+std::string describe_broken_link(const NewtonFailure& f, const char* what) {
+  if (std::isfinite(f.correction.value)) return {};
+  for (std::size_t i = 0; i < count_links(f.model); ++i) {
+    if (NewtonMatrix::find_gap(f.terms, i).allFinite()) continue;
+    return fmt::format(
+        "coupler '{}' at t = {:.9g} s: its force is NaN or infinite, and {}; a "
+        "smaller step, or more damping in it, may help",
+        name_link(f.model, i), f.end, what);
+  }
+  return {};
+}
+
 std::string describe_coupler(const NewtonFailure& f) {
-  const std::size_t couplers = f.model.couplers.size();
-  const std::size_t links = couplers + f.model.transmissions.size();
+  const std::size_t links = count_links(f.model);
   double largest = 0.0;
   std::size_t link = links;
   for (std::size_t i = 0; i < links; ++i) {
@@ -64,19 +87,18 @@ std::string describe_coupler(const NewtonFailure& f) {
     }
   }
   if (link == links) return "a smaller step may help";
-  const std::string& name = link < couplers
-                                ? f.model.couplers[link].name
-                                : f.model.transmissions[link - couplers].name;
   return fmt::format(
       "the force of coupler '{}' changes most between iterations, by {:.2g} N "
       "or "
       "N m; a smaller step, or more damping in it, may help",
-      name, largest);
+      name_link(f.model, link), largest);
 }
 
 }  // namespace
 
 std::string describe(const NewtonFailure& failure, const char* what) {
+  const std::string link = describe_broken_link(failure, what);
+  if (!link.empty()) return link;
   std::string cause = describe_turn(failure);
   if (cause.empty()) cause = describe_mode(failure);
   if (cause.empty()) cause = describe_coupler(failure);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/exact_modes.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +40,8 @@ struct Scene {
                                    {Matrix3::Identity(), table.p_B});
   }
   void push(const TimeFunction& function, LoadFrame frame = LoadFrame::body) {
-    builder.add_load("load", tip, force, moment, frame, function);
+    builder.add_load(fmt::format("load {}", ++loads), tip, force, moment, frame,
+                     function);
   }
   [[nodiscard]] VectorX modal_force() const {
     return table.Phi_B.transpose() * force + table.Psi_B.transpose() * moment;
@@ -47,6 +49,7 @@ struct Scene {
 
   flexbody::InterfaceTable table;
   SystemBuilder builder;
+  int loads = 0;
   BodyIndex body = 0;
   AttachmentIndex tip = 0;
   Vector3 force{30.0, -20.0, 50.0};
