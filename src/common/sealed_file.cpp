@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <system_error>
 
 #include "common/digest.hpp"
 #include "common/errors.hpp"
+#include "common/input_file.hpp"
 #include "common/whole_file.hpp"
 
 namespace limber {
@@ -20,16 +20,7 @@ std::string make_head(const Seal& seal, std::string_view content) {
                      digest.text());
 }
 
-// As much as there is of `size` bytes.
-std::string read_start(const std::filesystem::path& file, std::size_t size) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return {};
-  std::string start(size, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(start.data(), static_cast<std::streamsize>(size));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  return start;
-}
+constexpr InputKind kSealed = {"sealed file", std::uint64_t{1} << 38};
 
 }  // namespace
 
@@ -48,7 +39,13 @@ void write_sealed(const std::filesystem::path& file, const Seal& seal,
 }
 
 bool has_seal(const std::filesystem::path& file, std::string_view kind) {
-  return read_start(file, kind.size() + 1) == std::string(kind) + '\n';
+  try {
+    std::string start(kind.size() + 1, '\0');
+    start.resize(InputFile(file, kSealed).read(start.data(), start.size()));
+    return start == std::string(kind) + '\n';
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 std::string read_sealed(const std::filesystem::path& file, const Seal& seal) {
@@ -56,10 +53,9 @@ std::string read_sealed(const std::filesystem::path& file, const Seal& seal) {
     throw InputError(
         fmt::format("'{}' {} '{}'", file.string(), what, seal.kind));
   };
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error || !has_seal(file, seal.kind)) refuse("is no");
-  std::string content = read_start(file, size);
+  check_input(file, kSealed);
+  if (!has_seal(file, seal.kind)) refuse("is no");
+  std::string content = read_input(file, kSealed);
   const std::size_t head_size = make_head(seal, {}).size();
   const std::string head = content.substr(0, head_size);
   content.erase(0, head_size);

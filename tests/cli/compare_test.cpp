@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/command.hpp"
+#include "cli/shell.hpp"
 
 namespace limber::test {
 namespace {
@@ -94,6 +98,13 @@ TEST(Compare, TakesNoWholeMeshForItsReferenceUnlessAskedAndSaysSo) {
   EXPECT_FALSE(asked["reference"].contains("note"));
 }
 
+// Of a command that runs beside the test.
+bool says(const Workspace& place, const std::string& words) {
+  const auto file = place.folder() / "stderr2.txt";
+  return std::filesystem::exists(file) &&
+         read_text(file).find(words) != std::string::npos;
+}
+
 // Ended by hand: what is looked at is said in its first seconds, in a pipe too.
 TEST(Compare, SaysHowLongItWillTakeBeforeItTakesLong) {
   const Workspace place;
@@ -102,11 +113,13 @@ TEST(Compare, SaysHowLongItWillTakeBeforeItTakesLong) {
        {"compare long.toml --fidelity rigid", "run long.toml"}) {
     std::filesystem::rename(place.folder() / "push.toml",
                             place.folder() / "long.toml");
-    const CommandResult result = place.limber(
-        command +
-        " --out o >a 2>b & P=$!; for i in $(seq 60); do sleep 0.5; grep -q "
-        "'to go' b && break; done; kill $P; wait $P; cat b");
-    EXPECT_THAT(result.out, HasSubstr("to go, by its first")) << command;
+    RunningCommand running(place, command + " --out o");
+    for (int i = 0; i < 100 && !says(place, "to go, by its first"); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+    running.send(SIGTERM);
+    const CommandResult result = running.wait();
+    EXPECT_THAT(result.errors, HasSubstr("to go, by its first")) << command;
     std::filesystem::rename(place.folder() / "long.toml",
                             place.folder() / "push.toml");
   }
@@ -146,8 +159,11 @@ TEST(Compare, WritesTheChoiceAsAScenarioThatRuns) {
 TEST(Compare, EndsWithStatus3AndTheClosestWhenNothingMeetsTheTolerance) {
   const Workspace place;
   write_push(place);
-  std::filesystem::create_directory(place.folder() / "o");
-  place.write("o/chosen.toml", "of an earlier comparison");
+  const std::string earlier =
+      "compare push.toml --fidelity coupled --reference coupled --tolerance 1% "
+      "--out o";
+  ASSERT_EQ(place.limber(earlier).status, 0);
+  ASSERT_TRUE(std::filesystem::exists(place.folder() / "o/chosen.toml"));
   const CommandResult result = place.limber(
       "compare push.toml --fidelity rigid --reference coupled --tolerance 1% "
       "--repeat 1 --out o");
