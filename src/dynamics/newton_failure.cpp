@@ -66,9 +66,11 @@ const std::string& name_link(const SystemModel& model, std::size_t link) {
 std::string describe_broken_link(const NewtonFailure& f, const char* what) {
   if (std::isfinite(f.correction.value)) return {};
   for (std::size_t i = 0; i < count_links(f.model); ++i) {
-    if (NewtonMatrix::find_gap(f.terms, i).allFinite()) continue;
+    // Squares of a number that is too large are infinite.
+    if (std::isfinite(NewtonMatrix::find_gap(f.terms, i).norm())) continue;
     return fmt::format(
-        "coupler '{}' at t = {:.9g} s: its force is NaN or infinite, and {}; a "
+        "coupler '{}' at t = {:.9g} s: its force is NaN or too large, and {}; "
+        "a "
         "smaller step, or more damping in it, may help",
         name_link(f.model, i), f.end, what);
   }

@@ -160,8 +160,8 @@ TEST(Compare, EndsWithStatus3AndTheClosestWhenNothingMeetsTheTolerance) {
   const Workspace place;
   write_push(place);
   const std::string earlier =
-      "compare push.toml --fidelity coupled --reference coupled --tolerance 1% "
-      "--out o";
+      "compare push.toml --fidelity coupled --modes 2 --reference coupled "
+      "--reference-modes 10 --tolerance 30% --repeat 1 --out o";
   ASSERT_EQ(place.limber(earlier).status, 0);
   ASSERT_TRUE(std::filesystem::exists(place.folder() / "o/chosen.toml"));
   const CommandResult result = place.limber(
