@@ -238,7 +238,7 @@ TEST(InitialDeformation, OfAnotherMeshOrNotFiniteIsRefused) {
               HasSubstr("u.txt: 7 rows; expected 1626"));
   scene.scenario.link_starts["beam"].displacement =
       bench.write("u.txt", VectorX::Constant(1626, std::nan("")));
-  EXPECT_THAT(error_of(bench, scene), HasSubstr("u.txt:1: value 1 is nan"));
+  EXPECT_THAT(error_of(bench, scene), HasSubstr("u.txt:1: value 1: 'nan'"));
 }
 
 /// A scene whose link is a saved reduced body that keeps few rows.
