@@ -70,7 +70,7 @@ void find_cost(Outcome& outcome) {
     return total >= app::kEnough;
   };
   for (int count = 1; !is_enough(count); ++count) {
-    const double seconds = app::time_again(run);
+    const double seconds = app::time_again(run, {});
     least = std::min(least, seconds);
     total += seconds;
     if (count < 10) nodes = std::min(nodes, time_nodes(outcome));
