@@ -14,7 +14,7 @@ from command import Ended, as_status, judge, text
 from damaged import RESUME, RUN, prepare
 
 KEEPING = [*RUN, "--checkpoint-interval", "0"]
-RUN_SECONDS = 1.0  # s, in which a moment is drawn
+RUN_SECONDS = 0.5  # s, in which a moment is drawn
 
 
 def _end_at_a_moment(limber, random, by):
