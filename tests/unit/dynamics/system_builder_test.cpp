@@ -246,13 +246,13 @@ TEST_F(SystemBuilderTest, RefusesAPoseThatIsNone) {
   stretched.R *= 1.001;
   Pose mirrored;
   mirrored.R(2, 2) = -1.0;
-  for (const auto& [pose, why] :
+  for (const std::pair<Pose, const char*>& odd :
        {std::pair{nowhere, "not finite"}, std::pair{stretched, "a rotation"},
         std::pair{mirrored, "a rotation"}}) {
-    expect_input_error([&] { builder_.attach_frame("f", rigid_, pose); },
-                       "frame 'f'", why);
-    expect_input_error([&] { builder_.attach_world("f", pose); }, "frame 'f'",
-                       why);
+    expect_input_error([&] { builder_.attach_frame("f", rigid_, odd.first); },
+                       "frame 'f'", odd.second);
+    expect_input_error([&] { builder_.attach_world("f", odd.first); },
+                       "frame 'f'", odd.second);
   }
 }
 
