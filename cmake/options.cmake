@@ -19,6 +19,17 @@ endif()
 # Gmsh exports its own copies of Eigen's templates: ours, if visible, would take
 # their place inside it, built with other options.
 target_compile_options(limber_options INTERFACE -fvisibility=hidden)
+# Overruns of the stack and of buffers end the program; the table of addresses
+# that the loader fills is read-only from the start; messages and debug
+# information name files from the source folder on, not where it stood.
+target_compile_options(limber_options INTERFACE
+  -ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -fstack-protector-strong)
+if(NOT LIMBER_SANITIZE AND NOT LIMBER_FUZZ)
+  # The C library's checks of sizes need the optimiser.
+  target_compile_options(limber_options INTERFACE
+    "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
+endif()
+target_link_options(limber_options INTERFACE -Wl,-z,relro,-z,now)
 if(LIMBER_SANITIZE MATCHES "^(ON|address)$")
   # A double that its integer cannot hold is of no sanitizer's default.
   set(limber_sanitizers address,undefined,float-cast-overflow)
