@@ -11,6 +11,7 @@
 
 #include "isolated.hpp"
 #include "refusals.hpp"
+#include "support/random_scene.hpp"
 #include "support/run_random_scene.hpp"
 
 /// Runs random scenes, each in a process of its own, and tells how they ended.
@@ -103,19 +104,24 @@ void write_list(const std::string& path, const std::vector<unsigned>& seeds,
                 const std::vector<Ending>& endings) {
   static const char* const kEndings[] = {"finished", "refused", "failed"};
   std::ofstream list(path);
-  list << "seed\tseconds\tending\tsteps\thalved\tsolves\ttext\n";
+  list << "seed\tseconds\tending\tsteps\thalved\tsolves\ttext\tscheme\tstep\n";
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const Ending& ending = endings[i];
     if (ending.kind != Ending::Kind::done) {
       list << fmt::format(
-          "{}\t{:.2f}\t{}\t\t\t\t\n", seeds[i], ending.seconds,
+          "{}\t{:.2f}\t{}\t\t\t\t\t\t\n", seeds[i], ending.seconds,
           ending.kind == Ending::Kind::hung ? "hung" : "crashed");
       continue;
     }
     const Answer answer = read_answer(ending.answer);
-    list << fmt::format("{}\t{:.2f}\t{}\t{}\t{}\t{}\t{}\n", seeds[i],
-                        ending.seconds, kEndings[answer.kind], answer.steps,
-                        answer.halved, answer.solves, answer.text);
+    const dynamics::SimulationSettings asked =
+        testing::draw_scene(seeds[i]).settings;
+    list << fmt::format("{}\t{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3g}\n",
+                        seeds[i], ending.seconds, kEndings[answer.kind],
+                        answer.steps, answer.halved, answer.solves, answer.text,
+                        dynamics::integrator_names()[static_cast<std::size_t>(
+                            asked.integrator)],
+                        asked.step);
   }
 }
 

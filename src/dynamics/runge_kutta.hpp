@@ -17,7 +17,8 @@ namespace limber::dynamics {
 ///
 /// Source     Munthe-Kaas, "Runge-Kutta methods on Lie groups", BIT 38, 1998;
 ///            compensated summation: Knuth's two-sum.
-/// Limits     stable only for h below about 2.8 / the highest frequency.
+/// Limits     stable only for h below about 2.8 / the highest frequency
+///            (dynamics/explicit_limit.hpp).
 class RungeKutta4 {
  public:
   explicit RungeKutta4(const SystemModel& model);

@@ -1,47 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/single_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "common/errors.hpp"
 #include "dynamics/driver.hpp"
 #include "dynamics/exact_modes.hpp"
+#include "dynamics/explicit_limit.hpp"
 #include "dynamics/linear_limit.hpp"
 #include "dynamics/modal_loads.hpp"
-#include "dynamics/stable_step.hpp"
 #include "dynamics/start_warnings.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-// A run takes so many steps for one that was asked for, at most.
-constexpr double kMostParts = 1e3;
-
-// Steps no longer than central differences are stable for.
-SimulationSettings limit_step(const SystemModel& model,
-                              const SystemState& state,
-                              const SimulationSettings& asked,
-                              SimulationStatistics& statistics) {
-  if (asked.integrator != IntegratorKind::central_differences) return asked;
-  SimulationSettings settings = asked;
-  statistics.stable_step = find_stable_step(model, state);
-  const double longest = kStableShare * statistics.stable_step;
-  if (asked.step > kMostParts * longest) {
-    throw InputError(fmt::format(
-        "central-differences is stable up to {:.3g} s here, {:.3g} times less "
-        "than the step of {:.3g} s, because of body '{}' and what holds it; "
-        "ask for a step near that, or take an implicit integrator",
-        longest, asked.step / longest, asked.step,
-        model.bodies[find_fastest_body(model, state)].name));
-  }
-  settings.step = std::min(asked.step, longest);
-  for (StepChange& change : settings.step_changes) {
-    change.step = std::min(change.step, longest);
-  }
-  return settings;
-}
 
 // Everything that one run goes by.
 struct Job {
@@ -56,7 +27,9 @@ struct Job {
 
 void integrate(const SystemModel& model, SystemState& state, const Job& job,
                const Driver::Visit& visit) {
-  Driver driver(model, job.settings, state, job.statistics, job.refinement,
+  const SimulationSettings settings =
+      limit_step(model, state, job.settings, job.statistics);
+  Driver driver(model, settings, state, job.statistics, job.refinement,
                 job.followed);
   if (job.continuation.from) driver.resume(*job.continuation.from, state);
   try {
@@ -147,7 +120,7 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 }  // namespace
 
 void run_once(const SystemModel& model, SystemState& state,
-              const SimulationSettings& asked, const Observer& observer,
+              const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
               const Continuation& continuation, const Followed& followed,
               RunRecord& record, double refinement) {
@@ -167,8 +140,6 @@ void run_once(const SystemModel& model, SystemState& state,
     balance.work = losses.work;
     observer(now, balance);
   };
-  const SimulationSettings settings =
-      limit_step(model, state, asked, statistics);
   const Job job{settings, progress, statistics, continuation,
                 followed, record,   refinement};
   add_start_warnings(model, state, statistics);

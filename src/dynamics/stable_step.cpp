@@ -60,16 +60,17 @@ constexpr double kVelocity = 1e-3;  // [kg^1/2 m/s]
 
 class Iteration {
  public:
-  Iteration(const SystemModel& model, const SystemState& state)
+  // @param has_modes whether modes have their own springs and dampers
+  Iteration(const SystemModel& model, const SystemState& state, bool has_modes)
       : model_(model),
         state_(state),
         displaced_(state),
         terms_(make_terms(model)),
         x_(make_accelerations(model)),
         rest_(make_accelerations(model)),
-        increment_(find_increment(model)) {
-    calc_terms(model_, state_, Side::right, terms_);
-    solve_accelerations(model_, terms_, rest_);
+        increment_(find_increment(model)),
+        has_modes_(has_modes) {
+    find_accelerations(state_, rest_);
   }
 
   // Largest eigenvalue of -d(acceleration)/d(position or velocity).
@@ -121,6 +122,20 @@ class Iteration {
   }
 
  private:
+  void find_accelerations(const SystemState& at, Change& accelerations) {
+    calc_terms(model_, at, Side::right, terms_);
+    solve_accelerations(model_, terms_, accelerations);
+    if (has_modes_) return;
+    for (const BodyModel& body : model_.bodies) {
+      const auto of_body = [&](const VectorX& x) {
+        return x.segment(body.offset, body.modes).array();
+      };
+      accelerations.etaddot.segment(body.offset, body.modes).array() +=
+          body.lambda.array() * of_body(at.eta) +
+          body.damping.array() * of_body(at.etadot);
+    }
+  }
+
   // x <- -(a(state + e x) - a(state)) / e
   void apply(bool of_velocity) {
     const double e = of_velocity ? kVelocity : increment_;
@@ -143,8 +158,7 @@ class Iteration {
       displaced_.eta = state_.eta + e * x_.etaddot;
       displaced_.u_H = state_.u_H + e * x_.uddot_H;
     }
-    calc_terms(model_, displaced_, Side::right, terms_);
-    solve_accelerations(model_, terms_, x_);
+    find_accelerations(displaced_, x_);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       x_.a_WB_W[b] = (rest_.a_WB_W[b] - x_.a_WB_W[b]) / e;
       x_.dw_WB_B[b] = (rest_.dw_WB_B[b] - x_.dw_WB_B[b]) / e;
@@ -160,21 +174,35 @@ class Iteration {
   Change x_;
   Change rest_;
   double increment_;  // of positions, in the norm of measure()
+  bool has_modes_;
 };
 
 }  // namespace
 
-double find_stable_step(const SystemModel& model, const SystemState& state) {
-  Iteration iteration(model, state);
+double find_stable_step(const SystemModel& model, const SystemState& state,
+                        IntegratorKind scheme) {
+  const bool is_splitting = scheme == IntegratorKind::splitting;
+  Iteration iteration(model, state, !is_splitting);
   const double omega_squared = iteration.find_largest(false);
   const double c = iteration.find_largest(true);
-  const double rate = c + std::sqrt(c * c + omega_squared);
-  return rate > 0.0 ? 2.0 / rate : std::numeric_limits<double>::infinity();
+  double longest = 2.0;  // times rate
+  double rate = c + std::sqrt(c * c + omega_squared);
+  if (is_splitting) {
+    rate = std::max(c, std::sqrt(omega_squared));
+  } else if (scheme == IntegratorKind::runge_kutta_4) {
+    longest = 2.6;
+    rate = 0.5 * (c + std::sqrt(c * c + 4.0 * omega_squared));
+  }
+  return rate > 0.0 ? longest / rate : std::numeric_limits<double>::infinity();
+}
+
+double find_stable_step(const SystemModel& model, const SystemState& state) {
+  return find_stable_step(model, state, IntegratorKind::central_differences);
 }
 
 std::size_t find_fastest_body(const SystemModel& model,
                               const SystemState& state) {
-  Iteration iteration(model, state);
+  Iteration iteration(model, state, true);
   iteration.find_largest(false);
   return iteration.find_largest_body();
 }

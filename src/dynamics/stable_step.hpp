@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "dynamics/simulation.hpp"
 #include "dynamics/system_state.hpp"
 
 namespace limber::dynamics {
@@ -19,6 +20,22 @@ namespace limber::dynamics {
 ///            nothing vibrates.
 [[nodiscard]] double find_stable_step(const SystemModel& model,
                                       const SystemState& state);
+
+/// The same of another scheme, or of central differences. Of Runge-Kutta and
+/// splitting a bound: no longer than the longest, about.
+///
+/// Equation   Runge-Kutta: |lambda| h <= 2.6 with |lambda| <=
+///            (c + sqrt(c^2 + 4 omega^2)) / 2; splitting: omega h <= 2 and
+///            c h <= 2, omega and c without the modes' own springs and dampers
+/// Source     the half disc of radius 2.6 in the left half plane is in the
+///            region of stability of the classic tableau (|R(z)| <= 1 up to
+///            2.616 at 122 degrees); lambda^2 + c lambda + omega^2 = 0 with
+///            damping and stiffness of whatever directions; a kick by the
+///            midpoint rule is 1 - c h + c^2 h^2 / 2.
+/// @param scheme central_differences, runge_kutta_4 or splitting
+[[nodiscard]] double find_stable_step(const SystemModel& model,
+                                      const SystemState& state,
+                                      IntegratorKind scheme);
 
 /// The body that moves most in the fastest vibration about `state`, the one
 /// that bounds the step.

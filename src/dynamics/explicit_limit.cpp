@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/explicit_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "common/errors.hpp"
+#include "common/rotation.hpp"
+#include "dynamics/stable_step.hpp"
+#include "dynamics/stepper.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// A run takes so many steps for one that was asked for, at most.
+constexpr double kMostParts = 1e3;
+// Of the longest stable step: what they rather take. Runge-Kutta then takes
+// 4e-6 of the fastest motion's energy a step.
+constexpr double kAccurateShare = 0.1;
+// A step that magnifies by less, about, does not blow up.
+constexpr double kMostGrowth = 1.05;
+
+// A small change of a state, velocities times the step.
+struct Change {
+  std::vector<Vector3> p, turn, v, w;
+  VectorX eta, etadot, u, udot;
+};
+
+template <typename Visit>
+void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!model.bodies[b].has_rigid_motion()) continue;
+    const double mass = std::sqrt(model.bodies[b].mass);
+    const double inertia = std::sqrt(model.bodies[b].J0.trace() / 3.0);
+    visit(x.p[b], mass);
+    visit(x.v[b], mass);
+    visit(x.turn[b], inertia);
+    visit(x.w[b], inertia);
+  }
+  visit(x.eta, 1.0);
+  visit(x.etadot, 1.0);
+  for (const FullModel& full : model.full_bodies) {
+    const double mass = full.mesh->node_mass.sum();
+    const double weight =
+        std::sqrt(3.0 * mass / static_cast<double>(full.dofs()));
+    visit(x.u.segment(full.first, full.dofs()), weight);
+    visit(x.udot.segment(full.first, full.dofs()), weight);
+  }
+}
+
+// The derivative of one step about a state, by differences.
+class StepDerivative {
+ public:
+  StepDerivative(const SystemModel& model, const SystemState& state,
+                 const SimulationSettings& settings)
+      : model_(model),
+        state_(state),
+        h_(settings.step),
+        stepper_(model, settings),
+        end_(take_step(state)) {
+    const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
+    const VectorX modes = VectorX::Zero(model.modal_count);
+    const VectorX nodes = VectorX::Zero(model.nodal_count);
+    x_ = {zero, zero, zero, zero, modes, modes, nodes, nodes};
+    std::mt19937 random(1);
+    for_each_vector(model_, x_, [&](auto&& part, double weight) {
+      for (Eigen::Index i = 0; i < part.size(); ++i) {
+        part[i] = (static_cast<double>(random()) / 2147483648.0 - 1.0) / weight;
+      }
+    });
+    // Small against every body, large against round-off [kg^1/2 m].
+    double least = std::numeric_limits<double>::infinity();
+    for (const BodyModel& body : model.bodies) {
+      least = std::min(least, std::sqrt(body.J0.trace()));
+    }
+    increment_ = 1e-7 * least;
+  }
+
+  // Once more; by how much the change has grown.
+  double apply() {
+    const double size = measure();
+    if (!(size > 0.0)) return 0.0;
+    for_each_vector(model_, x_, [&](auto&& part, double) { part /= size; });
+    SystemState moved = displace();
+    moved = take_step(moved);
+    subtract(moved);
+    return measure();
+  }
+
+ private:
+  [[nodiscard]] SystemState take_step(SystemState from) {
+    stepper_.start(from, h_);
+    stepper_.step(from, h_, from.t + h_);
+    return from;
+  }
+
+  double measure() {
+    double sum = 0.0;
+    for_each_vector(model_, x_, [&](const auto& part, double weight) {
+      sum += weight * weight * part.squaredNorm();
+    });
+    return std::sqrt(sum);
+  }
+
+  [[nodiscard]] SystemState displace() const {
+    const double e = increment_;
+    SystemState moved = state_;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      BodyState& body = moved.bodies[b];
+      body.p_WB += e * x_.p[b];
+      body.quat_WB = body.quat_WB * exp_quaternion(e * x_.turn[b]);
+      body.v_WB_W += e / h_ * x_.v[b];
+      body.w_WB_B += e / h_ * x_.w[b];
+    }
+    moved.eta += e * x_.eta;
+    moved.etadot += e / h_ * x_.etadot;
+    moved.u_H += e * x_.u;
+    moved.udot_H += e / h_ * x_.udot;
+    return moved;
+  }
+
+  // x <- (moved - end) / e
+  void subtract(const SystemState& moved) {
+    const double e = increment_;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyState& body = moved.bodies[b];
+      const BodyState& from = end_.bodies[b];
+      x_.p[b] = (body.p_WB - from.p_WB) / e;
+      Quaternion turn = from.quat_WB.conjugate() * body.quat_WB;
+      x_.turn[b] = 2.0 / e * std::copysign(1.0, turn.w()) * turn.vec();
+      x_.v[b] = h_ / e * (body.v_WB_W - from.v_WB_W);
+      x_.w[b] = h_ / e * (body.w_WB_B - from.w_WB_B);
+    }
+    x_.eta = (moved.eta - end_.eta) / e;
+    x_.etadot = h_ / e * (moved.etadot - end_.etadot);
+    x_.u = (moved.u_H - end_.u_H) / e;
+    x_.udot = h_ / e * (moved.udot_H - end_.udot_H);
+  }
+
+  const SystemModel& model_;
+  const SystemState& state_;
+  double h_;
+  Stepper stepper_;
+  SystemState end_;
+  Change x_;
+  double increment_ = 0.0;
+};
+
+bool may_be_divided(IntegratorKind kind) {
+  return kind == IntegratorKind::central_differences ||
+         kind == IntegratorKind::runge_kutta_4 ||
+         kind == IntegratorKind::splitting;
+}
+
+void divide(double longest, SimulationSettings& settings) {
+  settings.step = std::min(settings.step, longest);
+  for (StepChange& change : settings.step_changes) {
+    change.step = std::min(change.step, longest);
+  }
+}
+
+double find_longest(const SimulationSettings& settings) {
+  double longest = settings.step;
+  for (const StepChange& change : settings.step_changes) {
+    longest = std::max(longest, change.step);
+  }
+  return longest;
+}
+
+}  // namespace
+
+double find_growth(const SystemModel& model, const SystemState& state,
+                   const SimulationSettings& settings) {
+  constexpr int kIterations = 100;
+  constexpr int kFirst = 50;  // that counts
+  try {
+    StepDerivative derivative(model, state, settings);
+    double sum = 0.0;
+    for (int i = 0; i < kIterations; ++i) {
+      const double growth = derivative.apply();
+      if (growth == 0.0) return 0.0;
+      if (!std::isfinite(growth)) break;
+      if (i >= kFirst) sum += std::log(growth);
+      if (i + 1 == kIterations) return std::exp(sum / (kIterations - kFirst));
+    }
+  } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
+    // Such a step goes too far.
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+SimulationSettings limit_step(const SystemModel& model,
+                              const SystemState& state,
+                              const SimulationSettings& asked,
+                              SimulationStatistics& statistics) {
+  if (!may_be_divided(asked.integrator)) return asked;
+  const bool is_central =
+      asked.integrator == IntegratorKind::central_differences;
+  SimulationSettings settings = asked;
+  settings.step = find_longest(asked);
+  if (!is_central && find_growth(model, state, settings) < kMostGrowth) {
+    return asked;
+  }
+  const double step = is_central ? asked.step : settings.step;
+  statistics.stable_step = find_stable_step(model, state, asked.integrator);
+  const double longest = kStableShare * statistics.stable_step;
+  const std::string& name =
+      integrator_names()[static_cast<std::size_t>(asked.integrator)];
+  settings.step = asked.step;
+  if (step > kMostParts * longest) {
+    const std::string cause = fmt::format(
+        "{} is stable up to {:.3g} s here, {:.3g} times less than the step of "
+        "{:.3g} s, because of body '{}' and what holds it; ",
+        name, longest, step / longest, step,
+        model.bodies[find_fastest_body(model, state)].name);
+    const char* const advice =
+        "ask for a step near that, or take an implicit integrator";
+    if (is_central) throw InputError(cause + advice);
+    statistics.warnings.push_back(
+        cause + "steps are not divided so often, and may blow up; " + advice);
+    return settings;
+  }
+  if (is_central) {
+    divide(longest, settings);
+    return settings;
+  }
+  if (!(step > longest)) return settings;
+  const double accurate = kAccurateShare * statistics.stable_step;
+  const double taken = std::min(longest, std::max(accurate, step / kMostParts));
+  divide(taken, settings);
+  statistics.warnings.push_back(fmt::format(
+      "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
+      "holds it: steps of {:.3g} s are divided, into {:.0f} parts",
+      name, longest, model.bodies[find_fastest_body(model, state)].name, step,
+      std::ceil(step / taken * (1.0 - 1e-12))));
+  return settings;
+}
+
+}  // namespace limber::dynamics
