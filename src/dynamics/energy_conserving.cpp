@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/cayley.hpp"
 #include "dynamics/equations.hpp"
 
 namespace limber::dynamics {
@@ -22,7 +23,7 @@ constexpr double kNoise = 100.0;
 // Factor anew when an iteration leaves more than this of a correction: it takes
 // many to come to round-off. Fresh factors, only if they leave yet more.
 constexpr double kPoorContraction = 0.05;
-constexpr double kPoorFreshContraction = 0.3;
+constexpr double kPoorFreshContraction = 0.1;
 
 double radius_of_gyration_squared(const BodyModel& body) {
   return 0.5 * body.J0.trace() / body.mass;
@@ -160,6 +161,11 @@ void EnergyConserving::factor() {
   matrix_.factor(model_, middle_, mean_, turns_, coefficients_, false, &end_);
 }
 
+// Increments are of R exp(x); Cayley's turn changes by this.
+Vector3 EnergyConserving::change_turn(std::size_t b, const Vector3& x) const {
+  return cayley_jacobian_inverse(turns_[b]) * x;
+}
+
 void EnergyConserving::apply_increments(double h) {
   for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
     mean_.couplers[c].applied += matrix_.wrench_increments()[c];
@@ -175,15 +181,12 @@ void EnergyConserving::apply_increments(double h) {
         x_.segment(row + 6, body.modes) / h;
     if (!body.has_rigid_motion()) continue;
     middle_.bodies[b].v_WB_W += x_.segment<3>(row) / h;
-    // Increments are of R exp(x); Cayley's turn changes by this.
-    const Vector3 x = x_.segment<3>(row + 3);
-    const Vector3& c = turns_[b];
-    middle_.bodies[b].w_WB_B +=
-        (x + 0.5 * c.cross(x) + 0.25 * c.dot(x) * c) / h;
+    middle_.bodies[b].w_WB_B += change_turn(b, x_.segment<3>(row + 3)) / h;
   }
 }
 
-// Length [m] of the increments, mass-weighted within a body; largest body.
+// Length [m] of the increments, of turns as the motion has them (a runaway turn
+// is almost none of the rotation), mass-weighted within a body; largest body.
 EnergyConserving::Size EnergyConserving::measure_increments() const {
   Size largest;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -192,7 +195,7 @@ EnergyConserving::Size EnergyConserving::measure_increments() const {
     const double squared =
         x_.segment<3>(row).squaredNorm() +
         radius_of_gyration_squared(body) *
-            x_.segment<3>(row + 3).squaredNorm() +
+            change_turn(b, x_.segment<3>(row + 3)).squaredNorm() +
         x_.segment(row + 6, body.modes).squaredNorm() / body.mass;
     if (!(squared <= largest.value)) {
       largest = {squared, b};

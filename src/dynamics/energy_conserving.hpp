@@ -69,6 +69,7 @@ class EnergyConserving {
   void calc_residual(const SystemState& from, double h);
   void calc_body_residual(const SystemState& from, double h, std::size_t b);
   void factor();
+  [[nodiscard]] Vector3 change_turn(std::size_t b, const Vector3& x) const;
   void apply_increments(double h);
   [[nodiscard]] Size measure_increments() const;
   [[nodiscard]] double measure_motion(double h) const;

@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/cayley.hpp"
 #include "dynamics/nodal_jacobian.hpp"
 
 namespace limber::dynamics {
@@ -179,8 +180,7 @@ void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
 }
 
 void NewtonMatrix::factor_body(const BodyModel& body, const BodyTerms& terms,
-                               const Vector3& w,
-                               const Vector3& rotation_increment,
+                               const Vector3& w, const Matrix3& T,
                                const Coefficients& c,
                                BodyFactor& factor) const {
   factor.inverse_modes.array() =
@@ -188,8 +188,8 @@ void NewtonMatrix::factor_body(const BodyModel& body, const BodyTerms& terms,
           .inverse();
   if (!body.has_rigid_motion()) return;  // its rigid blocks stay zero
   factor.inverse_mass = 1.0 / (c.acceleration * body.mass);
-  // Rotation increments are of R exp(inc): inc changes by T times them.
-  const Matrix3 T = right_jacobian_inverse(rotation_increment);
+  // The step's own rotation changes by T times the increments, which are of
+  // the end.
   const Matrix3 gyroscopic = skew(w) * terms.J - skew(terms.J * w);
   Matrix3 schur = (c.acceleration * terms.J + c.velocity * gyroscopic) * T;
   for (int k = 0; k < body.modes; ++k) {
@@ -372,8 +372,11 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           const Coefficients& coefficients, bool renews_full,
                           const SystemTerms* end_terms) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Vector3& turn = rotation_increments[b];
     factor_body(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
-                rotation_increments[b], coefficients, bodies_[b]);
+                end_terms != nullptr ? cayley_jacobian_inverse(turn)
+                                     : right_jacobian_inverse(turn),
+                coefficients, bodies_[b]);
   }
   factor_full(model, state, terms, coefficients, renews_full);
   for (End& end : ends_) {

@@ -52,7 +52,8 @@ class NewtonMatrix {
   /// axes, until the acceleration coefficient changes or `renews_full` asks for
   /// new ones. @throws NumericalError naming the coupler or body.
   /// @param end_terms where couplers see the increments, if wrenches do not act
-  /// there but at `terms` (no bodies at level `full` then)
+  /// there but at `terms` (no bodies at level `full` then); rotation increments
+  /// are then those of Cayley's transform
   void factor(const SystemModel& model, const SystemState& state,
               SystemTerms& terms,
               const std::vector<Vector3>& rotation_increments,
@@ -120,8 +121,8 @@ class NewtonMatrix {
   void add_end(const SystemModel& model, int link, int coupler, int term,
                int attachment, bool is_M);
   void factor_body(const BodyModel& body, const BodyTerms& terms,
-                   const Vector3& w, const Vector3& rotation_increment,
-                   const Coefficients& c, BodyFactor& factor) const;
+                   const Vector3& w, const Matrix3& T, const Coefficients& c,
+                   BodyFactor& factor) const;
   void factor_full(const SystemModel& model, const SystemState& state,
                    SystemTerms& terms, const Coefficients& c, bool renews);
   void factor_end(const SystemModel& model, const SystemState& state,

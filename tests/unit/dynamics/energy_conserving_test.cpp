@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "common/errors.hpp"
+#include "common/rotation.hpp"
+#include "dynamics/cayley.hpp"
 #include "dynamics/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/free_chain.hpp"
@@ -144,6 +146,71 @@ TEST(EnergyConserving, AuditOfLoadsDampersAndFrictionClosesToRoundOff) {
 }
 
 // --- Failures ---------------------------------------------------------------
+
+// --- Large turns ------------------------------------------------------------
+
+TEST(EnergyConserving, TurnsChangeAsCayleysTransformDoes) {
+  const Vector3 c(1.1, -2.3, 0.7);
+  const auto cayley = [](const Vector3& of) {
+    return Quaternion(1.0, 0.5 * of.x(), 0.5 * of.y(), 0.5 * of.z())
+        .normalized();
+  };
+  constexpr double kSmall = 1e-5;
+  Matrix3 differences;
+  for (int i = 0; i < 3; ++i) {
+    const auto turned = [&](double by) {
+      const Quaternion q = cayley(c) * exp_quaternion(by * Vector3::Unit(i));
+      return Vector3(2.0 / q.w() * q.vec());
+    };
+    differences.col(i) = (turned(kSmall) - turned(-kSmall)) / (2.0 * kSmall);
+  }
+  EXPECT_LT((cayley_jacobian_inverse(c) - differences).norm(), 1e-9);
+}
+
+// A free top, whose exact derivative the factors have. (With the derivative of
+// the exponential map 1 rad took 20 iterations and 2 rad failed.)
+TEST(EnergyConserving, ConvergesOnATopThatTurnsByRadiansAStep) {
+  SystemBuilder builder;
+  builder.add_rigid_body("top", {2.0, Vector3(1, 2, 2.5).asDiagonal()});
+  const SystemModel model = builder.build();
+  for (const double turn : {0.3, 1.0, 2.0}) {
+    SystemState state = make_state(model);
+    state.bodies[0].w_WB_B = Vector3(0.6, 0.5, 0.6) * turn;
+    EnergyConserving scheme(model, {});
+    const double energy = calc_energy(model, state).total();
+    for (int i = 0; i < 5; ++i) {
+      scheme.refresh();
+      EXPECT_LE(scheme.step(state, 1.0, state.t + 1.0).iterations, 14) << turn;
+    }
+    EXPECT_NEAR(calc_energy(model, state).total(), energy, 1e-13 * energy);
+  }
+}
+
+// A turn that runs away is hardly any of the rotation: it must not be taken for
+// convergence.
+TEST(EnergyConserving, KeepsEnergyInEveryStepThatItCallsASuccess) {
+  int successes = 0;
+  for (const double stiffness : {1e3, 1e6, 1e9}) {
+    for (const double turn : {0.3, 1.0, 3.0, 10.0, 100.0, 1e4}) {
+      const FreeChain chain = make_free_chain(stiffness, turn, 0.1);
+      SystemState state = chain.state;
+      const double energy = calc_energy(chain.model, state).total();
+      EnergyConserving scheme(chain.model, {});
+      try {
+        for (int i = 0; i < 5; ++i) {
+          scheme.step(state, 1.0, state.t + 1.0);
+          ++successes;
+        }
+      } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
+        // A refusal is no wrong answer.
+      }
+      EXPECT_NEAR(calc_energy(chain.model, state).total(), energy,
+                  1e-8 * energy)
+          << stiffness << " " << turn;
+    }
+  }
+  EXPECT_GT(successes, 0);
+}
 
 TEST(EnergyConserving, LeavesTheStateAsItWasWhenNewtonFails) {
   const FreeChain chain = make_free_chain(1e7, 1.0, 0.1);
