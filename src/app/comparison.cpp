@@ -106,8 +106,9 @@ class Runner {
                                            double fraction) {
       report_run(what, cost, fraction);
     };
-    Run run = simulate_scene(scene, make_timed_reducer(progress),
-                             settings_.cache, progress);
+    Run run =
+        simulate_scene(scene, make_timed_reducer(progress), settings_.cache,
+                       progress, {}, settings_.keep_runs);
     done_ += cost;
     clear_progress_bar();
     warn(run.built.warnings);
@@ -157,11 +158,8 @@ class Runner {
     const bool is_reference = choice == plan_.reference;
     const std::filesystem::path folder =
         settings_.folder / (is_reference ? "reference" : name);
-    Run judged = run;
-    judged.levels =
-        judge_run(run.scene, run.built, run.history, settings_.cache);
     OutputFolder(folder).write([&](const std::filesystem::path& place) {
-      write_run(judged, place, run.scene.scenario.output.xdmf);
+      write_run(run, place, run.scene.scenario.output.xdmf);
     });
   }
 

@@ -9,6 +9,8 @@
 
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
+#include "dynamics/mean_frame.hpp"
+#include "dynamics/run_record.hpp"
 #include "flexbody/cache.hpp"
 
 namespace limber::app {
@@ -29,6 +31,12 @@ scene::Reducer make_known_reducer(const SystemModel& model) {
     }
     return make_reducer({})(recipe);
   };
+}
+
+bool has_flexible_body(const SystemModel& model) {
+  return std::any_of(
+      model.bodies.begin(), model.bodies.end(),
+      [](const dynamics::BodyModel& body) { return body.reduced != nullptr; });
 }
 
 bool has_all_modes(const SystemModel& model) {
@@ -53,28 +61,6 @@ SystemModel find_flexible_model(const scene::Scene& scene,
     if (body.reduced) body.fidelity = Fidelity::uncoupled;
   }
   return model;
-}
-
-/// More instants than this tell nothing new.
-constexpr double kMostInstants = 1e6;
-
-/// Every step and every jump of a load.
-std::vector<double> find_instants(const dynamics::SystemModel& model,
-                                  const dynamics::SimulationSettings& time) {
-  std::vector<double> instants;
-  const double step = std::max(time.step, time.end_time / kMostInstants);
-  for (double i = 0.0; i * step < time.end_time; ++i) {
-    instants.push_back(i * step);
-  }
-  instants.push_back(time.end_time);
-  for (const dynamics::Load& load : model.loads) {
-    for (const double t : break_times(load.function)) {
-      if (t > 0.0 && t < time.end_time) instants.push_back(t);
-    }
-  }
-  std::sort(instants.begin(), instants.end());
-  instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
-  return instants;
 }
 
 /// The levels that the scenario asks for, one a body.
@@ -130,23 +116,40 @@ std::vector<BodyLevel> judge_levels(const SystemModel& model,
   return levels;
 }
 
-std::vector<BodyLevel> judge_run(const scene::Scene& scene,
-                                 const scene::BuiltScene& built,
-                                 const results::History& history,
-                                 const std::filesystem::path& cache) {
+RunSurvey::RunSurvey(const scene::Scene& scene, const scene::BuiltScene& built,
+                     const std::filesystem::path& cache)
+    : scene_(scene), built_(built) {
+  if (!has_flexible_body(built.model)) return;
+  model_ = find_flexible_model(scene, built, cache);
+  survey_.emplace(model_);
+}
+
+std::optional<dynamics::Spectator> RunSurvey::make_spectator() {
+  if (!survey_) return std::nullopt;
+  return dynamics::Spectator{
+      [this] { survey_.emplace(model_); },
+      [this](const dynamics::SystemState& state) { include(state); },
+      [this](Archive& archive) { survey_->exchange_memory(archive); }};
+}
+
+void RunSurvey::include(const dynamics::SystemState& state) {
+  if (!survey_) return;
+  if (built_.model.full_bodies.empty()) {
+    survey_->include(built_.model, state);
+    return;
+  }
+  framed_ = state;
+  dynamics::update_mean_frames(built_.model, framed_);
+  survey_->include(built_.model, framed_);
+}
+
+std::vector<BodyLevel> RunSurvey::judge() const {
+  if (!survey_) return {};
   std::vector<Fidelity> used;
-  bool is_flexible = false;
-  for (const dynamics::BodyModel& body : built.model.bodies) {
+  for (const dynamics::BodyModel& body : built_.model.bodies) {
     used.push_back(body.fidelity);
-    is_flexible |= body.reduced != nullptr;
   }
-  if (!is_flexible) return {};
-  const SystemModel model = find_flexible_model(scene, built, cache);
-  dynamics::LevelSurvey survey(model);
-  for (const dynamics::SystemState& state : history.states) {
-    survey.include(built.model, state);
-  }
-  return judge_levels(model, survey, used, scene.scenario.advice);
+  return judge_levels(model_, *survey_, used, scene_.scenario.advice);
 }
 
 std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
@@ -163,18 +166,24 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
       build_at_level(scene, dynamics::Fidelity::rigid, flexible.model, cache);
   clear_progress_bar();
   print_warnings(flexible.warnings);
-  dynamics::LevelSurvey survey(flexible.model);
+  std::optional<dynamics::LevelSurvey> survey(flexible.model);
+  dynamics::Followed followed;
+  followed.spectator = {[&] { survey.emplace(flexible.model); },
+                        [&](const dynamics::SystemState& now) {
+                          survey->include(rigid.model, now);
+                        },
+                        {}};
   dynamics::SimulationSettings settings = rigid.settings;
-  settings.output_times = find_instants(rigid.model, settings);
+  settings.output_times.clear();
   dynamics::SystemState state = rigid.initial;
-  const auto observer = [&](const dynamics::SystemState& now,
-                            const dynamics::EnergyBalance&) {
-    survey.include(rigid.model, now);
-  };
-  dynamics::simulate(rigid.model, state, settings, observer, progress);
+  dynamics::SimulationStatistics statistics;
+  dynamics::RunRecord record;
+  dynamics::simulate(rigid.model, state, settings, {}, progress, statistics, {},
+                     followed, record);
   clear_progress_bar();
+  print_warnings(statistics.warnings);
   std::vector<BodyLevel> levels = judge_levels(
-      flexible.model, survey, find_asked(scene.scenario, flexible.model),
+      flexible.model, *survey, find_asked(scene.scenario, flexible.model),
       scene.scenario.advice);
   find_bounds(levels);
   return levels;
@@ -202,10 +211,12 @@ std::vector<std::string> find_level_warnings(
                                      level.advice.reason));
     }
     if (level.is_stretched()) {
-      warnings.push_back(fmt::format(
-          "link '{}' deforms by {:.2g} m, beyond the linear limit of {:.2g} "
-          "m: only level full is right",
-          level.name, level.peaks.deformation, level.limits.linear_limit));
+      warnings.push_back(
+          fmt::format("link '{}' deforms by {:.2g} m at t = {:.6g} s, beyond "
+                      "the linear limit of {:.2g} "
+                      "m: only level full is right",
+                      level.name, level.peaks.deformation.value,
+                      level.peaks.deformation.time, level.limits.linear_limit));
     }
   }
   return warnings;

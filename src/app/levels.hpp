@@ -3,12 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/json.hpp"
+#include "dynamics/followed.hpp"
 #include "dynamics/level_advice.hpp"
-#include "results/history.hpp"
 #include "scene/scene.hpp"
 
 /// The level of each flexible body: what it was, what it should be.
@@ -43,10 +44,30 @@ struct BodyLevel {
     const std::vector<dynamics::Fidelity>& used,
     const dynamics::AdviceSettings& settings);
 
-/// Whether the levels of a run were justified, from what it recorded.
-[[nodiscard]] std::vector<BodyLevel> judge_run(
-    const scene::Scene& scene, const scene::BuiltScene& built,
-    const results::History& history, const std::filesystem::path& cache);
+/// Watches a run of a scene at every step, to tell whether its levels were
+/// justified.
+class RunSurvey {
+ public:
+  /// Bodies at level `full` are reduced here. @param scene, built kept by
+  /// reference
+  RunSurvey(const scene::Scene& scene, const scene::BuiltScene& built,
+            const std::filesystem::path& cache);
+  RunSurvey(const RunSurvey&) = delete;
+  RunSurvey& operator=(const RunSurvey&) = delete;
+  ~RunSurvey() = default;
+
+  /// None where no body is flexible. @returns what refers to this
+  [[nodiscard]] std::optional<dynamics::Spectator> make_spectator();
+  void include(const dynamics::SystemState& state);
+  [[nodiscard]] std::vector<BodyLevel> judge() const;
+
+ private:
+  const scene::Scene& scene_;
+  const scene::BuiltScene& built_;
+  dynamics::SystemModel model_;  // every flexible body at `uncoupled`
+  std::optional<dynamics::LevelSurvey> survey_;
+  dynamics::SystemState framed_;  // with mean frames of full bodies
+};
 
 /// The scene with every flexible link at `level`, built with the reduced
 /// bodies that `model` has.

@@ -141,10 +141,10 @@ Json to_json(const BodyLevel& level) {
                    {"alpha_plus_omega_squared", to_json(peaks.report)},
                    {"nodal_inertial_force", to_json(peaks.force)},
                    {"angle", peaks.angle},
-                   {"deformation", peaks.deformation},
-                   {"displacement", peaks.total},
-                   {"static_displacement_of_loads", peaks.loads},
-                   {"static_displacement_of_inertia", peaks.inertial}};
+                   {"deformation", to_json(peaks.deformation)},
+                   {"displacement", to_json(peaks.total)},
+                   {"static_displacement_of_loads", to_json(peaks.loads)},
+                   {"static_displacement_of_inertia", to_json(peaks.inertial)}};
   if (level.bound) json["boundary"] = describe_boundaries(level);
   json["left_out"] = {{"rigid", advice.errors.rigid},
                       {"uncoupled", advice.errors.uncoupled},
@@ -162,18 +162,23 @@ std::string to_text(const BodyLevel& level) {
       level.limits.linear_limit);
   text += describe_rotation(level);
   text += fmt::format(
-      "  displacement loads {:.3g} m, inertia {:.3g} m (static); with "
-      "oscillation {:.3g} m, {:.3g} m of it bending its own nodes\n"
+      "  displacement loads {:.3g} m at {:.4g} s, inertia {:.3g} m at {:.4g} s "
+      "(static); with\n"
+      "               oscillation {:.3g} m at {:.4g} s, of its own nodes "
+      "{:.3g} "
+      "m at {:.4g} s\n"
       "  left out     rigid {:.3g} m, uncoupled {:.3g} m, one-way {:.3g} m\n",
-      peaks.loads, peaks.inertial, peaks.total, peaks.deformation,
-      advice.errors.rigid, advice.errors.uncoupled, advice.errors.one_way);
+      peaks.loads.value, peaks.loads.time, peaks.inertial.value,
+      peaks.inertial.time, peaks.total.value, peaks.total.time,
+      peaks.deformation.value, peaks.deformation.time, advice.errors.rigid,
+      advice.errors.uncoupled, advice.errors.one_way);
   text += fmt::format("  recommended  {}: {}\n", to_string(advice.level),
                       advice.reason);
   if (advice.is_beyond_linear) {
     text += fmt::format(
         "  beware       {:.3g} m is beyond the linear range of {:.3g} m: only "
         "level full is right\n",
-        peaks.deformation, level.limits.linear_limit);
+        peaks.deformation.value, level.limits.linear_limit);
   }
   return text;
 }

@@ -123,22 +123,30 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
-                   const CheckpointPlan& checkpoints) {
+                   const CheckpointPlan& checkpoints, bool judges) {
   Run run;
   run.scene = scene;
   run.built = scene::build_system(
       scene, reducer, cache.empty() ? flexbody::default_cache_folder() : cache,
       make_full_maker(progress));
   add_columns(run);
+  dynamics::Followed followed =
+      scene::follow(run.built.probes, run.built.model);
+  std::optional<RunSurvey> survey;
+  if (judges) {
+    survey.emplace(run.scene, run.built, cache);
+    followed.spectator = survey->make_spectator();
+  }
   const dynamics::Continuation continuation = make_continuation(
       checkpoints, [&] { return make_manifest(run.scene, run.built); },
       run.history, run.told);
   try {
     simulate(run.built, progress, run.history, run.statistics, run.record,
-             continuation, scene::follow(run.built.probes, run.built.model));
+             continuation, followed);
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
   }
+  if (survey) run.levels = survey->judge();
   run.history.events = run.statistics.events;
   return run;
 }
@@ -155,12 +163,10 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
               const CheckpointPlan& checkpoints) {
   const Progress progress = watch_signals(make_progress_bar());
   Run run = simulate_scene(scene, make_reducer(progress), cache, progress,
-                           checkpoints);
+                           checkpoints, true);
   clear_progress_bar();
   print_warnings(run.built.warnings);
   print_warnings(run.statistics.warnings);
-  if (find_noted_signal() == 0)
-    run.levels = judge_run(scene, run.built, run.history, cache);
   return run;
 }
 

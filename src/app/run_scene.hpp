@@ -26,14 +26,16 @@ struct Run {
   std::exception_ptr failure;     ///< the NumericalError that ended it early
 };
 
-/// Builds and simulates a scene, without a word and without judging levels. On
-/// NumericalError the run holds what was computed until then, and `failure`.
+/// Builds and simulates a scene, without a word. On NumericalError the run
+/// holds what was computed until then, and `failure`.
 /// @param cache empty for the default one
+/// @param judges whether it finds `levels`, which costs time at every step
 [[nodiscard]] Run simulate_scene(const scene::Scene& scene,
                                  const scene::Reducer& reducer,
                                  const std::filesystem::path& cache,
                                  const Progress& progress,
-                                 const CheckpointPlan& checkpoints = {});
+                                 const CheckpointPlan& checkpoints = {},
+                                 bool judges = false);
 
 /// The same with a progress bar, warnings and the judgement of levels.
 [[nodiscard]] Run run_scene(const scene::Scene& scene,

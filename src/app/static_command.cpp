@@ -76,8 +76,9 @@ void observe(StaticRun& run) {
 
 void warn(const Options& options, StaticRun& run) {
   run.warnings = run.built.warnings;
-  const auto levels = find_level_warnings(
-      judge_run(run.scene, run.built, run.history, options.cache));
+  RunSurvey survey(run.scene, run.built, options.cache);
+  survey.include(run.found.state);
+  const auto levels = find_level_warnings(survey.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
   const std::optional<double>& lowest = run.report.lowest_frequency;
   if (lowest && *lowest < 0.0) {

@@ -134,18 +134,45 @@ double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
 }
 
 PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)
-    : measure_(&measure), eta_0_(VectorX::Zero(measure.mode_sizes().size())) {}
+    : measure_(&measure),
+      eta_0_(VectorX::Zero(measure.mode_sizes().size())),
+      eta_a_(eta_0_),
+      eta_b_(eta_0_) {}
 
-void PeakDisplacement::include(const VectorX& eta) {
-  constexpr double kLow = 0.01;
+bool PeakDisplacement::is_record(const VectorX& eta, double t) {
+  constexpr double kLow = 0.001;
   const double bound =
       u_0_ + measure_->mode_sizes().dot((eta - eta_0_).cwiseAbs());
-  if (bound <= (1.0 + kLow) * peak_) return;
+  if (bound <= (1.0 + kLow) * peak_.value) return false;
   const double from_zero = measure_->mode_sizes().dot(eta.cwiseAbs());
-  if (from_zero <= (1.0 + kLow) * peak_) return;
+  if (from_zero <= (1.0 + kLow) * peak_.value) return false;
   eta_0_ = eta;
   u_0_ = measure_->calc_displacement(eta);
-  peak_ = std::max(peak_, u_0_);
+  const bool is_larger = u_0_ > peak_.value;
+  peak_.include(u_0_, t);
+  return is_larger;
+}
+
+void PeakDisplacement::include(const VectorX& eta, double t) {
+  const Peak before = peak_;
+  const bool is_larger = is_record(eta, t);
+  if (was_record_ && !is_larger && count_ == 2) {
+    const Peak a{measure_->calc_displacement(eta_a_), t_a_};
+    const Peak c{measure_->calc_displacement(eta), t};
+    peak_.include(c.value, c.time);
+    const Peak top = find_top(a, before, c);
+    peak_.include(top.value, top.time);
+  }
+  was_record_ = is_larger;
+  eta_a_.swap(eta_b_);
+  eta_b_ = eta;
+  t_a_ = t_b_;
+  t_b_ = t;
+  count_ = std::min(count_ + 1, 2);
+}
+
+void PeakDisplacement::exchange_memory(Archive& archive) {
+  archive(eta_0_, u_0_, peak_, eta_a_, eta_b_, t_a_, t_b_, count_, was_record_);
 }
 
 }  // namespace limber::dynamics

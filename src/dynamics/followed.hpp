@@ -4,8 +4,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "dynamics/system_state.hpp"
 
 namespace limber::dynamics {
@@ -28,6 +30,15 @@ enum class Course {
            ///< small error of an interpolated state
 };
 
+/// Whoever sees a run's states in the order of time: the start, the ends of all
+/// steps, twice where a coupler switches (before and after), and looks within
+/// steps that are long for what moves.
+struct Spectator {
+  std::function<void()> begin;  ///< a run begins, or begins anew
+  std::function<void(const SystemState&)> include;
+  std::function<void(Archive&)> exchange_memory;  ///< for checkpoints
+};
+
 /// Scalars that a run follows at every step, as the columns of its probes.
 struct Followed {
   /// Writes a value for each scalar, NaN where it has none. Allocates nothing
@@ -38,6 +49,9 @@ struct Followed {
   Evaluate evaluate = {};
   /// Between two looks, at most: of what is faster than the steps [s].
   double longest = std::numeric_limits<double>::infinity();
+  std::optional<Spectator> spectator = {};
+
+  [[nodiscard]] bool is_empty() const { return courses.empty() && !spectator; }
 };
 
 }  // namespace limber::dynamics

@@ -153,11 +153,11 @@ LevelLimits find_limits(const AdviceSettings& settings,
 
 LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {
   LevelErrors errors;
-  errors.rigid = peaks.total;
+  errors.rigid = peaks.total.value;
   if (body.modes == 0 || body.clamped) return errors;
   errors.one_way = find_modal_error(body, peaks) + peaks.turned_aside;
   errors.rigid += peaks.turned_aside;
-  errors.uncoupled = kSudden * peaks.inertial + errors.one_way;
+  errors.uncoupled = kSudden * peaks.inertial.value + errors.one_way;
   return errors;
 }
 
@@ -178,7 +178,7 @@ LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
     advice.level = Fidelity::one_way;
   }
   advice.reason = explain(body, peaks, limits, advice);
-  advice.is_beyond_linear = peaks.deformation > limits.linear_limit;
+  advice.is_beyond_linear = peaks.deformation.value > limits.linear_limit;
   return advice;
 }
 

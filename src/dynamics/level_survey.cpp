@@ -62,7 +62,7 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
   peaks.body = body;
   peaks.modes = VectorX::Zero(b.modes);
   peaks.oscillation = VectorX::Zero(b.modes);
-  last_eta = VectorX::Zero(b.modes);
+  last_eta = eta = eta_inertial = eta_loads = swings = VectorX::Zero(b.modes);
   peaks.mode_sizes = anywhere->mode_sizes();
   half_size = 0.5 * b.reduced->size;
   for (std::size_t i = 0; i < reaches.size(); ++i) {
@@ -91,8 +91,10 @@ LevelSurvey::LevelSurvey(const SystemModel& model)
 void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
   LIMBER_EXPECT(source.bodies.size() == model_.bodies.size());
   LIMBER_EXPECT(state.bodies.size() == model_.bodies.size());
+  LIMBER_EXPECT(state.memory.size() == state_.memory.size());
   state_.t = state.t;
   state_.bodies = state.bodies;
+  state_.memory = state.memory;
   for (Watch& watch : watches_) {
     const BodyModel& from = source.bodies[index(watch.body)];
     const BodyModel& to = model_.bodies[index(watch.body)];
@@ -122,6 +124,7 @@ void LevelSurvey::include(const SystemState& state, Side side) {
       include_deformation(state, terms, watch);
     }
     watch.last_time = state.t;
+    watch.has_begun = true;
   }
   ++count_;
   thin_tracks();
@@ -151,14 +154,14 @@ void LevelSurvey::include_rotation(const SystemState& state,
   const double alpha =
       (watch.J0_inverse * (terms.moment_B - terms.bias_r)).norm();
   BodyPeaks& peaks = watch.peaks;
-  peaks.alpha.include(alpha, state.t);
-  peaks.Omega.include(Omega, state.t);
-  peaks.report.include(alpha + Omega * Omega, state.t);
-  peaks.force.include(watch.force_bound.calc_force(alpha, Omega), state.t);
+  watch.alpha.include(alpha, state.t);
+  watch.Omega.include(Omega, state.t);
+  watch.report.include(alpha + Omega * Omega, state.t);
+  watch.force.include(watch.force_bound.calc_force(alpha, Omega), state.t);
   peaks.Omega_B = peaks.Omega_B.cwiseMax(w.cwiseAbs());
-  if (watch.last_time) {
+  if (watch.has_begun) {
     peaks.angle +=
-        0.5 * (Omega + watch.last_Omega) * (state.t - *watch.last_time);
+        0.5 * (Omega + watch.last_Omega) * (state.t - watch.last_time);
   }
   watch.last_Omega = Omega;
   if (count_ % stride_ == 0) watch.track.push_back({alpha, Omega});
@@ -166,46 +169,47 @@ void LevelSurvey::include_rotation(const SystemState& state,
 
 // What a change of the static answer leaves swinging: all of it if it comes at
 // once, its rate over the frequency if it comes as a ramp.
-VectorX LevelSurvey::find_oscillation(const Watch& watch, const VectorX& eta,
-                                      double t) {
-  const VectorX change = (eta - watch.last_eta).cwiseAbs();
-  const double time = watch.last_time ? t - *watch.last_time : 0.0;
-  return change.cwiseQuotient((time * watch.omega).cwiseMax(1.0));
+void LevelSurvey::add_oscillation(const Watch& watch, const VectorX& eta,
+                                  double t, VectorX& swings) {
+  const double time = watch.has_begun ? t - watch.last_time : 0.0;
+  swings += (eta - watch.last_eta)
+                .cwiseAbs()
+                .cwiseQuotient((time * watch.omega).cwiseMax(1.0));
 }
 
 void LevelSurvey::include_deformation(const SystemState& state,
                                       const BodyTerms& terms, Watch& watch) {
   const BodyModel& body = model_.bodies[index(watch.body)];
-  VectorX inertial = VectorX::Zero(body.modes);
+  VectorX& inertial = watch.eta_inertial;  // stays zero of a clamped body
+  VectorX& eta = watch.eta;
   if (!body.clamped) {
-    inertial = watch.flexibility.cwiseProduct(
-        body.inertia->J1.transpose() *
-        half_square(state.bodies[index(watch.body)].w_WB_B));
-    watch.inertial.include(inertial);
+    inertial.noalias() = body.inertia->J1.transpose() *
+                         half_square(state.bodies[index(watch.body)].w_WB_B);
+    inertial.array() *= watch.flexibility.array();
+    watch.inertial.include(inertial, state.t);
   }
-  VectorX eta;
   if (watch.is_observed) {
     eta = state.eta.segment(body.offset, body.modes);
-    VectorX swings = state.etadot.segment(body.offset, body.modes)
-                         .cwiseAbs()
-                         .cwiseQuotient(watch.omega);
+    watch.swings = state.etadot.segment(body.offset, body.modes)
+                       .cwiseAbs()
+                       .cwiseQuotient(watch.omega);
     if (watch.misses_inertial) {
       eta += inertial;
-      swings += find_oscillation(watch, inertial, state.t);
+      add_oscillation(watch, inertial, state.t, watch.swings);
       watch.last_eta = inertial;
     }
-    include_largest(watch.peaks.oscillation, swings);
   } else {
-    const VectorX loads = watch.flexibility.cwiseProduct(terms.modal_force);
-    watch.loads.include(loads);
-    eta = loads + inertial;
-    include_largest(watch.peaks.oscillation,
-                    find_oscillation(watch, eta, state.t));
+    watch.eta_loads = watch.flexibility.cwiseProduct(terms.modal_force);
+    watch.loads.include(watch.eta_loads, state.t);
+    eta = watch.eta_loads + inertial;
+    watch.swings.setZero();
+    add_oscillation(watch, eta, state.t, watch.swings);
     watch.last_eta = eta;
   }
-  watch.total.include(eta);
-  watch.deformation.include(eta);
-  include_largest(watch.peaks.modes, eta.cwiseAbs());
+  include_largest(watch.peaks.oscillation, watch.swings);
+  watch.total.include(eta, state.t);
+  watch.deformation.include(eta, state.t);
+  watch.peaks.modes = watch.peaks.modes.cwiseMax(eta.cwiseAbs());
   if (!body.clamped) include_slip(body, eta, state, watch);
 }
 
@@ -216,9 +220,9 @@ void LevelSurvey::include_slip(const BodyModel& body, const VectorX& eta,
   const Vector3 slip = watch.compliance *
                        unpack_symmetric(body.inertia->J1 * eta) *
                        state.bodies[index(watch.body)].w_WB_B;
-  if (watch.last_time) {
+  if (watch.has_begun) {
     watch.slipped +=
-        0.5 * (slip + watch.last_slip) * (state.t - *watch.last_time);
+        0.5 * (slip + watch.last_slip) * (state.t - watch.last_time);
   }
   watch.last_slip = slip;
   const Vector3 angle = watch.slipped.cwiseAbs();
@@ -235,20 +239,53 @@ std::vector<BodyPeaks> LevelSurvey::find_peaks() const {
   for (const Watch& watch : watches_) {
     BodyPeaks peaks = watch.peaks;
     const double factor = watch.is_observed ? 1.0 : kSudden;
-    peaks.inertial = watch.inertial.value();
-    peaks.loads = watch.loads.value();
-    peaks.total = factor * watch.total.value();
-    peaks.deformation = factor * watch.deformation.value();
+    peaks.alpha = watch.alpha.peak();
+    peaks.Omega = watch.Omega.peak();
+    peaks.report = watch.report.peak();
+    peaks.force = watch.force.peak();
+    peaks.inertial = watch.inertial.peak();
+    peaks.loads = watch.loads.peak();
+    peaks.total = watch.total.peak();
+    peaks.total.value *= factor;
+    peaks.deformation = watch.deformation.peak();
+    peaks.deformation.value *= factor;
     peaks.modes *= factor;
     peaks.oscillation *= factor;
     if (watch.is_observed && watch.misses_inertial) {
       // The static answer is in; it may swing as far again.
-      peaks.total += (kSudden - 1.0) * peaks.inertial;
-      peaks.deformation += (kSudden - 1.0) * peaks.inertial;
+      const double again = (kSudden - 1.0) * peaks.inertial.value;
+      peaks.total.value += again;
+      peaks.deformation.value += again;
     }
     all.push_back(std::move(peaks));
   }
   return all;
+}
+
+void LevelSurvey::exchange_memory(Archive& archive, Watch& watch) {
+  for (RefinedPeak* peak :
+       {&watch.alpha, &watch.Omega, &watch.report, &watch.force}) {
+    peak->exchange_memory(archive);
+  }
+  for (PeakDisplacement* peak :
+       {&watch.inertial, &watch.loads, &watch.total, &watch.deformation}) {
+    peak->exchange_memory(archive);
+  }
+  archive(watch.is_observed, watch.misses_inertial, watch.has_begun,
+          watch.last_time, watch.last_Omega, watch.last_eta, watch.last_slip,
+          watch.slipped);
+  BodyPeaks& peaks = watch.peaks;
+  archive(peaks.angle, peaks.Omega_B, peaks.turned_aside, peaks.oscillation,
+          peaks.modes);
+  std::size_t points = watch.track.size();
+  archive.pass_size(points);
+  watch.track.resize(points);
+  for (RotationPoint& point : watch.track) archive(point.alpha, point.Omega);
+}
+
+void LevelSurvey::exchange_memory(Archive& archive) {
+  archive(count_, stride_);
+  for (Watch& watch : watches_) exchange_memory(archive, watch);
 }
 
 std::vector<std::vector<RotationPoint>> LevelSurvey::tracks() const {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "dynamics/displacement_measure.hpp"
 #include "dynamics/equations.hpp"
+#include "dynamics/refined_peak.hpp"
 #include "dynamics/system_state.hpp"
 #include "flexbody/decision_boundary.hpp"
 
@@ -18,17 +18,9 @@ struct RotationPoint {
   double Omega = 0.0;  ///< [rad/s]
 };
 
-/// A largest value and when it was.
-struct Peak {
-  double value = 0.0;
-  double time = 0.0;  ///< [s]
-  void include(double v, double t) {
-    if (v > value) *this = {v, t};
-  }
-};
-
 /// What one flexible body went through. Displacements are the largest ones
-/// anywhere, DisplacementMeasure's, unless they say otherwise.
+/// anywhere, DisplacementMeasure's, unless they say otherwise. All are
+/// magnitudes, without a sign.
 struct BodyPeaks {
   BodyIndex body = 0;
   Peak alpha;          ///< [rad/s^2]
@@ -38,10 +30,10 @@ struct BodyPeaks {
   double angle = 0.0;  ///< turned, integral of |Omega| [rad]
   /// Largest size of each component of Omega, axes of the body [rad/s].
   Vector3 Omega_B = Vector3::Zero();
-  double inertial = 0.0;     ///< of inertial forces, static [m]
-  double loads = 0.0;        ///< of loads, couplers and gravity, static [m]
-  double total = 0.0;        ///< of all, with what oscillation adds [m]
-  double deformation = 0.0;  ///< of the body's own nodes, as `total` [m]
+  Peak inertial;     ///< of inertial forces, static [m]
+  Peak loads;        ///< of loads, couplers and gravity, static [m]
+  Peak total;        ///< of all, with what oscillation adds [m]
+  Peak deformation;  ///< of the body's own nodes, as `total` [m]
   /// Where rotation gets the body and what it carries beside where it would
   /// get them with the undeformed inertia [m].
   double turned_aside = 0.0;
@@ -57,7 +49,8 @@ struct BodyPeaks {
 ///
 /// Limits     Static answers, doubled where an oscillation is to be expected:
 ///            right for loads that grow from zero and stay or end, too small
-///            near resonance. At most 1 % low.
+///            near resonance. Peaks are those of a parabola where states
+///            follow one another closely; displacements at most 0.1 % low.
 class LevelSurvey {
  public:
   /// @param model every flexible body at Fidelity::uncoupled. Kept by
@@ -73,6 +66,9 @@ class LevelSurvey {
   [[nodiscard]] std::vector<BodyPeaks> find_peaks() const;
   /// The way through the plane, evenly thinned, one entry a flexible body.
   [[nodiscard]] std::vector<std::vector<RotationPoint>> tracks() const;
+
+  /// What it knows between states.
+  void exchange_memory(Archive& archive);
 
  private:
   struct Watch {
@@ -92,21 +88,31 @@ class LevelSurvey {
     PeakDisplacement loads;
     PeakDisplacement total;
     PeakDisplacement deformation;
-    bool is_observed = false;         ///< source computes its modes
-    bool misses_inertial = false;     ///< but not the inertial forces on them
-    std::optional<double> last_time;  ///< [s]
+    bool is_observed = false;      ///< source computes its modes
+    bool misses_inertial = false;  ///< but not the inertial forces on them
+    RefinedPeak alpha;
+    RefinedPeak Omega;
+    RefinedPeak report;
+    RefinedPeak force;
+    bool has_begun = false;
+    double last_time = 0.0;  ///< [s]
     double last_Omega = 0.0;
     VectorX last_eta;                     ///< static answer
     Vector3 last_slip = Vector3::Zero();  ///< J0^-1 (J1 eta) w [rad/s]
     Vector3 slipped = Vector3::Zero();    ///< its integral [rad]
+    VectorX eta_inertial;                 ///< static answers, working memory
+    VectorX eta_loads;
+    VectorX eta;
+    VectorX swings;
     BodyPeaks peaks;
     std::vector<RotationPoint> track;
   };
+  static void exchange_memory(Archive& archive, Watch& watch);
   void include(const SystemState& state, Side side);
   void include_rotation(const SystemState& state, const BodyTerms& terms,
                         Watch& watch);
-  static VectorX find_oscillation(const Watch& watch, const VectorX& eta,
-                                  double t);
+  static void add_oscillation(const Watch& watch, const VectorX& eta, double t,
+                              VectorX& swings);
   void include_deformation(const SystemState& state, const BodyTerms& terms,
                            Watch& watch);
   static void include_slip(const BodyModel& body, const VectorX& eta,

@@ -87,7 +87,13 @@ void PeakWatch::start(const SystemState& state) {
   for (Sample& s : samples_) s.state = state;
   begin_ = between_ = within_ = state;
   peaks_.assign(followed_.courses.size(), {0.0, state.t});
+  if (followed_.spectator) followed_.spectator->begin();
+  show(state);
   begin_anew(state);
+}
+
+void PeakWatch::show(const SystemState& state) const {
+  if (followed_.spectator) followed_.spectator->include(state);
 }
 
 // What jumps at a time has its value before it at any time before.
@@ -97,7 +103,7 @@ void PeakWatch::add(const SystemState& state, double t) {
   Sample& s = sample(0);
   s.state = state;
   s.state.t = t;
-  followed_.evaluate(s.state, s.values);
+  if (!peaks_.empty()) followed_.evaluate(s.state, s.values);
   s.state.t = state.t;
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     peaks_[i].include(s.values[i], s.state.t);
@@ -112,7 +118,7 @@ void PeakWatch::begin_anew(const SystemState& state) {
 }
 
 void PeakWatch::cross_jump(const SystemState& state) {
-  if (is_idle()) return;
+  if (peaks_.empty()) return;
   followed_.evaluate(state, values_);
   bool jumps = false;
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
@@ -136,9 +142,12 @@ void PeakWatch::include(const SystemState& state) {
       between_.memory = begin.memory;
       end = &between_;
     }
+    show(*end);
     add(*end, std::nextafter(state.t, -std::numeric_limits<double>::max()));
   }
-  if (switches) begin_anew(state);
+  if (!switches) return;
+  show(state);
+  begin_anew(state);
 }
 
 // At equal parts of the step to `end`.
@@ -146,6 +155,7 @@ void PeakWatch::add_within(const SystemState& end, double parts) {
   begin_ = sample(0).state;
   for (double part = 1.0; part < parts; ++part) {
     interpolate(model_, begin_, end, part / parts, between_);
+    show(between_);
     add(between_, between_.t);
   }
 }
@@ -231,6 +241,7 @@ void PeakWatch::exchange_memory(Archive& archive) {
   if (!is_idle() && peaks_.size() != followed_.courses.size()) {
     throw InputError("the record is of a run that followed other scalars");
   }
+  if (followed_.spectator) followed_.spectator->exchange_memory(archive);
   if (archive.reads()) begin_ = between_ = within_ = samples_[0].state;
 }
 

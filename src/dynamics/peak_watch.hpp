@@ -20,7 +20,8 @@ using PeakPoints = std::array<PeakPoint, 3>;  ///< in the order of time
 /// For checkpoints.
 void exchange(Archive& archive, Extreme& extreme);
 
-/// Extremes in time of scalars that a run follows, over all its steps.
+/// Extremes in time of scalars that a run follows, over all its steps; shows
+/// their spectator what it looks at.
 ///
 /// Equation   a local extreme of three values in a row, at the ends of steps,
 ///            is looked for within the steps if the parabola through them
@@ -63,7 +64,8 @@ class PeakWatch {
     bool last = false;
   };
 
-  [[nodiscard]] bool is_idle() const { return followed_.courses.empty(); }
+  [[nodiscard]] bool is_idle() const { return followed_.is_empty(); }
+  void show(const SystemState& state) const;
   [[nodiscard]] Sample& sample(int age) {
     return samples_[static_cast<std::size_t>((newest_ + 3 - age) % 3)];
   }

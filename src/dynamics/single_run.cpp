@@ -94,13 +94,19 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
     exact.join(rest, 0, state);
   };
   Followed followed = job.followed;
-  if (!followed.courses.empty()) {
+  if (!followed.is_empty()) {
     followed.longest = exact.find_longest_look(job.settings.end_time);
   }
   followed.evaluate = [&](const SystemState& now, std::vector<double>& values) {
     exact.join(now, whole);
     job.followed.evaluate(whole, values);
   };
+  if (followed.spectator) {
+    followed.spectator->include = [&](const SystemState& now) {
+      exact.join(now, whole);
+      job.followed.spectator->include(whole);
+    };
+  }
   const Job rest_job{job.settings,     job.progress, job.statistics,
                      job.continuation, followed,     job.record,
                      job.refinement};

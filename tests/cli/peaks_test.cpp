@@ -59,6 +59,28 @@ TEST_P(PeaksAtLevel, AreTheSameWhateverTheOutputInterval) {
   }
 }
 
+TEST_P(PeaksAtLevel, OfLevelsAreTheSameWhateverTheOutputInterval) {
+  const Workspace place;
+  json first;
+  for (const double interval : {0.0005, 0.002, 0.05}) {
+    write_push(place, interval, GetParam());
+    const json level = run(place, "push.toml --out o")["levels"][0];
+    const json& peaks = level["peaks"];
+    if (first.is_null()) first = peaks;
+    for (const char* name :
+         {"alpha", "omega", "alpha_plus_omega_squared", "nodal_inertial_force",
+          "deformation", "displacement", "static_displacement_of_inertia"}) {
+      const double peak = first[name]["value"];
+      ASSERT_NE(peak, 0.0) << name;
+      EXPECT_NEAR(peaks[name]["value"].get<double>() / peak, 1.0, 0.01)
+          << name << " at " << interval;
+      EXPECT_NEAR(peaks[name]["time"].get<double>(),
+                  first[name]["time"].get<double>(), 5e-4)
+          << name << " at " << interval;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, PeaksAtLevel,
                          ::testing::Values("uncoupled", "coupled"),
                          [](const auto& level) {

@@ -196,7 +196,7 @@ TEST_F(AdviceOnBeam, FindsTheStretchOfASpinningBar) {
       8000.0 * kOmega * kOmega * std::pow(5.0, 3) / (24.0 * 200e9);
   const Motion motion{"spin", {kOmega, 0.0, 0.0}};
   const dynamics::BodyPeaks peaks = survey_run(Fidelity::rigid, motion);
-  EXPECT_NEAR(peaks.inertial / stretch, 1.0, kThick);
+  EXPECT_NEAR(peaks.inertial.value / stretch, 1.0, kThick);
   EXPECT_NEAR(peaks.angle, kOmega * kEnd, 1e-9);
   EXPECT_NEAR(peaks.Omega.value, kOmega, 1e-9);
 }
@@ -209,8 +209,8 @@ TEST_F(AdviceOnBeam, FindsTheStretchOfAPull) {
   const Motion motion{"pull", Vector3::Zero(), {0.0, 0.0, kForce}};
   const double stretch = kForce * 5.0 / (3.0 * 200e9);
   const dynamics::BodyPeaks peaks = survey_run(Fidelity::rigid, motion);
-  EXPECT_NEAR(peaks.loads / stretch, 1.0, kPeak);
-  EXPECT_NEAR(peaks.total / (2.0 * stretch), 1.0, kPeak);
+  EXPECT_NEAR(peaks.loads.value / stretch, 1.0, kPeak);
+  EXPECT_NEAR(peaks.total.value / (2.0 * stretch), 1.0, kPeak);
 }
 
 }  // namespace
