@@ -83,7 +83,7 @@ void Driver::exchange_memory(Archive& archive, SystemState& state) {
   peaks_.exchange_memory(archive);
   audit_.exchange_memory(archive);
   exchange_costs(archive, statistics_);
-  archive(statistics_.events);
+  archive(statistics_.events, statistics_.warnings);
 }
 
 void Driver::resume(const Checkpoint& checkpoint, SystemState& state) {

@@ -117,4 +117,8 @@ void LinearLimit::check(const SystemState& state,
   }
 }
 
+void LinearLimit::exchange_memory(Archive& archive) {
+  for (Body& body : bodies_) archive(body.was_told_large, body.was_told_soft);
+}
+
 }  // namespace limber::dynamics

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "dynamics/displacement_measure.hpp"
 #include "dynamics/system_state.hpp"
 
@@ -37,6 +38,9 @@ class LinearLimit {
   /// @throws NumericalError naming the body, the mode that counts most and the
   /// time if the deformation is beyond 100 %: no result any more.
   void check(const SystemState& state, std::vector<std::string>& warnings);
+
+  /// Which bodies it told of, for checkpoints.
+  void exchange_memory(Archive& archive);
 
  private:
   struct Body {

@@ -123,6 +123,27 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
   leave();
 }
 
+// What of a run is outside of its Driver goes into its checkpoints.
+Continuation add_memory(LinearLimit& limit, const Continuation& inner) {
+  Continuation outer = inner;
+  if (inner.keeper.keep) {
+    outer.keeper.keep = [&limit,
+                         keep = inner.keeper.keep](const Checkpoint& run) {
+      Archive archive;
+      limit.exchange_memory(archive);
+      std::vector<double> numbers = run.numbers;
+      archive(numbers);
+      keep({run.time, archive.numbers(), run.log});
+    };
+  }
+  if (inner.from) {
+    Archive archive(inner.from->numbers);
+    limit.exchange_memory(archive);
+    archive(outer.from->numbers);
+  }
+  return outer;
+}
+
 }  // namespace
 
 void run_once(const SystemModel& model, SystemState& state,
@@ -146,7 +167,8 @@ void run_once(const SystemModel& model, SystemState& state,
     balance.work = losses.work;
     observer(now, balance);
   };
-  const Job job{settings, progress, statistics, continuation,
+  const Continuation whole = add_memory(limit, continuation);
+  const Job job{settings, progress, statistics, whole,
                 followed, record,   refinement};
   add_start_warnings(model, state, statistics);
   const double start = state.t;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/shell.hpp"
 
 namespace limber::test {
 namespace {

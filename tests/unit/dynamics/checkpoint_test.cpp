@@ -9,6 +9,7 @@
 #include "common/archive.hpp"
 #include "common/errors.hpp"
 #include "dynamics/archives.hpp"
+#include "dynamics/displacement_measure.hpp"
 #include "dynamics/run_record.hpp"
 #include "support/chain.hpp"
 #include "support/lattice_chain.hpp"
@@ -183,6 +184,28 @@ TEST(Checkpoint, KeepsWhatCouplersRememberAndWhatHasHappened) {
   scene.state.bodies[0].v_WB_W.x() = 3.0;
   expect_runs_go_on(
       scene, make_settings(IntegratorKind::generalized_alpha, 1.1, 1e-3));
+}
+
+// A body that starts far beyond linear elasticity is told of once, at the
+// start, whether or not it is bent as far when the run goes on.
+TEST(Checkpoint, KeepsTheWarningsThatWereGiven) {
+  Scene scene = make_spinning_chain();
+  BodyModel& body = scene.model.bodies[1];
+  auto sized = std::make_shared<flexbody::ReducedBody>(*body.reduced);
+  sized->size.setConstant(1.0);
+  body.reduced = sized;
+  const DisplacementMeasure measure(body);
+  const VectorX shape = VectorX::Unit(body.modes, 0);
+  scene.state.eta.segment(body.offset, body.modes) =
+      0.3 * body.reduced->size.maxCoeff() / measure.calc_displacement(shape) *
+      shape;
+  SimulationSettings settings =
+      make_settings(IntegratorKind::generalized_alpha, 0.06, 1e-4);
+  const Trace whole = run(scene, settings, nullptr, nullptr);
+  ASSERT_FALSE(whole.statistics.warnings.empty());
+  EXPECT_NE(whole.statistics.warnings[0].find("at t = 0 s: deformed by"),
+            std::string::npos);
+  expect_runs_go_on(scene, settings);
 }
 
 TEST(Checkpoint, OfUnreducedBodiesGoesOnToTheBit) {
