@@ -94,10 +94,67 @@ TEST_F(KilledRunOfASled, IsNotGoneOnFromWithOtherProbes) {
                  "probe 'other' is new; probe 'sled' is gone");
 }
 
+/// The command with another build-id, as other sources would give it.
+fs::path rebuild(const Workspace& place) {
+  std::string program = read_text(LIMBER_COMMAND);
+  const std::string note("\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0", 16);
+  const auto at = program.find(note);
+  EXPECT_NE(at, std::string::npos);
+  program[at + note.size()] ^= 1;
+  place.write("limber", program);
+  fs::permissions(place.folder() / "limber", fs::perms::owner_all);
+  return place.folder() / "limber";
+}
+
+TEST_F(KilledRunOfASled, IsNotGoneOnFromByAProgramThatWasRebuilt) {
+  const fs::path other = rebuild(place_);
+  const CommandResult refused = run_shell(place_, "'" + other.string() +
+                                                      "' run s.toml --out out "
+                                                      "--resume");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("build of Limber: "));
+  EXPECT_THAT(refused.errors, HasSubstr("run without --resume"));
+}
+
 TEST_F(KilledRunOfASled, IsToldByInfo) {
   const CommandResult result = place_.limber("info out/checkpoint.bin");
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("checkpoint"));
+}
+
+/// What a run's summary says, but for how long it took.
+nlohmann::json read_summary(const fs::path& folder) {
+  nlohmann::json summary =
+      nlohmann::json::parse(read_text(folder / "summary.json"));
+  for (const char* cost : {"seconds_offline", "seconds_online",
+                           "bodies_reduced", "bodies_cached"}) {
+    EXPECT_EQ(summary.erase(cost), 1U) << cost;
+  }
+  return summary;
+}
+
+// It starts far beyond linear elasticity, and swings.
+TEST(ResumedRun, HasTheSummaryOfOneThatWasNotKilled) {
+  const Workspace place;
+  place.write("s.toml",
+              "robot = '" LIMBER_SOURCE_DIR
+              "/models/beam.urdf'\n[time]\nduration = 0.15\nstep = 1e-5\n"
+              "output_interval = 1e-3\n[output]\npictures = false\n"
+              "[initial.links]\nbeam = { modes = { position = [60] } }\n"
+              "[[probe]]\nname = 'p'\nlink = 'beam'\nnode = 1\n");
+  ASSERT_EQ(place.limber("run s.toml --out whole").status, 0);
+  const std::string line =
+      "cd '" + place.folder().string() +
+      "' && ('" LIMBER_COMMAND
+      "' run s.toml --out out --checkpoint-interval 0 >run.txt 2>&1 & "
+      "pid=$!; while kill -0 $pid 2>/dev/null && [ ! -e out/checkpoint.bin ];"
+      " do sleep 0.01; done; kill -9 $pid)";
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  ASSERT_TRUE(fs::exists(place.folder() / "out/checkpoint.bin"));
+  ASSERT_EQ(place.limber("run s.toml --out out --resume").status, 0);
+  const nlohmann::json whole = read_summary(place.folder() / "whole");
+  EXPECT_THAT(whole["warnings"].dump(), HasSubstr("beyond 10 %"));
+  EXPECT_EQ(read_summary(place.folder() / "out"), whole);
 }
 
 TEST(RunThatCannotLeaveCheckpoints, WarnsOnceAndGoesOn) {
