@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "app/commands.hpp"
 #include "app/comparison.hpp"
@@ -162,6 +164,14 @@ class ComparisonWriter {
   Json json_;
 };
 
+std::set<std::string> find_run_folders(const ComparisonPlan& plan,
+                                       const ComparisonSettings& settings) {
+  if (!settings.keep_runs) return {};
+  std::set<std::string> names = {"reference"};
+  for (const Choice& choice : plan.runs) names.insert(make_folder_name(choice));
+  return names;
+}
+
 void compare(const Options& options) {
   const Axes axes = make_axes(options);
   const ReferenceWish wish = make_wish(options);
@@ -173,7 +183,8 @@ void compare(const Options& options) {
   for (const Choice& choice : plan.runs) {
     (void)scene::load_scene(options.scenario, to_overrides(choice));
   }
-  const OutputFolder folder(settings.folder);
+  OutputFolder folder(settings.folder);
+  folder.claim(find_run_folders(plan, settings));
   // Before the runs: who does not want it need not wait for them.
   const std::string note = describe_default_reference(plan);
   if (!note.empty()) fmt::print(stderr, "limber: {}\n", note);

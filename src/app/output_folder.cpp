@@ -24,7 +24,8 @@ namespace limber::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Names = std::set<std::string>;  // of files, from their folder
+// Of files, from their folder; of folders with a "/" at the end.
+using Names = std::set<std::string>;
 
 constexpr const char* kList = ".limber-files";
 constexpr const char* kStaging = ".limber-part-";
@@ -77,10 +78,14 @@ Names find_files(const fs::path& folder) {
   return names;
 }
 
+bool is_folder(const std::string& name) { return name.ends_with('/'); }
+
 // A name that leads elsewhere is none of ours.
 bool is_plain(const std::string& name) {
-  return !name.empty() && name != "." && name != ".." &&
-         name.find('/') == std::string::npos;
+  const std::string bare =
+      is_folder(name) ? name.substr(0, name.size() - 1) : name;
+  return !bare.empty() && bare != "." && bare != ".." &&
+         bare.find('/') == std::string::npos;
 }
 
 Names read_list(const fs::path& folder) {
@@ -155,6 +160,32 @@ std::optional<fs::path> rescue(const OutputFolder::Writer& writer) {
   }
 }
 
+// Of the folder what commands wrote, and itself if nothing else is in it.
+void remove_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::symlink_status(folder, error).type() != fs::file_type::directory) {
+    return;
+  }
+  try {
+    OutputFolder(folder).write([](const fs::path&) {});
+    fs::remove(folder / kList, error);
+  } catch (const InputError& problem) {
+    print_warnings({fmt::format("'{}' is of an earlier command and stays: {}",
+                                folder.string(), problem.what())});
+    return;
+  }
+  fs::remove(folder, error);
+}
+
+void remove_owned(const fs::path& folder, const std::string& name) {
+  std::error_code ignored;
+  if (is_folder(name)) {
+    remove_folder(folder / name.substr(0, name.size() - 1));
+  } else {
+    fs::remove(folder / name, ignored);
+  }
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder)
@@ -174,21 +205,30 @@ OutputFolder::OutputFolder(fs::path folder)
 // What is there already may be of use to somebody until the new is whole.
 void OutputFolder::place(const fs::path& made, bool is_all) const {
   const Names before = read_list(path_);
-  const Names now = find_files(made);
+  const Names files = find_files(made);
+  Names now = files;
+  now.insert(claimed_.begin(), claimed_.end());
   Names both = before;
   both.insert(now.begin(), now.end());
   write_list(path_, both);
-  for (const std::string& name : now) {
+  for (const std::string& name : files) {
     std::error_code error;
     fs::rename(made / name, path_ / name, error);
     if (error) refuse(path_, name + ": " + error.message());
   }
   if (!is_all) return;
   for (const std::string& name : before) {
-    std::error_code ignored;
-    if (!now.contains(name)) fs::remove(path_ / name, ignored);
+    if (!now.contains(name)) remove_owned(path_, name);
   }
   write_list(path_, now);
+}
+
+void OutputFolder::claim(const std::set<std::string>& folders) {
+  claimed_.clear();
+  for (const std::string& name : folders) claimed_.insert(name + "/");
+  Names both = read_list(path_);
+  both.insert(claimed_.begin(), claimed_.end());
+  write_list(path_, both);
 }
 
 void OutputFolder::write(const Writer& writer) const {

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
+#include <string>
 
 #include "common/folder_lock.hpp"
 
@@ -11,8 +13,9 @@ namespace limber::app {
 /// A folder that one command at a time writes its results to.
 ///
 /// What a command writes replaces what one before it wrote there: files that
-/// are not written again are removed. `.limber-files` lists what is so owned;
-/// nothing else in the folder is touched.
+/// are not written again are removed, and folders of results in it.
+/// `.limber-files` lists what is so owned; nothing else in the folder is
+/// touched.
 class OutputFolder {
  public:
   /// Gets the folder to write to, and throws InputError on failure.
@@ -24,6 +27,10 @@ class OutputFolder {
   explicit OutputFolder(std::filesystem::path folder);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// Notes that results folders of these names are made in it by this command.
+  /// Once it writes, those that an earlier one made, and it does not, go.
+  void claim(const std::set<std::string>& folders);
 
   /// Has all files of a command written beside their places and then moves them
   /// there. If that fails, they are written to a new folder that only the user
@@ -38,6 +45,7 @@ class OutputFolder {
 
   std::filesystem::path path_;
   FolderLock lock_;
+  std::set<std::string> claimed_;  // as in the list: with a "/" at the end
 };
 
 }  // namespace limber::app

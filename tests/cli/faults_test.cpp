@@ -251,6 +251,43 @@ TEST(Results, OfAnEarlierRunGoAndFilesOfTheUserStay) {
                            "probes.csv", "results.h5", "summary.json"));
 }
 
+TEST(Results, OfRunsThatAnEarlierCompareKeptGo) {
+  const Workspace place;
+  write_scene(place, "s.toml");
+  const std::string two = "compare s.toml --keep --out o --step 1e-3,5e-4";
+  ASSERT_EQ(place.limber(two).status, 0);
+  const fs::path out = place.folder() / "o";
+  const std::vector<std::string> before = list_files(out);
+  ASSERT_TRUE(fs::exists(out / "coupled-0.001s/results.h5"));
+  ASSERT_TRUE(fs::exists(out / "coupled-0.0005s/results.h5"));
+  fs::create_directories(out / "mine");
+  place.write("o/mine/results.h5", "the user's");
+  place.write("o/reference/notes.txt", "the user's");
+
+  const std::string one = "compare s.toml --keep --out o --step 1e-3";
+  ASSERT_EQ(place.limber(one).status, 0);
+  EXPECT_TRUE(fs::exists(out / "coupled-0.001s/results.h5"));
+  EXPECT_TRUE(fs::exists(out / "reference/results.h5"));
+  EXPECT_FALSE(fs::exists(out / "coupled-0.0005s"));
+
+  ASSERT_EQ(place.limber("run s.toml --out o").status, 0);
+  EXPECT_FALSE(fs::exists(out / "coupled-0.001s"));
+  EXPECT_THAT(list_files(out / "reference"), testing::ElementsAre("notes.txt"));
+  EXPECT_TRUE(fs::exists(out / "mine/results.h5"));
+}
+
+TEST(Results, FolderInTheListThatIsALinkIsLeftAlone) {
+  const Workspace place;
+  write_scene(place, "s.toml");
+  ASSERT_EQ(place.limber("run s.toml --out precious").status, 0);
+  fs::create_directories(place.folder() / "o");
+  fs::create_directory_symlink(place.folder() / "precious",
+                               place.folder() / "o/link");
+  place.write("o/.limber-files", "list:\nlink/\n../precious/\n/\n../\n");
+  ASSERT_EQ(place.limber("run s.toml --out o").status, 0);
+  EXPECT_TRUE(fs::exists(place.folder() / "precious/results.h5"));
+}
+
 TEST(Results, ListOfFilesThatLeadsElsewhereRemovesNothing) {
   const Workspace place;
   write_scene(place, "s.toml");
