@@ -29,7 +29,7 @@ struct Options {
   std::string reference_integrator;
   ReferenceWish wish;  ///< without a level and an integrator
   std::string tolerance;
-  std::string measure = "both";
+  std::string measure;
   int repeats = 0;
   bool keep = false;
   std::string out;
@@ -57,7 +57,12 @@ ReferenceWish make_wish(const Options& options) {
 }
 
 std::optional<Demand> make_demand(const Options& options) {
-  const ErrorMeasure measure = parse_error_measure(options.measure);
+  if (options.tolerance.empty() && !options.measure.empty()) {
+    throw InputError(
+        "--measure says which error --tolerance holds; give --tolerance, too");
+  }
+  const ErrorMeasure measure =
+      parse_error_measure(options.measure.empty() ? "both" : options.measure);
   if (options.tolerance.empty()) return std::nullopt;
   return Demand{parse_tolerance(options.tolerance), measure};
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "app/commands.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 struct Options {
   std::string file;
-  double unit = 1.0;
+  std::optional<double> unit;
   bool json = false;
 };
 
@@ -38,10 +39,17 @@ Json describe(const Options& options) {
   if (!std::filesystem::exists(options.file)) {
     throw InputError(fmt::format("{}: no such file", options.file));
   }
+  const std::string extension = extension_of(options.file);
+  const bool is_mesh =
+      std::count(kMeshes.begin(), kMeshes.end(), extension) > 0;
+  if (options.unit && !is_mesh) {
+    throw InputError(
+        fmt::format("--unit is that of a mesh, which '{}' is not; leave it out",
+                    options.file));
+  }
   if (results::is_checkpoint_file(options.file)) {
     return describe_checkpoint(options.file);
   }
-  const std::string extension = extension_of(options.file);
   if (extension == ".toml") return describe_scenario(options.file);
   if (extension == ".urdf" || extension == ".xml") {
     return describe_robot(options.file);
@@ -49,9 +57,7 @@ Json describe(const Options& options) {
   if (extension == ".h5" || extension == ".hdf5") {
     return describe_hdf5(options.file);
   }
-  if (std::count(kMeshes.begin(), kMeshes.end(), extension) > 0) {
-    return describe_mesh(options.file, options.unit);
-  }
+  if (is_mesh) return describe_mesh(options.file, options.unit.value_or(1.0));
   throw InputError(
       fmt::format("{}: info knows .toml, .urdf and .h5 files, checkpoints, and "
                   "meshes: {}",

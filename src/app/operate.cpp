@@ -37,6 +37,8 @@ void check(const OperatingRequest& request) {
          "needs --axis, the direction to spin about, other than 0");
   refuse(!is_spin(request.kind) && !request.axis.isZero(0.0),
          "--axis goes with spinning and driven-spin");
+  refuse(!is_spin(request.kind) && !request.point.isZero(0.0),
+         "--through goes with spinning and driven-spin");
   refuse(is_free_spin && request.speed == 0.0, "needs --speed, other than 0");
   refuse(!is_free_spin && request.speed != 0.0, "--speed goes with spinning");
   refuse(is_free_spin && !request.loads.empty(),

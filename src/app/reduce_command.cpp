@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "app/commands.hpp"
@@ -46,6 +47,12 @@ flexbody::Recipe make_recipe(const Options& options) {
     throw InputError(
         "--terms counts those of static-deformation modes; name what they "
         "come from by --force or --interface");
+  }
+  if (options.interfaces.empty() &&
+      std::count(options.rows.begin(), options.rows.end(), "interfaces") > 0) {
+    throw InputError(
+        "--rows interfaces keeps the nodes of --interface; name one, or keep "
+        "other rows");
   }
   scene::LinkStart start;
   start.displacement = options.initial_displacement;

@@ -9,6 +9,7 @@
 #include "app/interruption.hpp"
 #include "app/output_folder.hpp"
 #include "app/run_scene.hpp"
+#include "app/terminal.hpp"
 #include "app/validators.hpp"
 #include "dynamics/fidelity.hpp"
 #include "results/checkpoint_file.hpp"
@@ -47,7 +48,14 @@ void run(const Options& options) {
       options.checkpoint_interval.value_or(
           scene.scenario.output.checkpoint_interval),
       options.resumes, &signals};
-  const Run result = run_scene(scene, options.cache, checkpoints);
+  Run result = run_scene(scene, options.cache, checkpoints);
+  if (options.checkpoint_interval && result.statistics.steps == 0 &&
+      !result.failure) {
+    result.told.push_back(
+        "--checkpoint-interval changes nothing: the run took no steps, all of "
+        "it is known in closed form");
+    print_warnings({result.told.back()});
+  }
   folder.write([&](const std::filesystem::path& place) {
     write_run(result, place, options.xdmf || scene.scenario.output.xdmf);
   });

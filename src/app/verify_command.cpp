@@ -42,6 +42,7 @@ void apply(const Options& options, dynamics::SimulationSettings& settings) {
   }
   if (options.step > 0.0) {
     settings.step = options.step;
+    settings.tolerance = 0.0;
     settings.step_changes.clear();
   }
   if (options.duration > 0.0) {
@@ -114,6 +115,15 @@ void verify(const Options& options) {
   overrides.fidelity = dynamics::Fidelity::rigid;
   scene::Scene scene = scene::load_scene(options.scenario, overrides);
   apply(options, scene.scenario.settings);
+  if (options.refine > 0 && scene.scenario.settings.tolerance > 0.0) {
+    throw InputError(
+        "--refine halves steps, and the scenario has a tolerance in place of "
+        "them; give --step, too");
+  }
+  if (options.refine > 0 && !options.stiffen.empty()) {
+    throw InputError(
+        "--refine and --stiffen are two studies; ask for one at a time");
+  }
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
   if (!options.stiffen.empty()) {

@@ -15,6 +15,8 @@
 #include "scene/robot_reader.hpp"
 #include "scene/scenario_reader.hpp"
 #include "scene/scene_checks.hpp"
+#include "scene/toml_file.hpp"
+#include "scene/vain_keys.hpp"
 
 namespace limber::scene {
 
@@ -64,6 +66,10 @@ Scene load_scene(const std::filesystem::path& file,
   check_scenario(scene.scenario, scene.robot);
   choose_bases(scene.scenario, overrides.basis, scene.robot);
   apply(overrides, scene);
+  for (std::string& text :
+       find_vain_keys(parse_toml_file(file), scene, overrides)) {
+    scene.scenario.warnings.push_back(std::move(text));
+  }
   return scene;
 }
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/vain_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limber::scene {
+namespace {
+
+using dynamics::Fidelity;
+using dynamics::IntegratorKind;
+
+class Finder {
+ public:
+  Finder(const toml::table& file, const Scene& scene,
+         const Overrides& overrides)
+      : file_(file),
+        scenario_(scene.scenario),
+        links_(scene.robot.links),
+        overrides_(overrides) {}
+
+  std::vector<std::string> find() {
+    look_at_integrator();
+    look_at_levels();
+    look_at_flexible_links();
+    for (std::size_t i = 0; i < scenario_.loads.size(); ++i) look_at_load(i);
+    look_at_releases();
+    return std::move(texts_);
+  }
+
+ private:
+  [[nodiscard]] bool has(const char* table, const char* key) const {
+    const toml::table* found = file_[table].as_table();
+    return found != nullptr && found->contains(key);
+  }
+
+  void tell(const std::string& what, const std::string& why) {
+    texts_.push_back(fmt::format("{} changes nothing: {}", what, why));
+  }
+
+  void tell(const char* table, const char* key, const std::string& why) {
+    if (has(table, key)) tell(fmt::format("[{}] {}", table, key), why);
+  }
+
+  [[nodiscard]] bool is_any_flexible() const {
+    return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
+      return link.flexible.has_value();
+    });
+  }
+
+  [[nodiscard]] bool is_any_at(Fidelity level) const {
+    return std::any_of(links_.begin(), links_.end(), [&](const Link& link) {
+      return link.flexible && scenario_.level_of(link.name) == level;
+    });
+  }
+
+  void look_at_integrator() {
+    const dynamics::SimulationSettings& time = scenario_.settings;
+    const IntegratorKind kind = time.integrator;
+    const std::string it_is = fmt::format(
+        "the integrator is {}",
+        dynamics::integrator_names()[static_cast<std::size_t>(kind)]);
+    const bool is_alpha = kind == IntegratorKind::generalized_alpha;
+    if (!is_alpha) {
+      tell("time", "rho_inf", it_is + "; generalized-alpha alone has it");
+    }
+    if (!is_alpha && kind != IntegratorKind::implicit_euler &&
+        kind != IntegratorKind::energy_conserving) {
+      const std::string why = it_is + ", which solves nothing by Newton";
+      tell("time", "newton_tolerance", why);
+      tell("time", "newton_iterations", why);
+    }
+    if (time.tolerance == 0.0) {
+      tell("time", "most_steps", "it limits steps to a tolerance alone");
+    }
+    if (kind == IntegratorKind::explicit_euler && time.exact_modes) {
+      tell("time", "exact_modes", it_is + ", which has no closed form");
+    }
+  }
+
+  // What the file says of levels, unless another is asked for.
+  void look_at_levels() {
+    if (overrides_.fidelity) return;
+    const std::string none = "no link is at level ";
+    if (!is_any_at(Fidelity::full)) {
+      tell("full", "law", none + "full");
+      tell("full", "mass", none + "full");
+    }
+    if (!is_any_at(Fidelity::uncoupled) &&
+        scenario_.settings.integrator != IntegratorKind::explicit_euler) {
+      tell("time", "exact_modes", none + "uncoupled");
+    }
+    const bool are_all_listed =
+        std::all_of(links_.begin(), links_.end(), [&](const Link& link) {
+          return !link.flexible ||
+                 scenario_.fidelity_of_link.contains(link.name);
+        });
+    if (is_any_flexible() && are_all_listed) {
+      tell("fidelity", "default", "'links' names every flexible link");
+    }
+  }
+
+  void look_at_flexible_links() {
+    if (is_any_flexible()) return;
+    const std::string why = fmt::format("no link of '{}' is flexible",
+                                        scenario_.robot.filename().string());
+    if (scenario_.fidelity != Fidelity::rigid && !overrides_.fidelity) {
+      tell("fidelity", "default", why);
+    }
+    for (const char* table : {"basis", "advice"}) {
+      if (file_.contains(table)) tell(fmt::format("[{}]", table), why);
+    }
+  }
+
+  // The time from or until which a load acts, if the file says it.
+  [[nodiscard]] std::optional<double> find_time(std::size_t load,
+                                                const char* key) const {
+    return file_["load"][load]["time"][key].value<double>();
+  }
+
+  void look_at_load(std::size_t i) {
+    const LoadSpec& load = scenario_.loads[i];
+    const std::string who = "load '" + load.name + "'";
+    if (load.nodal_forces.empty() && load.force.isZero(0.0) &&
+        load.moment.isZero(0.0)) {
+      tell(who, "its force and moment are zero");
+      return;
+    }
+    const double end = scenario_.settings.end_time;
+    for (const char* key : {"from", "start"}) {
+      const std::optional<double> from = find_time(i, key);
+      if (from && *from >= end) {
+        tell(who, fmt::format("it acts from {:g} s on, and the run ends at {:g}"
+                              " s",
+                              *from, end));
+      }
+    }
+    const std::optional<double> until = find_time(i, "until");
+    if (until && *until <= 0.0) {
+      tell(who, fmt::format("it acts until {:g} s, and the run begins at 0 s",
+                            *until));
+    }
+  }
+
+  void look_at_releases() {
+    const double end = scenario_.settings.end_time;
+    for (const auto& [latch, time] : scenario_.releases) {
+      if (time < end) continue;
+      tell(fmt::format("[[release]] of latch '{}'", latch),
+           fmt::format("it comes at {:g} s, and the run ends at {:g} s", time,
+                       end));
+    }
+  }
+
+  const toml::table& file_;
+  const Scenario& scenario_;
+  const std::vector<Link>& links_;
+  const Overrides& overrides_;
+  std::vector<std::string> texts_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_vain_keys(const toml::table& file,
+                                        const Scene& scene,
+                                        const Overrides& overrides) {
+  return Finder(file, scene, overrides).find();
+}
+
+}  // namespace limber::scene
