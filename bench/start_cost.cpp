@@ -14,11 +14,9 @@ namespace limber {
 namespace {
 
 scene::BuiltScene build(const std::filesystem::path& cache) {
-  return scene::build_system(
-      scene::load_scene(std::string(LIMBER_SOURCE_DIR) +
-                        "/examples/struck_finger.toml"),
-      [](const flexbody::Recipe& recipe) { return flexbody::reduce(recipe); },
-      cache);
+  return scene::build_system(scene::load_scene(std::string(LIMBER_SOURCE_DIR) +
+                                               "/examples/struck_finger.toml"),
+                             flexbody::make_reducer(), cache);
 }
 
 std::filesystem::path make_cache() {

@@ -129,12 +129,9 @@ const Outcome& Study::find(const std::string& name) const {
 Outcome Study::simulate(const Choice& choice) const {
   Outcome outcome;
   outcome.choice = choice;
-  const scene::Reducer reducer = [&](const flexbody::Recipe& recipe) {
-    const Clock::time_point start = Clock::now();
-    flexbody::ReducedBody body = app::make_reducer({})(recipe);
-    outcome.offline += read_seconds(start);
-    return body;
-  };
+  const scene::Reducer reducer = app::time_reductions(
+      app::make_reducer({}),
+      [&](const std::string&, double seconds) { outcome.offline += seconds; });
   outcome.run = app::simulate_scene(load(file_, choice), reducer, cache_, {});
   if (outcome.run.failure) {
     outcome.stopped = find_reason(outcome.run.failure);

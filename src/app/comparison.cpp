@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <set>
 
@@ -17,8 +16,6 @@
 
 namespace limber::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kMostRepeats = 1000;
 
@@ -137,13 +134,10 @@ class Runner {
 
   /// Notes how long each reduction takes.
   scene::Reducer make_timed_reducer(const Progress& progress) {
-    return [this, progress](const flexbody::Recipe& recipe) {
-      const Clock::time_point start = Clock::now();
-      flexbody::ReducedBody body = make_reducer(progress)(recipe);
-      reduction_seconds_[flexbody::content_key(recipe)] =
-          std::chrono::duration<double>(Clock::now() - start).count();
-      return body;
-    };
+    return time_reductions(make_reducer(progress),
+                           [this](const std::string& key, double seconds) {
+                             reduction_seconds_[key] = seconds;
+                           });
   }
 
   void warn(const std::vector<std::string>& warnings) {

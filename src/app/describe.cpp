@@ -176,19 +176,22 @@ Json describe_mesh(const std::filesystem::path& file, double unit) {
 #ifdef LIMBER_HAS_REDUCTION
   fem::MeshOptions options;
   options.unit = unit;
-  const fem::Mesh mesh = fem::read_mesh(file, options);
+  const fem::TracedMesh traced = fem::read_traced_mesh(file, options);
+  const fem::Mesh& mesh = traced.mesh;
   Json groups = Json::array();
   for (const fem::PhysicalGroup& group : mesh.groups) {
     groups.push_back(Json{{"name", group.name},
                           {"dimension", group.dimension},
                           {"nodes", group.nodes.size()}});
   }
-  return Json{{"kind", "mesh"},
-              {"nodes", mesh.node_count()},
-              {"elements", mesh.element_count()},
-              {"boundary_nodes", mesh.boundary_nodes.size()},
-              {"size", to_json(mesh.size())},
-              {"groups", groups}};
+  Json json = {{"kind", "mesh"},
+               {"nodes", mesh.node_count()},
+               {"elements", mesh.element_count()},
+               {"boundary_nodes", mesh.boundary_nodes.size()},
+               {"size", to_json(mesh.size())},
+               {"groups", groups}};
+  if (!traced.notices.empty()) json["notices"] = traced.notices;
+  return json;
 #else
   (void)unit;
   throw InputError(file.string() +

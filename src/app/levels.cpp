@@ -19,20 +19,6 @@ namespace {
 using dynamics::Fidelity;
 using dynamics::SystemModel;
 
-/// Bodies that `model` has are not reduced again, whatever the cache holds.
-scene::Reducer make_known_reducer(const SystemModel& model) {
-  return [&model](const flexbody::Recipe& recipe) {
-    const std::string key = flexbody::content_key(recipe);
-    for (const dynamics::BodyModel& body : model.bodies) {
-      if (!body.reduced || body.reduced->content_key != key) continue;
-      flexbody::ReducedBody known = *body.reduced;
-      known.name = recipe.name;
-      return known;
-    }
-    return make_reducer({})(recipe);
-  };
-}
-
 bool has_flexible_body(const SystemModel& model) {
   return std::any_of(
       model.bodies.begin(), model.bodies.end(),
@@ -53,7 +39,7 @@ SystemModel find_flexible_model(const scene::Scene& scene,
   if (!has_all_modes(built.model)) {
     scene::Scene at_start = scene;
     at_start.scenario.equilibrium.reset();
-    return build_at_level(at_start, Fidelity::uncoupled, built.model, cache)
+    return build_at_level(at_start, Fidelity::uncoupled, built.known, cache)
         .model;
   }
   SystemModel model = built.model;
@@ -78,7 +64,7 @@ std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
 }  // namespace
 
 scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
-                                 const SystemModel& model,
+                                 const scene::KnownBodies& known,
                                  const std::filesystem::path& cache) {
   scene::Scene same = scene;
   // The rows that level full had them keep: so nothing is reduced again.
@@ -90,8 +76,8 @@ scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
   same.scenario.fidelity = level;
   same.scenario.fidelity_of_link.clear();
   return scene::build_system(
-      same, make_known_reducer(model),
-      cache.empty() ? flexbody::default_cache_folder() : cache);
+      same, make_reducer({}),
+      cache.empty() ? flexbody::default_cache_folder() : cache, {}, known);
 }
 
 std::vector<BodyLevel> judge_levels(const SystemModel& model,
@@ -163,7 +149,7 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
       flexible_scene, make_reducer(progress),
       cache.empty() ? flexbody::default_cache_folder() : cache);
   const scene::BuiltScene rigid =
-      build_at_level(scene, dynamics::Fidelity::rigid, flexible.model, cache);
+      build_at_level(scene, dynamics::Fidelity::rigid, flexible.known, cache);
   clear_progress_bar();
   print_warnings(flexible.warnings);
   std::optional<dynamics::LevelSurvey> survey(flexible.model);

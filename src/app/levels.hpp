@@ -70,10 +70,10 @@ class RunSurvey {
 };
 
 /// The scene with every flexible link at `level`, built with the reduced
-/// bodies that `model` has.
+/// bodies that are `known`.
 [[nodiscard]] scene::BuiltScene build_at_level(
     const scene::Scene& scene, dynamics::Fidelity level,
-    const dynamics::SystemModel& model, const std::filesystem::path& cache);
+    const scene::KnownBodies& known, const std::filesystem::path& cache);
 
 /// What `limber advise` says: runs the scene with every link rigid and judges
 /// the levels that it asks for.

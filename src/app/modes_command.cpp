@@ -61,6 +61,7 @@ void find_modes(const Options& options) {
   const flexbody::ModeStudy study = run_mode_study(
       recipe, options.static_terms.has_value(), make_progress_bar());
   clear_progress_bar();
+  print_warnings(study.notices);
   if (options.json) {
     fmt::print("{}\n", to_text(to_json(study)));
   } else {

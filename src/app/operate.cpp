@@ -145,6 +145,7 @@ OperatingAnswer find_operating_state(const flexbody::Recipe& recipe,
   const OperatingState state = solve(body, request);
   OperatingAnswer answer;
   answer.figures = describe_figures(state);
+  answer.notices = body.made->notices;
   answer.tags = body.mesh.tags;
   answer.surface.points = body.mesh.x;
   for (const std::array<int, 3>& t : fem::boundary_triangles(body.mesh)) {
@@ -165,7 +166,7 @@ OperatingAnswer find_operating_state(const flexbody::Recipe& recipe,
                                      const OperatingRequest& request,
                                      const Progress& progress) {
   check(request);
-  (void)make_reducer(progress)(recipe);  // refuses
+  (void)make_reducer(progress).make_mesh(recipe.mesh);  // refuses
   return {};
 }
 

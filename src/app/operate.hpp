@@ -46,6 +46,7 @@ struct OperatingAnswer {
   Matrix3X internal_force;   ///< 3 x N [N]
   double size = 0.0;         ///< the mesh's longest edge [m]
   std::string trust;         ///< a warning if linear theory is stretched
+  std::vector<std::string> notices;  ///< of the mesh
 };
 
 /// @throws InputError for a request that does not go with its kind, and as the

@@ -98,6 +98,7 @@ void operate(const Options& options) {
       write(answer, recipe.name + ", " + options.state, place);
     });
   }
+  print_warnings(answer.notices);
   if (!answer.trust.empty()) print_warnings({answer.trust});
   fmt::print("{}\n",
              options.json ? to_text(answer.figures) : outline(answer.figures));

@@ -95,8 +95,11 @@ void print_text(const flexbody::ReducedBody& body, const std::string& file) {
 
 void reduce(const Options& options) {
   const flexbody::Recipe recipe = make_recipe(options);
-  const flexbody::ReducedBody body = make_reducer(make_progress_bar())(recipe);
+  const flexbody::MeshAtHand mesh =
+      make_reducer(make_progress_bar()).make_mesh(recipe.mesh);
+  const flexbody::ReducedBody body = mesh.reduce(recipe);
   clear_progress_bar();
+  print_warnings(mesh.record.notices);
   warn(body);
   flexbody::write_body(body, options.output);
   if (options.json) {

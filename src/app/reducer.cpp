@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/reducer.hpp"
 
+#include <chrono>
+
 #include "common/errors.hpp"
 #ifdef LIMBER_HAS_REDUCTION
 #include "flexbody/fem_full_body.hpp"
@@ -9,19 +11,35 @@
 
 namespace limber::app {
 
+scene::Reducer time_reductions(const scene::Reducer& reducer,
+                               const NoteSeconds& note) {
+  using Clock = std::chrono::steady_clock;
+  const auto make_mesh = [reducer, note](const flexbody::MeshSource& source) {
+    const Clock::time_point start = Clock::now();
+    const flexbody::MeshAtHand mesh = reducer.make_mesh(source);
+    const auto reduce = [mesh, start, note](const flexbody::Recipe& recipe) {
+      flexbody::ReducedBody body = mesh.reduce(recipe);
+      const std::chrono::duration<double> taken = Clock::now() - start;
+      note(flexbody::content_key(recipe, mesh.record.content), taken.count());
+      return body;
+    };
+    return flexbody::MeshAtHand{mesh.record, reduce};
+  };
+  return {reducer.mesher, make_mesh};
+}
+
 #ifdef LIMBER_HAS_REDUCTION
 
 scene::Reducer make_reducer(const Progress& progress) {
-  return [progress](const flexbody::Recipe& recipe) {
-    return flexbody::reduce(recipe, progress);
-  };
+  return flexbody::make_reducer(progress);
 }
 
 scene::FullMaker make_full_maker(const Progress& progress) {
-  return [progress](const flexbody::Recipe& recipe,
-                    const flexbody::FullOptions& options) {
-    return flexbody::make_full_body(recipe, options, progress);
-  };
+  return
+      [progress](const flexbody::Recipe& recipe,
+                 const flexbody::FullOptions& options, const std::string& key) {
+        return flexbody::make_full_body(recipe, options, progress, key);
+      };
 }
 
 flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
@@ -34,8 +52,8 @@ flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
 
 namespace {
 
-[[noreturn]] void refuse(const flexbody::Recipe& recipe) {
-  throw InputError(recipe.mesh.file.string() +
+[[noreturn]] void refuse(const flexbody::MeshSource& mesh) {
+  throw InputError(mesh.file.string() +
                    ": this limber was built without meshing and reduction "
                    "(LIMBER_REDUCTION=OFF); give a saved reduced body by "
                    "<reduced file=.../>");
@@ -44,16 +62,16 @@ namespace {
 }  // namespace
 
 scene::Reducer make_reducer(const Progress&) {
-  return [](const flexbody::Recipe& recipe) -> flexbody::ReducedBody {
-    refuse(recipe);
-  };
+  return {"", [](const flexbody::MeshSource& mesh) -> flexbody::MeshAtHand {
+            refuse(mesh);
+          }};
 }
 
 scene::FullMaker make_full_maker(const Progress&) { return {}; }
 
 flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe, bool,
                                    const Progress&) {
-  refuse(recipe);
+  refuse(recipe.mesh);
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "common/digest.hpp"
+#include "common/wire.hpp"
 
 namespace limber {
 namespace {
@@ -63,6 +64,12 @@ bool is_unchanged(const FileStamp& stamp) {
   if (stamp.mark.starts_with("version "))
     return stamp_version(stamp.path) == stamp;
   return stamp_presence(stamp.path) == stamp;
+}
+
+void exchange(Wire& wire, FileStamp& stamp) {
+  std::string path = stamp.path.string();
+  wire(path, stamp.mark);
+  stamp.path = path;
 }
 
 }  // namespace limber

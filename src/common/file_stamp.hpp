@@ -6,6 +6,8 @@
 
 namespace limber {
 
+class Wire;
+
 /// What a file was when it was looked at, so that a later look tells whether
 /// it is still the same.
 struct FileStamp {
@@ -26,5 +28,8 @@ struct FileStamp {
 
 /// Whether the file still bears its stamp.
 [[nodiscard]] bool is_unchanged(const FileStamp& stamp);
+
+/// As bytes, both ways (common/wire.hpp).
+void exchange(Wire& wire, FileStamp& stamp);
 
 }  // namespace limber

@@ -29,10 +29,15 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options,
   return read_traced_mesh(file, options, mesher).mesh;
 }
 
-Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {
+TracedMesh read_traced_mesh(const std::filesystem::path& file,
+                            const MeshOptions& options) {
   // The user's file comes before our installation.
   check_mesh_options(file, find_mesh_file_kind(file), options);
-  return read_mesh(file, options, find_mesher());
+  return read_traced_mesh(file, options, find_mesher());
+}
+
+Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options) {
+  return read_traced_mesh(file, options).mesh;
 }
 
 }  // namespace limber::fem

@@ -39,6 +39,9 @@ struct TracedMesh {
 [[nodiscard]] TracedMesh read_traced_mesh(const std::filesystem::path& file,
                                           const MeshOptions& options,
                                           const Mesher& mesher);
+/// By find_mesher().
+[[nodiscard]] TracedMesh read_traced_mesh(const std::filesystem::path& file,
+                                          const MeshOptions& options = {});
 
 /// Finds the boundary, and checks that the mesh is what Mesh promises.
 /// @throws InputError naming element and file

@@ -224,26 +224,11 @@ Mesh from_wire(WireMesh wire) {
   return mesh;
 }
 
-void exchange_files(Wire& wire, std::vector<FileStamp>& files) {
-  std::vector<std::string> texts;
-  for (const FileStamp& file : files) {
-    texts.push_back(file.path.string());
-    texts.push_back(file.mark);
-  }
-  wire(texts);
-  require(texts.size() % 2 == 0);
-  files.clear();
-  for (std::size_t i = 0; i < texts.size(); i += 2) {
-    files.push_back({texts[i], texts[i + 1]});
-  }
-}
-
 void exchange_head(Wire& wire, MeshReply& reply) {
   std::uint64_t magic = kMagic;
   wire(magic);
   require(magic == kMagic);
-  wire(reply.problems, reply.notices, reply.is_repeatable);
-  exchange_files(wire, reply.files);
+  wire(reply.problems, reply.notices, reply.is_repeatable, reply.files);
 }
 
 }  // namespace

@@ -157,6 +157,19 @@ Mesher find_mesher() {
           static_cast<std::uint64_t>(std::min(gibibytes, kMost) * kGibibyte)};
 }
 
+std::string identify_mesher() {
+  std::string identity;
+  try {
+    identity = find_program().string();
+  } catch (const InputError&) {
+    return "";
+  }
+  for (const std::string& variable : make_environment()) {
+    identity += '\n' + variable;
+  }
+  return identity;
+}
+
 MeshReply ask_mesher(const Mesher& mesher, const std::filesystem::path& file,
                      const MeshOptions& options) {
   const std::filesystem::path place = std::filesystem::absolute(file);

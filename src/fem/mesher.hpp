@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "fem/mesh_options.hpp"
 #include "fem/mesh_wire.hpp"
@@ -23,6 +24,10 @@ struct Mesher {
 /// @throws InputError if there is no such program, or a value is no positive
 /// number
 [[nodiscard]] Mesher find_mesher();
+
+/// What of this installation a mesh may depend on but for files that are read:
+/// the mesher's place and its environment. Empty if there is no mesher.
+[[nodiscard]] std::string identify_mesher();
 
 /// Has the file meshed. @throws InputError naming the file and why: a problem
 /// of it, a limit that it hit, something that it may not do, or how the mesher

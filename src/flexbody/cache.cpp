@@ -1,53 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/cache.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "common/digest.hpp"
 #include "common/errors.hpp"
-#include "common/input_file.hpp"
 #include "common/overloaded.hpp"
 #include "flexbody/body_file.hpp"
 #include "flexbody/cache_file.hpp"
-#include "flexbody/geometry_files.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 // Raise when the reduction itself changes: it makes old entries unknown.
-constexpr int kReductionVersion = 3;
-
-// Of this run of the program alone: nothing before or after has it.
-std::string find_run_mark() {
-  static const std::string mark =
-      fmt::format("{} {}", getpid(),
-                  std::chrono::system_clock::now().time_since_epoch().count());
-  return mark;
-}
-
-void add_mesh(const MeshSource& mesh, Digest& digest) {
-  digest.add(mesh.file.extension().string());
-  digest.add(read_input(mesh.file, kMeshInput));
-  const GeometryFiles geometry = find_geometry_files(mesh.file);
-  for (const std::filesystem::path& file : geometry.files) {
-    std::error_code unknown;
-    const bool is_there = std::filesystem::is_regular_file(file, unknown);
-    digest.add(is_there);
-    if (is_there) digest.add(read_input(file, kMeshInput));
-  }
-  if (!geometry.is_complete) digest.add(find_run_mark());
-  digest.add(mesh.size);
-  digest.add(mesh.order);
-  digest.add(mesh.unit);
-}
+constexpr int kReductionVersion = 4;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());
@@ -73,37 +42,7 @@ void add_selection(const NodeSelection& nodes, Digest& digest) {
       nodes);
 }
 
-// The entry if it is there, sound and the asked one. Whatever else is in its
-// place, of whatever kind its damage is, is no reason to fail: the body can
-// be made anew.
-std::optional<ReducedBody> find_entry(const std::filesystem::path& file,
-                                      const std::string& key) {
-  try {
-    if (!is_own_file(file)) return std::nullopt;
-    ReducedBody body = read_body(file);
-    if (body.content_key == key) return body;
-  } catch (const std::exception&) {
-  }
-  return std::nullopt;
-}
-
-// An entry that cannot be kept only makes the next run take longer.
-void keep_entry(const ReducedBody& body, const std::filesystem::path& file) {
-  try {
-    write_own_file(file, [&](const std::filesystem::path& place) {
-      write_body(body, place);
-    });
-  } catch (const std::exception&) {
-  }
-}
-
-}  // namespace
-
-std::string content_key(const Recipe& recipe) {
-  Digest digest;
-  digest.add(kBodyFileVersion);
-  digest.add(kReductionVersion);
-  add_mesh(recipe.mesh, digest);
+void add_request(const Recipe& recipe, Digest& digest) {
   digest.add(recipe.materials.size());
   for (const MaterialRegion& region : recipe.materials) {
     digest.add(region.group);
@@ -149,6 +88,56 @@ std::string content_key(const Recipe& recipe) {
   digest.add(recipe.rows.extent);
   digest.add(recipe.rows.groups.size());
   for (const std::string& group : recipe.rows.groups) digest.add(group);
+}
+
+std::filesystem::path find_place(const std::filesystem::path& folder,
+                                 const std::string& key) {
+  return folder / (key + ".h5");
+}
+
+// The entry if it is there, sound and the asked one. Whatever else is in its
+// place, of whatever kind its damage is, is no reason to fail: the body can
+// be made anew.
+std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
+                                      const std::string& key) {
+  try {
+    const std::filesystem::path file = find_place(folder, key);
+    if (!is_own_file(file)) return std::nullopt;
+    ReducedBody body = read_body(file);
+    if (body.content_key == key) return body;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
+}
+
+// An entry that cannot be kept only makes the next run take longer.
+void keep_entry(const ReducedBody& body, const std::filesystem::path& folder) {
+  try {
+    write_own_file(
+        find_place(folder, body.content_key),
+        [&](const std::filesystem::path& place) { write_body(body, place); });
+  } catch (const std::exception&) {
+  }
+}
+
+}  // namespace
+
+std::string content_key(const Recipe& recipe, const std::string& mesh) {
+  Digest digest;
+  digest.add(kBodyFileVersion);
+  digest.add(kReductionVersion);
+  digest.add(mesh);
+  add_request(recipe, digest);
+  return digest.text();
+}
+
+std::string recipe_key(const Recipe& recipe) {
+  Digest digest;
+  digest.add(std::filesystem::absolute(recipe.mesh.file).string());
+  digest.add(recipe.mesh.size);
+  digest.add(recipe.mesh.order);
+  digest.add(recipe.mesh.unit);
+  add_request(recipe, digest);
   return digest.text();
 }
 
@@ -171,22 +160,29 @@ std::filesystem::path default_cache_folder() {
       "--cache FOLDER.");
 }
 
-CachedBody load_or_reduce(
-    const Recipe& recipe, const std::filesystem::path& folder,
-    const std::function<ReducedBody(const Recipe&)>& reduce) {
-  const std::string key = content_key(recipe);
-  const std::filesystem::path file = folder / (key + ".h5");
-  if (std::optional<ReducedBody> body = find_entry(file, key)) {
+CachedBody load_or_reduce(const Recipe& recipe,
+                          const std::filesystem::path& folder,
+                          const Reducer& reducer) {
+  const auto find = [&](const MeshRecord& mesh) -> std::optional<CachedBody> {
+    const std::string key = content_key(recipe, mesh.content);
+    std::optional<ReducedBody> body = find_entry(folder, key);
+    if (!body) return std::nullopt;
     // Two links of one shape share an entry; the name is the asker's.
     body->name = recipe.name;
-    return {std::move(*body), true};
+    return CachedBody{std::move(*body), true, mesh.notices};
+  };
+  const auto known = find_mesh_record(recipe.mesh, reducer.mesher, folder);
+  if (known) {
+    if (std::optional<CachedBody> body = find(*known)) return std::move(*body);
   }
-  CachedBody made{reduce(recipe), false};
-  made.body.content_key = key;
-  // No other run could use it.
-  if (find_geometry_files(recipe.mesh.file).is_complete) {
-    keep_entry(made.body, file);
+  const MeshAtHand mesh = reducer.make_mesh(recipe.mesh);
+  keep_mesh_record(mesh.record, recipe.mesh, reducer.mesher, folder);
+  if (std::optional<CachedBody> body = find(mesh.record)) {
+    return std::move(*body);
   }
+  CachedBody made{mesh.reduce(recipe), false, mesh.record.notices};
+  made.body.content_key = content_key(recipe, mesh.record.content);
+  keep_entry(made.body, folder);
   return made;
 }
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/fem_full_body.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
+#include "common/errors.hpp"
 #include "fem/assembly.hpp"
+#include "fem/mesh_reader.hpp"
 #include "fem/nodal_mass.hpp"
 #include "fem/nonlinear_solid.hpp"
 #include "fem/tangent.hpp"
+#include "flexbody/cache.hpp"
 #include "flexbody/reduce_interfaces.hpp"
 #include "flexbody/reduce_meshed_body.hpp"
 #include "flexbody/reduce_support.hpp"
@@ -120,12 +125,26 @@ Matrix3X find_first_moment(const Matrix3X& x, const fem::SparseMatrix& M_s,
   return centered * M_s;
 }
 
+/// A geometry may make another mesh each time.
+void require_same_mesh(const Recipe& recipe, const fem::Mesh& mesh,
+                       const std::string& key) {
+  if (key.empty()) return;
+  if (content_key(recipe, fem::find_mesh_content(mesh)) == key) return;
+  throw InputError(fmt::format(
+      "{}: it gave two different meshes, one for the reduced body and one for "
+      "level full. Did it change meanwhile, or does it ask for the clock? Save "
+      "its mesh as .msh, and name that.",
+      recipe.mesh.file.string()));
+}
+
 }  // namespace
 
 std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
                                                const FullOptions& options,
-                                               const Progress& progress) {
-  fem::Mesh mesh = read_recipe_mesh(recipe, progress);
+                                               const Progress& progress,
+                                               const std::string& key) {
+  fem::Mesh mesh = read_source(recipe.mesh, progress).mesh;
+  require_same_mesh(recipe, mesh, key);
   const std::vector<Interface> interfaces = find_interfaces(mesh, recipe);
   const std::vector<int> held = find_clamped_nodes(mesh, recipe);
   std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flexbody/reduce.hpp"
 
+#include <memory>
+
+#include "fem/mesh_reader.hpp"
 #include "flexbody/decision_boundary.hpp"
 #include "flexbody/reduce_initial.hpp"
 #include "flexbody/reduce_meshed_body.hpp"
@@ -25,10 +28,8 @@ void add_tables(const std::vector<Interface>& interfaces,
   }
 }
 
-}  // namespace
-
-ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
-  const MeshedBody meshed(recipe, progress);
+ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
+                   const Progress& progress) {
   const fem::Mesh& mesh = meshed.mesh;
   check_initial_fields(meshed, recipe);
   const ChosenModes chosen = choose_eigenmodes(meshed, recipe, progress);
@@ -64,6 +65,26 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
   add_tables(meshed.interfaces, modes, Phi, body);
   report(progress, "reduced", 1.0);
   return body;
+}
+
+}  // namespace
+
+ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
+  return reduce(MeshedBody(recipe, progress), recipe, progress);
+}
+
+Reducer make_reducer(const Progress& progress) {
+  const auto make_mesh = [progress](const MeshSource& source) {
+    const auto made =
+        std::make_shared<const fem::TracedMesh>(read_source(source, progress));
+    return MeshAtHand{{fem::find_mesh_content(made->mesh), made->notices,
+                       made->files, made->is_repeatable},
+                      [made, progress](const Recipe& recipe) {
+                        const MeshedBody meshed(recipe, made, progress);
+                        return reduce(meshed, recipe, progress);
+                      }};
+  };
+  return {fem::identify_mesher(), make_mesh};
 }
 
 }  // namespace limber::flexbody

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/progress.hpp"
+#include "flexbody/cache.hpp"
 #include "flexbody/recipe.hpp"
 #include "flexbody/reduced_body.hpp"
 
@@ -13,5 +14,8 @@ namespace limber::flexbody {
 /// eigenpair or a solve misses its tolerance.
 [[nodiscard]] ReducedBody reduce(const Recipe& recipe,
                                  const Progress& progress = {});
+
+/// For the cache: meshes are made by limber-mesh, and reduced as above.
+[[nodiscard]] Reducer make_reducer(const Progress& progress = {});
 
 }  // namespace limber::flexbody

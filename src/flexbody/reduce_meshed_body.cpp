@@ -3,15 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/errors.hpp"
 #include "fem/assembly.hpp"
-#include "fem/mesh_reader.hpp"
 
 namespace limber::flexbody {
-fem::Mesh read_recipe_mesh(const Recipe& recipe, const Progress& progress) {
+fem::TracedMesh read_source(const MeshSource& source,
+                            const Progress& progress) {
   report(progress, "reading the mesh", 0.0);
-  const MeshSource& source = recipe.mesh;
-  return fem::read_mesh(source.file, {source.size, source.order, source.unit});
+  return fem::read_traced_mesh(source.file,
+                               {source.size, source.order, source.unit});
 }
 
 std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
@@ -57,7 +59,16 @@ Support assemble_support(const fem::Mesh& mesh, const Recipe& recipe,
 }  // namespace
 
 MeshedBody::MeshedBody(const Recipe& recipe, const Progress& progress)
-    : mesh(read_recipe_mesh(recipe, progress)),
+    : MeshedBody(recipe,
+                 std::make_shared<const fem::TracedMesh>(
+                     read_source(recipe.mesh, progress)),
+                 progress) {}
+
+MeshedBody::MeshedBody(const Recipe& recipe,
+                       std::shared_ptr<const fem::TracedMesh> traced,
+                       const Progress& progress)
+    : made(std::move(traced)),
+      mesh(made->mesh),
       interfaces(find_interfaces(mesh, recipe)),
       support(assemble_support(mesh, recipe, interfaces, M_s, progress)),
       inverse(support.matrices, support.R,

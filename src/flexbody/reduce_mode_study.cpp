@@ -56,6 +56,7 @@ ModeStudy study(const MeshedBody& body, const Recipe& recipe,
   const fem::MassProperties inertia =
       fem::calc_mass_properties(body.M_s, body.mesh.x);
   ModeStudy result;
+  result.notices = body.made->notices;
   result.mesh_nodes = body.mesh.node_count();
   result.mesh_elements = body.mesh.element_count();
   result.mesh_boundary_nodes = body.mesh.boundary_nodes.size();

@@ -39,6 +39,7 @@ struct ModeStudy {
   VectorX lambda;                       ///< m eigenvalues [rad^2/s^2]
   std::vector<LoadCaseStudy> cases;     ///< of the recipe's loads, if any
   std::optional<BaseMotionStudy> base;  ///< of a clamped body
+  std::vector<std::string> notices;     ///< of its mesh
 };
 
 /// Studies the lowest `recipe.basis.eigenmodes` modes. Linked by

@@ -139,113 +139,72 @@ Trace finish_trace() {
   for (const std::string& program : list_programs()) {
     trace.files.push_back(stamp_version(program));
   }
+  // It says which library a name leads to: another may have come.
+  trace.files.push_back(stamp_version("/etc/ld.so.cache"));
   return trace;
 }
 
 }  // namespace limber::mesher
 
-// The C library's functions by which files are reached. Their headers may
-// define some of them inline; the labels keep clear of that.
+// The C library's functions by which files are reached, each in place of its
+// own: it takes a note, and asks the one that comes next. Headers may define
+// some of them inline; the labels keep clear of that.
 #define LIMBER_IN_PLACE_OF(name) \
   __asm__(#name) __attribute__((visibility("default")))
-
-extern "C" {
 
 using limber::mesher::next;
 using limber::mesher::Notes;
 
-FILE* limber_fopen(const char* name, const char* mode)
-    LIMBER_IN_PLACE_OF(fopen);
-FILE* limber_fopen(const char* name, const char* mode) {
-  static const auto real = next<FILE* (*)(const char*, const char*)>("fopen");
-  Notes::get().opened(name);
-  return real(name, mode);
-}
+// Of open's kind, where a mode may follow the flags.
+#define LIMBER_TRACE_OPEN(own, name)                                      \
+  int own(const char* file, int flags, ...) LIMBER_IN_PLACE_OF(name);     \
+  int own(const char* file, int flags, ...) {                             \
+    static const auto real = next<int (*)(const char*, int, ...)>(#name); \
+    Notes::get().opened(file);                                            \
+    if ((flags & (O_CREAT | O_TMPFILE)) == 0) return real(file, flags);   \
+    va_list rest;                                                         \
+    va_start(rest, flags);                                                \
+    const unsigned mode = va_arg(rest, unsigned);                         \
+    va_end(rest);                                                         \
+    return real(file, flags, mode);                                       \
+  }
 
-FILE* limber_fopen64(const char* name, const char* mode)
-    LIMBER_IN_PLACE_OF(fopen64);
-FILE* limber_fopen64(const char* name, const char* mode) {
-  static const auto real = next<FILE* (*)(const char*, const char*)>("fopen64");
-  Notes::get().opened(name);
-  return real(name, mode);
-}
+// Of two arguments, the first the file's name.
+#define LIMBER_TRACE(note, own, name, Result, Second)                      \
+  Result own(const char* file, Second second) LIMBER_IN_PLACE_OF(name);    \
+  Result own(const char* file, Second second) {                            \
+    static const auto real = next<Result (*)(const char*, Second)>(#name); \
+    Notes::get().note(file);                                               \
+    return real(file, second);                                             \
+  }
 
-FILE* limber_freopen(const char* name, const char* mode, FILE* file)
+extern "C" {
+
+LIMBER_TRACE_OPEN(limber_open, open)
+LIMBER_TRACE_OPEN(limber_open64, open64)
+LIMBER_TRACE(opened, limber_open_2, __open_2, int, int)
+LIMBER_TRACE(opened, limber_open64_2, __open64_2, int, int)
+LIMBER_TRACE(opened, limber_fopen, fopen, FILE*, const char*)
+LIMBER_TRACE(opened, limber_fopen64, fopen64, FILE*, const char*)
+LIMBER_TRACE(looked_for, limber_stat, stat, int, struct stat*)
+LIMBER_TRACE(looked_for, limber_stat64, stat64, int, struct stat64*)
+LIMBER_TRACE(looked_for, limber_lstat, lstat, int, struct stat*)
+LIMBER_TRACE(looked_for, limber_lstat64, lstat64, int, struct stat64*)
+LIMBER_TRACE(looked_for, limber_access, access, int, int)
+
+FILE* limber_freopen(const char* file, const char* mode, FILE* stream)
     LIMBER_IN_PLACE_OF(freopen);
-FILE* limber_freopen(const char* name, const char* mode, FILE* file) {
+FILE* limber_freopen(const char* file, const char* mode, FILE* stream) {
   static const auto real =
       next<FILE* (*)(const char*, const char*, FILE*)>("freopen");
-  Notes::get().opened(name);
-  return real(name, mode, file);
+  Notes::get().opened(file);
+  return real(file, mode, stream);
 }
 
-// Whether a mode follows the flags.
-static bool has_mode(int flags) { return (flags & (O_CREAT | O_TMPFILE)) != 0; }
-
-int limber_open(const char* name, int flags, ...) LIMBER_IN_PLACE_OF(open);
-int limber_open(const char* name, int flags, ...) {
-  static const auto real = next<int (*)(const char*, int, ...)>("open");
-  Notes::get().opened(name);
-  if (!has_mode(flags)) return real(name, flags);
-  va_list rest;
-  va_start(rest, flags);
-  const unsigned mode = va_arg(rest, unsigned);
-  va_end(rest);
-  return real(name, flags, mode);
-}
-
-int limber_open64(const char* name, int flags, ...) LIMBER_IN_PLACE_OF(open64);
-int limber_open64(const char* name, int flags, ...) {
-  static const auto real = next<int (*)(const char*, int, ...)>("open64");
-  Notes::get().opened(name);
-  if (!has_mode(flags)) return real(name, flags);
-  va_list rest;
-  va_start(rest, flags);
-  const unsigned mode = va_arg(rest, unsigned);
-  va_end(rest);
-  return real(name, flags, mode);
-}
-
-int limber_open_2(const char* name, int flags) LIMBER_IN_PLACE_OF(__open_2);
-int limber_open_2(const char* name, int flags) {
-  static const auto real = next<int (*)(const char*, int)>("__open_2");
-  Notes::get().opened(name);
-  return real(name, flags);
-}
-
-int limber_open64_2(const char* name, int flags) LIMBER_IN_PLACE_OF(__open64_2);
-int limber_open64_2(const char* name, int flags) {
-  static const auto real = next<int (*)(const char*, int)>("__open64_2");
-  Notes::get().opened(name);
-  return real(name, flags);
-}
-
-int limber_stat(const char* name, struct stat* info) LIMBER_IN_PLACE_OF(stat);
-int limber_stat(const char* name, struct stat* info) {
-  static const auto real = next<int (*)(const char*, struct stat*)>("stat");
-  Notes::get().looked_for(name);
-  return real(name, info);
-}
-
-int limber_stat64(const char* name, struct stat64* info)
-    LIMBER_IN_PLACE_OF(stat64);
-int limber_stat64(const char* name, struct stat64* info) {
-  static const auto real = next<int (*)(const char*, struct stat64*)>("stat64");
-  Notes::get().looked_for(name);
-  return real(name, info);
-}
-
-int limber_access(const char* name, int mode) LIMBER_IN_PLACE_OF(access);
-int limber_access(const char* name, int mode) {
-  static const auto real = next<int (*)(const char*, int)>("access");
-  Notes::get().looked_for(name);
-  return real(name, mode);
-}
-
-DIR* limber_opendir(const char* name) LIMBER_IN_PLACE_OF(opendir);
-DIR* limber_opendir(const char* name) {
+DIR* limber_opendir(const char* file) LIMBER_IN_PLACE_OF(opendir);
+DIR* limber_opendir(const char* file) {
   static const auto real = next<DIR* (*)(const char*)>("opendir");
   Notes::get().listed_folder();
-  return real(name);
+  return real(file);
 }
 }

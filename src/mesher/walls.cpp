@@ -23,8 +23,9 @@ constexpr std::array kDangerous = {"SystemCall", "NonBlockingSystemCall",
                                    "Parse",      "ParseString",
                                    "WriteFile",  "Background"};
 
-constexpr std::array kFleeting = {"Cpu",    "Memory", "TotalMemory", "Today",
-                                  "GetEnv", "Rand",   "TIME",        "Time"};
+constexpr std::array kFleeting = {"Cpu",   "CpuTime",     "Memory",
+                                  "Today", "TotalMemory", "GetEnv",
+                                  "Rand",  "TIME",        "Time"};
 
 bool is_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';

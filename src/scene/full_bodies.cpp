@@ -40,8 +40,9 @@ void add_full_bodies(const Scene& scene, const FullMaker& make_full,
     require_mesh(scene, link, make_full);
     const flexbody::Recipe recipe =
         make_recipe(scene.robot, index, scene.scenario);
-    FullPointer& body = known[flexbody::content_key(recipe)];
-    if (!body) body = make_full(recipe, scene.scenario.full);
+    const std::string& key = plan.reduced->content_key;
+    FullPointer& body = known[key];
+    if (!body) body = make_full(recipe, scene.scenario.full, key);
     plan.full = body;
   }
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "flexbody/body_file.hpp"
 #include "flexbody/cache.hpp"
@@ -17,8 +18,10 @@ namespace {
 class Reduction {
  public:
   Reduction(const Scene& scene, const Reducer& reducer,
-            const std::filesystem::path& cache)
-      : scene_(scene), reducer_(reducer), cache_(cache) {}
+            const std::filesystem::path& cache, const KnownBodies& known)
+      : scene_(scene), reducer_(reducer), cache_(cache) {
+    result_.known = known;
+  }
 
   Reductions run() {
     for (std::size_t i = 0; i < scene_.robot.links.size(); ++i) {
@@ -36,7 +39,8 @@ class Reduction {
       if (!link.flexible->reduced_file.empty()) {
         return read(link);
       }
-      return reduce(make_recipe(scene_.robot, index, scene_.scenario));
+      return reduce(make_recipe(scene_.robot, index, scene_.scenario),
+                    link.name);
     } catch (const InputError& error) {
       std::vector<std::string> texts;
       for (const std::string& text : error.problems()) {
@@ -75,12 +79,17 @@ class Reduction {
     }
   }
 
-  ReducedPointer reduce(const flexbody::Recipe& recipe) {
-    const std::string key = flexbody::content_key(recipe);
-    ReducedPointer& known = known_[key];
+  ReducedPointer reduce(const flexbody::Recipe& recipe,
+                        const std::string& link) {
+    ReducedPointer& known = result_.known[flexbody::recipe_key(recipe)];
     if (known) return known;
     flexbody::CachedBody found =
         flexbody::load_or_reduce(recipe, cache_, reducer_);
+    for (const std::string& notice : found.notices) {
+      // Links may share a mesh.
+      if (!told_.insert(notice).second) continue;
+      result_.warnings.push_back(fmt::format("link '{}': {}", link, notice));
+    }
     (found.was_cached ? result_.cached : result_.reduced) += 1;
     known =
         std::make_shared<const flexbody::ReducedBody>(std::move(found.body));
@@ -90,7 +99,7 @@ class Reduction {
   const Scene& scene_;
   const Reducer& reducer_;
   const std::filesystem::path& cache_;
-  std::map<std::string, ReducedPointer> known_;  // by content
+  std::set<std::string> told_;
   std::map<std::filesystem::path, ReducedPointer> saved_;
   Reductions result_;
 };
@@ -98,8 +107,9 @@ class Reduction {
 }  // namespace
 
 Reductions find_reductions(const Scene& scene, const Reducer& reducer,
-                           const std::filesystem::path& cache) {
-  return Reduction(scene, reducer, cache).run();
+                           const std::filesystem::path& cache,
+                           const KnownBodies& known) {
+  return Reduction(scene, reducer, cache, known).run();
 }
 
 }  // namespace limber::scene

@@ -93,12 +93,12 @@ void settle(const Scene& scene, BuiltScene& built) {
 
 BuiltScene build_system(const Scene& scene, const Reducer& reducer,
                         const std::filesystem::path& cache,
-                        const FullMaker& make_full) {
+                        const FullMaker& make_full, const KnownBodies& known) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::vector<LinkMotion> motions =
       find_link_motions(scene.robot, scene.scenario);
-  const Reductions reductions = find_reductions(scene, reducer, cache);
+  const Reductions reductions = find_reductions(scene, reducer, cache, known);
   BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
   add_full_bodies(scene, make_full, plans);
   Assembly assembly(scene, plans, motions);
@@ -119,6 +119,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
     built.warnings.insert(built.warnings.end(), warnings->begin(),
                           warnings->end());
   }
+  built.known = reductions.known;
   built.bodies_reduced = reductions.reduced;
   built.bodies_cached = reductions.cached;
   built.seconds_offline =

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "dynamics/simulation.hpp"
 #include "dynamics/system_model.hpp"
 #include "dynamics/system_state.hpp"
+#include "flexbody/cache.hpp"
 #include "flexbody/full_body.hpp"
 #include "flexbody/recipe.hpp"
 #include "flexbody/reduced_body.hpp"
@@ -44,12 +46,18 @@ struct Overrides {
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file,
                                const Overrides& overrides = {});
 
-/// Makes a reduced body; usually flexbody::reduce.
-using Reducer = std::function<flexbody::ReducedBody(const flexbody::Recipe&)>;
+/// Makes meshes and reduced bodies; usually flexbody::make_reducer.
+using Reducer = flexbody::Reducer;
 
 /// Makes a body without reduction; usually flexbody::make_full_body.
+/// @param key content key of the reduced body that it goes with
 using FullMaker = std::function<std::shared_ptr<const flexbody::FullBody>(
-    const flexbody::Recipe&, const flexbody::FullOptions&)>;
+    const flexbody::Recipe&, const flexbody::FullOptions&,
+    const std::string& key)>;
+
+/// Reduced bodies that are at hand, by flexbody::recipe_key.
+using KnownBodies =
+    std::map<std::string, std::shared_ptr<const flexbody::ReducedBody>>;
 
 /// A scene, ready to be simulated.
 struct BuiltScene {
@@ -58,6 +66,7 @@ struct BuiltScene {
   dynamics::SimulationSettings settings;
   std::vector<Probe> probes;
   std::vector<std::string> warnings;
+  KnownBodies known;             ///< all that were reduced or cached
   int bodies_reduced = 0;        ///< reductions done now
   int bodies_cached = 0;         ///< reductions taken from the cache
   double seconds_offline = 0.0;  ///< wall time of all of it [s]
@@ -70,11 +79,13 @@ struct BuiltScene {
 /// static equilibrium near there. Couplers rest in the undeformed
 /// configuration. `make_full` is needed for links at level
 /// `full` alone.
+/// @param known is taken for an equal recipe, whatever the cache holds
 /// @throws InputError naming the link, joint, load or probe; both errors as
 /// dynamics::find_equilibrium.
 [[nodiscard]] BuiltScene build_system(const Scene& scene,
                                       const Reducer& reducer,
                                       const std::filesystem::path& cache,
-                                      const FullMaker& make_full = {});
+                                      const FullMaker& make_full = {},
+                                      const KnownBodies& known = {});
 
 }  // namespace limber::scene

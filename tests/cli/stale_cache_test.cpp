@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -126,6 +128,157 @@ TEST(StaleCacheOfShapes, IsNotUsedAfterTheShapeChanged) {
   EXPECT_NEAR(find_mass(place, "cache"), 2700 * 0.3 * 0.04 * 0.04, 1e-9);
   copy("box_50_mm.brep");
   EXPECT_NEAR(find_mass(place, "cache"), 2700 * 0.3 * 0.05 * 0.04, 1e-9);
+}
+
+json run(const Workspace& place) {
+  const CommandResult result =
+      place.limber("run bar.toml --out out --cache cache --json");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return result.status == 0 ? json::parse(result.out) : json();
+}
+
+/// For a while the mesher has no time for a mesh.
+class NoTime {
+ public:
+  NoTime() { setenv("LIMBER_MESH_SECONDS", "1e-6", 1); }
+  ~NoTime() { unsetenv("LIMBER_MESH_SECONDS"); }
+  NoTime(const NoTime&) = delete;
+  NoTime& operator=(const NoTime&) = delete;
+};
+
+/// Whether a run now takes its body from the cache without making a mesh.
+bool makes_no_mesh(const Workspace& place) {
+  const NoTime no_time;
+  const CommandResult result =
+      place.limber("run bar.toml --out out --cache cache --json");
+  if (result.status == 2) {
+    EXPECT_THAT(result.errors, testing::HasSubstr("meshing did not end"));
+    return false;
+  }
+  return json::parse(result.out)["bodies_cached"] == 1;
+}
+
+/// Whether a run now makes a mesh, finds it equal to the one before and has
+/// its body from the cache.
+bool makes_the_mesh_again(const Workspace& place) {
+  if (makes_no_mesh(place)) return false;
+  return run(place)["bodies_cached"] == 1;
+}
+
+/// A bar whose name of its second file is put together.
+class Cached : public ::testing::Test {
+ protected:
+  Cached() {
+    write_scene(place_, "bar.geo");
+    place_.write("bar.geo",
+                 kHead + "Include StrCat(\"part\", \".geo\");\n" + kTail);
+    place_.write("part.geo", make_box(0.04));
+    EXPECT_EQ(run(place_)["bodies_reduced"], 1);
+  }
+  Workspace place_;
+};
+
+TEST_F(Cached, BodyOfAComputedNameNeedsNoMesh) {
+  EXPECT_TRUE(makes_no_mesh(place_));
+  place_.write("part.geo", make_box(0.04));  // touched alone
+  EXPECT_TRUE(makes_no_mesh(place_));
+}
+
+TEST_F(Cached, BodyIsFoundByItsMeshAfterACommentHasChanged) {
+  place_.write("part.geo", "// 40 mm\n" + make_box(0.04));
+  EXPECT_TRUE(makes_the_mesh_again(place_));
+  EXPECT_TRUE(makes_no_mesh(place_));
+}
+
+TEST_F(Cached, BodyIsFoundByItsMeshAfterTheMesherHasChanged) {
+  const auto copy = place_.folder() / "mesher";
+  const auto mesher =
+      std::filesystem::path(LIMBER_COMMAND).parent_path() / "limber-mesh";
+  std::filesystem::copy(mesher, copy);
+  setenv("LIMBER_MESHER", copy.c_str(), 1);
+  EXPECT_TRUE(makes_the_mesh_again(place_));
+  EXPECT_TRUE(makes_no_mesh(place_));
+  std::filesystem::remove(copy);
+  std::filesystem::copy(mesher, copy);  // as an installation does
+  EXPECT_TRUE(makes_the_mesh_again(place_));
+  unsetenv("LIMBER_MESHER");
+}
+
+TEST_F(Cached, BodyOfAGeometryThatAsksForChanceIsNeverTakenForGranted) {
+  place_.write("part.geo", make_box(0.04) + "// Rand(1)\n");
+  EXPECT_TRUE(makes_the_mesh_again(place_));
+  EXPECT_TRUE(makes_the_mesh_again(place_));
+}
+
+TEST_F(Cached, BodyOfAGeometryThatGrowsWithTheClockIsMadeAnewInEachRun) {
+  place_.write("part.geo",
+               "Box(1) = {0, -0.02, -0.02, 0.3 + 1e-3 * Cpu, 0.04, 0.04};\n");
+  const double first = run(place_)["energy"]["initial"];
+  const json second = run(place_);
+  EXPECT_EQ(second["bodies_reduced"], 1);
+  EXPECT_NE(second["energy"]["initial"], first);
+}
+
+// The reduced body's mesh is one, that of level full another.
+TEST_F(Cached, BodyOfAGeometryThatGrowsWithTheClockIsRefusedAtLevelFull) {
+  place_.write("part.geo",
+               "Box(1) = {0, -0.02, -0.02, 0.3 + 1e-3 * Cpu, 0.04, 0.04};\n");
+  const CommandResult result =
+      place_.limber("run bar.toml --out out --cache cache --fidelity full");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::HasSubstr("two different meshes"));
+}
+
+/// A thin tube whose curved elements come out inverted.
+const std::string kTube =
+    "Cylinder(1) = {0,0,0, 0,0,0.1, 0.02};\n"
+    "Cylinder(2) = {0,0,0, 0,0,0.1, 0.018};\n"
+    "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n"
+    "Physical Volume(\"body\") = {1};\n"
+    "Mesh.MeshSizeMax = 0.01; Mesh.ElementOrder = 2;\n";
+
+TEST(StraightEdges, AreToldOfInEachRunOnceForAMesh) {
+  const Workspace place;
+  place.write("tube.geo", kHead + kTube);
+  const std::string link =
+      "<link name='{0}'/><flexible link='{0}'><mesh file='tube.geo'/>"
+      "<material youngs_modulus='70e9' poisson_ratio='0.3' density='2700'/>"
+      "<basis eigenmodes='{1}'/></flexible>";
+  place.write("tube.urdf",
+              "<robot name='r'>" + fmt::format(fmt::runtime(link), "a", 2) +
+                  fmt::format(fmt::runtime(link), "b", 3) +
+                  "<joint name='j' type='floating'><parent link='a'/>"
+                  "<child link='b'/></joint></robot>\n");
+  place.write("bar.toml",
+              "robot = \"tube.urdf\"\n[time]\nduration = 0.001\nstep = 1e-3\n"
+              "[output]\npictures = false\n");
+  for (const int cached : {0, 2}) {
+    const json summary = run(place);
+    EXPECT_EQ(summary["bodies_cached"], cached);
+    int told = 0;
+    for (const std::string text : summary["warnings"]) {
+      if (text.find("all edges were made straight") != std::string::npos) {
+        ++told;
+      }
+    }
+    EXPECT_EQ(told, 1);
+  }
+}
+
+TEST(StraightEdges, AreToldOfByEveryCommandThatMakesAMesh) {
+  const Workspace place;
+  place.write("tube.geo", kHead + kTube);
+  const std::string material =
+      " tube.geo --youngs-modulus 70e9 --poisson-ratio 0.3 --density 2700 ";
+  for (const std::string& line :
+       {"reduce" + material + "--modes 1 -o body.h5",
+        "modes" + material + "--count 1", std::string("info tube.geo")}) {
+    const CommandResult result = place.limber(line);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_THAT(result.out + result.errors,
+                testing::HasSubstr("all edges were made straight"))
+        << line;
+  }
 }
 
 TEST(CacheFolder, WithoutAHomeIsAskedFor) {

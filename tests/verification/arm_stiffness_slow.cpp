@@ -34,9 +34,7 @@ class CaptureArm : public ::testing::Test {
 
   void expect_good_run(double stiffness) const {
     const scene::BuiltScene built = scene::build_system(
-        load_arm(stiffness),
-        [](const flexbody::Recipe& recipe) { return flexbody::reduce(recipe); },
-        cache_);
+        load_arm(stiffness), flexbody::make_reducer(), cache_);
     dynamics::SystemState state = built.initial;
     dynamics::EnergyBalance last;
     const auto statistics = dynamics::simulate(

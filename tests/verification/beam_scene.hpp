@@ -35,10 +35,8 @@ inline scene::Scene beam_scene(bool is_clamped = false) {
 class SceneBench {
  public:
   [[nodiscard]] scene::BuiltScene build(const scene::Scene& scene) const {
-    return scene::build_system(
-        scene,
-        [](const flexbody::Recipe& recipe) { return flexbody::reduce(recipe); },
-        folder_.path() / "cache");
+    return scene::build_system(scene, flexbody::make_reducer(),
+                               folder_.path() / "cache");
   }
 
   /// A field as text with all digits; its path.

@@ -38,11 +38,10 @@ scene::Scene make_scene(const scene::Place& tip, dynamics::Fidelity level) {
 scene::BuiltScene build(const scene::Scene& scene) {
   static const flexbody::test::TemporaryFolder cache;
   return scene::build_system(
-      scene,
-      [](const flexbody::Recipe& recipe) { return flexbody::reduce(recipe); },
-      cache.path(),
-      [](const flexbody::Recipe& recipe, const flexbody::FullOptions& options) {
-        return flexbody::make_full_body(recipe, options);
+      scene, flexbody::make_reducer(), cache.path(),
+      [](const flexbody::Recipe& recipe, const flexbody::FullOptions& options,
+         const std::string& key) {
+        return flexbody::make_full_body(recipe, options, {}, key);
       });
 }
 

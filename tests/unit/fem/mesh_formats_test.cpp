@@ -182,5 +182,17 @@ TEST(GmshReader, MakesTheMeshersMesh) {
             find_mesh_content(read_mesh(file, options)));
 }
 
+TEST(MeshContent, IsThatOfTheSavedMesh) {
+  const auto geo =
+      write_file("box.geo", kBox +
+                                "Physical Volume(\"body\") = {1};\n"
+                                "Physical Surface(\"root\") = {1};\n"
+                                "Mesh.MeshSizeMax = 0.1;\n"
+                                "Mesh.ElementOrder = 2;\n");
+  const auto msh = testing::convert(geo, "box.msh", {.binary = true});
+  EXPECT_EQ(find_mesh_content(read_mesh(geo)),
+            find_mesh_content(read_mesh(msh)));
+}
+
 }  // namespace
 }  // namespace limber::fem

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "flexbody/body_file.hpp"
-#include "flexbody/geometry_files.hpp"
 #include "unit/flexbody/files.hpp"
 #include "unit/flexbody/small_body.hpp"
 
@@ -40,23 +39,11 @@ Recipe make_recipe(const std::filesystem::path& mesh) {
   return recipe;
 }
 
-class ContentKey : public ::testing::Test {
- protected:
-  ContentKey() { write_bytes(mesh(), "a mesh"); }
-  [[nodiscard]] std::filesystem::path mesh() const {
-    return folder_.path() / "arm.msh";
-  }
-  TemporaryFolder folder_;
-};
-
 using Changes =
     std::vector<std::pair<std::string, std::function<void(Recipe&)>>>;
 
 Changes list_mesh_and_material_changes() {
   return {
-      {"size", [](Recipe& r) { r.mesh.size = 0.2; }},
-      {"order", [](Recipe& r) { r.mesh.order = 1; }},
-      {"unit", [](Recipe& r) { r.mesh.unit = 1.0; }},
       {"region", [](Recipe& r) { r.materials[0].group = "iron"; }},
       {"E", [](Recipe& r) { r.materials[0].material.youngs_modulus = 70e9; }},
       {"nu", [](Recipe& r) { r.materials[0].material.poisson_ratio = 0.31; }},
@@ -157,142 +144,90 @@ Changes list_automatic_changes() {
   };
 }
 
-TEST_F(ContentKey, DiffersForEveryFieldThatShapesTheBody) {
+TEST(ContentKey, DiffersForEveryFieldThatShapesTheBody) {
   std::map<std::string, std::string> change_of = {
-      {content_key(make_recipe(mesh())), "nothing"}};
+      {content_key(make_recipe("arm.msh"), "mesh"), "nothing"},
+      {content_key(make_recipe("arm.msh"), "other mesh"), "mesh"}};
   for (const Changes& changes :
        {list_mesh_and_material_changes(), list_interface_changes(),
         list_load_and_basis_changes(), list_automatic_changes()}) {
     for (const auto& [name, change] : changes) {
-      Recipe recipe = make_recipe(mesh());
+      Recipe recipe = make_recipe("arm.msh");
       change(recipe);
-      const auto [at, is_new] = change_of.emplace(content_key(recipe), name);
+      const auto [at, is_new] =
+          change_of.emplace(content_key(recipe, "mesh"), name);
       EXPECT_TRUE(is_new) << name << " and " << at->second;
     }
   }
 }
 
-TEST_F(ContentKey, IgnoresTheBodysNameAndTheMeshsPlace) {
-  const Recipe recipe = make_recipe(mesh());
-  const auto elsewhere = folder_.path() / "copy.msh";
-  std::filesystem::copy(mesh(), elsewhere);
-  Recipe other = make_recipe(elsewhere);
+TEST(ContentKey, IgnoresTheBodysNameAndHowTheMeshWasMade) {
+  Recipe other = make_recipe("elsewhere.geo");
   other.name = "fore arm";
-  EXPECT_EQ(content_key(recipe), content_key(other));
+  other.mesh.size = 0.3;
+  EXPECT_EQ(content_key(make_recipe("arm.msh"), "mesh"),
+            content_key(other, "mesh"));
 }
 
-TEST_F(ContentKey, DiffersForEveryByteOfTheMesh) {
-  std::string bytes = "a mesh";
-  std::map<std::string, std::string> bytes_of;
-  for (char& byte : bytes) {
-    byte = static_cast<char>(byte + 1);
-    write_bytes(mesh(), bytes);
-    bytes_of.emplace(content_key(make_recipe(mesh())), bytes);
-  }
-  write_bytes(mesh(), bytes + '\0');
-  bytes_of.emplace(content_key(make_recipe(mesh())), bytes + '\0');
-  EXPECT_EQ(bytes_of.size(), 7U);
-}
-
-TEST_F(ContentKey, DiffersForTheKindOfTheMeshFile) {
-  const auto step = folder_.path() / "arm.step";
-  std::filesystem::copy(mesh(), step);
-  EXPECT_NE(content_key(make_recipe(mesh())), content_key(make_recipe(step)));
-}
-
-TEST_F(ContentKey, FollowsTheFilesThatAScriptIncludes) {
-  const auto script = folder_.path() / "arm.geo";
-  std::filesystem::create_directory(folder_.path() / "parts");
-  write_bytes(script, "Include \"parts/beam.geo\";\n");
-  write_bytes(folder_.path() / "parts/beam.geo",
-              "Include \"../arm.geo\"; Merge \"data.step\";\n");
-  write_bytes(folder_.path() / "parts/data.step", "one");
-  const std::string key = content_key(make_recipe(script));
-  EXPECT_EQ(content_key(make_recipe(script)), key);
-  write_bytes(folder_.path() / "parts/data.step", "two");
-  EXPECT_NE(content_key(make_recipe(script)), key);
-}
-
-TEST_F(ContentKey, AcceptsAScriptWhoseIncludesAreCutShort) {
-  const auto script = folder_.path() / "arm.geo";
-  for (const std::string text :
-       {"\"quoted\" Include", "Include \"", "Merge \"missing.step\";"}) {
-    write_bytes(script, text);
-    EXPECT_EQ(content_key(make_recipe(script)).size(), 32U);
-  }
-  write_bytes(script, "Merge \"" + std::string(100000, 'x') + "\";");
-  EXPECT_EQ(content_key(make_recipe(script)).size(), 32U);
-}
-
-TEST_F(ContentKey, OfAMissingMeshIsAnInputErrorThatNamesIt) {
-  for (const char* name : {"missing.msh", "missing.geo"}) {
-    const auto missing = folder_.path() / name;
-    EXPECT_THAT(
-        find_input_error([&] { (void)content_key(make_recipe(missing)); }),
-        HasSubstr(missing.string()));
+TEST(RecipeKey, IsOneForAskersOfOneFileInOneWay) {
+  const Recipe recipe = make_recipe("arm.msh");
+  Recipe same = recipe;
+  same.name = "fore arm";
+  EXPECT_EQ(recipe_key(recipe), recipe_key(same));
+  const std::vector<std::function<void(Recipe&)>> changes = {
+      [](Recipe& r) { r.mesh.file = "arm.geo"; },
+      [](Recipe& r) { r.mesh.size = 0.2; }, [](Recipe& r) { r.mesh.order = 1; },
+      [](Recipe& r) { r.mesh.unit = 1.0; },
+      [](Recipe& r) { r.basis.eigenmodes = 11; }};
+  for (const auto& change : changes) {
+    Recipe other = recipe;
+    change(other);
+    EXPECT_NE(recipe_key(recipe), recipe_key(other));
   }
 }
 
-TEST_F(ContentKey, FollowsWhateverASecondFileIsNamedBy) {
-  const auto script = folder_.path() / "ARM.GEO";
-  const auto part = folder_.path() / "part.txt";
-  for (const std::string text :
-       {"Merge 'part.txt';", "Include \"part.txt\";",
-        "v() = ShapeFromFile(\"part.txt\");", "l() = ListFromFile('part.txt');",
-        "Field[1].FileName = \"part.txt\";", "If(FileExists(\"part.txt\"))",
-        "Include /* a */ \"part.txt\" // b\n;"}) {
-    write_bytes(script, text);
-    write_bytes(part, "one");
-    const std::string key = content_key(make_recipe(script));
-    EXPECT_EQ(content_key(make_recipe(script)), key) << text;
-    write_bytes(part, "two");
-    const std::string other = content_key(make_recipe(script));
-    EXPECT_NE(other, key) << text;
-    std::filesystem::remove(part);
-    EXPECT_NE(content_key(make_recipe(script)), other) << text;
-    EXPECT_TRUE(find_geometry_files(script).is_complete) << text;
-  }
-}
-
-TEST_F(ContentKey, KnowsWhenAScriptPutsNamesTogether) {
-  const auto script = folder_.path() / "arm.geo";
-  for (const std::string text :
-       {"Include Sprintf(\"a%g\", 1);", "Include Str(\"a\", \"b\");",
-        "Merge name;", "Include \"a\" + x;", "l() = ListFromFile(name);",
-        "Field[1].FileName = Str(\"a\");", "Plugin(Skin).Run;",
-        "MergeWithBoundingBox StrCat(\"a\", \"b\");"}) {
-    write_bytes(script, text);
-    EXPECT_FALSE(find_geometry_files(script).is_complete) << text;
-  }
-  for (const std::string text :
-       {"", "Point(1) = {0, 0, 0};", "// Include Sprintf(\"a\");",
-        "/* Merge name; */", "x = \"Include name\";", "Include \"a\";"}) {
-    write_bytes(script, text);
-    EXPECT_TRUE(find_geometry_files(script).is_complete) << text;
-  }
-}
-
-// Asks a cache of its own, and counts how often it had to reduce.
+// Asks a cache of its own, and counts how often it had to mesh and to reduce.
+// The mesh is what the file says, without its comment.
 class Cache : public ::testing::Test {
  protected:
   Cache() : recipe_(make_recipe(folder_.path() / "arm.msh")) {
     write_bytes(recipe_.mesh.file, "a mesh");
+    write_bytes(library(), "Gmsh");
   }
   CachedBody ask() { return ask_in(cache()); }
   CachedBody ask_in(const std::filesystem::path& cache) {
-    return load_or_reduce(recipe_, cache, [this](const Recipe& recipe) {
-      ++reductions_;
-      ReducedBody body = make_small_body(1);
-      body.name = recipe.name;
-      return body;
-    });
+    return load_or_reduce(recipe_, cache, reducer());
+  }
+  Reducer reducer() {
+    return {"mesher", [this](const MeshSource& source) {
+              ++meshes_;
+              return MeshAtHand{make_record(source), [this](const Recipe& r) {
+                                  ++reductions_;
+                                  ReducedBody body = make_small_body(1);
+                                  body.name = r.name;
+                                  return body;
+                                }};
+            }};
+  }
+  [[nodiscard]] MeshRecord make_record(const MeshSource& source) const {
+    const std::string text = read_bytes(source.file);
+    return {"mesh of " + text.substr(0, text.find("//")),
+            {"a notice"},
+            {stamp_content(source.file), stamp_version(library())},
+            is_repeatable_};
+  }
+  [[nodiscard]] std::filesystem::path library() const {
+    return folder_.path() / "libgmsh.so";
   }
   // What every answer must be.
   [[nodiscard]] ReducedBody expected() const {
     ReducedBody body = make_small_body(1);
     body.name = recipe_.name;
-    body.content_key = content_key(recipe_);
+    body.content_key = key();
     return body;
+  }
+  [[nodiscard]] std::string key() const {
+    return content_key(recipe_, make_record(recipe_.mesh).content);
   }
   // The entry was unusable: it is made anew, and then used.
   void expect_made_anew() {
@@ -309,11 +244,28 @@ class Cache : public ::testing::Test {
     return folder_.path() / "cache" / "limber";
   }
   [[nodiscard]] std::filesystem::path entry() const {
-    return cache() / (content_key(recipe_) + ".h5");
+    return cache() / (key() + ".h5");
+  }
+  // Of the meshes, the only one.
+  [[nodiscard]] std::filesystem::path mesh_entry() const {
+    for (const auto& file : std::filesystem::directory_iterator(cache())) {
+      if (file.path().extension() == ".mesh") return file.path();
+    }
+    return {};
+  }
+  // Asks twice, and tells how many meshes each needed; the body was known.
+  void expect_meshes(int first, int second) {
+    for (const int expected : {first, second}) {
+      const int before = meshes_;
+      EXPECT_TRUE(ask().was_cached);
+      EXPECT_EQ(meshes_ - before, expected);
+    }
   }
 
   TemporaryFolder folder_;
   Recipe recipe_;
+  bool is_repeatable_ = true;
+  std::atomic<int> meshes_ = 0;
   std::atomic<int> reductions_ = 0;
 };
 
@@ -379,9 +331,13 @@ TEST_F(Cache, LivesWithAFolderInTheEntrysPlace) {
 }
 
 TEST_F(Cache, PassesOnWhatReducingThrowsAndKeepsNothing) {
-  const auto fail = [](const Recipe&) -> ReducedBody {
-    throw NumericalError("no convergence");
-  };
+  const Reducer fail = {"mesher", [this](const MeshSource& source) {
+                          return MeshAtHand{
+                              make_record(source),
+                              [](const Recipe&) -> ReducedBody {
+                                throw NumericalError("no convergence");
+                              }};
+                        }};
   EXPECT_THROW((void)load_or_reduce(recipe_, cache(), fail), NumericalError);
   expect_made_anew();
 }
@@ -399,9 +355,121 @@ TEST_F(Cache, GivesThreadsThatAskAtOnceTheSameBody) {
     for (std::thread& thread : threads) thread.join();
     EXPECT_THAT(differences, ::testing::Each(""));
     EXPECT_TRUE(ask().was_cached);
+    // The body and the record of its mesh.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(cache()), {}),
-              1);
+              2);
   }
+}
+
+TEST_F(Cache, MakesNoMeshWhileNoFileHasChanged) {
+  (void)ask();
+  expect_meshes(0, 0);
+  write_bytes(recipe_.mesh.file, "a mesh");  // touched alone
+  expect_meshes(0, 0);
+}
+
+TEST_F(Cache, MakesAMeshAnewAfterAChangeAndFindsItsBody) {
+  (void)ask();
+  write_bytes(recipe_.mesh.file, "a mesh// with a comment");
+  expect_meshes(1, 0);
+  std::filesystem::remove(library());
+  write_bytes(library(), "Gmsh of another version");
+  expect_meshes(1, 0);
+  recipe_.mesh.size = 0.2;  // to the same end
+  expect_meshes(1, 0);
+  EXPECT_EQ(reductions_, 1);
+}
+
+TEST_F(Cache, MakesAMeshThatIsNotRepeatableInEachRun) {
+  is_repeatable_ = false;
+  (void)ask();
+  expect_meshes(1, 1);
+  EXPECT_EQ(reductions_, 1);
+}
+
+TEST_F(Cache, AsksAnotherMesherForAMeshOfItsOwn) {
+  (void)ask();
+  for (const auto& [mesher, meshes] :
+       {std::pair("another", 1), std::pair("another", 0), std::pair("", 0)}) {
+    Reducer other = reducer();
+    other.mesher = mesher;
+    const int before = meshes_;
+    EXPECT_TRUE(load_or_reduce(recipe_, cache(), other).was_cached);
+    EXPECT_EQ(meshes_ - before, meshes) << mesher;
+  }
+}
+
+TEST_F(Cache, SharesABodyAmongFilesOfOneMesh) {
+  (void)ask();
+  const auto other = folder_.path() / "arm.geo";
+  write_bytes(other, "a mesh// by another program");
+  recipe_.mesh.file = other;
+  EXPECT_TRUE(ask().was_cached);
+  EXPECT_EQ(reductions_, 1);
+}
+
+TEST_F(Cache, TellsTheNoticesOfAMeshThatItDidNotMake) {
+  EXPECT_THAT(ask().notices, ::testing::ElementsAre("a notice"));
+  EXPECT_THAT(ask().notices, ::testing::ElementsAre("a notice"));
+  EXPECT_EQ(meshes_, 1);
+}
+
+TEST_F(Cache, DoesNotTakeADamagedRecordOfAMesh) {
+  (void)ask();
+  const std::string bytes = read_bytes(mesh_entry());
+  const std::size_t at = bytes.find("mesh of");
+  ASSERT_NE(at, std::string::npos);
+  std::string other_mesh = bytes;
+  other_mesh[at] = 'M';
+  for (const std::string& damaged :
+       {std::string(), std::string("text"), bytes.substr(0, at), other_mesh}) {
+    write_bytes(mesh_entry(), damaged);
+    expect_meshes(1, 0);
+  }
+}
+
+TEST_F(Cache, DoesNotTakeTheRecordOfAnotherRequest) {
+  (void)ask();
+  const auto first = mesh_entry();
+  const std::string bytes = read_bytes(first);
+  std::filesystem::remove(first);
+  recipe_.mesh.size = 0.2;
+  (void)ask();
+  write_bytes(mesh_entry(), bytes);
+  expect_meshes(1, 0);
+}
+
+TEST_F(Cache, DoesNotTakeARecordThatOthersOwnOrCanWrite) {
+  using std::filesystem::perms;
+  (void)ask();
+  for (const perms others : {perms::group_write, perms::others_write}) {
+    std::filesystem::permissions(mesh_entry(), others,
+                                 std::filesystem::perm_options::add);
+    expect_meshes(1, 0);
+  }
+  const auto elsewhere = folder_.path() / "elsewhere";
+  const auto entry = mesh_entry();
+  std::filesystem::rename(entry, elsewhere);
+  std::filesystem::create_symlink(elsewhere, entry);
+  expect_meshes(1, 0);
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  ASSERT_EQ(chown(mesh_entry().c_str(), 12345, 12345), 0);
+  expect_meshes(1, 0);
+}
+
+// Files that are named from a folder depend on where it is.
+TEST_F(Cache, NoticesThatALinkLeadsElsewhere) {
+  const auto link = folder_.path() / "link";
+  for (const char* name : {"one", "two"}) {
+    std::filesystem::create_directory(folder_.path() / name);
+    write_bytes(folder_.path() / name / "arm.msh", "a mesh");
+  }
+  recipe_.mesh.file = link / "arm.msh";
+  std::filesystem::create_symlink("one", link);
+  (void)ask();
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink("two", link);
+  expect_meshes(1, 0);
 }
 
 TEST_F(Cache, RefusesEntriesThatOthersOwnOrCanWrite) {

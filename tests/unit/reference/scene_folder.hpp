@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "scene/scene.hpp"
@@ -19,10 +18,7 @@ class RigidScene {
     std::ofstream(folder_.path() / "scene.toml")
         << "robot = \"robot.urdf\"\n" + scenario;
     scene = scene::load_scene(folder_.path() / "scene.toml");
-    const auto refuse = [](const flexbody::Recipe&) -> flexbody::ReducedBody {
-      throw std::logic_error("no link bends");
-    };
-    built = scene::build_system(scene, refuse, folder_.path());
+    built = scene::build_system(scene, {}, folder_.path());
   }
 
  private:

@@ -46,10 +46,11 @@ class SceneFolder {
   [[nodiscard]] BuiltScene build(const Scene& scene) const {
     return build_system(
         scene,
-        [](const flexbody::Recipe& recipe) -> flexbody::ReducedBody {
-          ADD_FAILURE() << recipe.name << " should not be reduced";
-          return {};
-        },
+        {"",
+         [](const flexbody::MeshSource& mesh) -> flexbody::MeshAtHand {
+           ADD_FAILURE() << mesh.file << " should not be reduced";
+           return {};
+         }},
         folder_ / "cache");
   }
 

@@ -17,11 +17,9 @@ const std::filesystem::path kExamples = LIMBER_SOURCE_DIR "/examples";
 Verification run(const scene::Scene& scene, JointModel joints,
                  int refinements) {
   static const results::test::TemporaryFolder cache;  // reduces once
-  const auto reducer = [](const flexbody::Recipe& recipe) {
-    return flexbody::reduce(recipe);
-  };
-  return verify(scene, scene::build_system(scene, reducer, cache.path()),
-                {{joints, 1e-12}, refinements});
+  return verify(
+      scene, scene::build_system(scene, flexbody::make_reducer(), cache.path()),
+      {{joints, 1e-12}, refinements});
 }
 
 struct Example {

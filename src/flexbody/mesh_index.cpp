@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flexbody/mesh_index.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <system_error>
+
+#include "common/digest.hpp"
+#include "common/sealed_file.hpp"
+#include "common/wire.hpp"
+#include "flexbody/cache_file.hpp"
+
+namespace limber::flexbody {
+namespace {
+
+constexpr Seal kSeal = {"limber mesh record", 1};
+
+/// One request and what came of it.
+struct Entry {
+  std::string request;
+  std::string mesher;
+  MeshRecord record;
+};
+
+void exchange(Wire& wire, Entry& entry) {
+  MeshRecord& record = entry.record;
+  wire(entry.request, entry.mesher, record.content, record.notices,
+       record.files);
+}
+
+// A geometry names files from its folder, so where links lead is part of it.
+std::string find_request(const MeshSource& mesh) {
+  std::error_code unknown;
+  Digest digest;
+  digest.add(std::filesystem::absolute(mesh.file).string());
+  digest.add(std::filesystem::weakly_canonical(mesh.file, unknown).string());
+  digest.add(mesh.size);
+  digest.add(mesh.order);
+  digest.add(mesh.unit);
+  return digest.text();
+}
+
+std::filesystem::path find_place(const std::string& request,
+                                 const std::filesystem::path& folder) {
+  return folder / (request + ".mesh");
+}
+
+}  // namespace
+
+std::optional<MeshRecord> find_mesh_record(
+    const MeshSource& mesh, const std::string& mesher,
+    const std::filesystem::path& folder) {
+  try {
+    const std::string request = find_request(mesh);
+    const std::filesystem::path file = find_place(request, folder);
+    if (!is_own_file(file)) return std::nullopt;
+    Wire wire(read_sealed(file, kSeal));
+    Entry entry;
+    wire(entry);
+    wire.finish();
+    const bool is_asked =
+        entry.request == request && (mesher.empty() || entry.mesher == mesher);
+    const std::vector<FileStamp>& files = entry.record.files;
+    if (!is_asked || !std::all_of(files.begin(), files.end(), is_unchanged)) {
+      return std::nullopt;
+    }
+    entry.record.is_repeatable = true;
+    return entry.record;
+  } catch (const std::exception&) {  // whatever its damage: as if not there
+    return std::nullopt;
+  }
+}
+
+void keep_mesh_record(const MeshRecord& record, const MeshSource& mesh,
+                      const std::string& mesher,
+                      const std::filesystem::path& folder) {
+  if (!record.is_repeatable) return;
+  try {
+    Entry entry{find_request(mesh), mesher, record};
+    Wire wire;
+    wire(entry);
+    write_own_file(find_place(entry.request, folder),
+                   [&](const std::filesystem::path& place) {
+                     write_sealed(place, kSeal, wire.bytes());
+                   });
+  } catch (const std::exception&) {
+  }
+}
+
+}  // namespace limber::flexbody
