@@ -4,15 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string_view>
 
 #include "app/commands.hpp"
 #include "app/describe.hpp"
 #include "common/errors.hpp"
+#include "fem/mesh_file_kind.hpp"
 #include "results/checkpoint_file.hpp"
 
 namespace limber::app {
@@ -23,10 +22,6 @@ struct Options {
   std::optional<double> unit;
   bool json = false;
 };
-
-constexpr std::array<std::string_view, 12> kMeshes = {
-    ".msh", ".geo", ".step", ".stp", ".brep", ".iges",
-    ".igs", ".bdf", ".nas",  ".unv", ".med",  ".vtk"};
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -40,8 +35,8 @@ Json describe(const Options& options) {
     throw InputError(fmt::format("{}: no such file", options.file));
   }
   const std::string extension = extension_of(options.file);
-  const bool is_mesh =
-      std::count(kMeshes.begin(), kMeshes.end(), extension) > 0;
+  const auto& meshes = fem::kMeshFileExtensions;
+  const bool is_mesh = std::count(meshes.begin(), meshes.end(), extension) > 0;
   if (options.unit && !is_mesh) {
     throw InputError(
         fmt::format("--unit is that of a mesh, which '{}' is not; leave it out",
@@ -61,7 +56,7 @@ Json describe(const Options& options) {
   throw InputError(
       fmt::format("{}: info knows .toml, .urdf and .h5 files, checkpoints, and "
                   "meshes: {}",
-                  options.file, fmt::join(kMeshes, ", ")));
+                  options.file, fmt::join(meshes, ", ")));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "fem/mesh_file_kind.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,10 @@ namespace {
 
 constexpr std::size_t kHead = 1 << 16;
 
+std::string list_extensions() {
+  return fmt::format("{}", fmt::join(kMeshFileExtensions, ", "));
+}
+
 /// The first bytes of a regular file.
 std::string read_head(const std::filesystem::path& file) {
   try {
@@ -27,7 +32,7 @@ std::string read_head(const std::filesystem::path& file) {
     return head;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}. Expected a mesh or geometry ({}).",
-                                 error.what(), mesh_file_extensions()));
+                                 error.what(), list_extensions()));
   }
 }
 
@@ -83,6 +88,7 @@ bool is_geo(std::string_view head) {
          !is_med(head) && !is_vtk(head);
 }
 
+/// A kind of file, with its share of kMeshFileExtensions.
 struct Format {
   std::vector<std::string_view> extensions;
   std::string_view name;
@@ -131,16 +137,10 @@ const Format& find_format(const std::filesystem::path& file) {
                     file.string(), extension, small));
   }
   throw InputError(fmt::format("{}: unknown kind of file '{}'. Expected {}.",
-                               file.string(), extension,
-                               mesh_file_extensions()));
+                               file.string(), extension, list_extensions()));
 }
 
 }  // namespace
-
-std::string_view mesh_file_extensions() {
-  return ".msh, .geo, .step, .stp, .brep, .iges, .igs, .bdf, .nas, .unv, .med "
-         "or .vtk";
-}
 
 MeshFileKind find_mesh_file_kind(const std::filesystem::path& file) {
   const Format& format = find_format(file);

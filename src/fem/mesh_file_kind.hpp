@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string_view>
 
@@ -18,8 +19,10 @@ enum class MeshFileKind { mesh, geometry };
 [[nodiscard]] MeshFileKind find_mesh_file_kind(
     const std::filesystem::path& file);
 
-/// All extensions that are known, ".msh, .geo, ...", for messages.
-[[nodiscard]] std::string_view mesh_file_extensions();
+/// All extensions that are known, in lower case.
+inline constexpr std::array<std::string_view, 12> kMeshFileExtensions = {
+    ".msh", ".geo", ".step", ".stp", ".brep", ".iges",
+    ".igs", ".bdf", ".nas",  ".unv", ".med",  ".vtk"};
 
 /// @throws InputError naming every option that is out of range, or that a
 /// finished mesh cannot follow.
