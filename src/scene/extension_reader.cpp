@@ -81,7 +81,7 @@ class ExtensionReader {
       if (found == readers.end()) continue;
       XmlElement element(*child, problems_);
       found->second(element);
-      element.finish_attributes();
+      element.finish();
     }
   }
 

@@ -146,6 +146,27 @@ void add_interface(XmlElement& element, FlexibleLink& link) {
   link.interfaces.push_back(request);
 }
 
+/// Of each tag that may be given once, how often it was.
+using Counts = std::map<std::string, int>;
+
+void check_counts(const XmlElement& element, const Counts& counts) {
+  for (const auto& [tag, count] : counts) {
+    if (count > 1) element.fail(fmt::format("has more than one <{}>", tag));
+  }
+}
+
+/// A saved body was made with all of these.
+void check_saved(const XmlElement& element, const FlexibleLink& link,
+                 const Counts& counts) {
+  const auto refuse = [&](const char* tag) {
+    element.fail(fmt::format(
+        "has a <{}>, which goes with <mesh>; a saved body has its own", tag));
+  };
+  if (!link.materials.empty()) refuse("material");
+  if (!link.interfaces.empty()) refuse("interface");
+  if (counts.contains("basis")) refuse("basis");
+}
+
 void check_whole(const XmlElement& element, const FlexibleLink& link) {
   const bool meshed = !link.mesh.file.empty();
   if (meshed == !link.reduced_file.empty()) {
@@ -164,7 +185,8 @@ void check_whole(const XmlElement& element, const FlexibleLink& link) {
 FlexibleLink read_flexible(XmlElement& element,
                            const std::filesystem::path& folder) {
   FlexibleLink link;
-  const std::map<std::string, XmlElement::Reader> readers = {
+  Counts counts;
+  std::map<std::string, XmlElement::Reader> readers = {
       {"mesh", [&](XmlElement& e) { read_mesh(e, folder, link.mesh); }},
       {"reduced",
        [&](XmlElement& e) {
@@ -186,11 +208,21 @@ FlexibleLink read_flexible(XmlElement& element,
        }},
       {"interface", [&](XmlElement& e) { add_interface(e, link); }},
       {"attach", [&](XmlElement& e) {
-         link.interface_of_joint[e.required_text("joint")] =
-             e.required_text("interface");
+         const std::string joint = e.required_text("joint");
+         const std::string interface = e.required_text("interface");
+         if (link.interface_of_joint.emplace(joint, interface).second) return;
+         e.fail(fmt::format("for joint '{}' is given twice", joint));
        }}};
+  for (const char* tag : {"mesh", "reduced", "origin", "damping", "basis"}) {
+    readers[tag] = [&counts, tag, read = readers[tag]](XmlElement& e) {
+      ++counts[tag];
+      read(e);
+    };
+  }
   element.read_children(readers);
+  check_counts(element, counts);
   check_whole(element, link);
+  if (!link.reduced_file.empty()) check_saved(element, link, counts);
   return link;
 }
 

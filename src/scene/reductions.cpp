@@ -57,6 +57,11 @@ class Reduction {
       body = std::make_shared<const flexbody::ReducedBody>(
           flexbody::read_body(link.flexible->reduced_file));
     }
+    if (!link.flexible->clamped_groups.empty() && !body->clamped) {
+      throw InputError(
+          "it has a <clamp>, but its saved body was made without one; make "
+          "that anew by 'limber reduce --clamp GROUP'");
+    }
     if (const LinkStart* start = find_start(scene_.scenario, link.name)) {
       check_saved_fields(*start, *body);
     }

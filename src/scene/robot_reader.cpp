@@ -11,6 +11,7 @@
 #include "scene/extension_reader.hpp"
 #include "scene/urdf_joints.hpp"
 #include "scene/urdf_tree.hpp"
+#include "scene/urdf_words.hpp"
 #include "scene/xml_depth.hpp"
 
 namespace limber::scene {
@@ -244,6 +245,7 @@ Robot read_robot(const std::filesystem::path& file) {
   check_urdf_joints(root, problems);
   Robot robot;
   robot.file = file;
+  check_urdf_words(root, file.string(), problems, robot.warnings);
   robot.name = root.Attribute("name") != nullptr ? root.Attribute("name") : "";
   if (robot.name.empty()) problems.add(root.Row(), "<robot> needs a 'name'");
   problems.raise();

@@ -105,7 +105,7 @@ Pose XmlElement::pose() {
   return pose;
 }
 
-void XmlElement::finish_attributes() const {
+void XmlElement::finish() const {
   const std::vector<std::string> known(known_.begin(), known_.end());
   for (const TiXmlAttribute* a = element_.FirstAttribute(); a != nullptr;
        a = a->Next()) {
@@ -113,10 +113,23 @@ void XmlElement::finish_attributes() const {
       fail(describe_unknown("attribute", a->Name(), known));
     }
   }
+  for (const TiXmlNode* child = element_.FirstChild(); child != nullptr;
+       child = child->NextSibling()) {
+    if (child->ToText() != nullptr) {
+      problems_.add(child->Row(),
+                    fmt::format("<{}> holds the text '{}', which is not read; "
+                                "expected attributes",
+                                tag(), echo(child->ValueStr())));
+    } else if (child->ToElement() != nullptr && !has_read_children_) {
+      problems_.add(child->Row(),
+                    fmt::format("<{}> takes no elements; it has a <{}>", tag(),
+                                echo(child->ValueStr())));
+    }
+  }
 }
 
-void XmlElement::read_children(
-    const std::map<std::string, Reader>& readers) const {
+void XmlElement::read_children(const std::map<std::string, Reader>& readers) {
+  has_read_children_ = true;
   std::vector<std::string> known;
   for (const auto& [name, reader] : readers) known.push_back(name);
   for (const TiXmlElement* child = element_.FirstChildElement();
@@ -131,7 +144,7 @@ void XmlElement::read_children(
       continue;
     }
     found->second(element);
-    element.finish_attributes();
+    element.finish();
   }
 }
 

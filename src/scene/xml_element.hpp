@@ -46,16 +46,18 @@ class XmlElement {
   /// `xyz` and `rpy` attributes as a pose.
   [[nodiscard]] Pose pose();
 
-  /// After the attributes were read: unknown ones are problems.
-  void finish_attributes() const;
+  /// After all was read: attributes that nobody asked for are problems,
+  /// children unless they were read, and text.
+  void finish() const;
   /// Calls the reader of each child's tag; a tag without one is a problem.
   using Reader = std::function<void(XmlElement&)>;
-  void read_children(const std::map<std::string, Reader>& readers) const;
+  void read_children(const std::map<std::string, Reader>& readers);
 
  private:
   const TiXmlElement& element_;
   Problems& problems_;
   std::set<std::string> known_;
+  bool has_read_children_ = false;
 };
 
 /// Rotation of URDF's fixed-axis roll, pitch, yaw [rad].

@@ -191,6 +191,15 @@ TEST_F(SavedBody, StandsForItsMesh) {
   EXPECT_EQ(built.bodies_reduced, 0);
 }
 
+TEST_F(SavedBody, IsRefusedWithAClampThatItWasMadeWithout) {
+  EXPECT_THAT(input_error([&] {
+                (void)folder_.build(
+                    reduced_link("body.h5", "<clamp group='root'/>"),
+                    time_table(0.1, 1e-3));
+              }),
+              HasSubstr("its saved body was made without one"));
+}
+
 TEST_F(SavedBody, IsOneForAllLinksOfItsFile) {
   const std::string second =
       "<link name='other'/>\n"

@@ -237,6 +237,92 @@ TEST(RobotReader, RefusesWhatIsNoTree) {
   EXPECT_THAT(error_of(links("ab")), HasSubstr("have no parent"));
 }
 
+// A scene with these was once run as if they were not there.
+TEST(RobotReader, RefusesElementsAndTextWhereNoneIsRead) {
+  const auto flexible = [&](const std::string& parts) {
+    return error_of(links("a") + "<flexible link='a'>" + parts + "</flexible>");
+  };
+  EXPECT_THAT(
+      flexible("<mesh file='m.msh'><origin xyz='1 0 0'/></mesh><material "
+               "youngs_modulus='1' poisson_ratio='0' density='1'/>"),
+      HasSubstr("robot.urdf:3: <mesh> takes no elements; it has a <origin>"));
+  EXPECT_THAT(flexible(kMesh + std::string("<origin>0 0 1</origin>")),
+              HasSubstr("<origin> holds the text '0 0 1'"));
+  EXPECT_THAT(flexible(kMesh + std::string("<damping><ratio/></damping>")),
+              HasSubstr("<damping> takes no elements"));
+  EXPECT_THAT(error_of(links("ab") + joint("j", "a", "b") +
+                       "<spring name='s' stiffness='1'><from link='a'>"
+                       "<origin xyz='1 0 0'/></from><to link='b'/></spring>"),
+              HasSubstr("<from> takes no elements"));
+}
+
+TEST(RobotReader, RefusesWhatAFlexibleLinkHasTwiceOrASavedBodyCannotTake) {
+  const auto flexible = [&](const std::string& parts) {
+    return error_of(links("a") + "<flexible link='a'>" + parts + "</flexible>");
+  };
+  for (const std::string tag : {"origin", "damping", "basis"}) {
+    EXPECT_THAT(flexible(kMesh + ("<" + tag + "/><") + tag + "/>"),
+                HasSubstr("has more than one <" + tag + ">"));
+  }
+  EXPECT_THAT(flexible(kMesh + std::string("<mesh file='n.msh'/>")),
+              HasSubstr("more than one <mesh>"));
+  const std::string saved = "<reduced file='a.h5'/>";
+  EXPECT_EQ(flexible(saved), "");
+  for (const std::string part :
+       {"<basis eigenmodes='3'/>", "<interface name='i' group='g'/>",
+        "<material youngs_modulus='1' poisson_ratio='0' density='1'/>"}) {
+    EXPECT_THAT(flexible(saved + part), HasSubstr("goes with <mesh>")) << part;
+  }
+}
+
+TEST(RobotReader, RefusesMisspeltWordsOfUrdf) {
+  const std::string ab = links("ab");
+  const auto with = [&](const std::string& more) {
+    return error_of(ab + joint("j", "a", "b", "revolute", more));
+  };
+  EXPECT_THAT(with("<dynamics dampin='1'/>"),
+              HasSubstr("did you mean 'damping'"));
+  EXPECT_THAT(with("<dynamic damping='1'/>"),
+              HasSubstr("did you mean 'dynamics'"));
+  EXPECT_THAT(with("<origin xyz='0 0 0' rpi='0 0 1'/>"),
+              HasSubstr("did you mean 'rpy'"));
+  EXPECT_THAT(with("<dynamics damping='1'/><dynamics friction='1'/>"),
+              HasSubstr("<dynamics> is given twice"));
+  EXPECT_THAT(error_of(ab + joint("j", "a", "b") + "<flexibel link='b'/>"),
+              HasSubstr("did you mean 'flexible'"));
+  EXPECT_THAT(error_of("<link name='a'><inertia mass='1'/></link>"),
+              HasSubstr("did you mean 'inertial'"));
+  EXPECT_THAT(error_of(links("a") + "<xacro:include filename='b.xacro'/>"),
+              HasSubstr("expand the file first"));
+}
+
+TEST(RobotReader, WarnsOfWordsOfUrdfThatItDoesNotRead) {
+  const Robot robot =
+      read(links("ab") +
+           joint("j", "a", "b", "revolute",
+                 "<dynamics damping='1' spring_stiffness='4'/>") +
+           "<environment gravity='1'/><environment/>");
+  ASSERT_EQ(robot.warnings.size(), 2U);
+  EXPECT_THAT(robot.warnings[0],
+              testing::AllOf(HasSubstr("robot.urdf:4: <dynamics>"),
+                             HasSubstr("'spring_stiffness' is not read")));
+  EXPECT_THAT(robot.warnings[1], HasSubstr("'environment' is not read"));
+}
+
+TEST(RobotReader, PassesOverWhatOtherProgramsRead) {
+  const Robot robot = read(
+      "<material name='red'><color rgba='1 0 0 1'/></material>"
+      "<link name='a'><visual><origin xyz='0 0 1'/><geometry><box "
+      "size='1 1 1'/></geometry></visual><collision><geometry><sphere "
+      "radius='1'/></geometry></collision><drake:proximity/></link>" +
+      links("b") +
+      joint("j", "a", "b", "revolute",
+            "<safety_controller k_velocity='1'/><calibration rising='0'/>") +
+      "<transmission name='t'><joint name='j'/></transmission>"
+      "<gazebo reference='a'><mu1>0.2</mu1></gazebo><ros2_control name='c'/>");
+  EXPECT_TRUE(robot.warnings.empty()) << robot.warnings.at(0);
+}
+
 TEST(RobotReader, RefusesUnknownJointTypes) {
   EXPECT_THAT(error_of(links("ab") + joint("j", "a", "b", "screw")),
               HasSubstr("unknown type 'screw'"));
