@@ -26,7 +26,7 @@ static void exchange(Wire& wire, ReferenceElement& element) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31304853454d4d4c;  // "LMMESH01"
+constexpr std::uint64_t kMagic = 0x32304853454d4d4c;  // "LMMESH02"
 
 using Element = std::shared_ptr<const ReferenceElement>;
 
