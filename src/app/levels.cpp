@@ -76,7 +76,7 @@ scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
   same.scenario.fidelity = level;
   same.scenario.fidelity_of_link.clear();
   return scene::build_system(
-      same, make_reducer({}),
+      same, make_reducer(make_progress_bar()),
       cache.empty() ? flexbody::default_cache_folder() : cache, {}, known);
 }
 

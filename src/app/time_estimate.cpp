@@ -24,22 +24,14 @@ std::optional<double> TimeEstimate::left() const {
 }
 
 std::string TimeEstimate::take_announcement() {
+  const bool is_foretold = what_.find(kForetold) != std::string::npos;
+  if (is_foretold && told_.insert(what_).second) return what_;
   const double measured = now_ - start_;
   const std::optional<double> rest = left();
   if (!rest || measured < kPiece || measured + *rest < kLong) return "";
   if (!told_.insert(what_).second) return "";
   return fmt::format("{}: about {} to go, by its first {}", what_,
                      to_duration(*rest), to_duration(measured));
-}
-
-std::string to_duration(double seconds) {
-  constexpr double kMinute = 60.0;
-  constexpr double kHour = 3600.0;
-  if (seconds < 1.5 * kMinute) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 1.5 * kHour)
-    return fmt::format("{:.0f} min", seconds / kMinute);
-  if (seconds < 48.0 * kHour) return fmt::format("{:.1f} h", seconds / kHour);
-  return fmt::format("{:.0f} days", seconds / (24.0 * kHour));
 }
 
 }  // namespace limber::app

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "common/duration.hpp"
+
 namespace limber::app {
 
 /// Foretells how long work takes from its first seconds.
@@ -26,7 +28,8 @@ class TimeEstimate {
   /// What is left [s]; none before anything is measured.
   [[nodiscard]] std::optional<double> left() const;
 
-  /// A line on work that will be long, once for each work; else empty.
+  /// A line on work that will be long, by its first seconds or by words that
+  /// foretell it (limber::foretell), once for each work; else empty.
   [[nodiscard]] std::string take_announcement();
 
   [[nodiscard]] const std::string& what() const { return what_; }
@@ -39,8 +42,5 @@ class TimeEstimate {
   double fraction_ = 0.0;
   std::set<std::string, std::less<>> told_;
 };
-
-/// "75 s", "12 min", "3.4 h". @param seconds [s]
-[[nodiscard]] std::string to_duration(double seconds);
 
 }  // namespace limber::app

@@ -5,9 +5,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <vector>
 
+#include "common/duration.hpp"
 #include "common/errors.hpp"
 #include "fem/conditioning.hpp"
+#include "fem/factor_cost.hpp"
 
 namespace limber::fem {
 namespace {
@@ -61,6 +64,21 @@ double choose_shift(const StructuralMatrices& matrices, const MatrixX& R,
   return -kFraction * estimate_first_eigenvalue(matrices, R, MR, x);
 }
 
+constexpr double kLong = 20.0;  // s; eigenmodes take as long again
+
+// @param order of degrees of freedom, those of a node together
+void tell_factors(const SparseMatrix& M_s, const std::vector<int>& order,
+                  const Progress& progress) {
+  if (!progress) return;
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < order.size(); i += 3) {
+    nodes.push_back(order[i] / 3);
+  }
+  report(progress,
+         foretell("factorising", estimate_factor_seconds(M_s, nodes), kLong),
+         0.0);
+}
+
 }  // namespace
 
 ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
@@ -72,7 +90,7 @@ ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
       shift_(choose_shift(matrices, R_, MR_, x)),
       order_(order_dofs(matrices.M_s)),
       conditioning_(fem::describe_conditioning(matrices, x)),
-      factor_((report(progress, "factorising", 0.0),
+      factor_((tell_factors(matrices.M_s, order_, progress),
                SparseCholesky(shift_stiffness(matrices, shift_), order_,
                               "stiffness matrix", conditioning_))) {
   report(progress, "factorising", 1.0);

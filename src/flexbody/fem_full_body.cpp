@@ -6,8 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "common/duration.hpp"
 #include "common/errors.hpp"
 #include "fem/assembly.hpp"
+#include "fem/factor_cost.hpp"
 #include "fem/mesh_reader.hpp"
 #include "fem/nodal_mass.hpp"
 #include "fem/nonlinear_solid.hpp"
@@ -137,6 +139,21 @@ void require_same_mesh(const Recipe& recipe, const fem::Mesh& mesh,
       recipe.mesh.file.string()));
 }
 
+// Implicit steps and equilibria need factors, one or more each.
+void tell_factors(const std::string& name, const fem::SparseMatrix& M_s,
+                  const Progress& progress) {
+  constexpr Eigen::Index kMany = 10000;  // nodes: fewer never take long
+  constexpr double kLong = 5.0;          // s, of many
+  if (!progress || M_s.cols() < kMany) return;
+  const double seconds =
+      fem::estimate_factor_seconds(M_s, fem::order_nodes(M_s));
+  const std::string what =
+      fmt::format("each factorisation of '{}' at level full, {} unknowns", name,
+                  3 * M_s.cols());
+  const std::string text = foretell(what, seconds, kLong);
+  if (text != what) report(progress, text, 0.0);
+}
+
 }  // namespace
 
 std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
@@ -149,6 +166,7 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
   const std::vector<int> held = find_clamped_nodes(mesh, recipe);
   std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);
   const fem::SparseMatrix M_s = fem::assemble(mesh, materials, progress).M_s;
+  tell_factors(recipe.name, M_s, progress);
   const Matrix3X x_B =
       mesh.x.colwise() - fem::calc_mass_properties(M_s, mesh.x).center;
   const auto parts = std::make_shared<const SolidParts>(

@@ -55,6 +55,16 @@ TEST(TimeEstimate, GoesByTheRateSinceTheWorkBegan) {
   EXPECT_FALSE(estimate.left());
 }
 
+TEST(TimeEstimate, TellsOnceWhatWasForetoldAndNothingOfShortWork) {
+  TimeEstimate estimate;
+  estimate.note(foretell("factorising", 59.0), 0.0, 1.0);
+  EXPECT_EQ(estimate.take_announcement(), "");
+  estimate.note(foretell("factorising", 300.0), 0.0, 1.0);
+  EXPECT_EQ(estimate.take_announcement(), "factorising, about 5 min");
+  estimate.note(foretell("factorising", 300.0), 0.0, 2.0);
+  EXPECT_EQ(estimate.take_announcement(), "");
+}
+
 TEST(TimeEstimate, WritesDurationsAsOneSaysThem) {
   EXPECT_EQ(to_duration(75.4), "75 s");
   EXPECT_EQ(to_duration(720.0), "12 min");
