@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/shell.hpp"
 
 /// Level `full` from the command line: the report's beam of 579 nodes.
 namespace limber::test {
@@ -56,6 +57,30 @@ void write_scene(const Workspace& place, const SceneText& text) {
 
 json read_summary(const Workspace& place) {
   return json::parse(read_text(place.folder() / "o/summary.json"));
+}
+
+// Neither the number of threads nor what else is around changes a bit.
+TEST(FullRun, LeavesTheSameBytesWhateverTheThreads) {
+  const Workspace place;
+  write_scene(place, {.duration = "0.002",
+                      .more = "[fidelity]\ndefault = 'full'\n"
+                              "[output]\npictures = false\n",
+                      .force = "1e5"});
+  std::string first;
+  for (const char* around :
+       {"OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1",
+        "OMP_NUM_THREADS=2 OPENBLAS_NUM_THREADS=2",
+        "OMP_NUM_THREADS=3 OPENBLAS_NUM_THREADS=1 OMP_SCHEDULE=dynamic,1",
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=4 OMP_DYNAMIC=true",
+        "MALLOC_PERTURB_=85 LC_ALL=C TZ=Asia/Tokyo"}) {
+    const CommandResult result =
+        run_shell(place, std::string(around) + " '" LIMBER_COMMAND
+                                               "' run s.toml --out o");
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const std::string bytes = read_text(place.folder() / "o/results.h5");
+    if (first.empty()) first = bytes;
+    EXPECT_TRUE(bytes == first) << around;
+  }
 }
 
 TEST(FullRun, WritesWhatEveryRunWrites) {
