@@ -14,7 +14,6 @@ namespace {
 constexpr int kEnergyLooks = 256;
 constexpr double kExcited = 1e-6;  // of the largest energy of a mode
 constexpr double kLooksAPeriod = 10.0;
-constexpr double kMostLooks = 1e6;
 
 void drop_modes(BodyModel& body) {
   body.modes = 0;
@@ -164,7 +163,7 @@ double ExactModes::find_longest_look(double end) const {
     }
   }
   const double period = 2.0 * std::numbers::pi / fastest;
-  return std::max(period / kLooksAPeriod, (end - start_) / kMostLooks);
+  return period / kLooksAPeriod;
 }
 
 ExactModes::Losses ExactModes::losses(std::size_t i) const {

@@ -33,10 +33,12 @@ class ExactModes {
   void join(const SystemState& rest, std::size_t i, SystemState& whole) const;
   /// The same at rest.t, whatever was prepared.
   void join(const SystemState& rest, SystemState& whole) const;
+  /// The rest's state alone: the modes stay as they were joined before.
+  void join_rest(const SystemState& rest, SystemState& whole) const;
   /// Between two looks, at most, that miss no extreme of the modes until `end`:
   /// a tenth of the shortest period of the modes that have a millionth of the
   /// largest energy of one, and of the loads on them; infinite if none moves
-  /// [s]. No shorter than a millionth of the time.
+  /// [s].
   [[nodiscard]] double find_longest_look(double end) const;
 
   /// What the modes took from loads and lost by prepared time i.
@@ -56,8 +58,6 @@ class ExactModes {
     VectorX work;                    // of all modes, at the prepared times
     VectorX dissipated;
   };
-
-  void join_rest(const SystemState& rest, SystemState& whole) const;
 
   const SystemModel& model_;
   SystemModel rest_;

@@ -2,6 +2,8 @@
 #include "dynamics/single_run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "common/errors.hpp"
 #include "dynamics/driver.hpp"
@@ -73,6 +75,21 @@ bool has_exact_modes(const SystemModel& model,
   return false;
 }
 
+// Between two looks at modes in closed form [s].
+double choose_longest_look(const ExactModes& exact, double start, double end,
+                           std::vector<std::string>& warnings) {
+  constexpr double kMostLooks = 1e6;
+  const double wanted = exact.find_longest_look(end);
+  const double least = (end - start) / kMostLooks;
+  if (wanted >= least) return wanted;
+  warnings.push_back(fmt::format(
+      "modes in closed form are looked at for peaks every {:.2g} s, {:g} times "
+      "in all, where the fastest that moves asks for every {:.2g} s: peaks of "
+      "probes may be low; a shorter time, or fewer modes, would show them",
+      least, kMostLooks, wanted));
+  return least;
+}
+
 // Modes in closed form beside steps for the rest.
 void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
                                 const std::vector<double>& times,
@@ -95,16 +112,29 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
   };
   Followed followed = job.followed;
   if (!followed.is_empty()) {
-    followed.longest = exact.find_longest_look(job.settings.end_time);
+    followed.longest = choose_longest_look(exact, rest.t, job.settings.end_time,
+                                           job.statistics.warnings);
   }
+  // One instant is looked at twice in a row, as the end of a step and as the
+  // moment before it: its modes are the same.
+  SystemState seen = state;
+  double joined = -std::numeric_limits<double>::infinity();
+  const auto join = [&](const SystemState& now) {
+    if (now.t <= joined && std::nextafter(now.t, joined) >= joined) {
+      exact.join_rest(now, seen);
+      return;
+    }
+    exact.join(now, seen);
+    joined = now.t;
+  };
   followed.evaluate = [&](const SystemState& now, std::vector<double>& values) {
-    exact.join(now, whole);
-    job.followed.evaluate(whole, values);
+    join(now);
+    job.followed.evaluate(seen, values);
   };
   if (followed.spectator) {
     followed.spectator->include = [&](const SystemState& now) {
-      exact.join(now, whole);
-      job.followed.spectator->include(whole);
+      join(now);
+      job.followed.spectator->include(seen);
     };
   }
   const Job rest_job{job.settings,     job.progress, job.statistics,

@@ -126,8 +126,15 @@ TEST(Peaks, OfStepsToAToleranceAreThoseOfTheLastPass) {
   EXPECT_NEAR(peaks[0].time, 0.5 * pi / kOmega, 1e-3);
 }
 
-// A mode of 50 rad/s and above under a load that begins at once: no steps.
-TEST(Peaks, OfModesInClosedFormAreFoundBetweenOutputs) {
+/// A mode of 50 rad/s and above under a load that begins at once: no steps.
+struct ClosedRun {
+  SimulationStatistics statistics;
+  Extreme peak;         // of the mode
+  double period = 0.0;  // [s]
+  double twice = 0.0;   // of the static deflection
+};
+
+ClosedRun run_in_closed_form(double end) {
   testing::PointMassBody points =
       testing::make_point_mass_body(20, 1, 4.0, 1.0, 50.0, 1);
   points.reduced.clamped = true;
@@ -139,32 +146,48 @@ TEST(Peaks, OfModesInClosedFormAreFoundBetweenOutputs) {
       "tip", body, table, {Matrix3::Identity(), table.p_B});
   builder.add_load("load", tip, {30.0, -20.0, 50.0}, Vector3::Zero(),
                    LoadFrame::body, Constant{});
-  const Kicked scene{builder.build(), {}};
-  SystemState state = make_state(scene.model);
-  const double lambda = scene.model.bodies[0].lambda[0];
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  const double lambda = model.bodies[0].lambda[0];
   const double force =
       (table.Phi_B.transpose() * Vector3(30.0, -20.0, 50.0))[0];
   SimulationSettings settings;
-  settings.step = 1.0;
-  settings.end_time = 3.0;
-  settings.output_times = {0.0, settings.end_time};
+  settings.step = end;
+  settings.end_time = end;
+  settings.output_times = {0.0, end};
   Followed followed;
   followed.courses = {Course::motion};
   followed.evaluate = [](const SystemState& at, std::vector<double>& values) {
     values = {at.eta[0]};
   };
-  SimulationStatistics statistics;
+  ClosedRun closed;
   RunRecord record;
-  simulate(scene.model, state, settings, {}, {}, statistics, {}, followed,
+  simulate(model, state, settings, {}, {}, closed.statistics, {}, followed,
            record);
-  const std::vector<Extreme>& peaks = record.peaks;
-  EXPECT_EQ(statistics.steps, 0);
+  closed.peak = record.peaks.at(0);
+  closed.period = 2.0 * pi / std::sqrt(lambda);
+  closed.twice = 2.0 * force / lambda;
+  return closed;
+}
+
+TEST(Peaks, OfModesInClosedFormAreFoundBetweenOutputs) {
+  const ClosedRun run = run_in_closed_form(3.0);
+  EXPECT_EQ(run.statistics.steps, 0);
+  EXPECT_TRUE(run.statistics.warnings.empty());
   // Twice the static deflection, half a period on or some periods later.
-  const double period = 2.0 * pi / std::sqrt(lambda);
-  const double phase = peaks[0].time / period;
-  EXPECT_NEAR(peaks[0].value, 2.0 * force / lambda,
-              1e-5 * std::abs(force) / lambda);
+  const double phase = run.peak.time / run.period;
+  EXPECT_NEAR(run.peak.value, run.twice, 5e-6 * std::abs(run.twice));
   EXPECT_NEAR(phase - std::floor(phase), 0.5, 0.01);
+}
+
+// Ten looks a period would be more than a million.
+TEST(Peaks, OfTooManyPeriodsInClosedFormAreToldToBeLow) {
+  const double period = run_in_closed_form(1.0).period;
+  EXPECT_TRUE(run_in_closed_form(9e4 * period).statistics.warnings.empty());
+  const ClosedRun run = run_in_closed_form(2e5 * period);
+  ASSERT_EQ(run.statistics.warnings.size(), 1U);
+  EXPECT_NE(run.statistics.warnings[0].find("looked at for peaks every"),
+            std::string::npos);
 }
 
 // A ramp that is cut off: its largest value is that before the jump.
