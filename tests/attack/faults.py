@@ -2,6 +2,7 @@
 """Signals, limits, odd files, full disks, odd environments, two runs at once."""
 
 import os
+import re
 import resource
 import shutil
 import signal
@@ -200,7 +201,11 @@ def _put_odd_file(limber, name, make):
     elif name == "body.h5":
         begin = '<mesh file="bar.geo" unit="m"/>'
         robot = scene.read("arm.urdf").replace(begin, '<reduced file="body.h5"/>')
+        # These a saved body has of its own.
+        robot = re.sub(r"<(material y|basis |interface )[^>]*/>", "", robot)
         (place / "arm.urdf").write_text(robot)
+        scenario = re.sub(r"\[basis\]\n[^\[]*", "", scene.read("arm.toml"))
+        (place / "arm.toml").write_text(scenario)
     elif name == "values.txt":
         scenario = scene.read("arm.toml").replace(
             "times = [0.0, 0.3, 0.4], values = [0.0, 0.0, 1.0]",
