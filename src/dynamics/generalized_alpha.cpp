@@ -44,6 +44,7 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       lag_(settings.implicit_euler ? 0.0 : 0.5 - beta_),
       matrix_(model),
       exact_(model),
+      damper_work_(model),
       next_(make_state(model)),
       terms_(make_terms(model)),
       residual_(VectorX::Zero(NewtonMatrix::size(model))),
@@ -65,6 +66,7 @@ void GeneralizedAlpha::exchange_memory(Archive& archive,
                                        const SystemState& state) {
   archive(a_, vdot_, memory_step_, power_load_, power_loss_, fresh_steps_,
           next_fresh_steps_);
+  damper_work_.exchange_memory(archive);
   for (CouplerTerms& coupler : terms_.couplers) archive(coupler.applied);
   for (TransmissionTerms& t : terms_.transmissions) archive(t.applied);
   if (archive.reads()) next_ = state;
@@ -150,6 +152,7 @@ void GeneralizedAlpha::start(const SystemState& state, double h) {
   add_quasi_static_accelerations();
   power_load_ = terms_.load_power;
   power_loss_ = terms_.dissipated_power;
+  damper_work_.start(terms_);
 }
 
 void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
@@ -165,6 +168,7 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
   add_quasi_static_accelerations();
   power_load_ = terms_.load_power;
   power_loss_ = terms_.dissipated_power;
+  damper_work_.start(terms_);
 }
 
 // The step's end that a_next_ implies.
@@ -412,9 +416,10 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   }
   plan_factors(keeps, slowest);
   result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
-  result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power);
-  result.begin = {power_load_, power_loss_};
-  result.end = {terms_.load_power, terms_.dissipated_power};
+  const double path = damper_work_.advance(state, next_, terms_, h);
+  result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power) + path;
+  result.begin = {power_load_, power_loss_ + path / h};
+  result.end = {terms_.load_power, terms_.dissipated_power + path / h};
   if (scale_) estimate_error(h, result);
   last_power_load_ = power_load_;
   last_power_loss_ = power_loss_;
@@ -429,6 +434,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
 void GeneralizedAlpha::undo() {
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
+  damper_work_.undo();
   power_load_ = last_power_load_;
   power_loss_ = last_power_loss_;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
+#include "dynamics/damper_work.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/exact_correction.hpp"
 #include "dynamics/motion_scale.hpp"
@@ -109,6 +110,7 @@ class GeneralizedAlpha {
   int next_fresh_steps_ = 0;    // after keeping factors fails again
   double power_load_ = 0.0;     // at the last state, for the audit
   double power_loss_ = 0.0;
+  DamperWork damper_work_;
   double last_power_load_ = 0.0;  // at the state before
   double last_power_loss_ = 0.0;
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/damper_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limber::dynamics {
+namespace {
+
+// Of what the trapezoidal rule has: more is not of the path.
+constexpr double kMostByPath = 1.1;
+
+}  // namespace
+
+DamperWork::DamperWork(const SystemModel& model)
+    : model_(model),
+      now_(model.couplers.size() + model.transmissions.size()),
+      before_(now_) {}
+
+DamperWork::Link DamperWork::read(const CouplerTerms& coupler) {
+  Link link;
+  link.R = coupler.motion.R_FM;
+  link.p = coupler.motion.p_FM_F;
+  link.velocity << coupler.motion.v_FM_F, coupler.motion.w_FM_F;
+  link.force.noalias() = coupler.response.damping * link.velocity;
+  link.power = coupler.response.dissipation;
+  return link;
+}
+
+DamperWork::Link DamperWork::read(const TransmissionTerms& transmission) {
+  Link link;
+  link.p[0] = transmission.motion.z;
+  link.velocity[0] = transmission.motion.rate;
+  link.force[0] = transmission.response.damping * transmission.motion.rate;
+  link.power = transmission.response.dissipation;
+  return link;
+}
+
+bool DamperWork::Link::is_linear() const {
+  constexpr double kLinear = 1e-3;
+  const double of_force = force.dot(velocity);
+  return std::abs(of_force - power) <= kLinear * of_force;
+}
+
+void DamperWork::start(const SystemTerms& terms) {
+  std::size_t i = 0;
+  for (const CouplerTerms& coupler : terms.couplers) now_[i++] = read(coupler);
+  for (const TransmissionTerms& t : terms.transmissions) now_[i++] = read(t);
+}
+
+double DamperWork::find_correction(const Link& first, const Link& last,
+                                   double h) {
+  if (first.force.isZero(0.0) && last.force.isZero(0.0)) return 0.0;
+  if (!first.is_linear() || !last.is_linear()) return 0.0;
+  const Matrix3 turn = last.R * first.R.transpose();
+  if (!(turn.trace() > 1.0)) return 0.0;
+  Vector3 angle(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0),
+                turn(1, 0) - turn(0, 1));
+  angle *= 0.5;
+  const double sine = angle.norm();
+  if (sine > 1e-4) angle *= std::asin(std::min(sine, 1.0)) / sine;
+  Vector6 path;
+  path << last.p - first.p, angle;
+  const double by_path = 0.5 * (first.force + last.force).dot(path);
+  const double by_power =
+      0.5 * h *
+      (first.force.dot(first.velocity) + last.force.dot(last.velocity));
+  // Round-off of positions, times the force.
+  if (by_path > kMostByPath * by_power) return 0.0;
+  return std::max(by_path - by_power, -0.5 * h * (first.power + last.power));
+}
+
+double DamperWork::advance(const SystemState& from, const SystemState& to,
+                           const SystemTerms& terms, double h) {
+  now_.swap(before_);
+  start(terms);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    sum += find_correction(before_[i], now_[i], h);
+  }
+  for (const BodyModel& body : model_.bodies) {
+    for (Eigen::Index k = 0; k < body.modes; ++k) {
+      const Eigen::Index i = body.offset + k;
+      const double v0 = from.etadot[i];
+      const double v1 = to.etadot[i];
+      const double path = (v0 + v1) * (to.eta[i] - from.eta[i]);
+      sum += 0.5 * body.damping[k] *
+             (std::max(path, 0.0) - h * (v0 * v0 + v1 * v1));
+    }
+  }
+  return sum;
+}
+
+}  // namespace limber::dynamics
