@@ -25,11 +25,9 @@ namespace limber::dynamics {
 ///            nor does it take over 1.1 of what the trapezoidal rule has, which
 ///            round-off of positions may do to stiff ones.
 /// Source     work as mean(f) . dz: [@belytschko2000, sec. 6.2]; by it
-/// Newmark's
-///            average acceleration changes the kinetic energy exactly
+///            Newmark's average acceleration changes the kinetic energy exactly
 /// Limits     D is the law's derivative by velocities. A link whose power is
-/// not
-///            v . D v to a thousandth, of friction or a drive, goes by the
+///            not v . D v to a thousandth, of friction or a drive, goes by the
 ///            trapezoidal rule, and so does a coupler that turns more than a
 ///            right angle in a step.
 class DamperWork {

@@ -178,11 +178,11 @@ TEST(Compare, EndsWithStatus3AndTheClosestWhenNothingMeetsTheTolerance) {
 
 TEST(Compare, TabulatesARunThatStopsAndGoesOn) {
   const Workspace place;
-  // Explicit steps several times too long for the tenth mode, or short enough.
+  // Explicit steps too long for the tenth mode to be divided, or short enough.
   write_push(place, {2.0, 1e-4, "runge-kutta-4", ""});
   const json found =
       compare(place,
-              "--fidelity coupled,rigid --reference coupled --step 2e-3 "
+              "--fidelity coupled,rigid --reference coupled --step 0.5 "
               "--reference-step 2e-4");
   ASSERT_EQ(found["runs"].size(), 2U);
   EXPECT_EQ(found["runs"][0]["completed"], false);
@@ -194,7 +194,8 @@ TEST(Compare, TabulatesARunThatStopsAndGoesOn) {
 
 TEST(Compare, EndsWithTheErrorOfAReferenceThatStops) {
   const Workspace place;
-  write_push(place, {2.0, 3e-3, "runge-kutta-4", ""});
+  // Half of it, the reference's, is still too long to be divided.
+  write_push(place, {2.0, 1.0, "runge-kutta-4", ""});
   const CommandResult result = place.limber(
       "compare push.toml --fidelity rigid --reference coupled --out o");
   EXPECT_EQ(result.status, 3);

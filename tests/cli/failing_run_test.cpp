@@ -11,13 +11,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Explicit steps six times too long for the beam's tenth mode, from a push
-/// after 0.5 s of rest.
+/// Explicit steps over a thousand times too long for the beam's tenth mode, so
+/// that they are not divided, and a push after 0.5 s of rest.
 void write_blow_up(const Workspace& place) {
   place.write("s.toml",
               "robot = '" LIMBER_SOURCE_DIR
               "/models/beam.urdf'\n"
-              "[time]\nduration = 2.0\nstep = 0.003\n"
+              "[time]\nduration = 2.0\nstep = 0.45\n"
               "integrator = 'runge-kutta-4'\noutput_interval = 0.1\n"
               "[output]\npictures = false\n"
               "[[load]]\nname = 'push'\nlink = 'beam'\ngroup = 'tip'\n"
@@ -33,7 +33,7 @@ TEST(FailingRun, NamesTheBodyAndTheTimeAndEndsWithStatus3) {
   EXPECT_EQ(result.status, 3) << result.errors;
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.errors, HasSubstr("beam"));
-  EXPECT_THAT(result.errors, HasSubstr("t = 0.5"));
+  EXPECT_THAT(result.errors, HasSubstr("t = 0.6"));  // an output later
 }
 
 TEST(FailingRun, KeepsWhatWasComputed) {
@@ -44,7 +44,7 @@ TEST(FailingRun, KeepsWhatWasComputed) {
       json::parse(read_text(place.folder() / "o/summary.json"), nullptr, false);
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["completed"], false);
-  EXPECT_GT(summary["steps"], 160);  // those of the half second of rest
+  EXPECT_GE(summary["steps"], 5);  // those of the half second of rest
   ASSERT_EQ(summary["events"].size(), 1U);
   EXPECT_EQ(summary["events"][0]["time"], 0.5);
   EXPECT_EQ(summary["events"][0]["source"], "push");
