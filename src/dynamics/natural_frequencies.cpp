@@ -70,9 +70,9 @@ Basis find_basis(const SystemModel& model, const SmallMotion& motion) {
   LIMBER_EXPECT(mass.info() == Eigen::Success);
   const MatrixX to_x =
       mass.matrixU().solve(MatrixX::Identity(n, n));  // M = U' U
-  MatrixX drift = mass.matrixU() * find_drift(model, motion);
+  MatrixX drift = find_drift(model, motion);
   if (drift.cols() > 0) {  // apart from all else: momentum is kept
-    const Eigen::HouseholderQR<MatrixX> qr(drift);
+    const Eigen::HouseholderQR<MatrixX> qr(mass.matrixU() * drift);
     drift = qr.householderQ() * MatrixX::Identity(n, drift.cols());
   }
   const MatrixX holds = motion.find_holds() * to_x;
