@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/rotation.hpp"
+
 namespace limber::dynamics {
 namespace {
 
@@ -54,13 +56,8 @@ double DamperWork::find_correction(const Link& first, const Link& last,
   if (!first.is_linear() || !last.is_linear()) return 0.0;
   const Matrix3 turn = last.R * first.R.transpose();
   if (!(turn.trace() > 1.0)) return 0.0;
-  Vector3 angle(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0),
-                turn(1, 0) - turn(0, 1));
-  angle *= 0.5;
-  const double sine = angle.norm();
-  if (sine > 1e-4) angle *= std::asin(std::min(sine, 1.0)) / sine;
   Vector6 path;
-  path << last.p - first.p, angle;
+  path << last.p - first.p, log_rotation(turn);
   const double by_path = 0.5 * (first.force + last.force).dot(path);
   const double by_power =
       0.5 * h *

@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/landmarks.hpp"
 #include "dynamics/stable_step.hpp"
 #include "dynamics/stepper.hpp"
 
@@ -150,25 +151,65 @@ class StepDerivative {
   double increment_ = 0.0;
 };
 
-bool may_be_divided(IntegratorKind kind) {
-  return kind == IntegratorKind::central_differences ||
-         kind == IntegratorKind::runge_kutta_4 ||
-         kind == IntegratorKind::splitting;
-}
-
-void divide(double longest, SimulationSettings& settings) {
+SimulationSettings divide(SimulationSettings settings, double longest) {
   settings.step = std::min(settings.step, longest);
   for (StepChange& change : settings.step_changes) {
     change.step = std::min(change.step, longest);
   }
+  return settings;
 }
 
-double find_longest(const SimulationSettings& settings) {
-  double longest = settings.step;
-  for (const StepChange& change : settings.step_changes) {
-    longest = std::max(longest, change.step);
+std::string describe(const SystemModel& model, const SystemState& state,
+                     IntegratorKind scheme, double step, double longest) {
+  return fmt::format(
+      "{} is stable up to {:.3g} s here, {:.3g} times less than the step of "
+      "{:.3g} s, because of body '{}' and what holds it; ",
+      integrator_names()[static_cast<std::size_t>(scheme)], longest,
+      step / longest, step, model.bodies[find_fastest_body(model, state)].name);
+}
+constexpr const char* kAdvice =
+    "ask for a step near that, or take an implicit integrator";
+
+SimulationSettings limit_central(const SystemModel& model,
+                                 const SystemState& state,
+                                 const SimulationSettings& asked,
+                                 SimulationStatistics& statistics) {
+  const double step = find_longest_step(asked);
+  statistics.stable_step = find_stable_step(model, state);
+  const double longest = kStableShare * statistics.stable_step;
+  if (step > kMostParts * longest) {
+    throw InputError(describe(model, state, asked.integrator, step, longest) +
+                     kAdvice);
   }
-  return longest;
+  return divide(asked, longest);
+}
+
+SimulationSettings limit_where_it_grows(const SystemModel& model,
+                                        const SystemState& state,
+                                        const SimulationSettings& asked,
+                                        SimulationStatistics& statistics) {
+  const double step = find_longest_step(asked);
+  SimulationSettings settings = asked;
+  settings.step = step;
+  if (find_growth(model, state, settings) < kMostGrowth) return asked;
+  statistics.stable_step = find_stable_step(model, state, asked.integrator);
+  const double longest = kStableShare * statistics.stable_step;
+  if (!(step > longest)) return asked;
+  if (step > kMostParts * longest) {
+    statistics.warnings.push_back(
+        describe(model, state, asked.integrator, step, longest) +
+        "steps are not divided so often, and may blow up; " + kAdvice);
+    return asked;
+  }
+  const double accurate = kAccurateShare * statistics.stable_step;
+  const double taken = std::min(longest, std::max(accurate, step / kMostParts));
+  statistics.warnings.push_back(fmt::format(
+      "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
+      "holds it: steps of {:.3g} s are divided, into {:.0f} parts",
+      integrator_names()[static_cast<std::size_t>(asked.integrator)], longest,
+      model.bodies[find_fastest_body(model, state)].name, step,
+      std::ceil(step / taken * (1.0 - 1e-12))));
+  return divide(asked, taken);
 }
 
 }  // namespace
@@ -197,47 +238,15 @@ SimulationSettings limit_step(const SystemModel& model,
                               const SystemState& state,
                               const SimulationSettings& asked,
                               SimulationStatistics& statistics) {
-  if (!may_be_divided(asked.integrator)) return asked;
-  const bool is_central =
-      asked.integrator == IntegratorKind::central_differences;
-  SimulationSettings settings = asked;
-  settings.step = find_longest(asked);
-  if (!is_central && find_growth(model, state, settings) < kMostGrowth) {
-    return asked;
+  switch (asked.integrator) {
+    case IntegratorKind::central_differences:
+      return limit_central(model, state, asked, statistics);
+    case IntegratorKind::runge_kutta_4:
+    case IntegratorKind::splitting:
+      return limit_where_it_grows(model, state, asked, statistics);
+    default:
+      return asked;
   }
-  const double step = is_central ? asked.step : settings.step;
-  statistics.stable_step = find_stable_step(model, state, asked.integrator);
-  const double longest = kStableShare * statistics.stable_step;
-  const std::string& name =
-      integrator_names()[static_cast<std::size_t>(asked.integrator)];
-  settings.step = asked.step;
-  if (step > kMostParts * longest) {
-    const std::string cause = fmt::format(
-        "{} is stable up to {:.3g} s here, {:.3g} times less than the step of "
-        "{:.3g} s, because of body '{}' and what holds it; ",
-        name, longest, step / longest, step,
-        model.bodies[find_fastest_body(model, state)].name);
-    const char* const advice =
-        "ask for a step near that, or take an implicit integrator";
-    if (is_central) throw InputError(cause + advice);
-    statistics.warnings.push_back(
-        cause + "steps are not divided so often, and may blow up; " + advice);
-    return settings;
-  }
-  if (is_central) {
-    divide(longest, settings);
-    return settings;
-  }
-  if (!(step > longest)) return settings;
-  const double accurate = kAccurateShare * statistics.stable_step;
-  const double taken = std::min(longest, std::max(accurate, step / kMostParts));
-  divide(taken, settings);
-  statistics.warnings.push_back(fmt::format(
-      "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
-      "holds it: steps of {:.3g} s are divided, into {:.0f} parts",
-      name, longest, model.bodies[find_fastest_body(model, state)].name, step,
-      std::ceil(step / taken * (1.0 - 1e-12))));
-  return settings;
 }
 
 }  // namespace limber::dynamics

@@ -140,4 +140,12 @@ double find_longest_step(const SimulationSettings& settings, double t) {
   return step;
 }
 
+double find_longest_step(const SimulationSettings& settings) {
+  double longest = settings.step;
+  for (const StepChange& change : settings.step_changes) {
+    longest = std::max(longest, change.step);
+  }
+  return longest;
+}
+
 }  // namespace limber::dynamics

@@ -23,5 +23,7 @@ struct Landmark {
 /// The longest step that the settings allow from time t on [s].
 [[nodiscard]] double find_longest_step(const SimulationSettings& settings,
                                        double t);
+/// And at any time.
+[[nodiscard]] double find_longest_step(const SimulationSettings& settings);
 
 }  // namespace limber::dynamics

@@ -196,10 +196,6 @@ double find_stable_step(const SystemModel& model, const SystemState& state,
   return rate > 0.0 ? longest / rate : std::numeric_limits<double>::infinity();
 }
 
-double find_stable_step(const SystemModel& model, const SystemState& state) {
-  return find_stable_step(model, state, IntegratorKind::central_differences);
-}
-
 std::size_t find_fastest_body(const SystemModel& model,
                               const SystemState& state) {
   Iteration iteration(model, state, true);

@@ -6,36 +6,33 @@
 
 namespace limber::dynamics {
 
-/// Longest step with which central differences are stable about `state` [s].
+/// Longest step with which an explicit scheme is stable about `state` [s]. Of
+/// Runge-Kutta and splitting a bound: no longer than the longest, about.
 ///
-/// Equation   omega^2 h^2 + 4 c h = 4: 2 / omega without damping, 1 / c without
-///            stiffness; omega^2 and c the largest eigenvalues of the change
-///            of accelerations with positions and with velocities, by power
-///            iteration on differences of the equations of motion
-/// Source     the amplification matrix of q'' = -omega^2 q - c q' has the
-///            eigenvalue -1 there. Damping counts twice as in
-///            [@belytschko2000, eq. 6.2.19]: it takes v + h a, not v + h a / 2.
+/// Equation   central differences: omega^2 h^2 + 4 c h = 4: 2 / omega without
+///            damping, 1 / c without stiffness; Runge-Kutta: |lambda| h <= 2.6
+///            with |lambda| <= (c + sqrt(c^2 + 4 omega^2)) / 2; splitting:
+///            omega h <= 2 and c h <= 2, omega and c without the modes' own
+///            springs and dampers. omega^2 and c are the largest eigenvalues
+///            of the change of accelerations with positions and with
+///            velocities, by power iteration on differences of the equations
+///            of motion.
+/// Source     central differences: the amplification matrix of
+///            q'' = -omega^2 q - c q' has the eigenvalue -1 there; damping
+///            counts twice as in [@belytschko2000, eq. 6.2.19], for it takes
+///            v + h a, not v + h a / 2. Runge-Kutta: the half disc of radius
+///            2.6 in the left half plane is in the region of stability of the
+///            classic tableau (|R(z)| <= 1 up to 2.616 at 122 degrees), and
+///            lambda^2 + c lambda + omega^2 = 0 with damping and stiffness of
+///            whatever directions. Splitting: a kick by the midpoint rule is
+///            1 - c h + c^2 h^2 / 2.
 /// Limits     a thousandth long at most, by when the iteration ends; motion
 ///            that stiffens the system later is not foreseen. Infinite if
 ///            nothing vibrates.
-[[nodiscard]] double find_stable_step(const SystemModel& model,
-                                      const SystemState& state);
-
-/// The same of another scheme, or of central differences. Of Runge-Kutta and
-/// splitting a bound: no longer than the longest, about.
-///
-/// Equation   Runge-Kutta: |lambda| h <= 2.6 with |lambda| <=
-///            (c + sqrt(c^2 + 4 omega^2)) / 2; splitting: omega h <= 2 and
-///            c h <= 2, omega and c without the modes' own springs and dampers
-/// Source     the half disc of radius 2.6 in the left half plane is in the
-///            region of stability of the classic tableau (|R(z)| <= 1 up to
-///            2.616 at 122 degrees); lambda^2 + c lambda + omega^2 = 0 with
-///            damping and stiffness of whatever directions; a kick by the
-///            midpoint rule is 1 - c h + c^2 h^2 / 2.
 /// @param scheme central_differences, runge_kutta_4 or splitting
-[[nodiscard]] double find_stable_step(const SystemModel& model,
-                                      const SystemState& state,
-                                      IntegratorKind scheme);
+[[nodiscard]] double find_stable_step(
+    const SystemModel& model, const SystemState& state,
+    IntegratorKind scheme = IntegratorKind::central_differences);
 
 /// The body that moves most in the fastest vibration about `state`, the one
 /// that bounds the step.

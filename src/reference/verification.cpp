@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
+#include "dynamics/landmarks.hpp"
 #include "reference/scene_mechanism.hpp"
 #include "reference/stiffening.hpp"
 
@@ -66,14 +67,6 @@ dynamics::SimulationSettings halve_steps(dynamics::SimulationSettings settings,
   return settings;
 }
 
-double find_longest(const dynamics::SimulationSettings& settings) {
-  double longest = settings.step;
-  for (const dynamics::StepChange& change : settings.step_changes) {
-    longest = std::max(longest, change.step);
-  }
-  return longest;
-}
-
 Agreement run_ours(const dynamics::SystemModel& model,
                    dynamics::SystemState state,
                    const dynamics::SimulationSettings& settings,
@@ -88,7 +81,7 @@ Agreement run_ours(const dynamics::SystemModel& model,
   };
   dynamics::simulate(model, state, settings, observer, progress);
   Agreement agreement = compare(witness, states, energies);
-  agreement.step = find_longest(settings);
+  agreement.step = find_longest_step(settings);
   return agreement;
 }
 

@@ -281,7 +281,11 @@ void read_root(TomlTable& root, Scenario& scenario) {
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file) {
-  const toml::table table = parse_toml_file(file);
+  return read_scenario(parse_toml_file(file), file);
+}
+
+Scenario read_scenario(const toml::table& table,
+                       const std::filesystem::path& file) {
   Problems problems(file.string());
   Scenario scenario;
   scenario.file = file;

@@ -61,13 +61,13 @@ void apply(const Overrides& overrides, Scene& scene) {
 Scene load_scene(const std::filesystem::path& file,
                  const Overrides& overrides) {
   Scene scene;
-  scene.scenario = read_scenario(file);
+  const toml::table table = parse_toml_file(file);
+  scene.scenario = read_scenario(table, file);
   scene.robot = read_robot(scene.scenario.robot);
   check_scenario(scene.scenario, scene.robot);
   choose_bases(scene.scenario, overrides.basis, scene.robot);
   apply(overrides, scene);
-  for (std::string& text :
-       find_vain_keys(parse_toml_file(file), scene, overrides)) {
+  for (std::string& text : find_vain_keys(table, scene, overrides)) {
     scene.scenario.warnings.push_back(std::move(text));
   }
   return scene;

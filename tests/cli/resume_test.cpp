@@ -38,20 +38,25 @@ void replace(std::string& text, const std::string& old, const std::string& by) {
   text.replace(text.find(old), old.size(), by);
 }
 
+/// Runs s.toml into out/ and kills it when its first checkpoint is there.
+void kill_run(const Workspace& place) {
+  const std::string line =
+      "cd '" + place.folder().string() +
+      "' && ('" LIMBER_COMMAND
+      "' run s.toml --out out --checkpoint-interval 0 >run.txt 2>&1 & "
+      "pid=$!; while kill -0 $pid 2>/dev/null && [ ! -e out/checkpoint.bin ];"
+      " do sleep 0.01; done; kill -9 $pid)";
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  ASSERT_TRUE(fs::exists(place.folder() / "out/checkpoint.bin"));
+}
+
 /// A folder with the checkpoint of a run that was killed.
 class KilledRunOfASled : public ::testing::Test {
  protected:
   KilledRunOfASled() {
     place_.write("robot.urdf", robot_);
     place_.write("s.toml", scenario_);
-    const std::string line =
-        "cd '" + place_.folder().string() +
-        "' && ('" LIMBER_COMMAND
-        "' run s.toml --out out --checkpoint-interval 0 >run.txt 2>&1 & "
-        "pid=$!; while kill -0 $pid 2>/dev/null && [ ! -e out/checkpoint.bin ];"
-        " do sleep 0.01; done; kill -9 $pid)";
-    EXPECT_EQ(std::system(line.c_str()), 0);
-    EXPECT_TRUE(fs::exists(place_.folder() / "out/checkpoint.bin"));
+    kill_run(place_);
   }
 
   void expect_refused(const std::string& robot, const std::string& scenario,
@@ -143,14 +148,7 @@ TEST(ResumedRun, HasTheSummaryOfOneThatWasNotKilled) {
               "[initial.links]\nbeam = { modes = { position = [60] } }\n"
               "[[probe]]\nname = 'p'\nlink = 'beam'\nnode = 1\n");
   ASSERT_EQ(place.limber("run s.toml --out whole").status, 0);
-  const std::string line =
-      "cd '" + place.folder().string() +
-      "' && ('" LIMBER_COMMAND
-      "' run s.toml --out out --checkpoint-interval 0 >run.txt 2>&1 & "
-      "pid=$!; while kill -0 $pid 2>/dev/null && [ ! -e out/checkpoint.bin ];"
-      " do sleep 0.01; done; kill -9 $pid)";
-  ASSERT_EQ(std::system(line.c_str()), 0);
-  ASSERT_TRUE(fs::exists(place.folder() / "out/checkpoint.bin"));
+  ASSERT_NO_FATAL_FAILURE(kill_run(place));
   ASSERT_EQ(place.limber("run s.toml --out out --resume").status, 0);
   const nlohmann::json whole = read_summary(place.folder() / "whole");
   EXPECT_THAT(whole["warnings"].dump(), HasSubstr("beyond 10 %"));
