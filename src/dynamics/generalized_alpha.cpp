@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "dynamics/archives.hpp"
+#include "dynamics/full_turn.hpp"
 #include "dynamics/newton_failure.hpp"
 
 namespace limber::dynamics {
@@ -225,6 +227,11 @@ void GeneralizedAlpha::apply_increments(double h) {
         matrix_.wrench_increments()[model_.couplers.size() + i][0];
   }
   const double share = 1.0 / (beta_ * h * h);
+  for (const FullModel& full : model_.full_bodies) {
+    const Eigen::Index row = NewtonMatrix::first_node_row(model_) + full.first;
+    turn_correction(model_, full, next_,
+                    Nodes(x_.data() + row, 3, full.mesh->node_count()));
+  }
   a_next_.nodes += share * x_.tail(model_.nodal_count);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
@@ -260,8 +267,9 @@ void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
   }
 }
 
-// Unchanged accelerations, and the step's end that they imply.
-void GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
+// Unchanged accelerations, or those that turn unreduced bodies without changing
+// their shape, and the step's end that they imply. @returns whether one turns.
+bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   const double p_v = 1.0 / (1.0 - am_);
   const double p_a = am_ / (1.0 - am_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -271,8 +279,22 @@ void GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   }
   a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
   a_next_.nodes = p_v * vdot_.nodes - p_a * a_.nodes;
+  bool turns = false;
+  for (const FullModel& full : model_.full_bodies) {
+    Nodes next = nodes_of(full, a_next_.nodes);
+    if (!predict_turned_nodes(model_, full, from, vdot_.nodes, h, lag_ + beta_,
+                              next)) {
+      continue;
+    }
+    // Positions; the accelerations that lead there.
+    next -= nodes_of(full, from.u_H) + h * nodes_of(full, from.udot_H) +
+            h * h * lag_ * nodes_of(full, std::as_const(a_.nodes));
+    next /= h * h * beta_;
+    turns = true;
+  }
   next_.memory = from.memory;
   advance(from, h, end);
+  return turns;
 }
 
 // The wrenches that act at the last state, to begin with once more.
@@ -319,10 +341,11 @@ void GeneralizedAlpha::correct(bool exactly) {
 double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
                                   bool keeps, bool exactly,
                                   StepResult& result) {
-  predict(from, h, end);
+  const bool turns = predict(from, h, end);
   Roundoff roundoff = measure_roundoff(model_, next_);
   bool knows_noise = false;
-  bool needs_factors = !keeps;
+  // Those of an unreduced body are in its axes, and cheap to turn.
+  bool needs_factors = !keeps || turns;
   CorrectionSize correction;
   double slowest = 0.0;
   int slow_corrections = 0;  // with factors of their own

@@ -82,7 +82,7 @@ class GeneralizedAlpha {
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h);
   void add_quasi_static_accelerations();
-  void predict(const SystemState& from, double h, double end);
+  bool predict(const SystemState& from, double h, double end);
   void keep_wrenches();
   void restore_wrenches();
   [[nodiscard]] Roundoff measure_wrench_noise();

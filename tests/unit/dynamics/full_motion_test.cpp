@@ -149,6 +149,22 @@ TEST(FullMotion, ImplicitStepsConvergeUnderStrongDamping) {
   }
 }
 
+// The start is unstretched, so that the spin stretches it at once, in modes
+// that such steps do not resolve.
+TEST(FullMotion, TurningByAFifthOfARadianAStepTakesNoHalvingsAndFewIterations) {
+  for (const double stiffness : {4e4, 4e6, 4e8}) {
+    const Lattice lattice({.layers = 12, .stiffness = stiffness});
+    const SystemModel model = lattice.builder.build();
+    SystemState state = make_state(model);
+    state.bodies[0].w_WB_B = Vector3(1.2, 0.0, 1.6);
+    place_nodes(model, {}, {}, state);
+    const SimulationStatistics statistics =
+        simulate(model, state, {.end_time = 2.0, .step = 0.1}, {});
+    EXPECT_EQ(statistics.halved_steps, 0);
+    EXPECT_LT(statistics.newton_iterations, 20 * 10);
+  }
+}
+
 // --- Orders of the integrators ----------------------------------------------
 
 struct SchemeOrder {

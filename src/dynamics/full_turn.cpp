@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/full_turn.hpp"
+
+#include "common/rotation.hpp"
+
+namespace limber::dynamics {
+
+bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
+                          const SystemState& from, const VectorX& uddot_H,
+                          double h, double s, Nodes u_H) {
+  constexpr double kLeastTurn = 0.01;  // [rad]
+  MeanFrame frame;
+  calc_mean_frame(model, full, from, frame);
+  const Vector3& w = frame.w_H;
+  if (!(h * w.norm() > kLeastTurn)) return false;
+  const flexbody::FullBody& mesh = *full.mesh;
+  const ConstNodes u = nodes_of(full, from.u_H);
+  const ConstNodes uddot = nodes_of(full, uddot_H);
+  Vector3 spin = Vector3::Zero();
+  Vector3 mean = Vector3::Zero();
+  for (Eigen::Index i = 0; i < u.cols(); ++i) {
+    const Vector3 r = mesh.x_B.col(i) + u.col(i) - frame.p_HB;
+    const Vector3 y_H = frame.R_HB * mesh.first_moment.col(i);
+    spin += y_H.cross(uddot.col(i) - w.cross(w.cross(r)));
+    mean += mesh.node_mass[i] * uddot.col(i);
+  }
+  const Vector3 wdot = frame.spread * spin;
+  const Vector3 c = frame.center_H - frame.p_HB;
+  const Vector3 pddot =
+      mean / mesh.node_mass.sum() - w.cross(w.cross(c)) - wdot.cross(c);
+  const Vector3 path = h * frame.v_H + s * h * h * pddot;
+  const Matrix3 turn =
+      exp_quaternion(h * w + s * h * h * wdot).toRotationMatrix();
+  const Matrix3 change = turn - Matrix3::Identity();
+  for (Eigen::Index i = 0; i < u.cols(); ++i) {
+    const Vector3 r = mesh.x_B.col(i) + u.col(i) - frame.p_HB;
+    u_H.col(i) = u.col(i) + path + change * r;
+  }
+  return true;
+}
+
+void turn_correction(const SystemModel& model, const FullModel& full,
+                     const SystemState& state, Nodes d_H) {
+  constexpr double kLeastTurn = 1e-8;  // [rad], whose square is round-off
+  MeanFrame frame;
+  calc_mean_frame(model, full, state, frame);
+  Vector3 spin = Vector3::Zero();
+  for (Eigen::Index i = 0; i < d_H.cols(); ++i) {
+    const Vector3 y_H = frame.R_HB * full.mesh->first_moment.col(i);
+    spin += y_H.cross(d_H.col(i));
+  }
+  const Vector3 theta = frame.spread * spin;
+  if (!(theta.norm() > kLeastTurn)) return;
+  const Matrix3 rest = exp_rotation(theta) - Matrix3::Identity() - skew(theta);
+  const ConstNodes u = nodes_of(full, state.u_H);
+  for (Eigen::Index i = 0; i < d_H.cols(); ++i) {
+    d_H.col(i) += rest * (full.mesh->x_B.col(i) + u.col(i) - frame.p_HB);
+  }
+}
+
+}  // namespace limber::dynamics
