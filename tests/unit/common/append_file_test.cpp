@@ -111,6 +111,13 @@ TEST_F(SealedFiles, RefuseEveryFlippedBitAndEveryCut) {
   EXPECT_THROW((void)read_sealed(file_, seal), InputError);
 }
 
+// No memory has room for it, nor is it all read.
+TEST_F(SealedFiles, OfAnotherKindAreRefusedAtOnceHoweverLarge) {
+  write(file_, "");
+  fs::resize_file(file_, std::uintmax_t{1} << 37);
+  EXPECT_THROW((void)read_sealed(file_, {"limber test", 3}), InputError);
+}
+
 TEST_F(SealedFiles, AreOfOneKindAndLayout) {
   write_sealed(file_, {"limber test", 3}, "content");
   EXPECT_FALSE(has_seal(file_, "limber tes"));
