@@ -25,6 +25,7 @@ int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
 
 int main(int argc, char** argv) {
   limber::app::prepare_process();
+  limber::app::check_stack();
   limber::app::check_address_space();
   CLI::App app("Simulates arms that bend.", "limber");
   app.set_version_flag("--version", LIMBER_VERSION);

@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t kMebi = std::size_t{1} << 20;
 constexpr std::size_t kBufferOfAThread = 129 * kMebi;  // OpenBLAS's own
+constexpr rlim_t kStack = kMebi;            // of each thread: 64 KiB overflow
 constexpr std::size_t kRest = 256 * kMebi;  // the least that any command takes
 
 // A file would take the number of a stream that is closed, and what is printed.
@@ -85,6 +86,15 @@ void check_address_space() {
       "OPENBLAS_NUM_THREADS=1",
       needed / kMebi, threads));
   _exit(kNoSolution);  // a thread of OpenBLAS's may never end
+}
+
+void check_stack() {
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kStack) return;
+  print_error(fmt::format(
+      "the limit of the stack (ulimit -s) is {} KiB, {} are needed; raise it",
+      limit.rlim_cur / 1024, kStack / 1024));
+  _exit(kNoSolution);
 }
 
 int end_process(int status) {

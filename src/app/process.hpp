@@ -13,6 +13,10 @@ void prepare_process();
 /// for it again and again, for ever.
 void check_address_space();
 
+/// Ends the program with words and status 3 where a limit (ulimit -s) leaves so
+/// little stack, also to the linear algebra's threads, that it may overflow.
+void check_stack();
+
 /// What main() is to return. Under such a limit the program ends here: where
 /// OpenBLAS's threads have found no memory, they are not to be waited for.
 [[nodiscard]] int end_process(int status);

@@ -325,5 +325,18 @@ TEST(AddressSpace, ThatIsShortEndsWithWordsAndNeverHangs) {
   }
 }
 
+TEST(Stack, ThatIsShortIsToldAndDoesNotOverflow) {
+  const Workspace place;
+  write_scene(place, "s.toml");
+  for (const int kilobytes : {64, 256, 1024}) {
+    const CommandResult result = run_shell(
+        place, fmt::format("ulimit -s {}; '" LIMBER_COMMAND "' run s.toml",
+                           kilobytes));
+    EXPECT_EQ(result.status, kilobytes < 1024 ? 3 : 0) << result.errors;
+    EXPECT_THAT(result.errors,
+                HasSubstr(kilobytes < 1024 ? "stack (ulimit -s)" : ""));
+  }
+}
+
 }  // namespace
 }  // namespace limber::test
