@@ -14,19 +14,6 @@ namespace limber::testing {
 /// twice 20 iterations with 60 Krylov vectors, each with its own few.
 inline constexpr long kSolvesOfAnAttempt = 2 * 20 * 64;
 
-/// A run that leaves more than a percent of its throughput open says so, unless
-/// it is all round-off.
-inline void expect_drift_is_told(const RandomOutcome& outcome) {
-  if (outcome.kind != RandomOutcome::Kind::finished) return;
-  const dynamics::EnergyRecord& energy = outcome.energy;
-  if (!(outcome.drift > 0.0101 * energy.throughput) ||
-      !(outcome.drift > 1.01 * energy.roundoff)) {
-    return;
-  }
-  EXPECT_THAT(outcome.statistics.warnings,
-              ::testing::Contains(::testing::HasSubstr("nothing accounts")));
-}
-
 /// Expects that a scene ends with numbers, or with words that name a body or a
 /// coupler, after no more work than dynamics/work_budget.hpp allows.
 inline void expect_good_end(unsigned seed) {
@@ -35,7 +22,7 @@ inline void expect_good_end(unsigned seed) {
   const RandomScene scene = draw_scene(seed);
   const RandomOutcome outcome = run_random_scene(seed);
   EXPECT_NE(outcome.kind, RandomOutcome::Kind::failed) << outcome.text;
-  expect_drift_is_told(outcome);
+  EXPECT_FALSE(is_silent_about_drift(outcome)) << outcome.drift << " J";
   if (outcome.kind == RandomOutcome::Kind::refused) {
     EXPECT_THAT(outcome.text, AnyOf(HasSubstr("body '"), HasSubstr("joint")));
     EXPECT_THAT(outcome.text, HasSubstr(" s"));

@@ -24,6 +24,20 @@ bool is_finite(const dynamics::SystemState& state) {
 
 }  // namespace
 
+bool is_silent_about_drift(const RandomOutcome& outcome) {
+  if (outcome.kind != RandomOutcome::Kind::finished) return false;
+  const dynamics::EnergyRecord& energy = outcome.energy;
+  if (!(outcome.drift > 0.0101 * energy.throughput) ||
+      !(outcome.drift > 1.01 * energy.roundoff)) {
+    return false;
+  }
+  const auto& warnings = outcome.statistics.warnings;
+  return std::none_of(
+      warnings.begin(), warnings.end(), [](const std::string& text) {
+        return text.find("nothing accounts") != std::string::npos;
+      });
+}
+
 RandomOutcome run_random_scene(unsigned seed) {
   using Kind = RandomOutcome::Kind;
   dynamics::SimulationStatistics statistics;

@@ -23,6 +23,10 @@ struct RandomOutcome {
   double drift = 0.0;
 };
 
+/// Whether a run that finished leaves more than a percent of its throughput
+/// open, not all of it round-off, and gave no warning.
+[[nodiscard]] bool is_silent_about_drift(const RandomOutcome& outcome);
+
 /// Draws the scene of a seed and runs it.
 RandomOutcome run_random_scene(unsigned seed);
 
