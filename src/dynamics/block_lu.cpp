@@ -2,6 +2,7 @@
 #include "dynamics/block_lu.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "common/errors.hpp"
@@ -43,12 +44,20 @@ std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph) {
 
 BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
     : index_(index(size)) {
+  std::vector<std::map<int, int>> found(index(size));
+  int count = 0;
+  const auto find_or_add = [&](int row, int column) {
+    const auto [entry, is_new] = found[index(row)].emplace(column, count);
+    if (is_new) ++count;
+    return entry->second;
+  };
   Graph graph(index(size));
   for (const auto& [i, j] : edges) {
     LIMBER_EXPECT(i >= 0 && j >= 0 && i < size && j < size && i != j);
     graph[index(i)].insert(j);
     graph[index(j)].insert(i);
   }
+  // Diagonal blocks are the first, in the order of rows.
   for (int i = 0; i < size; ++i) find_or_add(i, i);
   for (auto& [row, neighbours] : eliminate(graph)) {
     Pivot pivot{.row = row,
@@ -68,18 +77,12 @@ BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
     }
     pivots_.push_back(std::move(pivot));
   }
+  blocks_.resize(index(count));
   inverses_.resize(index(size));
-}
-
-int BlockLu::find_or_add(int row, int column) {
-  auto& entries = index_[index(row)];
-  for (const auto& [c, block] : entries) {
-    if (c == column) return block;
+  for (std::size_t row = 0; row < found.size(); ++row) {
+    index_[row].assign(found[row].begin(), found[row].end());
   }
-  const int block = static_cast<int>(blocks_.size());
-  entries.emplace_back(column, block);
-  blocks_.emplace_back(Matrix6::Zero());
-  return block;
+  set_zero();
 }
 
 void BlockLu::set_zero() {
@@ -87,8 +90,11 @@ void BlockLu::set_zero() {
 }
 
 Matrix6& BlockLu::block(int row, int column) {
-  for (const auto& [c, block] : index_[index(row)]) {
-    if (c == column) return blocks_[index(block)];
+  const Row& entries = index_[index(row)];
+  const auto entry = std::lower_bound(entries.begin(), entries.end(),
+                                      std::pair<int, int>(column, 0));
+  if (entry != entries.end() && entry->first == column) {
+    return blocks_[index(entry->second)];
   }
   throw ContractError("BlockLu: no such block in the pattern");
 }
@@ -103,9 +109,7 @@ void BlockLu::scale_row(int row, const Matrix6& factor) {
 std::optional<int> BlockLu::factor() {
   for (const Pivot& pivot : pivots_) {
     const std::size_t row = index(pivot.row);
-    // A row's diagonal block is the first that was added to it.
-    Matrix6& diagonal = blocks_[index(index_[row].front().second)];
-    inverses_[row] = diagonal.inverse();
+    inverses_[row] = blocks_[row].inverse();
     if (!inverses_[row].allFinite()) return pivot.row;
     for (const int lower : pivot.lower) {
       const Matrix6 product = blocks_[index(lower)] * inverses_[row];

@@ -49,12 +49,12 @@ class BlockLu {
     std::vector<int> upper;  // blocks (row, rows[i])
     std::vector<Update> updates;
   };
-  int find_or_add(int row, int column);
+  // Of the columns of a row, increasing, and which block is there.
+  using Row = std::vector<std::pair<int, int>>;
 
   std::vector<Matrix6> blocks_;
   std::vector<Matrix6> inverses_;
-  std::vector<std::vector<std::pair<int, int>>>
-      index_;  // row -> (column, block)
+  std::vector<Row> index_;
   std::vector<Pivot> pivots_;
 };
 

@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <limits>
+#include <algorithm>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
 #include "dynamics/cayley.hpp"
+#include "dynamics/free_rows.hpp"
+#include "dynamics/hubs.hpp"
 #include "dynamics/nodal_jacobian.hpp"
 
 namespace limber::dynamics {
@@ -54,42 +55,6 @@ Matrix6 find_stiffness(const SystemTerms& terms, std::size_t link,
   return K;
 }
 
-// Of a block's largest row: a smaller one is round-off of the stiffness.
-constexpr double kFree = 64.0 * std::numeric_limits<double>::epsilon();
-
-// Q of a QR decomposition, reflection by reflection: householderQ() would
-// compile a product by blocks, for seconds, that so small a matrix never takes.
-Matrix3 multiply_reflections(const Eigen::Matrix<double, 3, 6>& qr,
-                             const Vector3& scale) {
-  Matrix3 Q = Matrix3::Identity();
-  for (int k = 0; k < 3; ++k) {
-    Vector3 v = Vector3::Unit(k);
-    for (int i = k + 1; i < 3; ++i) v[i] = qr(i, k);
-    Q -= scale[k] * (Q * v) * v.transpose();
-  }
-  return Q;
-}
-
-// Turns K's rows, forces and moments apart, to where those of directions that
-// are free vanish. Left among the rows of held ones, what a free direction says
-// would be lost in their round-off, and elimination would spread it.
-// @returns the turn; its rows are those of the new K
-Matrix6 separate_free_rows(Matrix6& K) {
-  Matrix6 turn = Matrix6::Zero();
-  for (const int first : {0, 3}) {
-    const Eigen::Matrix<double, 3, 6> rows = K.middleRows<3>(first);
-    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 6>> qr(rows);
-    const Matrix3 Q = multiply_reflections(qr.matrixQR(), qr.hCoeffs());
-    turn.block<3, 3>(first, first) = Q.transpose();
-    K.middleRows<3>(first) = Q.transpose() * rows;
-    const double noise = kFree * rows.cwiseAbs().maxCoeff();
-    for (int i = first; i < first + 3; ++i) {
-      if (K.row(i).cwiseAbs().maxCoeff() <= noise) K.row(i).setZero();
-    }
-  }
-  return turn;
-}
-
 // The motion of an end's frame per node, both in body axes: 3N x 6.
 MatrixX make_body_columns(const Attachment& attachment,
                           const AttachmentMotion& motion, const Matrix3& R_HB,
@@ -105,8 +70,7 @@ MatrixX make_body_columns(const Attachment& attachment,
 }  // namespace
 
 NewtonMatrix::NewtonMatrix(const SystemModel& model)
-    : bodies_(model.bodies.size()),
-      full_(model.full_bodies.size()),
+    : full_(model.full_bodies.size()),
       ends_of_body_(model.bodies.size()),
       couplers_(model.couplers.size()) {
   const std::size_t links = couplers_ + model.transmissions.size();
@@ -114,12 +78,8 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   rows_.resize(links);
   wrenches_.resize(links);
   gaps_.resize(links);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const int m = model.bodies[b].modes;
-    bodies_[b].coupling = Matrix3X::Zero(3, m);
-    bodies_[b].back_coupling = Matrix3X::Zero(3, m);
-    bodies_[b].inverse_modes = VectorX::Zero(m);
-  }
+  bodies_.reserve(model.bodies.size());
+  for (const BodyModel& body : model.bodies) bodies_.emplace_back(body.modes);
   const auto add_pair = [&](int link, int coupler, int term) {
     const Coupler& c = model.couplers[index(coupler)];
     add_end(model, link, coupler, term, c.frame_F, false);
@@ -141,17 +101,47 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
     }
     ++link;
   }
+  plan_lu(model, link);
+}
+
+// Links that share a body that is eliminated, and hubs with the links that hold
+// them.
+void NewtonMatrix::plan_lu(const SystemModel& model, int links) {
+  std::vector<std::vector<int>> links_of_body(ends_of_body_.size());
+  for (const End& end : ends_) {
+    links_of_body[index(end.body)].push_back(end.link);
+  }
+  std::vector<int> blocks;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    blocks.push_back(model.bodies[b].full < 0 ? bodies_[b].block_count() : 0);
+  }
+  int row = links;
+  hub_of_body_.assign(model.bodies.size(), -1);
+  for (const int b : choose_hubs(links_of_body, blocks)) {
+    hub_of_body_[index(b)] = static_cast<int>(hubs_.size());
+    const int size = 6 + model.bodies[index(b)].modes;
+    hubs_.push_back({b, row, blocks[index(b)], size});
+    row += blocks[index(b)];
+  }
+  unknowns_.resize(index(row));
   std::vector<std::pair<int, int>> edges;
-  for (const auto& ends : ends_of_body_) {
-    for (const int i : ends) {
-      for (const int j : ends) {
-        const int ci = ends_[index(i)].link;
-        const int cj = ends_[index(j)].link;
-        if (ci < cj) edges.emplace_back(ci, cj);
+  for (std::size_t b = 0; b < ends_of_body_.size(); ++b) {
+    if (hub_of_body_[b] >= 0) continue;
+    for (const int i : links_of_body[b]) {
+      for (const int j : links_of_body[b]) {
+        if (i < j) edges.emplace_back(i, j);
       }
     }
   }
-  lu_ = BlockLu(link, edges);
+  for (const Hub& hub : hubs_) {
+    for (int i = hub.first; i < hub.first + hub.blocks; ++i) {
+      for (const int link : links_of_body[index(hub.body)]) {
+        edges.emplace_back(link, i);
+      }
+      for (int j = hub.first; j < i; ++j) edges.emplace_back(i, j);
+    }
+  }
+  lu_ = BlockLu(row, edges);
 }
 
 void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
@@ -177,52 +167,6 @@ void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
   end.Zt = end.G;
   ends_of_body_[index(b)].push_back(static_cast<int>(ends_.size()));
   ends_.push_back(std::move(end));
-}
-
-void NewtonMatrix::factor_body(const BodyModel& body, const BodyTerms& terms,
-                               const Vector3& w, const Matrix3& T,
-                               const Coefficients& c,
-                               BodyFactor& factor) const {
-  factor.inverse_modes.array() =
-      (c.acceleration + c.velocity * body.damping.array() + body.lambda.array())
-          .inverse();
-  if (!body.has_rigid_motion()) return;  // its rigid blocks stay zero
-  factor.inverse_mass = 1.0 / (c.acceleration * body.mass);
-  // The step's own rotation changes by T times the increments, which are of
-  // the end.
-  const Matrix3 gyroscopic = skew(w) * terms.J - skew(terms.J * w);
-  Matrix3 schur = (c.acceleration * terms.J + c.velocity * gyroscopic) * T;
-  for (int k = 0; k < body.modes; ++k) {
-    const Vector3 column = c.acceleration * terms.H.col(k);
-    const Vector3 row = T.transpose() * column;
-    factor.coupling.col(k) = column;
-    factor.back_coupling.col(k) = row;
-    schur -= factor.inverse_modes[k] * column * row.transpose();
-  }
-  factor.inverse_rotation = schur.inverse();
-  if (!factor.inverse_rotation.allFinite()) {
-    throw NumericalError(
-        fmt::format("body '{}': its inertia has become singular", body.name));
-  }
-}
-
-void NewtonMatrix::solve_body(const BodyModel& body, const BodyFactor& factor,
-                              double* x) const {
-  Eigen::Map<Vector3> translation(x);
-  Eigen::Map<Vector3> rotation(x + 3);
-  double* modes = x + 6;
-  translation *= factor.inverse_mass;
-  Vector3 right = rotation;
-  for (int k = 0; k < body.modes; ++k) {
-    modes[k] *= factor.inverse_modes[k];
-    right -= factor.coupling.col(k) * modes[k];
-  }
-  rotation = factor.inverse_rotation * right;
-  const Vector3 turned = rotation;
-  for (int k = 0; k < body.modes; ++k) {
-    modes[k] -=
-        factor.inverse_modes[k] * factor.back_coupling.col(k).dot(turned);
-  }
 }
 
 // The axes in which an end's motion is told: those of F, or the world's.
@@ -259,12 +203,19 @@ void NewtonMatrix::factor_end(const SystemModel& model,
                               const SystemTerms& terms, End& end) const {
   const Attachment& attachment = model.attachments[index(end.attachment)];
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
-  const BodyModel& body = model.bodies[index(end.body)];
   if (!attachment.nodal) {
     calc_modal_rows(model, terms, end);
-    solve_end(body, end);
+    if (is_on_hub(end)) {
+      end.Zt = end.G;
+      if (!model.bodies[index(end.body)].has_rigid_motion()) {
+        end.Zt.leftCols<6>().setZero();
+      }
+    } else {
+      bodies_[index(end.body)].solve_rows(end.G, end.Zt);
+    }
     return;
   }
+  const BodyModel& body = model.bodies[index(end.body)];
   const Matrix3 R_FW = find_R_FW(model, terms, end);
   const Pose& X_WH = state.X_WH[index(body.full)];
   calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_FW * X_WH.R, end.G);
@@ -280,26 +231,11 @@ void NewtonMatrix::factor_end(const SystemModel& model,
   finish_rows(terms, end, end.Zt);
 }
 
-// Columns of D^-1 G', a row of G at a time, through D's arrow shape.
-void NewtonMatrix::solve_end(const BodyModel& body, End& end) const {
-  const BodyFactor& f = bodies_[index(end.body)];
-  end.Zt.leftCols<3>() = f.inverse_mass * end.G.leftCols<3>();
-  Eigen::Matrix<double, 6, 3> right = end.G.middleCols<3>(3);
-  for (int k = 0; k < body.modes; ++k) {
-    end.Zt.col(6 + k) = f.inverse_modes[k] * end.G.col(6 + k);
-    right.noalias() -= end.Zt.col(6 + k) * f.coupling.col(k).transpose();
-  }
-  const Eigen::Matrix<double, 6, 3> turned =
-      right * f.inverse_rotation.transpose();
-  end.Zt.middleCols<3>(3) = turned;
-  for (int k = 0; k < body.modes; ++k) {
-    end.Zt.col(6 + k) -= f.inverse_modes[k] * (turned * f.back_coupling.col(k));
-  }
-}
-
 void NewtonMatrix::assemble(const SystemTerms& terms, const Coefficients& c) {
   lu_.set_zero();
-  for (const auto& ends : ends_of_body_) {
+  for (std::size_t b = 0; b < ends_of_body_.size(); ++b) {
+    if (hub_of_body_[b] >= 0) continue;
+    const std::vector<int>& ends = ends_of_body_[b];
     for (const int i : ends) {
       for (const int j : ends) {
         const End& row = ends_[index(i)];
@@ -322,10 +258,31 @@ void NewtonMatrix::assemble(const SystemTerms& terms, const Coefficients& c) {
     rows_[i] = scale.asDiagonal() * turn;
     scaled_stiffness_[i] = scale.asDiagonal() * K;
   }
+  for (const Hub& hub : hubs_) assemble_hub(hub);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int row = static_cast<int>(i);
     lu_.scale_row(row, scaled_stiffness_[i]);
     lu_.block(row, row) += rows_[i];
+  }
+}
+
+// Its equation, and its columns in the links' rows, yet without K.
+void NewtonMatrix::assemble_hub(const Hub& hub) {
+  for (int i = 0; i < hub.blocks; ++i) {
+    for (int j = 0; j < hub.blocks; ++j) {
+      lu_.block(hub.first + i, hub.first + j) =
+          bodies_[index(hub.body)].block(i, j);
+    }
+    for (const int e : ends_of_body_[index(hub.body)]) {
+      const End& end = ends_[index(e)];
+      const Eigen::Index first = Eigen::Index{6} * i;
+      const Eigen::Index count =
+          std::min<Eigen::Index>(6, end.G.cols() - first);
+      lu_.block(end.link, hub.first + i).leftCols(count) +=
+          end.G.middleCols(first, count);
+      lu_.block(hub.first + i, end.link).topRows(count) -=
+          end.Zt.middleCols(first, count).transpose();
+    }
   }
 }
 
@@ -362,6 +319,13 @@ std::string NewtonMatrix::describe_singular(const SystemModel& model,
     if (find_stiffness(terms, link, 1.0).allFinite()) continue;
     return name(link) + ": its stiffness or damping is no longer finite";
   }
+  if (index(row) >= rows_.size()) {
+    const auto hub = std::find_if(
+        hubs_.rbegin(), hubs_.rend(),
+        [row](const Hub& candidate) { return candidate.first <= row; });
+    return fmt::format("body '{}': its inertia, and what holds it, is singular",
+                       model.bodies[index(hub->body)].name);
+  }
   return name(index(row)) +
          ": the matrix of what it holds, and bodies give way, is singular";
 }
@@ -373,10 +337,10 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           const SystemTerms* end_terms) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Vector3& turn = rotation_increments[b];
-    factor_body(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
-                end_terms != nullptr ? cayley_jacobian_inverse(turn)
-                                     : right_jacobian_inverse(turn),
-                coefficients, bodies_[b]);
+    bodies_[b].update(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
+                      end_terms != nullptr ? cayley_jacobian_inverse(turn)
+                                           : right_jacobian_inverse(turn),
+                      coefficients);
   }
   factor_full(model, state, terms, coefficients, renews_full);
   for (End& end : ends_) {
@@ -414,9 +378,9 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   ++solves_;
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    solve_body(body, bodies_[b],
-               increments.data() + first_row(body, static_cast<int>(b)));
+    if (hub_of_body_[b] >= 0) continue;
+    bodies_[b].solve(increments.data() +
+                     first_row(model.bodies[b], static_cast<int>(b)));
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullModel& full = model.full_bodies[f];
@@ -424,20 +388,34 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
         full, *terms.full[f].solver,
         increments.segment(first_node_row(model) + full.first, full.dofs()));
   }
-  for (Vector6& w : wrenches_) w.setZero();
+  increments = -increments;
+  for (Vector6& x : unknowns_) x.setZero();
   for (const End& end : ends_) {
+    if (is_on_hub(end)) continue;
     const double* x = increments.data() + end.row;
-    Vector6& w = wrenches_[index(end.link)];
-    for (Eigen::Index k = 0; k < end.G.cols(); ++k) w += end.G.col(k) * x[k];
+    Vector6& w = unknowns_[index(end.link)];
+    for (Eigen::Index k = 0; k < end.G.cols(); ++k) w -= end.G.col(k) * x[k];
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const Vector6 right =
-        scaled_stiffness_[i] * wrenches_[i] + rows_[i] * gaps[i];
-    wrenches_[i] = right;
+        scaled_stiffness_[i] * unknowns_[i] + rows_[i] * gaps[i];
+    unknowns_[i] = right;
   }
-  lu_.solve(wrenches_);
-  increments = -increments;
+  const auto for_hubs = [&](const auto& visit) {
+    for (const Hub& hub : hubs_) {
+      double* x = increments.data() +
+                  first_row(model.bodies[index(hub.body)], hub.body);
+      for (int k = 0; k < hub.size; ++k) {
+        visit(unknowns_[index(hub.first + k / 6)][k % 6], x[k]);
+      }
+    }
+  };
+  for_hubs([](double& unknown, double& x) { unknown = x; });
+  lu_.solve(unknowns_);
+  for_hubs([](double& unknown, double& x) { x = unknown; });
+  std::copy_n(unknowns_.begin(), wrenches_.size(), wrenches_.begin());
   for (const End& end : ends_) {
+    if (is_on_hub(end)) continue;
     double* x = increments.data() + end.row;
     const Vector6& w = wrenches_[index(end.link)];
     for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/block_lu.hpp"
+#include "dynamics/body_factor.hpp"
 #include "dynamics/full_factor.hpp"
 #include "dynamics/workspace.hpp"
 
@@ -26,6 +27,10 @@ namespace limber::dynamics {
 ///            pattern. As K grows this tends to the constrained system with
 ///            its multipliers, so no stiffness is too stiff: the huge wrench
 ///            of a law at a configuration that has not converged never acts.
+///            A body that so many couplers hold that they would be a larger
+///            dense block than the body, a hub, is not eliminated: its
+///            increments are unknowns besides, K_c G_cb x_b stands in the
+///            couplers' rows and its own equation is a row.
 ///            A transmission is a coupler of any number of ends and one
 ///            unknown, the first of six; its other five rows are the identity.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
@@ -97,13 +102,6 @@ class NewtonMatrix {
   }
 
  private:
-  struct BodyFactor {
-    double inverse_mass = 0.0;  // of D's translation block, 0 if clamped
-    Matrix3 inverse_rotation = Matrix3::Zero();  // of the Schur complement
-    Matrix3X coupling;                           // D_re = acceleration * H
-    Matrix3X back_coupling;                      // (D_er)' = T' H acceleration
-    VectorX inverse_modes;                       // of D's diagonal modal block
-  };
   // One end of a coupler or transmission on a body that moves.
   struct End {
     int link = 0;      // of a coupler; transmissions count on
@@ -114,15 +112,20 @@ class NewtonMatrix {
     bool is_M = true;
     Eigen::Index row = 0;  // the body's first
     Matrix6X G;            // 6 x (6 + m), or 6 x 3N
-    Matrix6X Zt;           // (D^-1 G')'
+    Matrix6X Zt;           // (D^-1 G')'; of a hub G where its wrench acts
     Matrix6X Zt_B;         // of an unreduced body, both in body axes
+  };
+
+  // A body whose increments are unknowns of lu_.
+  struct Hub {
+    int body = 0;
+    int first = 0;  // its first row of lu_
+    int blocks = 0;
+    int size = 0;  // rigid motion and modes
   };
 
   void add_end(const SystemModel& model, int link, int coupler, int term,
                int attachment, bool is_M);
-  void factor_body(const BodyModel& body, const BodyTerms& terms,
-                   const Vector3& w, const Matrix3& T, const Coefficients& c,
-                   BodyFactor& factor) const;
   void factor_full(const SystemModel& model, const SystemState& state,
                    SystemTerms& terms, const Coefficients& c, bool renews);
   void factor_end(const SystemModel& model, const SystemState& state,
@@ -135,11 +138,12 @@ class NewtonMatrix {
   // G of an end on a reduced body.
   void calc_modal_rows(const SystemModel& model, const SystemTerms& terms,
                        End& end) const;
-  void solve_end(const BodyModel& body, End& end) const;
-  // x := D^-1 x for one body's 6 + m rows.
-  void solve_body(const BodyModel& body, const BodyFactor& factor,
-                  double* x) const;
+  void plan_lu(const SystemModel& model, int links);
+  [[nodiscard]] bool is_on_hub(const End& end) const {
+    return hub_of_body_[static_cast<std::size_t>(end.body)] >= 0;
+  }
   void assemble(const SystemTerms& terms, const Coefficients& c);
+  void assemble_hub(const Hub& hub);
   [[nodiscard]] std::string describe_singular(const SystemModel& model,
                                               const SystemTerms& terms,
                                               int row) const;
@@ -148,12 +152,15 @@ class NewtonMatrix {
   std::vector<FullFactor> full_;
   std::vector<End> ends_;
   std::vector<std::vector<int>> ends_of_body_;
+  std::vector<Hub> hubs_;
+  std::vector<int> hub_of_body_;  // -1: none
   std::size_t couplers_ = 0;
   std::vector<Matrix6> rows_;              // T: turned and scaled, per link
   std::vector<Matrix6> scaled_stiffness_;  // T K
   std::vector<Vector6> wrenches_;
   std::vector<Vector6> gaps_;
   BlockLu lu_;
+  std::vector<Vector6> unknowns_;  // of lu_: a link each, then hubs
   long solves_ = 0;
 };
 

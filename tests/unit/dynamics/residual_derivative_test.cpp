@@ -3,6 +3,7 @@
 // completes, against central differences.
 #include "dynamics/residual_derivative.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -248,6 +249,47 @@ TEST(ResidualDerivative, IsThatOfDifferencesAtEveryLevelUnderLoads) {
       SCOPED_TRACE(static_cast<int>(level));
       margin.expect_below(kGradient);
       EXPECT_GT(rest, 0.01);
+    }
+  }
+}
+
+// So many couplers between A and B that these are no longer eliminated, few
+// between B and C; gears on both; some hold A to the world.
+TEST(ResidualDerivative, OfBodiesThatManyCouplersHoldIsThatOfDifferences) {
+  const testing::Link links = {
+      "many", [](SystemBuilder& builder, const testing::BodyEnds& ends) {
+        const joints::Joint joint =
+            testing::make_test_joint(joints::JointKind::revolute, 2.0, {});
+        for (int i = 0; i < 12; ++i) {
+          builder.add_coupler(fmt::format("first {}", i), joint, ends.far[0],
+                              ends.near[1]);
+        }
+        builder.add_coupler("second", joint, ends.far[1], ends.near[2]);
+        builder.add_coupler("ground", joint, builder.attach_world("world", {}),
+                            ends.near[0]);
+        const joints::ScalarSpring spring(
+            {.curve = joints::SpringCurve({.stiffness = 20.0}),
+             .damping = 2.0});
+        builder.add_joint_sum("gear", {{{0, 0, 1.0}, {12, 0, -0.5}}, 0.1},
+                              {spring});
+      }};
+  for (const auto flexible :
+       {std::array{true, true, true}, std::array{false, true, true},
+        std::array{true, false, false}}) {
+    for (const bool clamped : {false, true}) {
+      Margin margin;
+      double rest = 0.0;
+      const LinkedBodies linked = make_linked_bodies(links, flexible, 3, 1.0);
+      SystemModel model = linked.model;
+      SystemState state = linked.state;
+      if (clamped && flexible[0]) {
+        model.bodies[0].clamped = true;
+        model.bodies[0].P = Matrix3X::Constant(3, model.bodies[0].modes, 0.3);
+        state.bodies[0].v_WB_W.setZero();
+        state.bodies[0].w_WB_B.setZero();
+      }
+      compare(model, make_point(model, state, 4), 51, margin, rest);
+      margin.expect_below(kGradient);
     }
   }
 }

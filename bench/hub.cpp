@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "dynamics/equations.hpp"
+#include "dynamics/newton_matrix.hpp"
+#include "dynamics/system_builder.hpp"
+#include "joints/joint_kind.hpp"
+
+/// What Newton's matrix costs where many couplers hold one body.
+namespace limber {
+namespace {
+
+using dynamics::NewtonMatrix;
+
+/// A rigid panel with `count` flaps on hinges along its edge.
+dynamics::SystemModel make_panel(int count) {
+  dynamics::SystemBuilder builder;
+  const Matrix3 inertia = Vector3(1.0, 2.0, 2.5).asDiagonal();
+  const int panel = builder.add_rigid_body("panel", {10.0, inertia});
+  for (int i = 0; i < count; ++i) {
+    const int flap = builder.add_rigid_body(fmt::format("flap {}", i),
+                                            {1.0, 0.01 * inertia});
+    const Pose edge{Matrix3::Identity(), Vector3(0.1 * i, 0.5, 0.0)};
+    const Pose end{Matrix3::Identity(), Vector3(0.0, -0.1, 0.0)};
+    builder.add_coupler(fmt::format("hinge {}", i),
+                        joints::make_joint(joints::JointKind::revolute,
+                                           Vector3::UnitX(), Vector3::UnitY(),
+                                           {.translational_stiffness = 1e8,
+                                            .rotational_stiffness = 1e6,
+                                            .translational_damping = 1e3,
+                                            .rotational_damping = 1e1,
+                                            .free_damping = 0.1},
+                                           {}),
+                        builder.attach_frame("edge", panel, edge),
+                        builder.attach_frame("end", flap, end));
+  }
+  return builder.build();
+}
+
+void factor_and_solve(benchmark::State& state) {
+  const dynamics::SystemModel model =
+      make_panel(static_cast<int>(state.range(0)));
+  const dynamics::SystemState at = dynamics::make_state(model);
+  dynamics::SystemTerms terms = dynamics::make_terms(model);
+  calc_terms(model, at, Side::right, terms);
+  const std::vector<Vector3> turns(model.bodies.size(), Vector3::Zero());
+  const VectorX residual = VectorX::Ones(NewtonMatrix::size(model));
+  VectorX x;
+  NewtonMatrix matrix(model);
+  for (auto _ : state) {
+    matrix.factor(model, at, terms, turns, {4e6, 2e3});
+    matrix.solve(model, terms, residual, x);
+    benchmark::DoNotOptimize(x.data());
+  }
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(factor_and_solve)
+    ->Arg(6)
+    ->Arg(12)
+    ->Arg(25)
+    ->Arg(50)
+    ->Arg(100)
+    ->Arg(200)
+    ->Arg(400)
+    ->Complexity()
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace limber

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/free_rows.hpp"
+
+#include <Eigen/QR>
+#include <limits>
+
+namespace limber::dynamics {
+namespace {
+
+// Of a block's largest row: a smaller one is round-off of the stiffness.
+constexpr double kFree = 64.0 * std::numeric_limits<double>::epsilon();
+
+// Q of a QR decomposition, reflection by reflection: householderQ() would
+// compile a product by blocks, for seconds, that so small a matrix never takes.
+Matrix3 multiply_reflections(const Eigen::Matrix<double, 3, 6>& qr,
+                             const Vector3& scale) {
+  Matrix3 Q = Matrix3::Identity();
+  for (int k = 0; k < 3; ++k) {
+    Vector3 v = Vector3::Unit(k);
+    for (int i = k + 1; i < 3; ++i) v[i] = qr(i, k);
+    Q -= scale[k] * (Q * v) * v.transpose();
+  }
+  return Q;
+}
+
+}  // namespace
+
+Matrix6 separate_free_rows(Matrix6& K) {
+  Matrix6 turn = Matrix6::Zero();
+  for (const int first : {0, 3}) {
+    const Eigen::Matrix<double, 3, 6> rows = K.middleRows<3>(first);
+    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 6>> qr(rows);
+    const Matrix3 Q = multiply_reflections(qr.matrixQR(), qr.hCoeffs());
+    turn.block<3, 3>(first, first) = Q.transpose();
+    K.middleRows<3>(first) = Q.transpose() * rows;
+    const double noise = kFree * rows.cwiseAbs().maxCoeff();
+    for (int i = first; i < first + 3; ++i) {
+      if (K.row(i).cwiseAbs().maxCoeff() <= noise) K.row(i).setZero();
+    }
+  }
+  return turn;
+}
+
+}  // namespace limber::dynamics

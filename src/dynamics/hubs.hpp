@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+namespace limber::dynamics {
+
+/// Bodies that so many links hold that NewtonMatrix keeps their increments as
+/// unknowns: eliminated, a body of n links makes a dense block of n unknowns of
+/// six, n^3 / 3 products of blocks to factor; kept, n b^2 + b^3 / 3, b its own
+/// blocks of six. No two of them share a link: without a body that gives way
+/// between them, its stiffness would swallow their inertia in round-off.
+/// @param links_of_body of each body the links that it has an end of, repeats
+/// allowed
+/// @param blocks_of_body of each body b; 0 for one that is to be eliminated
+/// @returns their indices, the one with most links first
+[[nodiscard]] std::vector<int> choose_hubs(
+    const std::vector<std::vector<int>>& links_of_body,
+    const std::vector<int>& blocks_of_body);
+
+}  // namespace limber::dynamics
