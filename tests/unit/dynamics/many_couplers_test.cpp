@@ -77,8 +77,11 @@ TEST(ManyCouplers, InOnePlaceAreOneAsStiffAsAllHoweverStiff) {
       }
       const BodyState& one = ends[0].bodies[0];
       const BodyState& many = ends[1].bodies[0];
-      EXPECT_LT((many.p_WB - one.p_WB).norm(), 1e-8);
-      EXPECT_LT(one.quat_WB.angularDistance(many.quat_WB), 1e-8);
+      // Towards the world nothing gives way but the hinges: the round-off of
+      // their stiffness, 0.01 N/m of 1e14, is on the panel.
+      const double error = is_free || stiffness < 1e13 ? 1e-10 : 1e-6;
+      EXPECT_LT((many.p_WB - one.p_WB).norm(), error);
+      EXPECT_LT(one.quat_WB.angularDistance(many.quat_WB), error);
     }
   }
 }
