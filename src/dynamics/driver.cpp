@@ -103,6 +103,15 @@ void Driver::keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
   kept_ = Clock::now();
 }
 
+// Of the work that is done at a time. Steps to a tolerance are not known
+// before.
+double Driver::find_share(double t) const {
+  const double end = settings_.end_time;
+  if (settings_.tolerance > 0.0) return (t - start_) / (end - start_);
+  return count_steps(settings_, start_, t) /
+         count_steps(settings_, start_, end);
+}
+
 // Every few milliseconds, however long steps are.
 void Driver::tell_progress(const SystemState& state, const Progress& progress) {
   const auto now = Clock::now();
@@ -114,8 +123,7 @@ void Driver::tell_progress(const SystemState& state, const Progress& progress) {
   told_ = now;
   told_step_ = statistics_.steps;
   try {
-    report(progress, "simulating",
-           (state.t - start_) / (settings_.end_time - start_));
+    report(progress, "simulating", find_share(state.t));
   } catch (const Interrupted& asked) {
     if (!asked_) asked_ = now;
     words_ = asked.what();

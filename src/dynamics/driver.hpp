@@ -75,6 +75,7 @@ class Driver {
   void inspect(const SystemState& state);
   void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
                        bool is_last);
+  [[nodiscard]] double find_share(double t) const;
   void tell_progress(const SystemState& state, const Progress& progress);
   [[nodiscard]] bool ends_here(bool is_even) const;
   void exchange_memory(Archive& archive, SystemState& state);

@@ -19,21 +19,8 @@ constexpr int kLeastSteps = 16;
 // round-off of the time.
 constexpr double kMostSteps = 1e12;
 
-double count_steps(const SimulationSettings& settings, double start) {
-  double count = 0.0;
-  double from = start;
-  double step = settings.step;
-  for (const StepChange& change : settings.step_changes) {
-    const double until = std::clamp(change.from, from, settings.end_time);
-    count += (until - from) / step;
-    from = until;
-    step = change.step;
-  }
-  return count + (settings.end_time - from) / step;
-}
-
 void check_step_count(const SimulationSettings& settings, double start) {
-  const double count = count_steps(settings, start);
+  const double count = count_steps(settings, start, settings.end_time);
   if (count <= kMostSteps) return;
   double shortest = settings.step;
   for (const StepChange& change : settings.step_changes) {
@@ -129,6 +116,19 @@ std::vector<Landmark> find_landmarks(const SystemModel& model, double start,
     last.is_output |= mark.is_output;
   }
   return merged;
+}
+
+double count_steps(const SimulationSettings& settings, double from,
+                   double until) {
+  double count = 0.0;
+  double step = settings.step;
+  for (const StepChange& change : settings.step_changes) {
+    const double end = std::clamp(change.from, from, until);
+    count += (end - from) / step;
+    from = end;
+    step = change.step;
+  }
+  return count + (until - from) / step;
 }
 
 double find_longest_step(const SimulationSettings& settings, double t) {

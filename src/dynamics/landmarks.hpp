@@ -20,6 +20,10 @@ struct Landmark {
 [[nodiscard]] std::vector<Landmark> find_landmarks(
     const SystemModel& model, double start, const SimulationSettings& settings);
 
+/// Steps of the lengths that the settings have, between two times [-].
+[[nodiscard]] double count_steps(const SimulationSettings& settings,
+                                 double from, double until);
+
 /// The longest step that the settings allow from time t on [s].
 [[nodiscard]] double find_longest_step(const SimulationSettings& settings,
                                        double t);
