@@ -14,7 +14,6 @@
 #include "app/text_file.hpp"
 #include "app/validators.hpp"
 #include "common/errors.hpp"
-#include "flexbody/cache.hpp"
 #include "results/level_picture.hpp"
 
 namespace limber::app {

@@ -11,7 +11,6 @@
 #include "app/reducer.hpp"
 #include "app/terminal.hpp"
 #include "common/errors.hpp"
-#include "flexbody/cache.hpp"
 #include "results/energy_audit.hpp"
 
 namespace limber::app {

@@ -15,7 +15,6 @@
 #include "app/terminal.hpp"
 #include "app/validators.hpp"
 #include "dynamics/natural_frequencies.hpp"
-#include "flexbody/cache.hpp"
 #include "scene/scene.hpp"
 
 namespace limber::app {
@@ -186,10 +185,7 @@ void find_frequencies(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scenario, overrides);
   const Progress progress = make_progress_bar();
   const scene::BuiltScene built = scene::build_system(
-      scene, make_reducer(progress),
-      options.cache.empty() ? flexbody::default_cache_folder()
-                            : std::filesystem::path(options.cache),
-      make_full_maker(progress));
+      scene, make_reducer(progress), options.cache, make_full_maker(progress));
   clear_progress_bar();
   Findings f{scene.scenario.name,
              dynamics::find_natural_modes(built.model, built.initial),

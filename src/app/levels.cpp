@@ -11,7 +11,6 @@
 #include "app/terminal.hpp"
 #include "dynamics/mean_frame.hpp"
 #include "dynamics/run_record.hpp"
-#include "flexbody/cache.hpp"
 
 namespace limber::app {
 namespace {
@@ -75,9 +74,8 @@ scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
   }
   same.scenario.fidelity = level;
   same.scenario.fidelity_of_link.clear();
-  return scene::build_system(
-      same, make_reducer(make_progress_bar()),
-      cache.empty() ? flexbody::default_cache_folder() : cache, {}, known);
+  return scene::build_system(same, make_reducer(make_progress_bar()), cache, {},
+                             known);
 }
 
 std::vector<BodyLevel> judge_levels(const SystemModel& model,
@@ -145,9 +143,8 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
   flexible_scene.scenario.fidelity = dynamics::Fidelity::uncoupled;
   flexible_scene.scenario.fidelity_of_link.clear();
   flexible_scene.scenario.equilibrium.reset();
-  const scene::BuiltScene flexible = scene::build_system(
-      flexible_scene, make_reducer(progress),
-      cache.empty() ? flexbody::default_cache_folder() : cache);
+  const scene::BuiltScene flexible =
+      scene::build_system(flexible_scene, make_reducer(progress), cache);
   const scene::BuiltScene rigid =
       build_at_level(scene, dynamics::Fidelity::rigid, flexible.known, cache);
   clear_progress_bar();

@@ -13,7 +13,6 @@
 #include "common/errors.hpp"
 #include "dynamics/energy_verdict.hpp"
 #include "dynamics/interrupted.hpp"
-#include "flexbody/cache.hpp"
 #include "results/energy_audit.hpp"
 #include "scene/followed_probes.hpp"
 
@@ -126,9 +125,8 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const CheckpointPlan& checkpoints, bool judges) {
   Run run;
   run.scene = scene;
-  run.built = scene::build_system(
-      scene, reducer, cache.empty() ? flexbody::default_cache_folder() : cache,
-      make_full_maker(progress));
+  run.built =
+      scene::build_system(scene, reducer, cache, make_full_maker(progress));
   add_columns(run);
   dynamics::Followed followed =
       scene::follow(run.built.probes, run.built.model);

@@ -14,7 +14,6 @@
 #include "app/text_file.hpp"
 #include "common/errors.hpp"
 #include "dynamics/energy.hpp"
-#include "flexbody/cache.hpp"
 #include "results/pictures.hpp"
 #include "results/probes_csv.hpp"
 #include "results/results_file.hpp"
@@ -96,10 +95,7 @@ StaticRun find(const Options& options) {
   run.method = find_method(options, run.scene.scenario);
   run.scene.scenario.equilibrium.reset();
   run.built = scene::build_system(run.scene, make_reducer(progress),
-                                  options.cache.empty()
-                                      ? flexbody::default_cache_folder()
-                                      : std::filesystem::path(options.cache),
-                                  make_full_maker(progress));
+                                  options.cache, make_full_maker(progress));
   run.found = find_equilibrium(run.built.model, run.built.initial,
                                {.method = run.method}, progress);
   clear_progress_bar();

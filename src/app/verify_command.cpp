@@ -14,7 +14,6 @@
 #include "app/validators.hpp"
 #include "app/verification_report.hpp"
 #include "common/errors.hpp"
-#include "flexbody/cache.hpp"
 
 namespace limber::app {
 namespace {
@@ -54,9 +53,7 @@ void apply(const Options& options, dynamics::SimulationSettings& settings) {
 
 scene::BuiltScene build(const scene::Scene& scene, const Options& options) {
   scene::BuiltScene built = scene::build_system(
-      scene, make_reducer(make_progress_bar()),
-      options.cache.empty() ? flexbody::default_cache_folder()
-                            : std::filesystem::path(options.cache));
+      scene, make_reducer(make_progress_bar()), options.cache);
   clear_progress_bar();
   print_warnings(built.warnings);
   return built;

@@ -161,8 +161,10 @@ std::filesystem::path default_cache_folder() {
 }
 
 CachedBody load_or_reduce(const Recipe& recipe,
-                          const std::filesystem::path& folder,
+                          const std::filesystem::path& cache,
                           const Reducer& reducer) {
+  const std::filesystem::path folder =
+      cache.empty() ? default_cache_folder() : cache;
   const auto find = [&](const MeshRecord& mesh) -> std::optional<CachedBody> {
     const std::string key = content_key(recipe, mesh.content);
     std::optional<ReducedBody> body = find_entry(folder, key);

@@ -47,18 +47,19 @@ struct CachedBody {
   std::vector<std::string> notices;  ///< of its mesh
 };
 
-/// The body from `folder` if it is there and sound, else reduced and then kept.
-/// It is kept by what its mesh is, so that equal meshes of whatever files share
-/// it. If `folder` knows which mesh would result (flexbody/mesh_index.hpp),
-/// none is made.
+/// The body from the folder `cache`, by default default_cache_folder(), if it
+/// is there and sound, else reduced and then kept. It is kept by what its mesh
+/// is, so that equal meshes of whatever files share it. If the folder knows
+/// which mesh would result (flexbody/mesh_index.hpp), none is made.
 ///
 /// An entry that is damaged, another's, of another user or for others to
 /// write is made anew; a folder that cannot be written only costs the speed-up.
 /// Threads and processes may ask for one body at once: each may reduce it, and
 /// each gets it whole.
-/// @throws what the reducer throws: InputError if the mesh cannot be made
+/// @throws what the reducer throws: InputError if the mesh cannot be made; as
+/// default_cache_folder()
 [[nodiscard]] CachedBody load_or_reduce(const Recipe& recipe,
-                                        const std::filesystem::path& folder,
+                                        const std::filesystem::path& cache,
                                         const Reducer& reducer);
 
 }  // namespace limber::flexbody

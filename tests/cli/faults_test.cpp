@@ -325,6 +325,15 @@ TEST(AddressSpace, ThatIsShortEndsWithWordsAndNeverHangs) {
   }
 }
 
+TEST(RigidScene, NeedsNoPlaceForReducedBodies) {
+  const Workspace place;
+  write_scene(place, "s.toml");
+  const CommandResult result = run_shell(
+      place, "env -u HOME -u LIMBER_CACHE -u XDG_CACHE_HOME '" LIMBER_COMMAND
+             "' run s.toml");
+  EXPECT_EQ(result.status, 0) << result.errors;
+}
+
 TEST(Stack, ThatIsShortIsToldAndDoesNotOverflow) {
   const Workspace place;
   write_scene(place, "s.toml");
