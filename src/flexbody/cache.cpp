@@ -146,7 +146,7 @@ std::filesystem::path default_cache_folder() {
     const char* value = std::getenv(name);
     return std::filesystem::path(value ? value : "");
   };
-  if (const auto own = find("LIMBER_CACHE"); !own.empty()) return own;
+  if (auto own = find("LIMBER_CACHE"); !own.empty()) return own;
   // Relative ones are to be ignored (XDG Base Directory Specification).
   if (const auto xdg = find("XDG_CACHE_HOME"); xdg.is_absolute()) {
     return xdg / "limber";
