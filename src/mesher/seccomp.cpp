@@ -123,6 +123,8 @@ constexpr std::uint32_t kNeeded[] = {
     SYS_ppoll,
     SYS_getcpu,
     SYS_tgkill,
+    // Sanitizers test whether memory can be read by writing it to a pipe.
+    SYS_pipe2,
 #ifdef SYS_rseq
     SYS_rseq,
 #endif
@@ -130,6 +132,7 @@ constexpr std::uint32_t kNeeded[] = {
     SYS_faccessat2,
 #endif
 #if defined(__x86_64__)
+    SYS_pipe,
     SYS_stat,
     SYS_lstat,
     SYS_access,
