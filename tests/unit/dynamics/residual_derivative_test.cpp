@@ -253,33 +253,41 @@ TEST(ResidualDerivative, IsThatOfDifferencesAtEveryLevelUnderLoads) {
   }
 }
 
-// So many couplers between A and B that these are no longer eliminated, few
-// between B and C; gears on both; some hold A to the world.
+// So many couplers between A and B that the one with most, in all, stays among
+// the unknowns: B, or A where enough hold it to the world; a gear on both.
 TEST(ResidualDerivative, OfBodiesThatManyCouplersHoldIsThatOfDifferences) {
-  const testing::Link links = {
-      "many", [](SystemBuilder& builder, const testing::BodyEnds& ends) {
-        const joints::Joint joint =
-            testing::make_test_joint(joints::JointKind::revolute, 2.0, {});
-        for (int i = 0; i < 12; ++i) {
-          builder.add_coupler(fmt::format("first {}", i), joint, ends.far[0],
-                              ends.near[1]);
-        }
-        builder.add_coupler("second", joint, ends.far[1], ends.near[2]);
-        builder.add_coupler("ground", joint, builder.attach_world("world", {}),
-                            ends.near[0]);
-        const joints::ScalarSpring spring(
-            {.curve = joints::SpringCurve({.stiffness = 20.0}),
-             .damping = 2.0});
-        builder.add_joint_sum("gear", {{{0, 0, 1.0}, {12, 0, -0.5}}, 0.1},
-                              {spring});
-      }};
+  const auto make_links = [](int grounds) -> testing::Link {
+    return {"many",
+            [grounds](SystemBuilder& builder, const testing::BodyEnds& ends) {
+              const joints::Joint joint = testing::make_test_joint(
+                  joints::JointKind::revolute, 2.0, {});
+              for (int i = 0; i < 12; ++i) {
+                builder.add_coupler(fmt::format("first {}", i), joint,
+                                    ends.far[0], ends.near[1]);
+              }
+              builder.add_coupler("second", joint, ends.far[1], ends.near[2]);
+              for (int i = 0; i < grounds; ++i) {
+                builder.add_coupler(fmt::format("ground {}", i), joint,
+                                    builder.attach_world("world", {}),
+                                    ends.near[0]);
+              }
+              const joints::ScalarSpring spring(
+                  {.curve = joints::SpringCurve({.stiffness = 20.0}),
+                   .damping = 2.0});
+              builder.add_joint_sum("gear", {{{0, 0, 1.0}, {12, 0, -0.5}}, 0.1},
+                                    {spring});
+            }};
+  };
   for (const auto flexible :
        {std::array{true, true, true}, std::array{false, true, true},
         std::array{true, false, false}}) {
-    for (const bool clamped : {false, true}) {
+    for (const auto& [clamped, grounds] :
+         {std::pair{false, 1}, std::pair{true, 1}, std::pair{false, 6},
+          std::pair{true, 6}}) {
       Margin margin;
       double rest = 0.0;
-      const LinkedBodies linked = make_linked_bodies(links, flexible, 3, 1.0);
+      const LinkedBodies linked =
+          make_linked_bodies(make_links(grounds), flexible, 3, 1.0);
       SystemModel model = linked.model;
       SystemState state = linked.state;
       if (clamped && flexible[0]) {
