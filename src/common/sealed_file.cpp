@@ -53,9 +53,11 @@ std::string read_sealed(const std::filesystem::path& file, const Seal& seal) {
     throw InputError(
         fmt::format("'{}' {} '{}'", file.string(), what, seal.kind));
   };
-  check_input(file, kSealed);
   // Before gigabytes of another kind are read.
-  if (!has_seal(file, seal.kind)) refuse("is no");
+  if (!has_seal(file, seal.kind)) {
+    check_input(file, kSealed);
+    refuse("is no");
+  }
   std::string content = read_input(file, kSealed);
   const std::size_t head_size = make_head(seal, {}).size();
   const std::string head = content.substr(0, head_size);
