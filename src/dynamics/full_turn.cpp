@@ -4,7 +4,9 @@
 #include "common/rotation.hpp"
 
 namespace limber::dynamics {
+namespace {
 
+// Displacements at the end; nothing, and false, of a body that hardly turns.
 bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
                           const SystemState& from, const VectorX& uddot_H,
                           double h, double s, Nodes u_H) {
@@ -55,6 +57,36 @@ void turn_correction(const SystemModel& model, const FullModel& full,
   const ConstNodes u = nodes_of(full, state.u_H);
   for (Eigen::Index i = 0; i < d_H.cols(); ++i) {
     d_H.col(i) += rest * (full.mesh->x_B.col(i) + u.col(i) - frame.p_HB);
+  }
+}
+
+}  // namespace
+
+bool predict_turns(const SystemModel& model, const SystemState& from,
+                   const VectorX& uddot_H, const VectorX& a_H,
+                   const NewmarkStep& step, VectorX& a_next_H) {
+  const auto [h, lag, beta] = step;
+  bool turns = false;
+  for (const FullModel& full : model.full_bodies) {
+    Nodes next = nodes_of(full, a_next_H);
+    if (!predict_turned_nodes(model, full, from, uddot_H, h, lag + beta,
+                              next)) {
+      continue;
+    }
+    next -= nodes_of(full, from.u_H) + h * nodes_of(full, from.udot_H) +
+            h * h * lag * nodes_of(full, a_H);
+    next /= h * h * beta;
+    turns = true;
+  }
+  return turns;
+}
+
+void turn_corrections(const SystemModel& model, const SystemState& state,
+                      Eigen::Ref<VectorX> d_H) {
+  for (const FullModel& full : model.full_bodies) {
+    if (model.bodies[static_cast<std::size_t>(full.body)].clamped) continue;
+    turn_correction(model, full, state,
+                    Nodes(d_H.data() + full.first, 3, full.mesh->node_count()));
   }
 }
 

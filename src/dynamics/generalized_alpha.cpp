@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/errors.hpp"
 #include "common/rotation.hpp"
@@ -229,11 +228,7 @@ void GeneralizedAlpha::apply_increments(double h) {
         matrix_.wrench_increments()[model_.couplers.size() + i][0];
   }
   const double share = 1.0 / (beta_ * h * h);
-  for (const FullModel& full : model_.full_bodies) {
-    const Eigen::Index row = NewtonMatrix::first_node_row(model_) + full.first;
-    turn_correction(model_, full, next_,
-                    Nodes(x_.data() + row, 3, full.mesh->node_count()));
-  }
+  turn_corrections(model_, next_, x_.tail(model_.nodal_count));
   a_next_.nodes += share * x_.tail(model_.nodal_count);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
@@ -281,19 +276,8 @@ bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
   }
   a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
   a_next_.nodes = p_v * vdot_.nodes - p_a * a_.nodes;
-  bool turns = false;
-  for (const FullModel& full : model_.full_bodies) {
-    Nodes next = nodes_of(full, a_next_.nodes);
-    if (!predict_turned_nodes(model_, full, from, vdot_.nodes, h, lag_ + beta_,
-                              next)) {
-      continue;
-    }
-    // Positions; the accelerations that lead there.
-    next -= nodes_of(full, from.u_H) + h * nodes_of(full, from.udot_H) +
-            h * h * lag_ * nodes_of(full, std::as_const(a_.nodes));
-    next /= h * h * beta_;
-    turns = true;
-  }
+  const bool turns = predict_turns(model_, from, vdot_.nodes, a_.nodes,
+                                   {h, lag_, beta_}, a_next_.nodes);
   next_.memory = from.memory;
   advance(from, h, end);
   return turns;
