@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "beam_chain.hpp"
 
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/reduction/reduce.hpp"
 
 namespace limber::bench {
 
@@ -34,12 +34,12 @@ BeamChain make_beam_chain(
                                   .translational_damping = 1e-5 * kStiffness,
                                   .rotational_damping = 1e-5 * kStiffness});
   dynamics::SystemBuilder builder;
-  int last_tip = -1;
+  dynamics::AttachmentIndex last_tip;
   for (int i = 0; i < count; ++i) {
-    const int b = builder.add_flexible_body(
+    const auto b = builder.add_flexible_body(
         "beam" + std::to_string(i), body, dynamics::Fidelity::coupled,
         {.rayleigh_stiffness = 1e-6, .ratios = {}});
-    const int at_root = builder.attach_interface(
+    const auto at_root = builder.attach_interface(
         "root" + std::to_string(i), b, root, {Matrix3::Identity(), root.p_B});
     if (i > 0) {
       builder.add_coupler("hinge" + std::to_string(i), hinge, last_tip,

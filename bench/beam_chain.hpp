@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 /// Beams of the report, end to end on stiff hinges.
 namespace limber::bench {

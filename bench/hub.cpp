@@ -2,10 +2,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "dynamics/equations.hpp"
-#include "dynamics/newton_matrix.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 /// What Newton's matrix costs where many couplers hold one body.
 namespace limber {
@@ -17,10 +18,10 @@ using dynamics::NewtonMatrix;
 dynamics::SystemModel make_panel(int count) {
   dynamics::SystemBuilder builder;
   const Matrix3 inertia = Vector3(1.0, 2.0, 2.5).asDiagonal();
-  const int panel = builder.add_rigid_body("panel", {10.0, inertia});
+  const auto panel = builder.add_rigid_body("panel", {10.0, inertia});
   for (int i = 0; i < count; ++i) {
-    const int flap = builder.add_rigid_body(fmt::format("flap {}", i),
-                                            {1.0, 0.01 * inertia});
+    const auto flap = builder.add_rigid_body(fmt::format("flap {}", i),
+                                             {1.0, 0.01 * inertia});
     const Pose edge{Matrix3::Identity(), Vector3(0.1 * i, 0.5, 0.0)};
     const Pose end{Matrix3::Identity(), Vector3(0.0, -0.1, 0.0)};
     builder.add_coupler(fmt::format("hinge {}", i),
@@ -45,7 +46,7 @@ void factor_and_solve(benchmark::State& state) {
   dynamics::SystemTerms terms = dynamics::make_terms(model);
   calc_terms(model, at, Side::right, terms);
   const std::vector<Vector3> turns(model.bodies.size(), Vector3::Zero());
-  const VectorX residual = VectorX::Ones(NewtonMatrix::size(model));
+  const VectorX residual = VectorX::Ones(count_unknowns(model));
   VectorX x;
   NewtonMatrix matrix(model);
   for (auto _ : state) {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "flexbody/reduce.hpp"
+#include "limber/reduction/reduce.hpp"
 
 /// The offline part at size: a box of 1 x 1 x 5 m, second-order tetrahedra,
 /// 20 eigenmodes and the 12 static-deformation modes of its ends.

@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <string>
 
-#include "flexbody/reduce.hpp"
-#include "scene/scene.hpp"
+#include "limber/reduction/reduce.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
-/// What stands between the command and the first time step: everything read,
-/// every reduced body made or found in the cache.
+/// Time from the command to the first time step: reading all files, making
+/// reduced bodies or finding them in the cache.
 namespace limber {
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "beam_chain.hpp"
-#include "dynamics/generalized_alpha.hpp"
-#include "dynamics/runge_kutta.hpp"
+#include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/integrators/runge_kutta.hpp"
 
 /// What a step costs online: against the mesh, against the number of bodies.
 namespace limber {

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "dynamics/central_differences.hpp"
-#include "dynamics/stable_step.hpp"
-#include "dynamics/system_builder.hpp"
-#include "fem/parallel.hpp"
-#include "flexbody/fem_full_body.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/integrators/central_differences.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+#include "limber/reduction/full_body_maker.hpp"
+#include "limber/reduction/reduce.hpp"
 
 /// What an explicit step at level `full` costs: what reduction saves.
 namespace limber {
@@ -43,7 +43,7 @@ void step(benchmark::State& state, const std::string& file,
   place_nodes(model, {}, {}, now);
   const double h = dynamics::kStableShare * find_stable_step(model, now);
   dynamics::CentralDifferences scheme(model);
-  scheme.start(now);
+  scheme.start(now, h);
   for (auto _ : state) scheme.step(now, h, now.t + h);
   state.counters["step"] = h;
   state.counters["s_per_s"] =

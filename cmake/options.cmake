@@ -17,8 +17,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND
     -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
 endif()
 # Gmsh exports its own copies of Eigen's templates: ours, if visible, would take
-# their place inside it, built with other options.
-target_compile_options(limber_options INTERFACE -fvisibility=hidden)
+# their place inside it, built with other options. A shared library of ours exports
+# what exports.map lists.
+set(limber_is_shared $<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>)
+target_compile_options(limber_options INTERFACE
+  -fvisibility=$<IF:${limber_is_shared},default,hidden>)
+target_link_options(limber_options INTERFACE
+  $<${limber_is_shared}:LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map>)
 # Overruns of the stack and of buffers end the program; the table of addresses
 # that the loader fills is read-only from the start; messages and debug
 # information name files from the source folder on, not where it stood.
@@ -69,23 +74,28 @@ function(limber_precompile target)
     ${ARGN})
 endfunction()
 
-# limber_layer(NAME [EXCLUDE file...]): a static library of all sources in the
-# folder that calls it.
+# limber_layer(NAME [ROOMS room...]): a library of all sources in the folder that
+# calls it and below, or in those of its rooms that are named. Static, or shared if
+# BUILD_SHARED_LIBS is set.
 function(limber_layer name)
-  cmake_parse_arguments(ARG "" "" "EXCLUDE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  foreach(file IN LISTS ARG_EXCLUDE)
-    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-  endforeach()
-  add_library(limber_${name} STATIC ${sources})
+  cmake_parse_arguments(ARG "" "" "ROOMS" ${ARGN})
+  if(ARG_ROOMS)
+    list(TRANSFORM ARG_ROOMS APPEND "/*.cpp")
+    file(GLOB sources CONFIGURE_DEPENDS ${ARG_ROOMS})
+  else()
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  endif()
+  add_library(limber_${name} ${sources})
   add_library(limber::${name} ALIAS limber_${name})
   target_include_directories(limber_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
-    $<INSTALL_INTERFACE:include/limber>)
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include;${PROJECT_BINARY_DIR}/include>"
+    $<INSTALL_INTERFACE:include>)
   target_link_libraries(limber_${name} PRIVATE $<BUILD_INTERFACE:limber_options>)
   target_compile_features(limber_${name} PUBLIC cxx_std_20)
   set_target_properties(limber_${name} PROPERTIES
-    POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+    POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name} DEFINE_SYMBOL ""
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   if("${name}" STREQUAL "common")
     limber_precompile(limber_common)
   else()

@@ -2,9 +2,9 @@
 // Hits one end of a free steel beam for 10 ms and prints how that end moves.
 #include <cstdio>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
 
 int main(int, char** argv) {
   using namespace limber;
@@ -15,8 +15,10 @@ int main(int, char** argv) {
   const auto body = std::make_shared<flexbody::ReducedBody>(reduce(recipe));
   const Pose X_BT{Matrix3::Identity(), body->interfaces[0].p_B};
   dynamics::SystemBuilder scene;
-  scene.add_flexible_body("beam", body, dynamics::Fidelity::coupled, {});
-  const int tip = scene.attach_interface("tip", 0, body->interfaces[0], X_BT);
+  const auto beam =
+      scene.add_flexible_body("beam", body, dynamics::Fidelity::coupled, {});
+  const auto tip =
+      scene.attach_interface("tip", beam, body->interfaces[0], X_BT);
   const dynamics::Pulse pulse{.duration = 0.01};
   scene.add_load("hit", tip, {1e4, 0, 0}, {0, 0, 0}, {}, pulse);
   const dynamics::SystemModel model = scene.build();

@@ -16,26 +16,29 @@
 #include <stdexcept>
 
 #include "beam_chain.hpp"
-#include "dynamics/simulation.hpp"
 #include "isolated.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 
-/// What a body costs in a long chain: time, Newton iterations, memory, and how
-/// well energy and momenta are kept. Exit status 1 if a claim does not hold.
+/// Cost per body in a long chain: time, Newton iterations, memory, and
+/// conservation of energy and momenta. Exit status 1 if a claim fails.
 namespace limber::bench {
 namespace {
 
 using Body = std::shared_ptr<const flexbody::ReducedBody>;
 
-constexpr double kEnd = 1.0;    // [s]
-constexpr double kStep = 1e-3;  // [s]
+struct Span {
+  double end = 1.0;    ///< [s]
+  double step = 1e-3;  ///< [s]
+};
 constexpr double kSwing = 1.0;  // of the first beam about its hinge [rad/s]
-constexpr int kOutputs = 10;    // where energy and momenta are looked at
+constexpr int kOutputs = 10;    // at which energy and momenta are checked
 constexpr int kRounds = 3;      // chains in turn; the fastest counts
 constexpr double kPatience = 600.0;  // [s]
 constexpr double kClaimed = 1.5;
 
 struct Figures {
   int bodies = 0;
+  double steps = 0.0;
   double seconds = 0.0;     ///< of the processor, in steps
   double iterations = 0.0;  ///< Newton's a step
   double memory = 0.0;      ///< most [B]
@@ -44,12 +47,12 @@ struct Figures {
   double angular = 0.0;     ///< of the start's [-]
 
   [[nodiscard]] double time_per_body() const {
-    return seconds / (bodies * std::round(kEnd / kStep));
+    return seconds / (bodies * steps);
   }
 };
 
 // A free chain, spinning, whose first beam swings about its hinge at the start:
-// a wave runs in, and momenta are kept.
+// a wave propagates along it, and momenta are conserved.
 BeamChain make_free_chain(const Body& body, int count) {
   BeamChain chain = make_beam_chain(body, count, 0.0);
   dynamics::BodyState& first = chain.state.bodies.front();
@@ -65,17 +68,17 @@ double find_peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-dynamics::SimulationSettings make_settings() {
+dynamics::SimulationSettings make_settings(const Span& span) {
   dynamics::SimulationSettings settings;
-  settings.end_time = kEnd;
-  settings.step = kStep;
+  settings.end_time = span.end;
+  settings.step = span.step;
   for (int i = 0; i <= kOutputs; ++i) {
-    settings.output_times.push_back(kEnd * i / kOutputs);
+    settings.output_times.push_back(span.end * i / kOutputs);
   }
   return settings;
 }
 
-Figures simulate(const Body& body, int count) {
+Figures simulate(const Body& body, int count, const Span& span) {
   const BeamChain chain = make_free_chain(body, count);
   double mass = 0.0;
   for (const auto& beam : chain.model.bodies) mass += beam.mass;
@@ -99,21 +102,22 @@ Figures simulate(const Body& body, int count) {
   dynamics::SystemState state = chain.state;
   const std::clock_t begin = std::clock();
   const dynamics::SimulationStatistics statistics =
-      dynamics::simulate(chain.model, state, make_settings(), observe);
+      dynamics::simulate(chain.model, state, make_settings(span), observe);
   figures.seconds =
       static_cast<double>(std::clock() - begin) / double{CLOCKS_PER_SEC};
-  figures.iterations = static_cast<double>(statistics.newton_iterations) /
-                       static_cast<double>(statistics.steps);
+  figures.steps = static_cast<double>(statistics.steps);
+  figures.iterations =
+      static_cast<double>(statistics.newton_iterations) / figures.steps;
   return figures;
 }
 
-std::string do_work(const Body& body, int count) {
+std::string do_work(const Body& body, int count, const Span& span) {
   try {
     Figures f{};
-    if (count > 0) f = simulate(body, count);
+    if (count > 0) f = simulate(body, count, span);
     f.memory = find_peak_memory();
-    return fmt::format("{} {} {} {} {} {}", f.seconds, f.iterations, f.memory,
-                       f.energy, f.linear, f.angular);
+    return fmt::format("{} {} {} {} {} {} {}", f.steps, f.seconds, f.iterations,
+                       f.memory, f.energy, f.linear, f.angular);
   } catch (const std::exception& error) {
     fmt::print(stderr, "chain of {}: {}\n", count, error.what());
     return "";
@@ -123,8 +127,8 @@ std::string do_work(const Body& body, int count) {
 Figures read(int count, const Ending& ending) {
   Figures f{.bodies = count};
   std::istringstream text(ending.answer);
-  text >> f.seconds >> f.iterations >> f.memory >> f.energy >> f.linear >>
-      f.angular;
+  text >> f.steps >> f.seconds >> f.iterations >> f.memory >> f.energy >>
+      f.linear >> f.angular;
   if (!text) {
     throw std::runtime_error(
         fmt::format("the chain of {} did not come through", count));
@@ -134,7 +138,8 @@ Figures read(int count, const Ending& ending) {
 
 // Chains in turn, each alone in a process of its own; memory is what one takes
 // beyond a process that has the reduced body and no chain.
-std::vector<Figures> measure(const Body& body, const std::vector<int>& counts) {
+std::vector<Figures> measure(const Body& body, const std::vector<int>& counts,
+                             const Span& span) {
   std::vector<std::function<std::string()>> work;
   std::vector<int> all = {0};
   for (int i = 0; i < kRounds; ++i) {
@@ -142,7 +147,8 @@ std::vector<Figures> measure(const Body& body, const std::vector<int>& counts) {
   }
   work.reserve(all.size());
   for (const int count : all) {
-    work.emplace_back([&body, count] { return do_work(body, count); });
+    work.emplace_back(
+        [&body, &span, count] { return do_work(body, count, span); });
   }
   const std::vector<Ending> endings = do_isolated(work, kPatience, 1, {});
   const double empty = read(0, endings.front()).memory;
@@ -169,12 +175,12 @@ bool claim(const std::string& what, double ratio) {
   return holds;
 }
 
-bool run(int bodies) {
+bool run(int bodies, const Span& span) {
   const auto body = std::make_shared<const flexbody::ReducedBody>(
       reduce_beam("beam579_v41.msh"));
   malloc_trim(0);  // what the reduction leaves is no chain's to take
   std::vector<int> counts = {10, 100, bodies};
-  const std::vector<Figures> figures = measure(body, counts);
+  const std::vector<Figures> figures = measure(body, counts, span);
   fmt::print(
       "| bodies | us a body a step | Newton | kB a body | energy | linear "
       "momentum [m/s] | angular momentum |\n|---|---|---|---|---|---|---|\n");
@@ -202,9 +208,12 @@ int main(int argc, char** argv) {
   CLI::App app("A long chain of flexible bodies against short ones");
   app.add_option("--bodies", bodies, "Bodies of the long chain")
       ->check(CLI::Range(11, 100000));
+  limber::bench::Span span;
+  app.add_option("--step", span.step, "[s]")->check(CLI::PositiveNumber);
+  app.add_option("--end", span.end, "[s]")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
-    return limber::bench::run(bodies) ? 0 : 1;
+    return limber::bench::run(bodies, span) ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_chain: {}\n", error.what());
     return 3;

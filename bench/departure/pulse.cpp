@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "beam.hpp"
-#include "flexbody/modal_response.hpp"
-#include "flexbody/reduce_krylov.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
+#include "limber/reduction/krylov.hpp"
 
 namespace limber::bench::departure {
 namespace {

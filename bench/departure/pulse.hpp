@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "flexbody/reduce_meshed_body.hpp"
-#include "flexbody/reduced_basis.hpp"
 #include "full_modes.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
-/// The report's beam pushed at its tip by a smooth pulse: how many vectors of
-/// which kind follow it.
+/// The report's beam under a smooth pulse at its tip: how many vectors of which
+/// kind represent its response.
 namespace limber::bench::departure {
 
 enum class Source { krylov, eigenmodes, mixed };

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "dynamics/linear_limit.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/monitors/linear_limit.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/reduction/reduce.hpp"
 
 namespace limber::bench {
 namespace {
@@ -83,18 +83,18 @@ Vector3 find_blow(const Cell& cell) {
 dynamics::SystemModel make_model(const Cell& cell, const Beams& beams) {
   dynamics::SystemBuilder builder;
   const double mass = beams.find(find_shape(cell, 0))->mass;
-  int tip = -1;
+  dynamics::AttachmentIndex tip;
   for (int i = 0; i < cell.bodies; ++i) {
     const Beams::Body body = beams.find(find_shape(cell, i));
-    const int b = builder.add_flexible_body(fmt::format("beam{}", i), body,
-                                            dynamics::Fidelity::coupled,
-                                            {.ratios = {cell.damping}});
+    const auto b = builder.add_flexible_body(fmt::format("beam{}", i), body,
+                                             dynamics::Fidelity::coupled,
+                                             {.ratios = {cell.damping}});
     const auto attach = [&](std::size_t end) {
       const flexbody::InterfaceTable& table = body->interfaces[end];
       return builder.attach_interface(fmt::format("{}{}", table.name, i), b,
                                       table, {Matrix3::Identity(), table.p_B});
     };
-    const int root = attach(0);
+    const auto root = attach(0);
     if (i > 0) {
       builder.add_coupler(fmt::format("hinge{}", i), make_hinge(cell, mass),
                           tip, root);
@@ -115,7 +115,7 @@ double find_critical_speed(const dynamics::SystemModel& model) {
   for (std::size_t b = 0; b < std::min<std::size_t>(2, model.bodies.size());
        ++b) {
     const dynamics::BodyModel& body = model.bodies[b];
-    const double fast = std::sqrt(body.lambda.maxCoeff());
+    const double fast = std::sqrt(body.reduced->lambda.maxCoeff());
     const double mu = dynamics::find_softening(body, fast * kSpinAxis);
     lowest = std::min(lowest, fast / std::sqrt(mu));
   }
@@ -156,9 +156,9 @@ std::string describe(const Cell& cell) {
       "{}, step {:g} s, {} bodies of {:g} m, slenderness {:g}, mass ratio "
       "{:g}, hinges of {:g} N/m, damping ratio {:g}, spin {:g} of critical, "
       "pulse {}, {:g} s",
-      dynamics::integrator_names()[static_cast<std::size_t>(cell.integrator)],
-      cell.step, cell.bodies, cell.length, cell.slenderness, cell.mass_ratio,
-      cell.stiffness, cell.damping, cell.spin,
+      dynamics::to_string(cell.integrator), cell.step, cell.bodies, cell.length,
+      cell.slenderness, cell.mass_ratio, cell.stiffness, cell.damping,
+      cell.spin,
       cell.pulse > 0.0 ? fmt::format("{:g} s", cell.pulse) : "as usual",
       find_span(cell));
 }

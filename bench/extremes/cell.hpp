@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "dynamics/simulation.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::bench {
 
@@ -58,9 +58,9 @@ class Beams {
   Beams(const Beams&) = delete;
   Beams& operator=(const Beams&) = delete;
 
-  /// Reduces what the cell needs; a refusal is kept and thrown by find.
+  /// Reduces the bodies of the cell; an error is stored and thrown by find.
   void prepare(const Cell& cell);
-  /// @throws InputError with the words in which the reduction was refused.
+  /// @throws InputError with the message of the reduction.
   [[nodiscard]] Body find(const Shape& shape) const;
 
  private:

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::bench {
 namespace {
@@ -122,20 +122,20 @@ Duration read_duration(const Cell& cell, const Ending& ending) {
         ending.kind == Ending::Kind::hung ? "hung" : "crashed";
     return duration;
   }
-  std::istringstream words(ending.answer);
+  std::istringstream stream(ending.answer);
   std::size_t rows = 0;
   int kind = 0;
-  words >> rows >> kind;
+  stream >> rows >> kind;
   duration.verdict.kind = static_cast<Class>(kind);
   for (std::size_t i = 0; i < rows; ++i) {
     std::string steps, energy, momentum;  // any of them may be nan
-    words >> steps >> energy >> momentum;
+    stream >> steps >> energy >> momentum;
     duration.steps.push_back(std::stod(steps));
     duration.energy.push_back(std::stod(energy));
     duration.momentum.push_back(std::stod(momentum));
   }
-  words.get();
-  std::getline(words, duration.verdict.text, '\0');
+  stream.get();
+  std::getline(stream, duration.verdict.text, '\0');
   if (rows > 0) duration.verdict.error = duration.energy.back();
   return duration;
 }

@@ -20,7 +20,7 @@ struct Duration {
 /// Two beams on a hinge, turning free, as steps of 10 us.
 [[nodiscard]] Cell make_long_cell(dynamics::IntegratorKind integrator);
 
-/// For a process of its own; read_duration reads the answer.
+/// For a separate process; read_duration reads the result.
 [[nodiscard]] std::string run_long(const Cell& cell, const Beams& beams,
                                    double steps);
 [[nodiscard]] Duration read_duration(const Cell& cell, const Ending& ending);

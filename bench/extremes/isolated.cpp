@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 // What waits for nothing gets this share of a core, even of a busy machine.
 constexpr double kLeastShare = 0.1;
 
-// The first byte of an answer that came whole.
+// The first byte of a complete result.
 constexpr char kWhole = '+';
 
 struct Child {

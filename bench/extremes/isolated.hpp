@@ -7,11 +7,11 @@
 
 namespace limber::bench {
 
-/// How a piece of work ended that was done in a process of its own.
+/// Outcome of work in a separate process.
 struct Ending {
   enum class Kind {
     done,
-    crashed,  ///< by a signal, or without a word
+    crashed,  ///< by a signal, or without a message
     hung,     ///< longer than it was given, or waiting
   };
   Kind kind = Kind::done;
@@ -19,8 +19,8 @@ struct Ending {
   double seconds = 0.0;  ///< wall time
 };
 
-/// Does pieces of work, each in a process of its own, so many at a time, and
-/// tells how each ended, in their order.
+/// Runs tasks, each in its own process, a limited number at a time, and returns
+/// their outcomes in order.
 /// @param limit processor time for each, and a tenth of its wall time [s]
 /// @param tell called after each, with how many are done; may be empty
 [[nodiscard]] std::vector<Ending> do_isolated(

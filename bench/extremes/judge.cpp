@@ -8,8 +8,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "common/errors.hpp"
-#include "dynamics/motion_scale.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/integrators/motion_scale.hpp"
 
 namespace limber::bench {
 namespace {
@@ -67,7 +67,7 @@ double find_distance(const MotionScale& scale, const States& a,
   double distance = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double d = scale.measure_distance(a[i], b[i]).displacement;
-    if (!(d <= distance)) distance = d;  // so that what is no number counts
+    if (!(d <= distance)) distance = d;  // so that NaN counts
   }
   return distance;
 }
@@ -249,11 +249,11 @@ Verdict read_verdict(const Ending& ending) {
     verdict.text = ending.kind == Ending::Kind::hung ? "hung" : "crashed";
     return verdict;
   }
-  std::istringstream words(ending.answer);
+  std::istringstream stream(ending.answer);
   int kind = 0;
-  words >> kind >> verdict.error;
-  words.get();
-  std::getline(words, verdict.text, '\0');
+  stream >> kind >> verdict.error;
+  stream.get();
+  std::getline(stream, verdict.text, '\0');
   verdict.kind = static_cast<Class>(kind);
   return verdict;
 }

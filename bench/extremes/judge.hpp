@@ -21,19 +21,19 @@ struct Reference {
   [[nodiscard]] bool exists() const { return !states.empty(); }
 };
 
-/// Cells with the same words share a reference: they differ in steps and
-/// integrators alone.
+/// Name of the reference of a cell: cells that differ in steps and integrators
+/// only share it.
 [[nodiscard]] std::string name_reference(const Cell& cell);
 
 /// Runs it to a thousandth of the range, or with two short steps until they
-/// agree as well. For a process of its own; read_reference reads the answer.
+/// agree as well. For a separate process; read_reference reads the result.
 [[nodiscard]] std::string run_reference(const Cell& cell, const Beams& beams);
 [[nodiscard]] Reference read_reference(const Ending& ending);
 
 enum class Class {
   accurate,    ///< below 1 % of the range from the reference
   inaccurate,  ///< stable, or without a reference
-  refused,     ///< with words
+  refused,     ///< with a message
   failed,      ///< not a number or garbage called a success, crash, hang
 };
 [[nodiscard]] const char* to_string(Class kind);
@@ -45,7 +45,7 @@ struct Verdict {
   double seconds = 0.0;  ///< wall time
 };
 
-/// For a process of its own; read_verdict reads the answer.
+/// For a separate process; read_verdict reads the result.
 [[nodiscard]] std::string judge(const Cell& cell, const Beams& beams,
                                 const Reference& reference);
 [[nodiscard]] Verdict read_verdict(const Ending& ending);

@@ -11,8 +11,8 @@
 #include <map>
 #include <optional>
 
-#include "common/errors.hpp"
 #include "duration.hpp"
+#include "limber/common/errors.hpp"
 #include "page.hpp"
 #include "picture.hpp"
 #include "refusals.hpp"
@@ -168,8 +168,7 @@ Plot plot_durations(const std::vector<Duration>& durations) {
   momentum.y_label = "of itself";
   for (std::size_t i = 0; i < durations.size(); ++i) {
     const Duration& d = durations[i];
-    const std::string name =
-        dynamics::integrator_names()[static_cast<std::size_t>(d.integrator)];
+    const std::string name = dynamics::to_string(d.integrator);
     const int colour = static_cast<int>(i);
     if (d.steps.empty()) continue;
     energy.curves.push_back(
@@ -193,25 +192,24 @@ Plot plot_durations(const std::vector<Duration>& durations) {
 void write_durations(const std::vector<Duration>& durations, Page& page) {
   page.heading("Duration");
   page.text(
-      "Two beams on a hinge of 1e7 N/m, without damping, struck and turning "
-      "free at 0.05 of their critical speed, in steps of 10 us. Nothing but "
-      "the scheme takes energy or turns their angular momentum.");
+      "Two beams on a hinge of 1e7 N/m, without damping, struck and rotating "
+      "freely at 0.05 of their critical speed, in steps of 10 us. Only the "
+      "scheme changes their energy or angular momentum.");
   std::vector<std::vector<std::string>> rows;
   for (const Duration& d : durations) {
     const bool has_rows = !d.steps.empty();
-    rows.push_back(
-        {dynamics::integrator_names()[static_cast<std::size_t>(d.integrator)],
-         to_string(d.verdict.kind),
-         has_rows ? fmt::format("{:.0e}", d.steps.back()) : "-",
-         has_rows ? fmt::format("{:.1e}", d.energy.back()) : "-",
-         has_rows ? fmt::format("{:.1e}", d.momentum.back()) : "-",
-         fmt::format("{:.0f}", d.verdict.seconds), d.verdict.text});
+    rows.push_back({dynamics::to_string(d.integrator),
+                    to_string(d.verdict.kind),
+                    has_rows ? fmt::format("{:.0e}", d.steps.back()) : "-",
+                    has_rows ? fmt::format("{:.1e}", d.energy.back()) : "-",
+                    has_rows ? fmt::format("{:.1e}", d.momentum.back()) : "-",
+                    fmt::format("{:.0f}", d.verdict.seconds), d.verdict.text});
   }
-  page.table({"integrator", "class", "steps", "energy left open",
-              "angular momentum", "wall time [s]", "words"},
+  page.table({"integrator", "class", "steps", "energy error",
+              "angular momentum", "wall time [s]", "message"},
              rows);
   page.figure(plot_durations(durations), "duration",
-              "What long runs lose, by the number of their steps");
+              "Errors of long runs over the number of their steps");
 }
 
 struct Refusals {
@@ -232,7 +230,8 @@ void write_refusals(const std::vector<Sweep>& sweeps, Page& page) {
     });
   }
   page.heading("Refusals");
-  page.text("Every kind of words in which cells were refused, with a cell:");
+  page.text(
+      "Every kind of message with which cells were refused, with an example:");
   for (const auto& [kind, refusals] : kinds) {
     page.text(fmt::format("- {} times: *{}* ({})", refusals.count,
                           refusals.text, refusals.cell));
@@ -266,13 +265,10 @@ void write_cells(const std::vector<Sweep>& sweeps,
       out << fmt::format(
           "{},{},{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{},{:.3g},"
           "{:.2f}\n",
-          one.map.name,
-          dynamics::integrator_names()[static_cast<std::size_t>(
-              cell.integrator)],
-          cell.bodies, cell.length, cell.slenderness, cell.mass_ratio,
-          cell.stiffness, cell.damping, cell.spin, cell.pulse, cell.step,
-          find_span(cell), to_string(verdict.kind), verdict.error,
-          verdict.seconds);
+          one.map.name, dynamics::to_string(cell.integrator), cell.bodies,
+          cell.length, cell.slenderness, cell.mass_ratio, cell.stiffness,
+          cell.damping, cell.spin, cell.pulse, cell.step, find_span(cell),
+          to_string(verdict.kind), verdict.error, verdict.seconds);
     });
   }
   out.flush();
@@ -304,8 +300,8 @@ void check_claims(const std::vector<Sweep>& sweeps,
     failures += duration.verdict.kind == Kind::failed ? 1 : 0;
   }
   page.check(failures == 0,
-             fmt::format("of {} cells {} end in no number, garbage called a "
-                         "success, a crash or a hang.",
+             fmt::format("of {} cells {} end in NaN or infinity, a wrong "
+                         "result reported as a success, a crash or a hang.",
                          cells, failures));
   if (stiff > 0) {
     page.check(accurate == stiff,
@@ -318,8 +314,8 @@ void check_claims(const std::vector<Sweep>& sweeps,
     if (duration.integrator != IntegratorKind::generalized_alpha) continue;
     page.check(duration.verdict.kind == Kind::accurate &&
                    duration.steps.back() > 0.99e7,
-               fmt::format("1e7 steps of generalized-alpha leave less than 1 % "
-                           "of the energy open: {:.2g}.",
+               fmt::format("1e7 steps of generalized-alpha have an energy "
+                           "error of less than 1 %: {:.2g}.",
                            duration.verdict.error));
   }
 }
@@ -340,12 +336,12 @@ void introduce(Page& page) {
   const Cell cell;
   page.text("# Scenes at the extremes");
   page.text(
-      "Written by `bench_extremes`, program and words alike; do not edit. "
-      "Beams of aluminium with a square section, end to end on hinges, free in "
-      "space, turn as one, mostly about their long axis, and the last is "
-      "struck at its tip by a half sine. Each is real: hexahedra, reduced to "
-      "four eigenmodes and the static-deformation modes of both ends, at level "
-      "`coupled`. Unless a map sweeps it: " +
+      "Written by `bench_extremes`, including all text; do not edit. Beams of "
+      "aluminium with a square section, end to end on hinges, free in space, "
+      "rotate as one body, mostly about their long axis, and the last is "
+      "struck at its tip by a half sine. Each is a mesh of hexahedra, reduced "
+      "to four eigenmodes and the static-deformation modes of both ends, at "
+      "level `coupled`. Unless a map varies it: " +
       describe(cell) + ".");
   page.text(
       "A cell is one run, in a process of its own, over about ten periods of a "
@@ -357,9 +353,9 @@ void introduce(Page& page) {
       "or with 20 000 fixed steps where it agrees with 10 000 as well. Below 1 "
       "% a cell is *accurate*; below ten times the range *stable but "
       "inaccurate*, and so is one without a converged run (`?`). *Refused* is "
-      "one that ends with an `InputError` or a `NumericalError`. No number, an "
-      "error beyond that called a success, any other exception, a crash or 60 "
-      "s of processor time is a *failure*.");
+      "one that ends with an `InputError` or a `NumericalError`. NaN or "
+      "infinity, a larger error reported as a success, any other exception, a "
+      "crash or 60 s of processor time is a *failure*.");
 }
 
 void write_page(const std::filesystem::path& folder, bool full,

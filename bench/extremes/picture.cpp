@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/gnuplot.hpp"
+#include "limber/results/gnuplot.hpp"
 
 namespace limber::bench {
 namespace {
@@ -67,22 +67,22 @@ void add_squares(GnuplotScript& script, std::size_t panel,
     script.add("EOD");
   }
   std::string squares = "plot ";
-  std::string words;
+  std::string labels;
   for (int kind = 0; kind < 4; ++kind) {
     squares += fmt::format(
         "$d{}_{} using 1:2:(0.48):(0.48) with boxxyerror fs solid 1 noborder "
         "lc rgb '{}' notitle, ",
         panel, kind, kColours[kind]);
-    words +=
+    labels +=
         fmt::format("{}$d{}_{} using 1:2:3 with labels font 'sans,8' notitle",
                     kind == 0 ? "" : ", ", panel, kind);
   }
-  script.add(squares + words);
+  script.add(squares + labels);
 }
 
 void add_key(GnuplotScript& script, double height) {
   const char* names[] = {"accurate (below 1 %)", "stable, inaccurate",
-                         "refused in words (R)", "failed"};
+                         "refused with a message (R)", "failed"};
   for (int i = 0; i < 4; ++i) {
     script.add(
         fmt::format("set label {} {} at screen {}, screen {} left "

@@ -14,7 +14,7 @@
 #include "support/random_scene.hpp"
 #include "support/run_random_scene.hpp"
 
-/// Runs random scenes, each in a process of its own, and tells how they ended.
+/// Runs random scenes, each in its own process, and reports their outcomes.
 namespace limber::bench {
 namespace {
 
@@ -45,10 +45,10 @@ struct Answer {
 
 Answer read_answer(const std::string& line) {
   Answer answer;
-  std::istringstream words(line);
-  words >> answer.kind >> answer.steps >> answer.halved >> answer.solves;
-  words.ignore();
-  std::getline(words, answer.text, '\0');
+  std::istringstream stream(line);
+  stream >> answer.kind >> answer.steps >> answer.halved >> answer.solves;
+  stream.ignore();
+  std::getline(stream, answer.text, '\0');
   return answer;
 }
 
@@ -124,9 +124,7 @@ void write_list(const std::string& path, const std::vector<unsigned>& seeds,
     list << fmt::format("{}\t{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3g}\n",
                         seeds[i], ending.seconds, kEndings[answer.kind],
                         answer.steps, answer.halved, answer.solves, answer.text,
-                        dynamics::integrator_names()[static_cast<std::size_t>(
-                            asked.integrator)],
-                        asked.step);
+                        dynamics::to_string(asked.integrator), asked.step);
   }
 }
 

@@ -5,7 +5,7 @@
 
 namespace limber::bench {
 
-/// Words of a refusal that tell its kind: names and numbers left out.
+/// The kind of an error: its message without names and numbers.
 [[nodiscard]] std::string find_kind(const std::string& text);
 
 }  // namespace limber::bench

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "beam.hpp"
 
-#include "dynamics/node_motion.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/reduction/reduce.hpp"
 
 namespace limber::bench {
 
@@ -83,7 +83,7 @@ StepForces make_strike(const flexbody::ReducedBody& body, double duration) {
 dynamics::SystemModel make_free_beam(const Body& body, dynamics::Fidelity level,
                                      const StepForces& forces) {
   dynamics::SystemBuilder builder;
-  const int beam = builder.add_flexible_body("beam", body, level, {});
+  const auto beam = builder.add_flexible_body("beam", body, level, {});
   if (!forces.times.empty()) {
     builder.add_nodal_load(
         "forces", beam,
@@ -116,7 +116,7 @@ Matrix3X follow_row(const dynamics::SystemModel& model,
                     std::size_t row) {
   const auto n = model.bodies[0].reduced->rows.x_B.cols();
   MatrixX u(3 * n, std::ssize(run));
-  calc_node_displacements(model, 0, run, {}, u);
+  calc_node_displacements(model, dynamics::BodyIndex(0), run, {}, u);
   return u.middleRows<3>(3 * static_cast<Eigen::Index>(row));
 }
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/recipe.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 /// The report's beam, its loads, and runs of it.
 namespace limber::bench {
@@ -27,7 +27,7 @@ using Body = std::shared_ptr<const flexbody::ReducedBody>;
 /// A file of the source tree.
 [[nodiscard]] std::filesystem::path find_source_file(const std::string& name);
 
-/// The mesh of 579 nodes, ten eigenmodes and nothing else, every row kept.
+/// The mesh of 579 nodes, ten eigenmodes and nothing else, with all rows.
 [[nodiscard]] flexbody::Recipe make_recipe();
 [[nodiscard]] Body reduce_beam(const flexbody::Recipe& recipe);
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "fem/assembly.hpp"
-#include "fem/eigenmodes.hpp"
-#include "fem/node_weights.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
 #include "sections.hpp"
 
 namespace limber::bench {
@@ -103,7 +103,7 @@ std::vector<std::string> make_row(const std::string& name,
           fmt::format("{:.3f}", answer.omega)};
 }
 
-/// Answers of ever finer meshes.
+/// Results of successively finer meshes.
 struct Refinement {
   std::vector<double> nodes;
   std::vector<double> deflections;  // [m]

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "beam.hpp"
-#include "fem/elastic_inverse.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
 
 /// Section 5.7.1: the clamped beam under 500 N at its tip, by beam theory and
 /// by finite elements.

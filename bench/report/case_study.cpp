@@ -169,10 +169,10 @@ void explain_outcomes(Page& page, const std::vector<Outcome>& outcomes) {
   const double sampled = outcomes.back().difference.overall;
   page.text(fmt::format(
       "The report is off by around four percent, from beginning to end, and "
-      "leaves open why. 10 ms are not a whole number of its steps of 0.87 ms: "
-      "a load that is sampled at the steps' starts acts for 12 of them, {:.2f} "
-      "ms, and pushes {:.1f} % too hard. That alone gives {:.1f} %, constant "
-      "in time. Limber ends a step where a load jumps.",
+      "does not explain it. 10 ms are not a whole number of its steps of 0.87 "
+      "ms: a load that is sampled at the steps' starts acts for 12 of them, "
+      "{:.2f} ms, and pushes {:.1f} % too hard. That alone gives {:.1f} %, "
+      "constant in time. Limber ends a step where a load jumps.",
       1e3 * held, 100.0 * (held / kStrike - 1.0), sampled));
   page.check(outcomes[0].difference.overall < 0.02 &&
                  outcomes[1].difference.overall < 0.02,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/decision_boundary.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/node_motion.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 #include "sections.hpp"
 
-/// Figure 9: where `uncoupled` leaves out too much, and simulated dots.
+/// Figure 9: where `uncoupled` neglects too much, and simulated dots.
 namespace limber::bench {
 namespace {
 
@@ -53,7 +53,7 @@ Run spin_up(const Body& body, Fidelity level, double alpha, double Omega) {
 MatrixX find_deformation(const Body& body, const Run& run) {
   const auto model = make_free_beam(body, Fidelity::uncoupled, {});
   MatrixX u(body->rows.x_B.size(), std::ssize(run.states));
-  calc_node_deformations(model, 0, run.states, u);
+  calc_node_deformations(model, dynamics::BodyIndex(0), run.states, u);
   return u;
 }
 

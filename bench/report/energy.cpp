@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flexbody/modal_response.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 #include "sections.hpp"
 
 /// Figures 10 and 11.
@@ -102,9 +102,9 @@ void write_single_mode(Page& page) {
   page.heading("Figure 10: energy of one mode under steps");
   page.text(fmt::format(
       "omega = 198 rad/s, initial modal velocity 1, steps to 150, -100, 200 "
-      "and 0 at 0.02, 0.05, 0.08 and 0.11 s (ours; the report's are in a "
-      "picture). Within an interval of constant load the energy corrected for "
-      "the load varies by at most {:.1e} of the largest energy.",
+      "and 0 at 0.02, 0.05, 0.08 and 0.11 s (chosen here; the report's are "
+      "only in a picture). Within an interval of constant load the energy "
+      "corrected for the load varies by at most {:.1e} of the largest energy.",
       variation));
   page.figure(draw_single_mode(mode), "figure10",
               "Figure 10: energies, load, corrected energy");
@@ -125,7 +125,7 @@ struct Rotation {
   double start = 0.0;                  // total [J]
 
   [[nodiscard]] std::string scheme() const {
-    return dynamics::integrator_names()[static_cast<std::size_t>(integrator)];
+    return dynamics::to_string(integrator);
   }
   [[nodiscard]] double worst() const {
     return *std::max_element(variation.begin(), variation.end());
@@ -190,10 +190,10 @@ void explain_rotations(Page& page, const std::vector<Rotation>& rotations) {
     worst = std::max(worst, r.worst());
   }
   page.text(
-      "`uncoupled` has kinetic energy alone. `one-way` lets the centrifugal "
-      "force stretch the beam without paying for it: its total is wrong by "
-      "the elastic energy. `coupled` exchanges the two; what is left of its "
-      "variation is the scheme's own error.");
+      "`uncoupled` has kinetic energy alone. `one-way` stretches the beam by "
+      "the centrifugal force without a loss of kinetic energy: its total is "
+      "wrong by the elastic energy. `coupled` exchanges the two; the remaining "
+      "variation is the scheme's error.");
   page.check(ours < 1e-12,
              fmt::format("`coupled` varies by less than 1e-12 of the total "
                          "({:.1e}).",
@@ -221,10 +221,10 @@ void write_free_rotation(Page& page, const Body& body) {
   }
   page.heading("Figure 11: energy of free rotation");
   page.text(
-      "The free beam, undeformed at first, turning at 1 rad/s about x; steps "
+      "The free beam, undeformed at first, rotating at 1 rad/s about x; steps "
       "of 1e-5 s, 0.02 s (ten periods of the first axial mode, which it "
-      "excites). The report "
-      "sees variations of some 1e-12 of the total energy in its CoupledRB.");
+      "excites). The report sees variations of some 1e-12 of the total energy "
+      "in its CoupledRB.");
   page.table({"level", "integrator", "energy [J]", "largest elastic [J]",
               "variation / total"},
              rows);

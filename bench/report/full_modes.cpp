@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "beam.hpp"
-#include "fem/assembly.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "sections.hpp"
 
 namespace limber::bench {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fem/matrices.hpp"
-#include "fem/mesh.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/matrices.hpp"
 
 namespace limber::bench {
 

@@ -39,13 +39,13 @@ flexbody::Recipe make_couple_recipe(bool has_static_modes) {
 
 dynamics::SystemModel make_couple_model(const Couple& couple) {
   dynamics::SystemBuilder builder;
-  const int beam =
+  const auto beam =
       builder.add_flexible_body("beam", couple.body, couple.level, {});
   for (const auto& [name, force] :
        {std::pair{"root", -100.0}, std::pair{"tip", 100.0}}) {
     const flexbody::InterfaceTable& table =
         couple.body->interfaces[find_interface(*couple.body, name)];
-    const int where = builder.attach_interface(
+    const auto where = builder.attach_interface(
         name, beam, table, {Matrix3::Identity(), table.p_B});
     builder.add_load(name, where, force * Vector3::UnitY(), Vector3::Zero(),
                      dynamics::LoadFrame::world, dynamics::Constant{});
@@ -100,7 +100,7 @@ void write_couple(Page& page) {
   page.heading("Figure 15: accelerating rotation");
   page.text(
       "100 N along y on the tip face and -100 N on the root face, uniform "
-      "tractions fixed in space, 1 s. In Akantu's place: an explicit "
+      "tractions fixed in space, 1 s. In place of Akantu: an explicit "
       "finite-element run of the whole mesh, geometrically exact, step 1e-5 s, "
       "by a program that shares no code with Limber, known at the corners A = "
       "(0,0,0), B = (0,0,5) and C = (1,1,5) every 5 ms. Differences over A, B "
@@ -136,8 +136,8 @@ void write_couple(Page& page) {
       "asymmetry, which bends it a little sideways, and no defect of either "
       "program. Ten free eigenmodes miss up to a fifth of the deformation (an "
       "independent program finds 0.20); static-deformation modes of the two "
-      "loads bring back what a load misses that grows slowly, but part of what "
-      "one misses that is put on at once.",
+      "loads recover the missing part for a load that grows slowly, but only "
+      "some of it for one applied at once.",
       reference.u.row(0).cwiseAbs().maxCoeff(), x_part));
   page.check(worst < 0.01,
              "every level is within 0.01 % of the finite-element run.");
@@ -166,9 +166,9 @@ void write_complex(Page& page, const Body& body) {
   page.heading("Figures 16 and 17: complex forcing");
   page.text(
       "The loads of Figure 13. No finite-element history exists for a load "
-      "that is only in a picture, so `coupled` is the yardstick; the case "
-      "study below and Figure 15 are held to finite elements. Steps of 2e-5 "
-      "s.");
+      "that is only in a picture, so `coupled` is the reference; the case "
+      "study below and Figure 15 are compared with finite elements. Steps of "
+      "2e-5 s.");
   page.table(
       {"against coupled, Runge-Kutta", "difference %"},
       {{"one-way, Runge-Kutta",
@@ -191,9 +191,9 @@ void write_complex(Page& page, const Body& body) {
               "Figure 17: root-mean-square difference under complex forcing");
   page.text(
       "The report finds less than 2 % between SimpleRB and Akantu, and "
-      "suspects the mesh's asymmetry. On this page's evidence neither "
-      "neglected coupling nor truncation is as large as that here; the next "
-      "section finds what can be.");
+      "suspects the mesh's asymmetry. By the results on this page neither "
+      "neglected coupling nor truncation is that large here; the next section "
+      "shows what can be.");
   page.check(by_level.overall < 2.0,
              "`uncoupled` is within the report's 2 % of `coupled`.");
 }

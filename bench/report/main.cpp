@@ -45,18 +45,18 @@ std::vector<Section> list_sections() {
 void introduce(Page& page) {
   page.text("# The WOBBLE report's tables and figures, by Limber");
   page.text(
-      "Written by `scripts/report`, program and words alike; do not edit. "
-      "Tables 1 to 3 and Figures 7 to 20 of the report "
-      "(`morrison2023` in [references.bib](../../../docs/references.bib)), as "
-      "far as they need no other program. Beam of 1 x 1 x 5 m, E = 200 GPa, "
-      "Poisson's ratio 0, 8000 kg/m^3; mesh `meshes/beam579.msh` and ten "
-      "eigenmodes unless said otherwise. The report's SimpleRB is the level "
-      "`uncoupled`, CoupledRB `coupled` (Limber's is complete), PureMA a "
-      "clamped body; its time stepping is the integrator `explicit-euler`. "
-      "The report's figures themselves are not at hand, only their captions "
-      "and text: what a load or a duration must have been is said where it is "
-      "used. Akantu's curves, which need that program, are replaced by an "
-      "independent explicit finite-element code's (tests/data/beam).");
+      "Written by `scripts/report`, including all text; do not edit. Tables 1 "
+      "to 3 and Figures 7 to 20 of the report (`morrison2023` in "
+      "[references.bib](../../../docs/references.bib)), as far as they do not "
+      "need other programs. Beam of 1 x 1 x 5 m, E = 200 GPa, Poisson's ratio "
+      "0, 8000 kg/m^3; mesh `meshes/beam579.msh` and ten eigenmodes unless "
+      "said otherwise. The report's SimpleRB is the level `uncoupled`, "
+      "CoupledRB `coupled` (Limber's is complete), PureMA a clamped body; its "
+      "time stepping is the integrator `explicit-euler`. The report's figures "
+      "are not available, only their captions and text: assumed loads and "
+      "durations are stated where they are used. Akantu's curves, which need "
+      "that program, are replaced by an independent explicit finite-element "
+      "code's (tests/data/beam).");
   page.text(
       "*Holds* marks a claim that the program checks in the run that wrote "
       "this page. Times are of one run on two shared cores.");

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <new>
 
-#include "dynamics/node_motion.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 
 namespace limber::bench {
 
@@ -56,7 +56,7 @@ Cost run_case(const Body& body, const StepForces& strike,
            [&](const dynamics::SystemState& now,
                const dynamics::EnergyBalance&) { states[next++] = now; });
   const double stepped = read_clock();
-  calc_node_displacements(model, 0, states, {}, u);
+  calc_node_displacements(model, dynamics::BodyIndex(0), states, {}, u);
   return {projected - begin, stepped - projected, read_clock() - stepped,
           read_wall_clock() - wall};
 }

@@ -4,7 +4,7 @@
 #include "beam.hpp"
 
 /// The case study as the report times it: from nodal forces to the world
-/// displacements of all kept nodes at every step.
+/// displacements of all stored nodes at every step.
 namespace limber::bench {
 
 inline constexpr double kCaseEnd = 1.0;      // [s]
@@ -44,8 +44,8 @@ struct Statistics {
   return time_in_turn({call})[0];
 }
 
-/// Seconds that filling `u` with a number takes: no program that leaves this
-/// answer in memory can be faster.
+/// Seconds to fill `u` with a number: a lower bound for any program that stores
+/// this result in memory.
 [[nodiscard]] double time_filling(MatrixX& u);
 /// The same into `bytes` that the system has just handed out.
 [[nodiscard]] double time_filling_fresh(std::size_t bytes);

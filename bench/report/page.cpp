@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::bench {
 namespace {

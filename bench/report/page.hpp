@@ -9,8 +9,8 @@
 
 namespace limber::bench {
 
-/// The page that grows section by section: README.md, its pictures beside it,
-/// and what they show as CSV in data/.
+/// A page written section by section: README.md, its pictures beside it, and
+/// their data as CSV in data/.
 class Page {
  public:
   /// Makes the folder. @throws InputError if it cannot be made.
@@ -29,7 +29,7 @@ class Page {
   /// @param trouble why it was not, if so
   void picture(const std::string& trouble, const std::string& name,
                const std::string& caption);
-  /// Tells whether a claim holds in this run; a failure is counted.
+  /// Reports whether a claim holds in this run; counts failures.
   void check(bool holds, const std::string& claim);
 
   [[nodiscard]] int checks() const { return checks_; }

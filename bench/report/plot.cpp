@@ -9,8 +9,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "results/gnuplot.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/results/gnuplot.hpp"
 
 namespace limber::bench {
 namespace {
@@ -22,7 +22,7 @@ using results::quote;
 constexpr std::array<const char*, 7> kColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7",
     "#E69F00", "#56B4E9", "#000000"};
-constexpr std::size_t kMostPoints = 2000;  // a curve; more cannot be told apart
+constexpr std::size_t kMostPoints = 2000;  // of a curve
 
 std::string find_style(const Curve& curve, std::size_t position) {
   const std::size_t i =

@@ -40,7 +40,7 @@ struct Plot {
 [[nodiscard]] std::string draw(const Plot& plot,
                                const std::filesystem::path& file);
 
-/// What is drawn, as rows of panel, curve, x, y.
+/// The plotted data, as rows of panel, curve, x, y.
 void write_csv(const Plot& plot, const std::filesystem::path& file);
 
 }  // namespace limber::bench

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::bench {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "beam_theory.hpp"
-#include "fem/eigenmodes.hpp"
-#include "flexbody/modal_response.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 #include "sections.hpp"
 
 /// Figure 14, and where the report's 191 rad/s comes from.
@@ -16,7 +16,7 @@ namespace {
 struct Swing {
   std::vector<double> times;  // [s]
   VectorX u;                  // of the loaded edge's corner, along x [m]
-  double settled = 0.0;       // mean over all time: the static answer [m]
+  double settled = 0.0;       // mean over all time: the static response [m]
 };
 
 Swing simulate_swing(int modes, const VectorX& load,
@@ -187,11 +187,11 @@ void write_shear_swing(Page& page) {
   page.text(
       "*Read off the curve* explains both: half of the first maximum as the "
       "steady value, and the time from the first to the second maximum as the "
-      "period. The second bending mode rides on the first (see the figure) and "
-      "moves the maxima by up to a millisecond, so neither is what it is "
-      "taken for: the ten modes' own static deflection and first frequency "
-      "are 1.278e-6 m and 198.05 rad/s. 500 N are the sum here; Table 2 has "
-      "500 N on each node.");
+      "period. The second bending mode is superposed on the first (see the "
+      "figure) and moves the maxima by up to a millisecond, so neither is the "
+      "intended quantity: the ten modes' own static deflection and first "
+      "frequency are 1.278e-6 m and 198.05 rad/s. 500 N are the sum here; "
+      "Table 2 has 500 N on each node.");
   const BeamAnswer& reading = choices.back().answer;
   page.check(std::lround(reading.deflection * 1e8) == 126 &&
                  std::lround(reading.omega) == 191,

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "flexbody/modal_response.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "sections.hpp"
 
 /// What static-deformation modes of the loads are worth on the free beam, by
@@ -98,8 +98,8 @@ Error compare(const flexbody::ReducedBody& body, const StepForces& forces,
           (Phi * take_tenths(eta) - truth.all).norm() / truth.all.norm()};
 }
 
-/// Least `mean` that any basis of so many vectors can have, whatever their
-/// motion: what the singular values beyond them leave of the truth.
+/// Lower bound of `mean` for any basis of this size: the remainder beyond its
+/// leading singular values.
 double find_bound(const Truth& truth, Eigen::Index vectors) {
   const MatrixX gram = truth.all.transpose() * truth.all;
   const VectorX squares =
@@ -211,12 +211,11 @@ void write_static_modes(Page& page, Shared& shared) {
       "The free beam; deformation alone, without rigid motion, by {} vectors "
       "against all 1731 modes, linear and exact in time. The impact of section "
       "6 (100 N and 10 N for 10 ms); a couple of 100 N on the end faces; the "
-      "complex forcing of Figure 6c, which changes at 0.5 s. Loads are put on "
-      "and taken off at once, or as (1 - cos) / 2 within 1 ms or 5 ms; the "
-      "first mode's period is 5.4 ms. Errors in percent over 1 s: the largest "
+      "complex forcing of Figure 6c, which changes at 0.5 s. Loads are applied "
+      "and removed at once, or as (1 - cos) / 2 within 1 ms or 5 ms; the first "
+      "mode's period is 5.4 ms. Errors in percent over 1 s: the largest "
       "component at the corners A, B, C each 0.1 ms, of the largest there; "
-      "root "
-      "mean square over all nodes each 1 ms. Nothing is damped.",
+      "root mean square over all nodes each 1 ms. Nothing is damped.",
       kVectors));
   Rows rows;
   Claims claims;
@@ -226,12 +225,12 @@ void write_static_modes(Page& page, Shared& shared) {
               "mean", "5 ms: largest", "mean"},
              rows);
   page.text(
-      "The last rows are what the singular values of the motion of all nodes "
-      "leave beyond the 16 largest: no 16 vectors, however chosen, do better. "
-      "A load that jumps swings every mode of the mesh, and what the lowest do "
-      "not carry is spread over hundreds of them.");
+      "The last rows are the remainder of the motion of all nodes beyond its "
+      "16 largest singular values: no 16 vectors do better. A discontinuous "
+      "load excites every mode of the mesh, and the part that the lowest do "
+      "not carry is spread over hundreds.");
   page.check(claims.jumps_are_beyond,
-             "under loads that jump no basis of 16 vectors is within 1 %.");
+             "under discontinuous loads no basis of 16 vectors is within 1 %.");
   page.check(claims.smooth_is_reached,
              "with the static-deformation modes of the loads among them, 16 "
              "vectors are within 1 % when the loads take 1 ms or 5 ms.");

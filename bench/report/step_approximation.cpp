@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "flexbody/modal_response.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 #include "sections.hpp"
 
 /// Figure 7: a sinusoidal load as steps, against Eq. 37.

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "fem/mesh_reader.hpp"
-#include "flexbody/mode_selection.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
 #include "sections.hpp"
 
 /// Tables 1 and 2.
@@ -88,8 +88,8 @@ void write_mesh_statistics(Page& page) {
               count_mesh("`meshes/beam579.msh`", stored),
               count_mesh("`meshes/box/box.geo` at size 0.55", made)});
   page.text(
-      "Gmsh numbers and places inner nodes differently from version to "
-      "version, so the report's own mesh cannot be had again; the counts can.");
+      "Gmsh numbers and places inner nodes differently in different versions, "
+      "so the report's mesh cannot be reproduced; its counts can.");
   page.check(has_report_counts(stored) && has_report_counts(made),
              "both meshes have the report's three counts.");
 }
@@ -113,11 +113,11 @@ void write_effective_masses(Page& page, Shared& shared) {
                          "{:.2f}).",
                          shear.points));
   page.text(
-      "Right half, complex forcing: free beam. The nodes that carry F1 and F2 "
-      "are only in a picture. Limber's column is for the reading used on this "
-      "page (F1 = -100 N along y on each node of the edge x = 0, z = 0; F2 = "
-      "100 N on each of the edge x = 1, z = 5) and is not meant to match: of "
-      "all pairs of node sets tried none does "
+      "Right half, complex forcing: free beam. The nodes loaded by F1 and F2 "
+      "are only shown in a picture. Limber's column is for the reading used on "
+      "this page (F1 = -100 N along y on each node of the edge x = 0, z = 0; "
+      "F2 = 100 N on each of the edge x = 1, z = 5) and is not meant to match: "
+      "of all pairs of node sets tried none does "
       "([choosing](../../../docs/theory/choosing.md)). Eigenvalues do not "
       "depend on it.");
   const FullModes& free = shared.free();

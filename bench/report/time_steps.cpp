@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "sections.hpp"
 
 /// Figures 12 and 13: convergence with the time step at level `uncoupled`.
@@ -26,9 +26,7 @@ struct Study {
   std::vector<double> steps;  // [s]
 };
 
-std::string name_of(IntegratorKind kind) {
-  return dynamics::integrator_names()[static_cast<std::size_t>(kind)];
-}
+std::string name_of(IntegratorKind kind) { return dynamics::to_string(kind); }
 
 /// Displacement of A at the end; nothing if the run fails.
 std::optional<Vector3> find_end(const Study& study, IntegratorKind kind,
@@ -155,15 +153,13 @@ void write_rotation(Page& page, const Body& body) {
   page.heading("Figure 12: time step, accelerating rotation");
   page.text(fmt::format(
       "|alpha| = 0.144 takes 2500 N on each end (2500 N x 5 m over 86667 kg "
-      "m^2), more than the +-100 N of section 5.7.2. Probably the report "
-      "counts "
-      "its forces by the node, as in Table 2: 25 nodes at 100 N, or the five "
-      "of an edge at 500 N. Here 2500 N along y and their opposite are shared "
-      "by the nodes of "
-      "the end faces, which makes {:.4f} rad/s^2. Level `uncoupled`, 10 s, "
-      "error of node A = (0, 0, 0) at the end relative to its displacement of "
-      "{:.2f} m, against the closed form (angle alpha t^2/2 about a principal "
-      "axis; modes exactly).",
+      "m^2), more than the +-100 N of section 5.7.2. Probably the report's "
+      "forces are per node, as in Table 2: 25 nodes at 100 N, or the five of "
+      "an edge at 500 N. Here 2500 N along y and their opposite are shared by "
+      "the nodes of the end faces, which makes {:.4f} rad/s^2. Level "
+      "`uncoupled`, 10 s, error of node A = (0, 0, 0) at the end relative to "
+      "its displacement of {:.2f} m, against the closed form (angle alpha "
+      "t^2/2 about a principal axis; modes exactly).",
       std::abs(alpha), study.truth.norm()));
   const MatrixX errors = find_errors(study);
   add_errors(page, study, errors);

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "fem/elastic_inverse.hpp"
-#include "flexbody/modal_response.hpp"
-#include "flexbody/mode_selection.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
 #include "sections.hpp"
 
-/// Figure 8 and what to do about the modes left out: the clamped beam under
-/// the shear load of Table 2, from rest.
+/// Figure 8 and corrections for omitted modes: the clamped beam under the shear
+/// load of Table 2, from rest.
 namespace limber::bench {
 namespace {
 
@@ -76,7 +76,7 @@ Vector3 measure(const MatrixX& u) {
 struct Errors {
   Vector3 displacement;
   Vector3 acceleration;
-  Vector3 augmentation;  // beside all the modes kept
+  Vector3 augmentation;  // in addition to all retained modes
 };
 
 Errors compare(const Problem& problem, Eigen::Index count, Growth growth) {
@@ -182,19 +182,18 @@ void write_truncation(Page& page, Shared& shared) {
   }
   page.text(
       "The clamped beam under the shear load of Table 2 (2500 N along x in "
-      "all, put on at t = 0), displacement of the corner (0, 0, 5) at the end "
+      "all, applied at t = 0), displacement of the corner (0, 0, 5) at the end "
       "of the loaded edge with 1, 2, 4, 10 and all modes: largest value over "
-      "0.1 s, and the difference from all modes, root mean square in "
-      "percent.");
+      "0.1 s, and the difference from all modes, root mean square in percent.");
   page.table({"modes", "max x [m]", "error %", "max y [m]", "error %",
               "max z [m]", "error %"},
              rows);
   page.text(
       "As in the report one mode is nearly enough along the load and along the "
-      "beam, and is of no use in the third direction, thousands of times "
-      "smaller: with Poisson's ratio 0 that motion comes from the mesh's "
-      "asymmetry alone. (The report's load seems to point along y; the square "
-      "section makes it the same.)");
+      "beam, and useless in the third direction, thousands of times smaller: "
+      "with Poisson's ratio 0 that motion is due only to the mesh's asymmetry. "
+      "(The report's load seems to point along y; the square section makes it "
+      "the same.)");
   page.figure(
       plot, "figure08",
       "Figure 8: displacement of the corner with 1, 2, 4, 10 and all modes");

@@ -11,10 +11,12 @@
 #include <numbers>
 #include <optional>
 
-#include "app/reducer.hpp"
-#include "app/run_scene.hpp"
-#include "common/errors.hpp"
-#include "dynamics/natural_frequencies.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "page.hpp"
 
 /// Slews the arm of examples/slew.toml by a trapezoidal rate, as it is and
@@ -31,7 +33,7 @@ constexpr double kArrived = 0.87;
 const std::vector<double> kRatios = {0.8, 0.85, 0.9, 0.95, 1.0, 1.05,
                                      1.1, 1.15, 1.2, 1.25, 1.3};
 
-/// A run and what is drawn of it; an entry an output time.
+/// A run and its plotted data; an entry an output time.
 struct Slew {
   std::vector<double> times;      ///< [s]
   std::vector<double> command;    ///< [deg]
@@ -121,7 +123,7 @@ class Study {
   double frequency_ = 0.0;
 };
 
-/// What is left of the vibration by frequency, as a share of the plain ramp's.
+/// Residual vibration over frequency, relative to the plain ramp's.
 struct Robustness {
   std::vector<double> zv;
   std::vector<double> zvd;
@@ -228,16 +230,17 @@ void write_page(Page& page) {
   const Slew zv = study.simulate(ShaperKind::zv);
   const Slew zvd = study.simulate(ShaperKind::zvd);
   const Robustness left = find_robustness(study, plain);
-  page.text("# A slew, and the vibration that is left");
+  page.text("# A slew, and its residual vibration");
   page.text(fmt::format(
-      "Written by `bench_slew`, program and words alike; do not edit. A motor "
-      "turns a flexible arm of 1 m by half a turn in 0.6 s "
+      "Written by `bench_slew`, including all text; do not edit. A motor turns "
+      "a flexible arm of 1 m by half a turn in 0.6 s "
       "([scenario](../../../examples/slew.toml)). The command's rate is a "
       "trapezoid, or the same shaped (`shaper` of a `[[drive]]`) at the first "
       "natural frequency of the arm held by its motor, {:.3f} Hz, which "
       "`limber frequencies` finds, with the beam's damping ratio of {}. The "
-      "deviation is that of the tip across the commanded direction; what is "
-      "left is taken peak to peak from {} s on, when all commands rest.",
+      "deviation is that of the tip across the commanded direction; the "
+      "residual vibration is measured peak to peak from {} s on, when all "
+      "commands are constant.",
       study.frequency(), kDampingRatio, kArrived));
   page.table({"command", "arrives [s]", "largest deviation [mm]",
               "largest moment [N m]", "left [mm]", "times less"},
@@ -261,7 +264,7 @@ void write_page(Page& page) {
                                 {"trapezoid", "zv", "zvd"}),
                   draw_robustness(left)},
        .columns = 2},
-      "slew", "Command, deviation, and what is left of it");
+      "slew", "Command, deviation and residual vibration");
   page.write();
   if (!page.trouble().empty()) fmt::print("warning: {}\n", page.trouble());
 }

@@ -11,9 +11,9 @@
 #include "cost.hpp"
 #include "page.hpp"
 
-/// Whether a tolerance means what it says on every shipped scene, and what it
-/// costs beside fixed steps where something is struck or caught, as a page with
-/// pictures. Exit status 1 if a claim of the page does not hold in this run.
+/// Whether a tolerance is met on every shipped scene, and its cost compared
+/// with fixed steps in scenes with impacts or latches, as a page with pictures.
+/// Exit status 1 if a claim of the page fails in this run.
 namespace limber::bench::tolerance {
 namespace {
 
@@ -26,7 +26,7 @@ const std::vector<double> kTolerances = {1e-3, 1e-4, 1e-5, kLeast};  // [m]
 
 struct Shipped {
   std::string file;
-  bool is_struck;  ///< or caught, or pushed by a jump
+  bool is_struck;  ///< or latched, or loaded by a jump
 };
 const std::vector<Shipped> kScenes = {
     {"examples/claw.toml", true},
@@ -93,24 +93,23 @@ SceneCases study(const Shipped& shipped, const std::filesystem::path& cache) {
 void introduce(Page& page) {
   page.text("# What a tolerance means, and what it costs");
   page.text(
-      "Written by `bench_tolerance`, program and words alike; do not edit. "
-      "`tolerance` in a scenario's `[time]` says how far any point may be from "
-      "where it should be ([how](../../../docs/theory/time_integration.md"
-      "#steps-to-a-tolerance)). Here every shipped scene is run at level "
-      "`coupled` to 1 mm, 0.1 mm, 0.01 mm and 1 um, but for tolerances above a "
-      "tenth of its motion. The *true error* is the largest distance of any "
-      "point from the reference at 100 outputs, the same of all runs.");
+      "Written by `bench_tolerance`, including all text; do not edit. "
+      "`tolerance` in a scenario's `[time]` is the largest permitted error of "
+      "any point's position "
+      "([how](../../../docs/theory/time_integration.md#steps-to-a-tolerance)). "
+      "Here every shipped scene is run at level `coupled` to 1 mm, 0.1 mm, "
+      "0.01 mm and 1 um, except for tolerances above a tenth of its motion. "
+      "The *true error* is the largest distance of any point from the "
+      "reference at 100 outputs, the same of all runs.");
 }
 
 void write_references(Page& page, const std::vector<SceneCases>& scenes) {
   page.heading("References");
   page.text(
-      "Of each scene two: uniform steps, halved until a third of the last "
+      "Two for each scene: uniform steps, halved until a third of the last "
       "difference is below 2e-8 m or a run takes over 1.5 s, and a tolerance "
-      "of "
-      "2e-8 m. The one with the smaller estimate of its own error is taken; "
-      "the "
-      "other one tells whether that is to be believed.");
+      "of 2e-8 m. The one with the smaller estimate of its error is used; the "
+      "other one checks that estimate.");
   std::vector<std::vector<std::string>> rows;
   for (const SceneCases& scene : scenes) {
     const Reference& r = scene.reference;
@@ -156,18 +155,17 @@ void write_accuracy(Page& page, const std::vector<SceneCases>& scenes) {
                     fmt::format("{}", one.run.statistics.newton_iterations)});
   });
   page.check(within_ten >= kShareWithin * cases,
-             fmt::format("at least 95 % of the cases err by less than 10 "
-                         "tolerances: {} of {}.",
+             fmt::format("at least 95 % of the cases have an error of less "
+                         "than 10 tolerances: {} of {}.",
                          within_ten, cases));
   page.text(fmt::format(
-      "{} of {} are within one tolerance. The true error over the one that the "
-      "run told (`estimated_error`) is {:.2g} to {:.2g}. Steps and Newton "
-      "iterations are those of all passes.",
+      "{} of {} are within one tolerance. The ratio of the true error to the "
+      "run's own estimate (`estimated_error`) is {:.2g} to {:.2g}. Steps and "
+      "Newton iterations are those of all passes.",
       within_one, cases, lowest, highest));
-  page.table(
-      {"scene", "tolerance [m]", "true error / tolerance", "true / estimated",
-       "passes", "steps", "taken again", "iterations"},
-      rows);
+  page.table({"scene", "tolerance [m]", "true error / tolerance",
+              "true / estimated", "passes", "steps", "rejected", "iterations"},
+             rows);
 }
 
 void draw_accuracy(Page& page, const std::vector<SceneCases>& scenes) {
@@ -242,20 +240,19 @@ void write_cost(Page& page, const std::vector<SceneCases>& scenes) {
   });
   page.check(cheaper == cases,
              fmt::format("where something is struck or caught, a tolerance "
-                         "costs at most a third of the best uniform steps that "
-                         "err as much: {} of {} cases.",
+                         "costs at most a third of the best uniform steps with "
+                         "the same error: {} of {} cases.",
                          cheaper, cases));
   page.text(fmt::format(
       "Uniform steps take {:.2f} to {:.2f} times the time.{}", worst, best,
       names.empty() ? "" : " Less than 3 times: " + names + "."));
   page.text(
       "Time is the processor's for all passes, medians of interleaved runs; "
-      "fixed steps are found by halving and interpolation and given the step "
-      "at "
-      "which they err as much. *By hand*: the file's own changes of the step, "
-      "all scaled alike. *The coarsest*: already steps as long as an output "
-      "interval err no more than the run to the tolerance, so fixed steps are "
-      "held back by outputs, and the tolerance is met without work by both.");
+      "the best fixed step is found by halving and interpolation, for the same "
+      "error. *By hand*: the file's own changes of the step, all scaled alike. "
+      "*The coarsest*: even steps as long as an output interval have at most "
+      "the error of the run to the tolerance, so that outputs limit fixed "
+      "steps, and both meet the tolerance without effort.");
   page.table(
       {"scene", "tolerance [m]", "true error [m]", "fixed steps",
        "their error [m]", "their longest [s]", "steps, fixed / tolerance",
@@ -265,17 +262,16 @@ void write_cost(Page& page, const std::vector<SceneCases>& scenes) {
 
 void explain(Page& page) {
   page.text(
-      "What is known of why: fixed steps are given the right step for nothing "
-      "here, where a tolerance passes over the time two to five times to know "
-      "its error: what passes before the last cost is half of it where two "
-      "suffice and as much again where it takes three. The rigid "
-      "motion of the struck beams is right at any step, so that there is "
-      "nothing to save. The spun beam and the struck arm's bending ring on for "
-      "the whole run: there is no quiet time in which steps could grow. And "
-      "stiff vibrations of microns, which fixed steps leave unresolved without "
-      "harm, shorten steps to a tolerance of that size (`trade: complex`). A "
-      "tolerance saves the search for a step, of which each try costs as much "
-      "as a run and does not tell how large its error is.");
+      "Known reasons: the right fixed step is given at no cost here, whereas a "
+      "run to a tolerance takes two to five passes to know its error: the "
+      "passes before the last cost half of it where two suffice, and as much "
+      "as the last where it takes three. The rigid motion of the struck beams "
+      "is accurate at any step, so that nothing can be saved. The spun beam "
+      "and the struck arm's bending vibrate for the whole run, so that steps "
+      "cannot grow. And stiff vibrations of microns, which fixed steps leave "
+      "unresolved without harm, shorten steps to a tolerance of that size "
+      "(`trade: complex`). A tolerance saves the search for a step, where each "
+      "trial costs as much as a run and does not give its error.");
 }
 
 void draw_cost(Page& page, const std::vector<SceneCases>& scenes) {

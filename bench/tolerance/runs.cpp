@@ -5,8 +5,9 @@
 #include <cmath>
 #include <ctime>
 
-#include "app/reducer.hpp"
-#include "common/errors.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::bench::tolerance {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/motion_scale.hpp"
-#include "scene/scene.hpp"
+#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/scene/build/build_system.hpp"
 
 /// Steps to a tolerance held against fixed steps.
 namespace limber::bench::tolerance {
@@ -19,7 +19,7 @@ struct Run {
   double seconds = 0.0;  ///< of the processor
   std::string stopped;   ///< why it ended early, or empty
 
-  /// Those that were taken again, too.
+  /// Including rejected steps.
   [[nodiscard]] long steps() const {
     return statistics.steps + statistics.rejected_steps;
   }

@@ -10,7 +10,7 @@ namespace limber::bench::trade {
 namespace {
 
 constexpr double kStep = 1e-3;         // of the reference too [s]
-constexpr double kFineStep = 1.25e-4;  // to tell what that costs [s]
+constexpr double kFineStep = 1.25e-4;  // to measure its error [s]
 
 Choice make_choice(const std::string& name, Fidelity level,
                    scene::BasisChoice basis, double step) {
@@ -84,24 +84,23 @@ void write(Page& page, const Context& context, const Study& study,
   const Outcome& mixed = study.find(make_mixed().name);
   page.heading("Scene 4: the capture arm, struck");
   page.text(fmt::format(
-      "What counts is the interfaces' static-deformation modes: with them "
+      "The interfaces' static-deformation modes are essential: with them "
       "`coupled` is {} % off in displacement and {} % in deformation, {:.0f} "
       "times cheaper than whole meshes; with six eigenmodes alone {} %. "
       "`uncoupled` in the same basis is {} % off. One fingertip is hit by 100 "
-      "N "
-      "for 10 ms ([scene](../scenes/struck_finger.toml)); six links bend, "
-      "outputs each ms for 50 ms. The yardstick of cost is the reference.",
+      "N for 10 ms ([scene](../scenes/struck_finger.toml)); six links bend, "
+      "outputs each ms for 50 ms. The reference of cost is the reference.",
       to_percent(usual.displacement()), to_percent(usual.deformation()),
       study.reference().online / usual.online, to_percent(plain.deformation()),
       to_percent(
           study.find(make_usual(Fidelity::uncoupled).name).deformation())));
   page.text(fmt::format(
-      "All runs, the reference too, take generalized-alpha steps of 1 ms, so "
-      "that differences are of basis and level alone. The step itself gives up "
-      "more than they do: the deformation of `coupled` is {} % from its own in "
-      "steps of 0.125 ms, which cost {:.0f} times more. A mixed scene with one "
-      "whole mesh, of the link that carries the struck finger, is {} % off in "
-      "deformation.",
+      "All runs, including the reference, take generalized-alpha steps of 1 "
+      "ms, so that differences are due to basis and level only. The error of "
+      "the step is larger: the deformation of `coupled` is {} % from its own "
+      "in steps of 0.125 ms, which cost {:.0f} times more. A mixed scene with "
+      "one whole mesh, of the link that carries the struck finger, is {} % off "
+      "in deformation.",
       to_percent(compare(usual, finer)), finer.online / usual.online,
       to_percent(mixed.deformation())));
   write_choices(page, context.folder, "arm", "capture arm, struck", study,

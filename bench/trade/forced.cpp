@@ -26,7 +26,7 @@ struct Forced {
   double limit = 0.0;  ///< the report's error [-]
   int patterns = 0;    ///< static-deformation modes that the loads bring
   StepForces forces;
-  std::string words;
+  std::string description;
 };
 
 struct Findings {
@@ -219,10 +219,10 @@ void claim_coupled(Context& context, const Study& study, const Forced& scene) {
            to_percent(uncoupled.displacement()),
            to_percent(uncoupled.deformation()), show_rigid(run),
            show_rigid(uncoupled)),
-       "the physics that `coupled` adds is far below what either basis "
-       "leaves out here, and its steps add an error that the closed form does "
-       "not have: of the modes' phases by Runge-Kutta, of the rigid motion by "
-       "the report's scheme, which answers modes exactly."});
+       "the physics that `coupled` adds is far smaller than the truncation "
+       "error of either basis here, and its steps add an error that the closed "
+       "form does not have: in the modes' phases with Runge-Kutta, in the "
+       "rigid motion with the report's scheme, which solves modes exactly."});
 }
 
 void claim_deformation(Context& context, const Forced& scene,
@@ -232,39 +232,38 @@ void claim_deformation(Context& context, const Forced& scene,
   const double least = std::min(eigen.truncation, mixed.truncation);
   context.claims.push_back(
       {least < 0.01,
-       fmt::format("{}: with at most 16 vectors the basis leaves out less than "
-                   "1 % of the deformation: {} % (16 eigenmodes), {} % (with "
-                   "the loads' static-deformation modes).",
+       fmt::format("{}: with at most 16 vectors the basis omits less than 1 % "
+                   "of the deformation: {} % (16 eigenmodes), {} % (with the "
+                   "loads' static-deformation modes).",
                    scene.title, to_percent(eigen.truncation),
                    to_percent(mixed.truncation)),
-       fmt::format("the load jumps, and a jump swings hundreds of modes: no 16 "
-                   "vectors, however chosen, leave out less than {} % at these "
-                   "outputs.",
+       fmt::format("the load is discontinuous, which excites hundreds of "
+                   "modes: no 16 vectors omit less than {} % at these outputs.",
                    to_percent(eigen.bound))});
 }
 
 void write_splits(Page& page, const Findings& findings) {
   page.text(
-      "Where the error of deformation comes from, one thing at a time, in "
-      "percent of the reference's deformation. *Basis*: against all 1731 modes "
-      "of the mesh, both linear and exact in time. *Step*: the same basis in "
-      "steps against exact in time, with what `coupled` adds to `uncoupled`. "
-      "*Physics*: all modes, linear and exact, against the nonlinear whole "
-      "mesh: an upper bound, because it has the reference's own step in it. "
-      "*No basis can*: what singular values leave beyond so many vectors.");
+      "Sources of the error of deformation, one at a time, in percent of the "
+      "reference's deformation. *Basis*: against all 1731 modes of the mesh, "
+      "both linear and exact in time. *Step*: the same basis in steps against "
+      "exact in time, with what `coupled` adds to `uncoupled`. *Physics*: all "
+      "modes, linear and exact, against the nonlinear whole mesh: an upper "
+      "bound, because it includes the error of the reference's step. *Best "
+      "basis*: the remainder beyond that many singular values.");
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, split] : findings.splits) {
     rows.push_back({name, to_percent(split.truncation), to_percent(split.bound),
                     split.step > 0.0 ? to_percent(split.step) : "0",
                     to_percent(split.physics)});
   }
-  page.table({"choice", "basis %", "no basis can %", "step %", "physics %"},
+  page.table({"choice", "basis %", "best basis %", "step %", "physics %"},
              rows);
   page.text(fmt::format(
-      "How much of that bound is the reference's own step: over the first {} s "
-      "the difference is {} % with its step, and {} % with half of it. The "
-      "physics between `uncoupled` and `coupled`, in the same 16 modes and "
-      "steps of 0.1 ms, are {} %.",
+      "Part of that bound due to the reference's step: over the first {} s the "
+      "difference is {} % with its step, and {} % with half of it. The physics "
+      "between `uncoupled` and `coupled`, in the same 16 modes and steps of "
+      "0.1 ms, are {} %.",
       kWindow, to_percent(findings.physics_at_step),
       to_percent(findings.physics_at_half), to_percent(findings.coupling)));
 }
@@ -277,14 +276,14 @@ void write(Page& page, const Context& context, const Study& study,
   page.text(fmt::format(
       "`uncoupled` with 16 eigenmodes is off by {} % of the displacement, {} % "
       "of the deformation alone, and costs {:.0f} times less than explicit "
-      "finite elements; `coupled` adds nothing here but steps. {}",
+      "finite elements; `coupled` adds only the cost of steps here. {}",
       to_percent(run.displacement()), to_percent(run.deformation()),
-      lumped.online / run.online, scene.words));
+      lumped.online / run.online, scene.description));
   page.text(fmt::format(
-      "The yardstick of cost is the whole mesh with its lumped mass, {:.1f} "
+      "The reference of cost is the whole mesh with its lumped mass, {:.1f} "
       "times cheaper than with the consistent one; but lumping changes the "
-      "mass's moments on this coarse mesh, and puts the displacement off by {} "
-      "%. So the reference of errors has the consistent mass.",
+      "mass's moments on this coarse mesh, and causes an error of displacement "
+      "of {} %. So the reference of errors has the consistent mass.",
       find_consistent(study).online / lumped.online,
       to_percent(lumped.displacement())));
   write_choices(page, context.folder, scene.name, scene.title, study, lumped);
@@ -345,9 +344,9 @@ Writer study_complex(Context& context) {
        .limit = 0.02,
        .patterns = 2,
        .forces = make_complex_forcing(*beam, 0.5),
-       .words =
-           "Two opposite edges are pulled along y, harder from 0.5 s on, by "
-           "forces that turn with the beam "
+       .description =
+           "Two opposite edges are pulled along y, more strongly from 0.5 s "
+           "on, by forces that rotate with the beam "
            "([scene](../scenes/complex.toml)); outputs every 5 ms for 1 s."},
       find_full_modes(false));
 }
@@ -360,7 +359,7 @@ Writer study_impact(Context& context) {
       .limit = 0.04,
       .patterns = 1,
       .forces = make_strike(*beam, kPulse),
-      .words =
+      .description =
           "A patch near the beam's end is hit for 10 ms by 100 N and 10 N "
           "([scene](../scenes/impact.toml)); outputs every 5 ms for 1 s."};
   const Writer write_scene =
@@ -377,7 +376,7 @@ Writer study_impact(Context& context) {
     page.text(fmt::format(
         "The same impact as a half-sine, {} s: deformation off by {} % with 16 "
         "eigenmodes, by {} % with the load's static-deformation mode in place "
-        "of the last one. It is the jump that needs so many modes, not the "
+        "of the last one. The discontinuity needs so many modes, not the "
         "impact.",
         kSmooth, to_percent(errors[0].second), to_percent(errors[1].second)));
   };

@@ -10,9 +10,9 @@
 
 #include "sections.hpp"
 
-/// Measures on five scenes what a choice of level, basis and step costs and
-/// what it gives up, as a page with tables and pictures. Claims are held or
-/// missed, and a miss tells why.
+/// Measures the cost and error of level, basis and step on five scenes, as a
+/// page with tables and pictures. Claims are held or missed, a miss with its
+/// reason.
 namespace limber::bench::trade {
 namespace {
 
@@ -33,24 +33,23 @@ const std::vector<Scene>& list_scenes() {
 void introduce(Page& page) {
   page.text("# What a level costs, and what it gives up");
   page.text(
-      "Written by `scripts/trade`, program and words alike; do not edit. Five "
-      "scenes ([files](../scenes)), each simulated in many ways and held "
-      "against `full`, nonlinear finite elements on the same mesh. Errors are "
+      "Written by `scripts/trade`, including all text; do not edit. Five "
+      "scenes ([files](../scenes)), each simulated in many ways and compared "
+      "with `full`, nonlinear finite elements on the same mesh. Errors are "
       "those of [`limber compare`](../../../docs/compare.md): root mean "
       "squares over all nodes and outputs, in percent of the reference's; the "
       "displacement (the report's error), its rigid part, and the deformation "
-      "alone, in which a good rigid motion hides nothing. *Online* is wall "
-      "time of steps and outputs per simulated time, the least of repeated "
-      "runs, one thread of a shared machine: only ratios of one run mean "
-      "something. *Times cheaper* is against the yardstick that the scene "
-      "names; *with all nodes* the same ratio when every node's displacement "
-      "is computed at every output, which reduced levels otherwise leave for "
-      "later. *Offline* is the reduction, once for each mesh and basis; "
-      "\"known\" if an earlier row had it.");
+      "alone, without rigid motion. *Online* is wall time of steps and outputs "
+      "per simulated time, the least of repeated runs, one thread of a shared "
+      "machine: only ratios within one run are meaningful. *Times cheaper* is "
+      "relative to the scene's reference of cost; *with all nodes* the same "
+      "ratio when every node's displacement is computed at every output, which "
+      "reduced levels otherwise do afterwards. *Offline* is the reduction, "
+      "once for each mesh and basis; \"known\" if an earlier row had it.");
 }
 
 void write_claims(Page& page, const std::vector<Claim>& claims) {
-  page.heading("What was claimed, and what this run says");
+  page.heading("Claims, and the results of this run");
   for (const Claim& claim : claims) {
     page.text(fmt::format(
         "- **{}** {}{}", claim.is_held ? "Held:" : "MISSED:", claim.text,
@@ -103,13 +102,13 @@ void add_verdict_claim(Context& context, const std::string& scene,
   }
   context.claims.push_back(
       {verdict.agrees_by_full(),
-       fmt::format("{}: `limber advise` names the least level that the "
-                   "comparison with `full` finds enough ({}).",
+       fmt::format("{}: `limber advise` names the lowest level that suffices "
+                   "by comparison with `full` ({}).",
                    scene, said),
        verdict.agrees()
            ? "the level is right, by comparison with `coupled` in the same "
-             "basis; what is left against `full` is the basis and the linear "
-             "law, which no level mends."
+             "basis; the remaining error against `full` is that of the basis "
+             "and of the linear law, which no level avoids."
        : verdict.is_safe() ? "the advice is on the safe side."
                            : "the advice is below what is needed."});
 }

@@ -36,13 +36,13 @@ void write(Page& page, const Context& context, const Study& study,
   const Outcome& lumped = find_lumped(study);
   page.heading("Scene 1: accelerating rotation");
   page.text(fmt::format(
-      "Where the beam goes, every level knows to {} %: `rigid` is enough for "
-      "it, and `uncoupled` in steps of 1 ms costs {:.0f} times less than the "
-      "whole mesh. How it bends is another matter: a load that is put on at "
-      "once swings hundreds of modes, and ten eigenmodes are {} % off whatever "
-      "the level, even in steps of 0.1 ms. A couple of 100 N on the end faces, "
+      "All levels agree in the beam's displacement to {} %: `rigid` suffices "
+      "for it, and `uncoupled` in steps of 1 ms costs {:.0f} times less than "
+      "the whole mesh. The deformation is different: a load applied at once "
+      "excites hundreds of modes, and ten eigenmodes are {} % off at any "
+      "level, even in steps of 0.1 ms. A couple of 100 N on the end faces, "
       "fixed in space ([scene](../scenes/rotation.toml)); outputs every 5 ms "
-      "for 0.5 s. The yardstick of cost is the whole mesh with lumped mass by "
+      "for 0.5 s. The reference of cost is the whole mesh with lumped mass by "
       "central differences; the reference of errors has the consistent mass.",
       to_percent(cheap.displacement()), lumped.online / cheap.online,
       to_percent(fine.deformation())));

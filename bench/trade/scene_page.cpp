@@ -7,8 +7,9 @@
 #include <array>
 #include <limits>
 
-#include "app/levels.hpp"
-#include "results/trade_picture.hpp"
+#include "limber/app/reports/levels.hpp"
+#include "limber/results/trade_picture.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::bench::trade {
 namespace {
@@ -47,7 +48,7 @@ std::vector<std::string> make_row(const Outcome& outcome,
   return row;
 }
 
-/// First level that leaves out at most what is neglected.
+/// First level with at most the neglected error.
 std::optional<Fidelity> find_needed(const std::vector<double>& left_out,
                                     double neglected) {
   for (std::size_t i = 0; i < left_out.size(); ++i) {
@@ -144,7 +145,7 @@ Verdict judge_advice(const Study& study, const Choice& base) {
         [&](const dynamics::BodyModel& b) { return b.name == level.name; });
     const int b = static_cast<int>(body - bodies.begin());
     for (const Outcome& run : runs) {
-      // A run that could not go on leaves out everything.
+      // A failed run counts as neglecting everything.
       const double all = std::numeric_limits<double>::infinity();
       const bool is_whole = run.stopped.empty() && runs.back().stopped.empty();
       link.from_coupled.push_back(
@@ -175,11 +176,11 @@ void write_verdict(Page& page, const Verdict& verdict) {
   }
   page.text(
       "`limber advise`, and what the levels rigid / uncoupled / one-way / "
-      "coupled leave out: the largest distance of any node from `coupled` in "
-      "the same basis and steps (what the level alone does), and from `full`, "
+      "coupled neglect: the largest distance of any node from `coupled` in the "
+      "same basis and steps (the effect of the level alone), and from `full`, "
       "in um.");
-  page.table({"link", "neglected [um]", "advised", "from coupled",
-              "enough by that", "from full", "enough by that"},
+  page.table({"link", "neglected [um]", "advised", "from coupled", "sufficient",
+              "from full", "sufficient"},
              rows);
 }
 

@@ -26,7 +26,7 @@ void write_choices(Page& page, const std::filesystem::path& folder,
                    const std::string& name, const std::string& title,
                    const Study& study, const Outcome& yardstick);
 
-/// What the advice says of one link and what its levels leave out.
+/// The advice for one link and the errors of its levels.
 struct LinkVerdict {
   std::string link;
   double neglected = 0.0;  ///< the criterion: displacement of any node [m]

@@ -8,7 +8,7 @@
 #include "scene_page.hpp"
 
 /// The page's scenes, a file each. Each runs its scene, adds its claims and
-/// answers with what writes its part of the page.
+/// returns a function that writes its part of the page.
 namespace limber::bench::trade {
 
 struct Context {

@@ -6,8 +6,9 @@
 #include <limits>
 #include <memory>
 
-#include "app/levels.hpp"
 #include "beam_choices.hpp"
+#include "limber/app/reports/levels.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "sections.hpp"
 
 /// Scene 5: a spin so fast that linear elasticity stops being enough.
@@ -175,12 +176,11 @@ void write(Page& page, const Context& context, const Study& study,
   const Point& fast = points[4];
   page.heading("Scene 5: a fast spin, where linear elasticity ends");
   page.text(fmt::format(
-      "No reduced level is right here, and no basis mends it: in 0.1 s "
-      "`coupled` comes to be {} % off in deformation at {:g} rad/s and {} % at "
-      "{:g}. A beam that spins is pulled straight and swings faster, {:.1f} Hz "
-      "instead of {:.1f} at {:g} rad/s; linear elasticity lacks that, and "
-      "keeps "
-      "what rotation softens. So `coupled` is not much better than `one-way` "
+      "No reduced level is accurate here, with any basis: in 0.1 s `coupled` "
+      "becomes {} % off in deformation at {:g} rad/s and {} % at {:g}. A beam "
+      "that spins is stiffened and vibrates faster, {:.1f} Hz instead of "
+      "{:.1f} at {:g} rad/s; linear elasticity lacks this, but includes the "
+      "softening by rotation. So `coupled` is not much better than `one-way` "
       "here, and most of the error is one of phase, which grows with time. The "
       "report's beam is spun about x and struck at its tip "
       "([scene](../scenes/spin.toml)); outputs every 0.5 ms.",
@@ -191,12 +191,11 @@ void write(Page& page, const Context& context, const Study& study,
                 find_lumped(study));
   write_verdict(page, verdict);
   page.text(
-      "Over the spin rate, 40 eigenmodes in steps of 0.05 ms against the "
-      "whole mesh of St. Venant-Kirchhoff material. The dashed line is what "
-      "the other law, neo-Hookean, makes of the same whole mesh: where it "
-      "rises, the strains are no longer small and the material itself must be "
-      "known better. *Advice warns*: `limber advise` says that no reduced "
-      "level is right.");
+      "Over the spin rate, 40 eigenmodes in steps of 0.05 ms against the whole "
+      "mesh of St. Venant-Kirchhoff material. The dashed line is the same "
+      "whole mesh with the other law, neo-Hookean: where it rises, the strains "
+      "are no longer small and the material law matters. *Advice warns*: "
+      "`limber advise` says that no reduced level is right.");
   write_sweep(page, points);
   for (const Point& point : points) {
     for (const std::string& stop : point.stops) {
@@ -218,13 +217,14 @@ void claim_warning(Context& context, const std::vector<Point>& points) {
   }
   context.claims.push_back(
       {warned > 0.0 && warned <= wrong,
-       fmt::format("Scene 5: spin: `limber advise` warns that no reduced level "
-                   "is right where `coupled` is off by more than 10 % in "
-                   "deformation: it warns from {:g} rad/s on, the error is "
-                   "there from {:g} on.",
-                   warned, wrong),
+       fmt::format(
+           "Scene 5: spin: `limber advise` warns that no reduced level is "
+           "valid where `coupled` is off by more than 10 % in deformation: it "
+           "warns from {:g} rad/s on, the error is there from {:g} on.",
+           warned, wrong),
        "its limit is the size of the deformation (1 % of the longest edge); "
-       "the stiffening by spin shifts the phase of a swing long before."});
+       "the stiffening by spin shifts the phase of the vibration much "
+       "earlier."});
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "beam.hpp"
-#include "flexbody/modal_response.hpp"
 #include "full_modes.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 #include "study.hpp"
 
 /// Where an error of deformation comes from: one thing at a time against the
@@ -14,7 +14,7 @@ namespace limber::bench::trade {
 /// outputs [-].
 struct Split {
   /// All modes of the mesh, linear and exact in time, against the reference:
-  /// the physics left out, and what is left of the reference's own step.
+  /// the neglected physics, and the remaining error of the reference's step.
   double physics = 0.0;
   /// The basis, exact in time, against all modes.
   double truncation = 0.0;

@@ -5,11 +5,12 @@
 #include <chrono>
 #include <utility>
 
-#include "app/comparison.hpp"
-#include "app/reducer.hpp"
-#include "common/errors.hpp"
-#include "dynamics/node_motion.hpp"
-#include "results/energy_audit.hpp"
+#include "limber/app/compare/comparison.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/results/energy_audit.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::bench::trade {
 namespace {
@@ -70,7 +71,7 @@ void find_cost(Outcome& outcome) {
     return total >= app::kEnough;
   };
   for (int count = 1; !is_enough(count); ++count) {
-    const double seconds = app::time_again(run, {});
+    const double seconds = app::repeat_timing(run, {});
     least = std::min(least, seconds);
     total += seconds;
     if (count < 10) nodes = std::min(nodes, time_nodes(outcome));
@@ -144,16 +145,17 @@ Outcome Study::simulate(const Choice& choice) const {
 
 MatrixX find_deformation(const Outcome& outcome, int b) {
   MatrixX u = make_room(outcome, b);
-  dynamics::calc_node_deformations(outcome.run.built.model, b,
+  dynamics::calc_node_deformations(outcome.run.built.model,
+                                   dynamics::BodyIndex(b),
                                    outcome.run.history.states, u);
   return u;
 }
 
 MatrixX find_displacement(const Outcome& outcome, int b) {
   MatrixX u = make_room(outcome, b);
-  dynamics::calc_node_displacements(outcome.run.built.model, b,
-                                    outcome.run.history.states,
-                                    find_start(outcome, b), u);
+  dynamics::calc_node_displacements(
+      outcome.run.built.model, dynamics::BodyIndex(b),
+      outcome.run.history.states, find_start(outcome, b), u);
   return u;
 }
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/run_scene.hpp"
-#include "results/motion_error.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/results/motion_error.hpp"
 
 /// One scene, simulated in many ways, each held against a reference.
 namespace limber::bench::trade {
@@ -18,7 +18,7 @@ namespace limber::bench::trade {
 using dynamics::Fidelity;
 using dynamics::IntegratorKind;
 
-/// How to simulate a scene. What is not given is as the scenario has it.
+/// How to simulate a scene. Unset values are those of the scenario.
 struct Choice {
   std::string name;                    ///< in tables
   std::string label = {};              ///< in pictures; empty: as in tables
@@ -35,7 +35,7 @@ struct Choice {
   std::function<void(scene::Scene&)> change = {};
 };
 
-/// One run, what it cost and how far it is from the reference.
+/// One run, its cost and its error relative to the reference.
 struct Outcome {
   Choice choice;
   app::Run run;
@@ -62,7 +62,7 @@ class Study {
   /// @param cache folder of reduced bodies
   Study(const std::string& scene, std::filesystem::path cache);
 
-  /// @returns the outcome, kept in outcomes() and where it is
+  /// @returns the outcome, stored in outcomes(), and its index
   const Outcome& add_reference(const Choice& choice);
   const Outcome& add(const Choice& choice);
   [[nodiscard]] const Outcome& reference() const { return *outcomes_.front(); }

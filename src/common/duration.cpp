@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/duration.hpp"
+#include "limber/common/duration.hpp"
 
 #include <fmt/format.h>
 
@@ -15,9 +15,9 @@ std::string to_duration(double seconds) {
   return fmt::format("{:.0f} days", seconds / (24.0 * kHour));
 }
 
-std::string foretell(std::string_view what, double seconds, double least) {
+std::string with_duration(std::string_view what, double seconds, double least) {
   if (!(seconds > least)) return std::string(what);
-  return fmt::format("{}{}{}", what, kForetold, to_duration(seconds));
+  return fmt::format("{}{}{}", what, kDurationMark, to_duration(seconds));
 }
 
 }  // namespace limber

@@ -9,13 +9,13 @@ namespace limber {
 /// "75 s", "12 min", "3.4 h". @param seconds [s]
 [[nodiscard]] std::string to_duration(double seconds);
 
-/// What stands between work and how long it is expected to take, in words that
-/// a Progress gets before long work that cannot tell how far it is.
-inline constexpr std::string_view kForetold = ", about ";
+/// Separates a task from its expected duration in the text passed to a Progress
+/// before long work that cannot report its fraction done.
+inline constexpr std::string_view kDurationMark = ", about ";
 
-/// "factorising, about 12 min" of what takes more than `least`, else `what`.
+/// "factorising, about 12 min" if it takes more than `least`, else `what`.
 /// @param seconds, least [s]
-[[nodiscard]] std::string foretell(std::string_view what, double seconds,
-                                   double least = 60.0);
+[[nodiscard]] std::string with_duration(std::string_view what, double seconds,
+                                        double least = 60.0);
 
 }  // namespace limber

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/echo.hpp"
+#include "limber/common/echo.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@ unsigned char byte_at(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);
 }
 
-// Bytes of the control character at `at`, or none. In UTF-8 U+0080 to U+009F
-// take two.
+// Length in bytes of the control character at `at`, or 0. In UTF-8 U+0080 to
+// U+009F take two.
 std::size_t measure_control(std::string_view text, std::size_t at) {
   const unsigned char first = byte_at(text, at);
   if (first < 0x20 || first == 0x7f) return 1;
@@ -34,7 +34,7 @@ std::string spell_out(std::string_view control) {
 
 bool continues(unsigned char byte) { return (byte & 0xc0U) == 0x80U; }
 
-// How much of it is not more than so many characters of UTF-8.
+// Length in bytes of at most this many UTF-8 characters.
 std::size_t measure_start(std::string_view text, std::size_t characters) {
   std::size_t count = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -69,7 +69,7 @@ std::string echo(std::string_view text) {
   return out;
 }
 
-std::string spell_out_controls(std::string_view message) {
+std::string escape_controls(std::string_view message) {
   return rewrite(message, true);
 }
 

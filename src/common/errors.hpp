@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// The three ways in which Limber refuses. Texts name the problem with its
-/// value and unit, why it is one, and what would mend it.
+/// The three kinds of error. Messages name the problem with its value and unit,
+/// the reason, and what would fix it.
 namespace limber {
 
 /// Wrong input: a file, a key, a parameter value. Exit status 2.
@@ -14,7 +14,7 @@ class InputError : public std::runtime_error {
  public:
   /// @param problem what is wrong, where, what was expected.
   explicit InputError(const std::string& problem);
-  /// All problems of one file at once; the text has a line for each.
+  /// All problems of one file at once; the message has a line for each.
   explicit InputError(std::vector<std::string> problems);
 
   [[nodiscard]] const std::vector<std::string>& problems() const {
@@ -25,14 +25,15 @@ class InputError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-/// A computation that cannot go on: no convergence, a singular matrix, a
-/// value that is not finite. Exit status 3; what was computed is kept.
+/// A computation that cannot continue: no convergence, a singular matrix, a
+/// value that is not finite. Exit status 3; results so far are kept.
 class NumericalError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A caller's defect: wrong size, foreign index. Exit status 70.
+/// A programming error of the caller: wrong size, index of another model. Exit
+/// status 70.
 class ContractError : public std::logic_error {
  public:
   using std::logic_error::logic_error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/names.hpp"
+#include "limber/common/names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <iterator>
 #include <numeric>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber {
 namespace {

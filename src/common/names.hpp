@@ -7,18 +7,18 @@
 
 namespace limber {
 
-/// The known name nearest to `unknown` by edit distance, or an empty string
-/// if none is near enough to be a likely slip.
+/// The known name nearest to `unknown` by edit distance, or an empty string if
+/// none is near enough to be a likely typing error.
 [[nodiscard]] std::string nearest_name(std::string_view unknown,
                                        const std::vector<std::string>& known);
 
-/// "unknown KIND 'NAME'" with a suggestion and the list of known names, or the
-/// first of very many.
+/// "unknown KIND 'NAME'" with a suggestion and the known names (the first ones
+/// if there are many).
 [[nodiscard]] std::string describe_unknown(
     std::string_view kind, std::string_view name,
     const std::vector<std::string>& known);
 
-/// Index of `name` in `known`. @throws InputError as describe_unknown words it.
+/// Index of `name` in `known`. @throws InputError with describe_unknown's text.
 [[nodiscard]] std::size_t find_name(std::string_view kind,
                                     std::string_view name,
                                     const std::vector<std::string>& known);

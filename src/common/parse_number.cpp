@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/parse_number.hpp"
+#include "limber/common/parse_number.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber {
 
 /// Pose X_AB of frame B in frame A: a point b (in B) is at p + R b (in A).
 struct Pose {
-  Matrix3 R = Matrix3::Identity();  ///< rotation R_AB
+  Matrix3 R = Matrix3::Identity();  ///< rotation R_AB [-]
   Vector3 p = Vector3::Zero();      ///< position p_AB [m], in A
 
   [[nodiscard]] Pose inverse() const {

@@ -6,8 +6,8 @@
 
 namespace limber {
 
-/// Called by long work with what it does and the fraction done in [0, 1].
-/// An empty function means silence.
+/// Called during long work with the current task and the fraction done, in
+/// [0, 1] [-]. May be empty.
 using Progress = std::function<void(std::string_view what, double fraction)>;
 
 inline void report(const Progress& progress, std::string_view what,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 #include <cmath>
 
@@ -71,13 +71,13 @@ Matrix3 left_jacobian(const Vector3& theta) {
 Matrix3 left_jacobian_derivative(const Vector3& theta,
                                  const Vector3& direction) {
   // J_l = 1 + a S + b S S with a = (1 - cos) / angle^2, b = (angle - sin) /
-  // angle^3; slopes are by the squared angle, times two.
+  // angle^3; derivatives are with respect to angle^2, times two.
   const double x = theta.squaredNorm();
   double a = 0.0;
   double b = 0.0;
   double a_slope = 0.0;
   double b_slope = 0.0;
-  if (x < 0.1) {  // closed forms of the slopes cancel to 1e-11 at small angles
+  if (x < 0.1) {  // cancellation in the closed forms: 1e-11
     a = 0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0)));
     b = 1.0 / 6.0 -
         x / 120.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0)));

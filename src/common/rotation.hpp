@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 /// Rotations on the group SO(3). Angles in radians.
 ///
@@ -22,15 +22,15 @@ namespace limber {
 [[nodiscard]] Vector3 log_rotation(const Quaternion& rotation);
 [[nodiscard]] Vector3 log_rotation(const Matrix3& rotation);
 
-/// Left Jacobian J_l: the angular velocity (outer frame) of exp(theta(t)) is
-/// J_l(theta) thetadot.
+/// Left Jacobian J_l: exp(theta(t)) has the angular velocity J_l(theta)
+/// thetadot, expressed in the outer frame.
 [[nodiscard]] Matrix3 left_jacobian(const Vector3& theta);
 
 /// Derivative of left_jacobian at `theta` along `direction`.
 [[nodiscard]] Matrix3 left_jacobian_derivative(const Vector3& theta,
                                                const Vector3& direction);
 
-/// Right Jacobian J_r(theta) = J_l(-theta): angular velocity in the inner
+/// Right Jacobian J_r(theta) = J_l(-theta): the same expressed in the inner
 /// (rotated) frame.
 [[nodiscard]] Matrix3 right_jacobian(const Vector3& theta);
 

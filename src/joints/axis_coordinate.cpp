@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/axis_coordinate.hpp"
+#include "limber/joints/axis_coordinate.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::joints {
 namespace {
 
-// Square of the twist's share of the quaternion: below this, within 6e-5 rad of
-// upside down, it has no direction [-].
-constexpr double kUpsideDown = 1e-9;
+// Square of the twist part of the quaternion: below this, within 6e-5 rad of
+// reversal, the twist is undefined [-].
+constexpr double kReversed = 1e-9;
 
 double add_turns(double angle, double near) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -36,10 +36,9 @@ CoordinateValue evaluate(const AxisCoordinate& coordinate,
   const Vector3 v = q.vec();
   const double a = v.dot(e);
   const double size = w * w + a * a;
-  if (!(size > kUpsideDown)) {
+  if (!(size > kReversed)) {
     throw NumericalError(
-        "the axis of a rotation is turned upside down, where its angle has no "
-        "meaning");
+        "the axis of a rotation is reversed, where its angle is undefined");
   }
   value.z = add_turns(2.0 * std::atan2(a, w), near);
   // dw = -dphi . v / 2, da = dphi . b / 2; z changes by 2 (w da - a dw) / size.

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/bushing.hpp"
+#include "limber/joints/bushing.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::joints {
 namespace {
 
-// Relative slack for symmetry and for eigenvalues that should be zero.
+// Relative tolerance for symmetry and for eigenvalues that should be zero [-].
 constexpr double kRoundoff = 1e-12;
-// Of the largest principal value: what is smaller is round-off of the matrix.
+// Relative to the largest principal value: smaller ones are round-off of the
+// matrix [-].
 constexpr double kFree = 1e-14;
 
 template <typename Matrix>
@@ -33,12 +35,12 @@ void check_semidefinite(const Matrix& m, const std::string& what) {
           .minCoeff();
   if (lowest < -kRoundoff * scale) {
     throw InputError(fmt::format(
-        "bushing: {} has a negative eigenvalue {:g}; it would feed energy in",
+        "bushing: {} has a negative eigenvalue {:g}; it would supply energy",
         what, lowest));
   }
 }
 
-// The blocks one by one, then together, each in the unit in which its largest
+// Checks the blocks one by one, then together, each scaled so that its largest
 // entry is 1.
 void check_form(const Matrix3& translational, const Matrix3& rotational,
                 const Matrix3& coupling, const std::string& what) {
@@ -67,7 +69,16 @@ Matrix3 find_chordal(const Matrix3& rotational_stiffness) {
          rotational_stiffness;
 }
 
-// Checked before anything is made of it.
+Matrix3 normalised(const Matrix3& matrix) {
+  const double size = matrix.norm();
+  return size > 0.0 ? Matrix3(matrix / size) : matrix;
+}
+
+double find_largest(const Matrix3& stiffness) {
+  return stiffness.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+}
+
+// Checks the parameters before they are used.
 const Bushing::Parameters& check(const Bushing::Parameters& p) {
   check_form(p.translational_stiffness, p.rotational_stiffness,
              p.coupling_stiffness, "stiffness");
@@ -107,7 +118,7 @@ Bushing::Bushing(const Parameters& parameters)
                      is_hinge ? held : Eigen::Array3i::Zero(), principal_Cr_);
 }
 
-// Those of which damping makes no force across them.
+// Only axes for which damping causes no force normal to them.
 std::vector<Bushing::FreeAxis> Bushing::find_free_axes(
     const Matrix3& axes, const Eigen::Array3i& is_free,
     const PrincipalForm& damping) {
@@ -143,7 +154,7 @@ CouplerResponse Bushing::evaluate(const RelativeMotion& motion) const {
   response.wrench.head<3>() = -spring_force - damper_force;
   response.wrench.tail<3>() = -damper_moment;
   response.energy = 0.5 * motion.p_FM_F.dot(spring_force);
-  // The gap first: no cancellation at R = I, and none across its axis.
+  // I - R first: no cancellation at R = I, nor normal to the rotation axis.
   const Matrix3 gaps = motion.R_FM * principal_D_.axes - principal_D_.axes;
   for (int i = 0; i < 3; ++i) {
     const double D = principal_D_.values[i];
@@ -190,6 +201,34 @@ void Bushing::add_coupling(const RelativeMotion& motion,
       0.5 * (y * twice_s.transpose() + R.transpose() * skew(y));
   response.damping.topRightCorner<3, 3>() = Cc;
   response.damping.bottomLeftCorner<3, 3>() = Cc.transpose();
+}
+
+RequiredSides Bushing::find_required_rotations() const {
+  const Matrix3 required = normalised(parameters_.rotational_stiffness) +
+                           normalised(parameters_.rotational_damping);
+  return {required, required};
+}
+
+HoldStiffness find_hold_stiffness(const Bushing& hold) {
+  return {find_largest(hold.parameters().translational_stiffness),
+          find_largest(hold.parameters().rotational_stiffness)};
+}
+
+HoldGive find_give(const Bushing& hold, const HoldStiffness& stiffness,
+                   const RelativeMotion& motion) {
+  const Bushing::Parameters& p = hold.parameters();
+  HoldGive give;
+  if (stiffness.translational > 0.0) {
+    const Vector3 force = p.translational_stiffness * motion.p_FM_F;
+    give.distance = force.norm() / stiffness.translational;
+  }
+  if (stiffness.rotational > 0.0) {
+    // theta^2 / 2 of a rotation by small angles.
+    const Matrix3 D = find_chordal(p.rotational_stiffness);
+    const double energy = (D * (Matrix3::Identity() - motion.R_FM)).trace();
+    give.turn = std::sqrt(2.0 * std::max(energy, 0.0) / stiffness.rotational);
+  }
+  return give;
 }
 
 }  // namespace limber::joints

@@ -3,29 +3,34 @@
 
 #include <array>
 
-#include "common/pose.hpp"
-#include "joints/scalar_motion.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/common/records/fields.hpp"
+#include "limber/joints/switches.hpp"
 
 namespace limber::joints {
 
 enum class LatchStatus { open, closed, released };
 
-/// Coordinates that a joint has, at most.
+/// Largest number of coordinates of a joint.
 inline constexpr int kMaxCoordinates = 3;
 
-/// Switches that a coupler has, at most.
+/// Largest number of switches of a coupler.
 inline constexpr int kMaxSwitches = 12;
 
-/// What a coupler remembers between steps. A plain value, part of the state;
-/// constant within a step.
+/// History of a coupler. A plain value, part of the state; constant within a
+/// step.
 struct CouplerMemory {
-  /// Its coordinates at the last step's end, whole turns included: angles are
-  /// counted on from here [rad or m].
+  /// The coupler's coordinates at the end of the last step, including whole
+  /// turns: angles are taken nearest to these [rad or m].
   std::array<double, kMaxCoordinates> near{};
-  /// Where its switches stand, those of a joint's elements in order.
+  /// Positions of the coupler's switches, those of a joint's elements in order.
   std::array<SwitchMode, kMaxSwitches> switches{};
   LatchStatus latch = LatchStatus::open;
-  Pose X_FM;  ///< of a closed latch at rest
+  Pose X_FM;  ///< rest pose of a closed latch [-], [m]
 };
+
+constexpr auto fields_of(const CouplerMemory*) {
+  return list_fields("memory", "near [rad, m]", "switches", "latch", "X_FM");
+}
 
 }  // namespace limber::joints

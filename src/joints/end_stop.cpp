@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/end_stop.hpp"
+#include "limber/joints/end_stop.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/restitution.hpp"
 
 namespace limber::joints {
 namespace {
@@ -64,6 +65,25 @@ SwitchValue EndStop::find_switch(int index, const ScalarMotion& motion) const {
   return {parameters_.lower - motion.z, -motion.rate};
 }
 
+ScalarResponse EndStop::evaluate_over_step(const CoordinateStep& coordinate,
+                                           const StepTimes& times,
+                                           const SwitchModes& modes) const {
+  return balance(evaluate_ends(*this, coordinate, times, modes),
+                 coordinate.rate, times.h);
+}
+
+std::optional<BeyondBound> EndStop::find_beyond_bound(
+    const ScalarMotion& motion) const {
+  const Parameters& p = parameters_;
+  const double z = motion.z;
+  const bool is_above = z > p.upper;
+  if (!is_above && !(z < p.lower)) return std::nullopt;
+  const double bound = is_above ? p.upper : p.lower;
+  return BeyondBound{.bound = bound,
+                     .by = is_above ? z - bound : bound - z,
+                     .energy = evaluate(motion).energy};
+}
+
 double find_stop_damping(double restitution, double speed) {
   if (!(restitution > 0.0) || !(restitution <= 1.0)) {
     throw InputError(fmt::format(
@@ -74,19 +94,7 @@ double find_stop_damping(double restitution, double speed) {
     throw InputError(fmt::format(
         "end stop: the speed of its restitution is {:g}; expected > 0", speed));
   }
-  const double e = restitution;
-  if (e == 1.0) return 0.0;
-  // What the bounce leaves too fast (> 0) or too slow, for beta in (0, 1/e).
-  const auto excess = [e](double beta) {
-    return (1.0 + e) * beta - std::log1p(beta) + std::log1p(-e * beta);
-  };
-  double low = 0.0;
-  double high = 1.0 / e;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (excess(middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high) / speed;
+  return find_restitution_damping(restitution, speed);
 }
 
 }  // namespace limber::joints

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/friction.hpp"
+#include "limber/joints/friction.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 namespace {
@@ -26,7 +26,9 @@ Friction::Friction(const Parameters& parameters) : parameters_(parameters) {
   check_value(p.speed > 0.0, "smoothing speed", p.speed, "> 0");
 }
 
-ScalarResponse Friction::evaluate(const ScalarMotion& motion) const {
+ScalarResponse Friction::evaluate(const ScalarMotion& motion,
+                                  const Instant& /*now*/,
+                                  const SwitchModes& /*modes*/) const {
   const Parameters& p = parameters_;
   const double v = motion.rate;
   const double speed = std::hypot(v, p.speed);
@@ -35,6 +37,13 @@ ScalarResponse Friction::evaluate(const ScalarMotion& motion) const {
   return {.force = force,
           .dissipation = -force * v,
           .damping = p.coulomb * share * share / speed + p.viscous};
+}
+
+ScalarResponse Friction::evaluate_over_step(const CoordinateStep& coordinate,
+                                            const StepTimes& times,
+                                            const SwitchModes& modes) const {
+  return balance(evaluate_ends(*this, coordinate, times, modes),
+                 coordinate.rate, times.h);
 }
 
 }  // namespace limber::joints

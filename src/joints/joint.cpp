@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/joint.hpp"
+#include "limber/joints/joint.hpp"
 
 #include <cmath>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 
 Joint::Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
              std::vector<JointElement> elements)
-    : hold_(std::move(hold)),
-      coordinates_(std::move(coordinates)),
-      elements_(std::move(elements)) {
-  LIMBER_EXPECT(std::ssize(coordinates_) <= kMaxCoordinates);
-  for (const AxisCoordinate& coordinate : coordinates_) {
+    : parameters_{std::move(hold), std::move(coordinates),
+                  std::move(elements)} {
+  LIMBER_EXPECT(std::ssize(this->coordinates()) <= kMaxCoordinates);
+  for (const AxisCoordinate& coordinate : this->coordinates()) {
     LIMBER_EXPECT(std::abs(coordinate.axis.norm() - 1.0) < 1e-9);
   }
   int switches = 0;
-  for (const JointElement& element : elements_) {
+  for (const JointElement& element : this->elements()) {
     LIMBER_EXPECT(element.coordinate >= 0 &&
-                  element.coordinate < std::ssize(coordinates_));
+                  element.coordinate < std::ssize(this->coordinates()));
     first_switch_.push_back(static_cast<std::size_t>(switches));
-    switches += switch_count(element.law);
+    switches += joints::switch_count(element.law);
   }
-  // The last element is handed as many modes as a law may have.
+  // The last element reads as many modes as a law may have.
   LIMBER_EXPECT(switches + kMaxScalarSwitches <= kMaxSwitches);
 }
 
@@ -32,27 +31,165 @@ CouplerResponse Joint::evaluate(const RelativeMotion& motion,
                                 const CouplerMemory& memory,
                                 const Instant& now) const {
   CouplerResponse response = std::visit(
-      [&](const auto& hold) { return hold.evaluate(motion); }, hold_);
-  if (elements_.empty()) return response;
-  // Laws of one coordinate act together.
-  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+      [&](const auto& hold) { return hold.evaluate(motion); }, hold());
+  if (elements().empty()) return response;
+  // Laws along one coordinate are summed.
+  for (std::size_t i = 0; i < coordinates().size(); ++i) {
     CoordinateValue value;
     ScalarResponse sum;
     bool acts = false;
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-      const JointElement& element = elements_[e];
+    for (std::size_t e = 0; e < elements().size(); ++e) {
+      const JointElement& element = elements()[e];
       if (element.coordinate != static_cast<int>(i)) continue;
       if (!acts) {
-        value = joints::evaluate(coordinates_[i], motion, memory.near[i]);
+        value = joints::evaluate(coordinates()[i], motion, memory.near[i]);
       }
       acts = true;
-      const std::size_t s = first_switch_[e];
       sum += joints::evaluate(element.law, {value.z, value.rate}, now,
-                              {memory.switches[s], memory.switches[s + 1]});
+                              modes_of(e, memory));
     }
     if (acts) add_along(value, motion, sum, response);
   }
   return response;
+}
+
+CouplerResponse Joint::evaluate_over_step(const MotionStep& motion,
+                                          const CouplerMemory& memory,
+                                          const StepTimes& times) const {
+  CouplerResponse response = std::visit(
+      [&](const auto& hold) { return hold.evaluate(motion.mean); }, hold());
+  for (std::size_t e = 0; e < elements().size(); ++e) {
+    const JointElement& element = elements()[e];
+    const auto i = static_cast<std::size_t>(element.coordinate);
+    const CoordinateStep step =
+        find_coordinate_step(coordinates()[i], motion, memory.near[i], times.h);
+    const ScalarResponse scalar = joints::evaluate_over_step(
+        element.law, step, times, modes_of(e, memory));
+    CoordinateValue value;
+    value.gradient = step.gradient;
+    value.hessian = step.hessian;
+    add_along(value, motion.mean, scalar, response);
+  }
+  return response;
+}
+
+RequiredSides Joint::find_required_rotations() const {
+  RequiredSides required = std::visit(
+      [](const auto& hold) { return hold.find_required_rotations(); }, hold());
+  for (const JointElement& element : elements()) {
+    required +=
+        joints::find_required_rotations(coordinates(), element.coordinate);
+  }
+  return required;
+}
+
+int Joint::switch_count() const {
+  int count = 0;
+  for (const JointElement& element : elements()) {
+    count += joints::switch_count(element.law);
+  }
+  return count;
+}
+
+Joint::ElementSwitch Joint::find_element(int index) const {
+  for (const JointElement& element : elements()) {
+    const int count = joints::switch_count(element.law);
+    if (index < count) return {element, index};
+    index -= count;
+  }
+  throw ContractError("a joint's switch that does not exist");
+}
+
+SwitchValue Joint::find_switch(int index, const RelativeMotion& motion,
+                               const CouplerMemory& memory,
+                               double /*t*/) const {
+  const ElementSwitch found = find_element(index);
+  const auto c = static_cast<std::size_t>(found.element.coordinate);
+  const CoordinateValue value =
+      joints::evaluate(coordinates()[c], motion, memory.near[c]);
+  return joints::find_switch(found.element.law, found.index,
+                             {value.z, value.rate});
+}
+
+std::optional<EventKind> Joint::find_event(
+    int index, bool rises, const CouplerMemory& /*memory*/) const {
+  return joints::find_event(find_element(index).element.law, rises);
+}
+
+std::vector<double> Joint::break_times() const {
+  std::vector<double> times;
+  for (const JointElement& element : elements()) {
+    const std::vector<double> more = joints::break_times(element.law);
+    times.insert(times.end(), more.begin(), more.end());
+  }
+  return times;
+}
+
+std::vector<int> Joint::find_inputs() const {
+  std::vector<int> inputs;
+  for (const JointElement& element : elements()) {
+    const std::vector<int> more = joints::find_inputs(element.law);
+    inputs.insert(inputs.end(), more.begin(), more.end());
+  }
+  return inputs;
+}
+
+Vector6 Joint::find_target_velocity(const RelativeMotion& motion,
+                                    const CouplerMemory& memory,
+                                    const Instant& now) const {
+  Vector6 target = Vector6::Zero();
+  for (std::size_t i = 0; i < coordinates().size(); ++i) {
+    TargetRate sum;
+    CoordinateValue value;
+    for (std::size_t e = 0; e < elements().size(); ++e) {
+      const JointElement& element = elements()[e];
+      if (element.coordinate != static_cast<int>(i)) continue;
+      value = joints::evaluate(coordinates()[i], motion, memory.near[i]);
+      sum.add(element.law, {value.z, value.rate}, now, modes_of(e, memory));
+    }
+    if (sum.rate() == 0.0) continue;
+    target += sum.rate() / value.gradient.squaredNorm() * value.gradient;
+  }
+  return target;
+}
+
+std::optional<HoldStiffness> Joint::find_hold_stiffness() const {
+  return std::visit(
+      [](const auto& hold) { return joints::find_hold_stiffness(hold); },
+      hold());
+}
+
+HoldGive Joint::find_give(const HoldStiffness& stiffness,
+                          const RelativeMotion& motion) const {
+  return std::visit(
+      [&](const auto& hold) {
+        return joints::find_give(hold, stiffness, motion);
+      },
+      hold());
+}
+
+std::vector<AxisCoordinate::Kind> Joint::reading_kinds() const {
+  std::vector<AxisCoordinate::Kind> kinds;
+  for (const AxisCoordinate& c : coordinates()) kinds.push_back(c.kind);
+  return kinds;
+}
+
+CoordinateReading Joint::read(int coordinate, const RelativeMotion& motion,
+                              const CouplerMemory& memory,
+                              const Instant& now) const {
+  LIMBER_EXPECT(coordinate >= 0 && coordinate < std::ssize(coordinates()));
+  const auto i = static_cast<std::size_t>(coordinate);
+  const CoordinateValue value =
+      joints::evaluate(coordinates()[i], motion, memory.near[i]);
+  CoordinateReading reading{.motion = {value.z, value.rate}};
+  for (std::size_t e = 0; e < elements().size(); ++e) {
+    const JointElement& element = elements()[e];
+    if (element.coordinate != coordinate) continue;
+    reading.response +=
+        joints::evaluate(element.law, reading.motion, now, modes_of(e, memory));
+  }
+  reading.effort = reading.response.force;
+  return reading;
 }
 
 void add_along(const CoordinateValue& coordinate, const RelativeMotion& motion,
@@ -62,7 +199,7 @@ void add_along(const CoordinateValue& coordinate, const RelativeMotion& motion,
   response.energy += scalar.energy;
   response.dissipation += scalar.dissipation;
   response.supplied += scalar.supplied;
-  // The rate is g . velocity, and g turns with the motion.
+  // The rate is g . velocity, and g rotates with the motion.
   Vector6 slope = scalar.stiffness * g;
   slope.tail<3>() +=
       scalar.damping * (coordinate.hessian.transpose() * motion.w_FM_F);

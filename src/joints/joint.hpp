@@ -1,56 +1,109 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
-#include "joints/axis_coordinate.hpp"
-#include "joints/bushing.hpp"
-#include "joints/coupler_memory.hpp"
-#include "joints/scalar_law.hpp"
-#include "joints/universal_hold.hpp"
+#include "limber/common/records/fields.hpp"
+#include "limber/joints/axis_coordinate.hpp"
+#include "limber/joints/bushing.hpp"
+#include "limber/joints/coupler_law_kind.hpp"
+#include "limber/joints/scalar_law.hpp"
+#include "limber/joints/universal_hold.hpp"
 
 namespace limber::joints {
 
-/// A scalar law along one of a joint's coordinates.
-struct JointElement {
-  int coordinate = 0;
-  ScalarLaw law;
-};
-
-/// A joint: what it holds, and what acts along the coordinates it leaves free.
+/// A joint: stiffness in its constrained directions, and scalar laws along its
+/// free coordinates.
 ///
-/// Equation   the sum of the hold's wrench and of force * gradient of each
+/// Equation   the sum of the wrench of `hold` and of force * gradient of each
 ///            element, with the coordinates of AxisCoordinate
-class Joint {
+class Joint : public WithoutTriggers {
  public:
   using Hold = std::variant<Bushing, UniversalHold>;
+  struct Parameters {
+    Hold hold;
+    std::vector<AxisCoordinate> coordinates;
+    std::vector<JointElement> elements;
+  };
 
   /// @throws ContractError for more than kMaxCoordinates coordinates or
   /// kMaxSwitches switches, an axis that is not a unit vector, or an element on
-  /// a coordinate that is not there.
+  /// a coordinate that does not exist.
   Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
         std::vector<JointElement> elements);
 
-  [[nodiscard]] const Hold& hold() const { return hold_; }
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+  [[nodiscard]] const Hold& hold() const { return parameters_.hold; }
   [[nodiscard]] const std::vector<AxisCoordinate>& coordinates() const {
-    return coordinates_;
+    return parameters_.coordinates;
   }
   [[nodiscard]] const std::vector<JointElement>& elements() const {
-    return elements_;
+    return parameters_.elements;
   }
 
   /// @throws NumericalError as AxisCoordinate does.
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory,
                                          const Instant& now) const;
+  /// The sum of the hold's wrench at the mean and of each element's response
+  /// over the step.
+  /// @throws NumericalError as AxisCoordinate does.
+  [[nodiscard]] CouplerResponse evaluate_over_step(
+      const MotionStep& motion, const CouplerMemory& memory,
+      const StepTimes& times) const;
+
+  [[nodiscard]] RequiredSides find_required_rotations() const;
+
+  /// Switches of the elements, in their order.
+  [[nodiscard]] int switch_count() const;
+  [[nodiscard]] SwitchValue find_switch(int index, const RelativeMotion& motion,
+                                        const CouplerMemory& memory,
+                                        double t) const;
+  [[nodiscard]] std::optional<EventKind> find_event(
+      int index, bool rises, const CouplerMemory& memory) const;
+
+  [[nodiscard]] std::vector<double> break_times() const;
+  [[nodiscard]] std::vector<int> find_inputs() const;
+  [[nodiscard]] Vector6 find_target_velocity(const RelativeMotion& motion,
+                                             const CouplerMemory& memory,
+                                             const Instant& now) const;
+
+  [[nodiscard]] std::optional<HoldStiffness> find_hold_stiffness() const;
+  [[nodiscard]] HoldGive find_give(const HoldStiffness& stiffness,
+                                   const RelativeMotion& motion) const;
+
+  /// One for each coordinate.
+  [[nodiscard]] std::vector<AxisCoordinate::Kind> reading_kinds() const;
+  /// @throws ContractError for a coordinate that does not exist.
+  /// @throws NumericalError as AxisCoordinate does.
+  [[nodiscard]] CoordinateReading read(int coordinate,
+                                       const RelativeMotion& motion,
+                                       const CouplerMemory& memory,
+                                       const Instant& now) const;
 
  private:
-  Hold hold_;
-  std::vector<AxisCoordinate> coordinates_;
-  std::vector<JointElement> elements_;
-  std::vector<std::size_t> first_switch_;  // one an element
+  // An element, and the index of one of its switches.
+  struct ElementSwitch {
+    const JointElement& element;
+    int index;
+  };
+  [[nodiscard]] ElementSwitch find_element(int index) const;
+  // Positions of an element's switches.
+  [[nodiscard]] SwitchModes modes_of(std::size_t element,
+                                     const CouplerMemory& memory) const {
+    const std::size_t first = first_switch_[element];
+    return {memory.switches[first], memory.switches[first + 1]};
+  }
+
+  Parameters parameters_;
+  std::vector<std::size_t> first_switch_;  // index, of each element
 };
+
+constexpr auto fields_of(const Joint::Parameters*) {
+  return list_fields("joint", "hold", "coordinates", "elements");
+}
 
 /// Adds a force along a coordinate to a wrench and its derivatives.
 void add_along(const CoordinateValue& coordinate, const RelativeMotion& motion,

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/joint_kind.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 namespace {
 
-// Which directions a joint holds: projections of translation and rotation.
+// Constrained directions of a joint: projections of translation and rotation.
 struct HeldDirections {
   Matrix3 translation;
   Matrix3 rotation;
@@ -32,7 +32,7 @@ HeldDirections find_held(JointKind kind, const Vector3& axis) {
       return {Matrix3::Zero(), Matrix3::Zero()};
     case JointKind::ball:
       return {all, Matrix3::Zero()};
-    case JointKind::universal:  // holds a rotation that turns with M
+    case JointKind::universal:  // constrains a rotation that turns with M
     case JointKind::fixed:
       break;
   }

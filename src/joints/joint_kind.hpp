@@ -4,18 +4,18 @@
 #include <string_view>
 #include <vector>
 
-#include "joints/joint.hpp"
+#include "limber/joints/joint.hpp"
 
 namespace limber::joints {
 
-/// URDF's joint kinds and two more, each with some directions left free.
+/// The joint kinds of URDF and two more, by their free directions.
 enum class JointKind {
-  fixed,       ///< nothing free
+  fixed,       ///< no free direction
   revolute,    ///< a hinge: rotation about the axis
   continuous,  ///< the same, without limits
   prismatic,   ///< a slider: translation along the axis
   planar,      ///< translation normal to the axis, rotation about it
-  floating,    ///< everything free
+  floating,    ///< all directions free
   universal,   ///< rotations about the axis and a second one, normal to it
   ball,        ///< every rotation
 };
@@ -23,11 +23,11 @@ enum class JointKind {
 /// "fixed", "revolute", ...
 [[nodiscard]] std::string_view to_string(JointKind kind);
 
-/// Whether the kind's free directions follow from an axis.
+/// Whether the kind's free directions depend on an axis.
 [[nodiscard]] bool needs_axis(JointKind kind);
 
-/// Stiffness and damping of the directions that a joint holds, and damping of
-/// those that it leaves free.
+/// Stiffness and damping of a joint's constrained directions, and damping of
+/// its free ones.
 struct JointParameters {
   double translational_stiffness = 0.0;  ///< [N/m]
   double rotational_stiffness = 0.0;     ///< [N m/rad]
@@ -37,23 +37,24 @@ struct JointParameters {
                                          ///< [N s/m or N m s/rad]
 };
 
-/// Two directions that make a right-handed triad with the unit vector `axis`: x
-/// and y themselves if it is z. Along them a planar joint slides.
+/// Two directions that complete the unit vector `axis` to a right-handed triad
+/// (x, y, axis): the x and y axes if `axis` is z. A planar joint slides along
+/// them.
 struct PlaneAxes {
-  Vector3 x;
-  Vector3 y;
+  Vector3 x;  ///< unit [-]
+  Vector3 y;  ///< unit [-]
 };
 [[nodiscard]] PlaneAxes find_plane_axes(const Vector3& axis);
 
-/// What a joint leaves free: revolute, continuous: an angle about the axis;
+/// Free coordinates of a joint. Revolute, continuous: an angle about the axis;
 /// prismatic: a distance along it; planar: distances along x and y of
 /// find_plane_axes, then an angle about the axis; universal: angles about the
 /// axis and the second axis; ball: angles about x, y, z; else none.
 [[nodiscard]] std::vector<AxisCoordinate> find_coordinates(
     JointKind kind, const Vector3& axis_F, const Vector3& second_F);
 
-/// A joint and what acts along its coordinates. Axes may have any length; those
-/// that its kind does not need are not looked at.
+/// A joint with scalar laws along its coordinates. Axes may have any length;
+/// axes that the kind does not need are ignored.
 /// @throws InputError if an axis has no direction, the axes of a universal
 /// joint are not normal to each other, or a value is negative or not finite.
 /// @throws ContractError as Joint does.
@@ -62,8 +63,8 @@ struct PlaneAxes {
                                const JointParameters& parameters,
                                std::vector<JointElement> elements = {});
 
-/// The hold of any joint but a universal one: a bushing with the free
-/// directions left out.
+/// The bushing of any joint but a universal one: stiffness and damping in its
+/// constrained directions, `free_damping` in the others.
 /// @throws InputError like make_joint.
 /// @throws ContractError for a universal joint.
 [[nodiscard]] Bushing make_joint_bushing(JointKind kind, const Vector3& axis_F,

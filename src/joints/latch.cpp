@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/latch.hpp"
+#include "limber/joints/latch.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 
@@ -35,6 +35,11 @@ CouplerResponse Latch::evaluate(const RelativeMotion& motion,
   return bushing_.evaluate(from_rest);
 }
 
+RequiredSides Latch::find_required_rotations() const {
+  if (bushing_.find_required_rotations().F.isZero()) return {};
+  return {Matrix3::Identity(), Matrix3::Identity()};
+}
+
 SwitchValue Latch::find_switch(int index, const RelativeMotion& motion,
                                const CouplerMemory& memory, double t) const {
   constexpr SwitchValue kOff{-1.0, 0.0};
@@ -51,12 +56,19 @@ SwitchValue Latch::find_switch(int index, const RelativeMotion& motion,
     return {parameters_.reach - distance, -rate};
   }
   if (!std::isfinite(parameters_.release_force)) return kOff;
-  // The elastic part: a damper's first push is no reason to let go.
+  // The elastic part: the damper's initial force does not release the latch.
   const Matrix3& K = parameters_.bushing.translational_stiffness;
   const Vector3 force = K * (motion.p_FM_F - memory.X_FM.p);
   const double size = force.norm();
   const double rate = size > 0.0 ? force.dot(K * motion.v_FM_F) / size : 0.0;
   return {size - parameters_.release_force, rate};
+}
+
+std::optional<EventKind> Latch::find_event(int index, bool rises,
+                                           const CouplerMemory& memory) {
+  if (!rises) return std::nullopt;
+  return index == 0 && memory.latch == LatchStatus::open ? EventKind::latched
+                                                         : EventKind::released;
 }
 
 void Latch::update(int index, const RelativeMotion& motion,

@@ -2,22 +2,26 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
-#include "joints/bushing.hpp"
-#include "joints/coupler_memory.hpp"
-#include "joints/scalar_motion.hpp"
+#include "limber/joints/bushing.hpp"
+#include "limber/joints/coupler_law_kind.hpp"
 
 namespace limber::joints {
 
-/// A bushing that is not there until two frames come near each other, rests in
-/// the pose in which it caught them, and stays until it is released for good.
+/// A bushing that acts once two frames have come near each other, is relaxed in
+/// their relative pose at that time, and acts until it is released for good.
 ///
 /// Equation   closes when |p_FM| falls to `reach`; then the bushing's, with
-///            p_FM - p_0 and R_FM R_0^T. Opens at `release_time` or when the
-///            force of its spring exceeds `release_force`; what it stores then
-///            is lost. A latch that is released before it closes never does.
-class Latch {
+///            p_FM - p_0 and R_FM R_0^T. Opens at `release_time` or when its
+///            spring force exceeds `release_force`; the energy stored at that
+///            time is lost. A latch released before it closes never closes.
+class Latch : public WithoutCoordinates,
+              public WithoutCommands,
+              public WithoutHold,
+              public WithoutReadings {
  public:
+  /// No release by force or at a time [N or s].
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   struct Parameters {
     double reach = 0.0;  ///< > 0 [m]
@@ -32,14 +36,33 @@ class Latch {
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
                                          const CouplerMemory& memory) const;
+  [[nodiscard]] CouplerResponse evaluate(const RelativeMotion& motion,
+                                         const CouplerMemory& memory,
+                                         const Instant& /*now*/) const {
+    return evaluate(motion, memory);
+  }
+  /// The response at the mean, as that of its bushing.
+  [[nodiscard]] CouplerResponse evaluate_over_step(
+      const MotionStep& motion, const CouplerMemory& memory,
+      const StepTimes& /*times*/) const {
+    return evaluate(motion.mean, memory);
+  }
 
-  /// Rises through zero: when the latch closes (0, while it is open) or gives
-  /// way (0, while it is closed); at its release time (1).
+  /// Those of its bushing in any relative orientation, since it may close in
+  /// any.
+  [[nodiscard]] RequiredSides find_required_rotations() const;
+
+  /// Switch 0 rises through zero when an open latch closes or a closed one is
+  /// released by force; switch 1 at the release time.
   [[nodiscard]] static int switch_count() { return 2; }
   [[nodiscard]] SwitchValue find_switch(int index, const RelativeMotion& motion,
                                         const CouplerMemory& memory,
                                         double t) const;
-  /// What it remembers after switch `index` rose.
+  [[nodiscard]] static std::optional<EventKind> find_event(
+      int index, bool rises, const CouplerMemory& memory);
+  /// The memory's latch status stores past events.
+  [[nodiscard]] static bool has_triggers() { return true; }
+  /// Updates the memory after switch `index` became positive.
   void update(int index, const RelativeMotion& motion,
               CouplerMemory& memory) const;
 
@@ -47,5 +70,10 @@ class Latch {
   Parameters parameters_;
   Bushing bushing_;
 };
+
+constexpr auto fields_of(const Latch::Parameters*) {
+  return list_fields("latch", "reach [m]", "bushing", "release force [N]",
+                     "release time [s]");
+}
 
 }  // namespace limber::joints

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/point_spring.hpp"
+#include "limber/joints/point_spring.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 namespace {
 
-// The length as a coordinate: a line turns about its far end.
+// The length as a coordinate: the line rotates about its far end.
 struct LineMotion {
   Vector3 e;
   ScalarMotion scalar;
@@ -20,7 +20,7 @@ LineMotion find_line(const RelativeMotion& motion, double shortest) {
   const double length = motion.p_FM_F.norm();
   if (!(length > shortest)) {
     throw NumericalError(fmt::format(
-        "point spring: its ends coincide, so its direction has no meaning; "
+        "point spring: its ends coincide, so its direction is undefined; "
         "use a free length of 0 and no table, or a bushing (length {:g} m)",
         length));
   }
@@ -95,11 +95,58 @@ CouplerResponse PointSpring::evaluate(const RelativeMotion& motion,
   return response;
 }
 
-SwitchValue PointSpring::find_switch(const RelativeMotion& motion) const {
+CouplerResponse PointSpring::evaluate_over_step(const MotionStep& motion,
+                                                const CouplerMemory& memory,
+                                                const StepTimes& times) const {
+  const SwitchMode mode = memory.switches[0];
+  const double length =
+      0.5 * (motion.begin.p_FM_F.norm() + motion.end.p_FM_F.norm());
+  const double across = motion.mean.p_FM_F.norm();
+  const double share = across > 0.0 ? across / length : 1.0;
+  RelativeMotion line = motion.mean;
+  line.p_FM_F /= share;
+  line.v_FM_F *= share;
+  CouplerResponse response = evaluate(line, mode);
+  response.wrench *= share;
+  if (!(across > 0.0)) return response;
+  const Vector3 direction = motion.mean.p_FM_F / length;
+  const double rate = direction.dot(motion.mean.v_FM_F);
+  const double lack =
+      find_lack({.energy0 = evaluate(motion.begin, mode).energy,
+                 .energy1 = evaluate(motion.end, mode).energy,
+                 .h = times.h,
+                 .dissipation = response.dissipation,
+                 .power = response.wrench.head<3>().dot(motion.mean.v_FM_F)});
+  if (lack != 0.0 && rate != 0.0) {
+    response.wrench.head<3>() += (lack / rate) * direction;
+  }
+  return response;
+}
+
+SwitchValue PointSpring::find_switch(int /*index*/,
+                                     const RelativeMotion& motion,
+                                     const CouplerMemory& /*memory*/,
+                                     double /*t*/) const {
   const double length = motion.p_FM_F.norm();
   const double rate =
       length > 0.0 ? motion.p_FM_F.dot(motion.v_FM_F) / length : 0.0;
   return line_.find_switch(0, {length, rate});
+}
+
+CoordinateReading PointSpring::read(int coordinate,
+                                    const RelativeMotion& motion,
+                                    const CouplerMemory& memory,
+                                    const Instant& now) const {
+  LIMBER_EXPECT(coordinate == 0);
+  const Vector3 force = evaluate(motion, memory, now).wrench.head<3>();
+  const double length = motion.p_FM_F.norm();
+  const ScalarMotion along =
+      length == 0.0
+          ? ScalarMotion{0.0, motion.v_FM_F.norm()}
+          : ScalarMotion{length, motion.v_FM_F.dot(motion.p_FM_F) / length};
+  const double push =
+      length == 0.0 ? -force.norm() : force.dot(motion.p_FM_F) / length;
+  return {along, {.force = push}, -push};
 }
 
 }  // namespace limber::joints

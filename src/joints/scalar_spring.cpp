@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/scalar_spring.hpp"
+#include "limber/joints/scalar_spring.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 
@@ -16,7 +16,7 @@ ScalarSpring::ScalarSpring(const Parameters& parameters)
                                  parameters.damping));
   }
   if (!std::isfinite(parameters.rest)) {
-    throw InputError("spring: where it rests is not finite");
+    throw InputError("spring: its rest position is not finite");
   }
   const double push = -parameters.curve.evaluate(0.0).force;
   if (parameters.tension_only && push > 0.0) {
@@ -47,6 +47,13 @@ ScalarResponse ScalarSpring::evaluate(const ScalarMotion& motion,
 SwitchValue ScalarSpring::find_switch(int /*index*/,
                                       const ScalarMotion& motion) const {
   return {motion.z - parameters_.rest, motion.rate};
+}
+
+ScalarResponse ScalarSpring::evaluate_over_step(
+    const CoordinateStep& coordinate, const StepTimes& times,
+    const SwitchModes& modes) const {
+  return balance(evaluate_ends(*this, coordinate, times, modes),
+                 coordinate.rate, times.h);
 }
 
 }  // namespace limber::joints

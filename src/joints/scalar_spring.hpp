@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "joints/scalar_motion.hpp"
-#include "joints/spring_curve.hpp"
+#include "limber/joints/scalar_law_kind.hpp"
+#include "limber/joints/spring_curve.hpp"
 
 namespace limber::joints {
 
@@ -10,16 +10,16 @@ namespace limber::joints {
 ///
 /// Equation   force = -(f(s) + c rate), s = z - rest; dissipation c rate^2.
 ///            Tension-only: force = -max(0, f(s) + c rate) for s > 0, else 0;
-///            what the spring gives back faster than the line moves is
+///            elastic energy released faster than the line can follow is
 ///            dissipated.
-/// Limits     tension-only with damping, the force jumps by c rate where the
+/// Limits     if tension-only with damping, the force jumps by c rate where the
 ///            line becomes taut or slack.
-class ScalarSpring {
+class ScalarSpring : public WithoutCommand, public WithoutBounds {
  public:
   struct Parameters {
     SpringCurve curve = {};
     double damping = 0.0;       ///< c >= 0 [N s/m or N m s/rad]
-    double rest = 0.0;          ///< [m or rad]
+    double rest = 0.0;          ///< z at rest [m or rad]
     bool tension_only = false;  ///< f(0) >= 0 then
   };
 
@@ -29,16 +29,32 @@ class ScalarSpring {
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
                                         const SwitchModes& modes = {}) const;
+  [[nodiscard]] ScalarResponse evaluate(const ScalarMotion& motion,
+                                        const Instant& /*now*/,
+                                        const SwitchModes& modes) const {
+    return evaluate(motion, modes);
+  }
+  [[nodiscard]] ScalarResponse evaluate_over_step(
+      const CoordinateStep& coordinate, const StepTimes& times,
+      const SwitchModes& modes) const;
 
-  /// Positive while a line is taut.
+  /// Positive while a tension-only spring is taut.
   [[nodiscard]] int switch_count() const {
     return parameters_.tension_only ? 1 : 0;
   }
   [[nodiscard]] SwitchValue find_switch(int index,
                                         const ScalarMotion& motion) const;
+  [[nodiscard]] static EventKind find_event(bool rises) {
+    return rises ? EventKind::taut : EventKind::slack;
+  }
 
  private:
   Parameters parameters_;
 };
+
+constexpr auto fields_of(const ScalarSpring::Parameters*) {
+  return list_fields("spring", "", "damping [N s/m, N m s/rad]",
+                     "rest [m, rad]", "tension only");
+}
 
 }  // namespace limber::joints

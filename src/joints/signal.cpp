@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/signal.hpp"
+#include "limber/joints/signal.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::joints {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The same break reached by other sums: some roundings of seconds apart.
+// Whether two times, computed by different sums, are the same break.
 bool is_same(double t, double time) {
   constexpr double kRoundoff = 1e-14;
   return std::abs(t - time) <= kRoundoff * (1.0 + std::abs(time));
 }
 
-// Whether `now` is past `time`: a time on it counts by its side.
+// Whether `now` is after `time`; at `time`, its side decides.
 bool is_past(const Instant& now, double time) {
   return is_same(now.t, time) ? now.side == Side::right : now.t > time;
 }
 
-// Progress from 0 to 1 and its rate, at the share `s` of the duration.
+// Progress from 0 to 1 and its rate, at the fraction `s` of the duration.
 SignalValue find_progress(const RampSignal& ramp, double s) {
   switch (ramp.shape) {
     case RampShape::smooth:
@@ -46,7 +47,7 @@ SignalValue find_progress(const RampSignal& ramp, double s) {
   return {s, 1.0};
 }
 
-// Each with all its times later by `delay`.
+// Shifts all times of a signal by `delay` [s].
 SignalValue evaluate_base(const ConstantSignal& signal, const Instant& /*now*/,
                           double /*delay*/) {
   return {signal.value, 0.0};
@@ -87,6 +88,13 @@ SignalValue evaluate_base(const SineSignal& sine, const Instant& now,
           runs ? sine.amplitude * omega * std::cos(angle) : 0.0};
 }
 
+// Shapers do not delay inputs: check().
+SignalValue evaluate_base(const InputSignal& signal, const Instant& now,
+                          double /*delay*/) {
+  const InputValue input = find_input(now, signal.input);
+  return {signal.factor * input.value, signal.factor * input.rate};
+}
+
 std::vector<double> base_breaks(const Signal& signal) {
   return std::visit(
       Overloaded{
@@ -101,7 +109,8 @@ std::vector<double> base_breaks(const Signal& signal) {
                                        end};
           },
           [](const TableSignal& table) { return table.times; },
-          [](const SineSignal& s) { return std::vector<double>{s.start}; }},
+          [](const SineSignal& s) { return std::vector<double>{s.start}; },
+          [](const InputSignal&) { return std::vector<double>{}; }},
       signal.base);
 }
 
@@ -133,6 +142,10 @@ SignalValue base_largest(const Signal& signal) {
           [](const SineSignal& s) {
             return SignalValue{std::abs(s.mean) + std::abs(s.amplitude),
                                2.0 * kPi * s.frequency * std::abs(s.amplitude)};
+          },
+          [](const InputSignal&) {
+            constexpr double kUnknown = std::numeric_limits<double>::infinity();
+            return SignalValue{kUnknown, kUnknown};
           }},
       signal.base);
 }
@@ -178,6 +191,11 @@ void check_base(const SineSignal& s) {
           fmt::format("a frequency is {:g} Hz; expected > 0", s.frequency));
 }
 
+void check_base(const InputSignal& s) {
+  LIMBER_EXPECT(s.input >= 0);
+  require_finite({s.factor});
+}
+
 }  // namespace
 
 SignalValue evaluate(const Signal& signal, const Instant& now) {
@@ -206,6 +224,11 @@ std::vector<double> break_times(const Signal& signal) {
   return times;
 }
 
+std::vector<int> find_inputs(const Signal& signal) {
+  const auto* input = std::get_if<InputSignal>(&signal.base);
+  return input ? std::vector<int>{input->input} : std::vector<int>{};
+}
+
 SignalValue find_largest(const Signal& signal) {
   double shares = 0.0;
   for (const Impulse& impulse : signal.shaper) {
@@ -228,6 +251,10 @@ void check(const Signal& signal) {
   }
   require(std::abs(sum - 1.0) < kRoundoff,
           fmt::format("a shaper's shares sum to {:g}; expected 1", sum));
+  require(find_inputs(signal).empty() ||
+              (signal.shaper.size() == 1 && signal.shaper[0].delay == 0.0),
+          "it follows an input and has a shaper, which would need what the "
+          "input was before; shape it in the controller that writes the input");
 }
 
 std::vector<Impulse> make_shaper(ShaperKind kind, double frequency,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/spring_curve.hpp"
+#include "limber/joints/spring_curve.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 namespace {
@@ -31,7 +31,7 @@ void check_table(const std::vector<double>& x, const std::vector<double>& f) {
     }
     if (i > 0 && !(x[i] > x[i - 1] && f[i] >= f[i - 1])) {
       throw InputError(fmt::format(
-          "spring: its table goes back at extension {:g}, force {:g}; expected "
+          "spring: its table decreases at extension {:g}, force {:g}; expected "
           "increasing extensions and forces that do not decrease",
           x[i], f[i]));
     }

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <array>
 #include <string_view>
 
-#include "joints/coupler_law.hpp"
-
-/// Events of couplers: functions of the motion whose sign changes when one
+/// Switches of laws: functions of the motion whose sign changes when an event
 /// happens.
 namespace limber::joints {
 
+/// Position of a switch: by the sign of its value, or fixed through a step, so
+/// that a law is smooth within the step and changes only between steps.
+enum class SwitchMode : unsigned char { by_motion, off, on };
+
+/// Largest number of switches of a scalar law.
+inline constexpr int kMaxScalarSwitches = 2;
+using SwitchModes = std::array<SwitchMode, kMaxScalarSwitches>;
+
+[[nodiscard]] inline bool is_on(SwitchMode mode, bool by_motion) {
+  return mode == SwitchMode::by_motion ? by_motion : mode == SwitchMode::on;
+}
+
+/// A function of the motion whose change of sign is an event.
+struct SwitchValue {
+  double value = 0.0;  ///< [m, rad, N or s]
+  double rate = 0.0;   ///< d value / dt [m/s, rad/s, N/s or -]
+};
+
+/// Events at changes of a switch's sign.
 enum class EventKind {
   stop_reached,
   stop_left,
@@ -20,24 +37,7 @@ enum class EventKind {
 };
 [[nodiscard]] std::string_view to_string(EventKind kind);
 
-/// How many switches a law has; each is found by its index below this.
-[[nodiscard]] int switch_count(const CouplerLaw& law);
-/// @param t time [s]
-/// @throws ContractError for an index that is not below the count.
-/// @throws NumericalError as AxisCoordinate does.
-[[nodiscard]] SwitchValue find_switch(const CouplerLaw& law, int index,
-                                      const RelativeMotion& motion,
-                                      const CouplerMemory& memory, double t);
-
-/// What it means that a switch's sign changes, if anything.
-/// @param memory that before the change
-[[nodiscard]] std::optional<EventKind> find_event(const CouplerLaw& law,
-                                                  int index, bool rises,
-                                                  const CouplerMemory& memory);
-[[nodiscard]] EventKind find_event(const ScalarLaw& law, bool rises);
-
-/// Changes what the coupler remembers, after switch `index` rose.
-void update_memory(const CouplerLaw& law, int index,
-                   const RelativeMotion& motion, CouplerMemory& memory);
+/// Whether forces may be discontinuous at such an event.
+[[nodiscard]] bool may_jump(EventKind kind);
 
 }  // namespace limber::joints

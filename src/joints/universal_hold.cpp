@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/universal_hold.hpp"
+#include "limber/joints/universal_hold.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 
@@ -67,6 +67,31 @@ CouplerResponse UniversalHold::evaluate(const RelativeMotion& motion) const {
   response.damping.bottomRightCorner<3, 3>() =
       p.rotational_damping * h * h.transpose();
   return response;
+}
+
+RequiredSides UniversalHold::find_required_rotations() const {
+  const Parameters& p = parameters_;
+  if (p.rotational_stiffness == 0.0 && p.rotational_damping == 0.0) return {};
+  const auto normal_to = [](const Vector3& axis) -> Matrix3 {
+    return Matrix3::Identity() - rotation_about(axis.normalized());
+  };
+  return {normal_to(p.axis_F), normal_to(p.axis_M)};
+}
+
+HoldStiffness find_hold_stiffness(const UniversalHold& hold) {
+  return {hold.parameters().translational_stiffness,
+          hold.parameters().rotational_stiffness};
+}
+
+HoldGive find_give(const UniversalHold& hold, const HoldStiffness& stiffness,
+                   const RelativeMotion& motion) {
+  const UniversalHold::Parameters& p = hold.parameters();
+  HoldGive give;
+  if (stiffness.translational > 0.0) give.distance = motion.p_FM_F.norm();
+  if (stiffness.rotational > 0.0) {
+    give.turn = std::abs(p.axis_F.dot(motion.R_FM * p.axis_M));
+  }
+  return give;
 }
 
 }  // namespace limber::joints

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// limber-mesh FILE SIZE ORDER UNIT: meshes one file by Gmsh, which it alone
-// links. Limber starts it; the mesh goes to descriptor 3, see fem/mesher.hpp.
+// limber-mesh FILE SIZE ORDER UNIT: meshes one file by Gmsh; the only program
+// that links it. Started by Limber; writes the mesh to descriptor 3, see
+// fem/mesh/mesher.hpp.
 #include <unistd.h>
 
 #include <charconv>
@@ -13,13 +14,13 @@
 #include <string>
 #include <utility>
 
-#include "common/child_process.hpp"
-#include "common/errors.hpp"
-#include "fem/gmsh_reader.hpp"
-#include "fem/gmsh_session.hpp"
-#include "fem/mesher.hpp"
-#include "mesher/trace.hpp"
-#include "mesher/walls.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/process/child_process.hpp"
+#include "limber/fem/gmsh/gmsh_reader.hpp"
+#include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/mesh/mesher.hpp"
+#include "limber/mesher/sandbox.hpp"
+#include "limber/mesher/trace.hpp"
 
 namespace {
 
@@ -37,7 +38,7 @@ Number read_number(const char* text) {
   const char* end = text + std::strlen(text);
   const auto [rest, error] = std::from_chars(text, end, value);
   if (error != std::errc() || rest != end) {
-    std::fprintf(stderr, "limber-mesh: '%s' is no number\n", text);
+    std::fprintf(stderr, "limber-mesh: '%s' is not a number\n", text);
     std::exit(kUsage);
   }
   return value;
@@ -85,20 +86,20 @@ int main(int argc, char** argv) {
   const limber::fem::MeshOptions options{read_number<double>(argv[2]),
                                          read_number<int>(argv[3]),
                                          read_number<double>(argv[4])};
-  // What a geometry names is beside it, wherever Limber runs.
+  // A geometry's relative paths start at its own folder.
   const std::string folder = std::filesystem::path(argv[1]).parent_path();
   if (!folder.empty() && chdir(folder.c_str()) != 0) std::perror("chdir");
-  const limber::mesher::Walls walls = limber::mesher::put_up_walls();
-  // Its window library writes preferences, or tries to.
+  const limber::mesher::Sandbox sandbox = limber::mesher::enter_sandbox();
+  // Gmsh's window library tries to write preferences.
   limber::fem::GmshSession session;
-  session.speak();  // its last words may be all that is left
-  limber::mesher::watch_walls();
-  limber::mesher::start_trace(walls);
+  session.enable_output();  // its last output may be the only diagnosis
+  limber::mesher::report_violations();
+  limber::mesher::start_trace(sandbox);
   MeshReply reply = make_reply(session, argv[1], options);
   limber::mesher::Trace trace = limber::mesher::finish_trace();
   reply.files = std::move(trace.files);
   reply.is_repeatable = trace.is_repeatable;
   const bool is_sent = send(limber::fem::pack_reply(reply));
   std::fflush(nullptr);
-  _exit(is_sent ? 0 : 1);  // not through what libraries left for the end
+  _exit(is_sent ? 0 : 1);  // without the exit handlers of libraries
 }

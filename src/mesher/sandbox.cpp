@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesher/walls.hpp"
+#include "limber/mesher/sandbox.hpp"
 
 #include <unistd.h>
 
@@ -7,14 +7,13 @@
 #include <array>
 #include <cctype>
 
-#include "common/landlock.hpp"
-#include "fem/mesher.hpp"
-#include "mesher/seccomp.hpp"
+#include "limber/common/process/landlock.hpp"
+#include "limber/mesher/seccomp.hpp"
 
 namespace limber::mesher {
 namespace {
 
-// Commands of Gmsh 4 that run programs or write files, whatever follows.
+// Commands of Gmsh 4 that run programs or write files, with any arguments.
 constexpr std::array kDangerous = {"SystemCall", "NonBlockingSystemCall",
                                    "System",     "UnixCmd",
                                    "OnelabRun",  "OnelabAction",
@@ -56,7 +55,7 @@ std::string strip(std::string_view text) {
   return bare;
 }
 
-/// Calls `use` with each name and what follows it, until it answers true.
+/// Calls `use` with each name and the text after it, until it returns true.
 template <typename Use>
 bool find_name(std::string_view text, const Use& use) {
   for (std::size_t i = 0; i < text.size();) {
@@ -81,19 +80,18 @@ bool prints_to_file(std::string_view name, std::string_view rest) {
 
 }  // namespace
 
-Walls put_up_walls() {
-  if (apply_seccomp(Refusing::quietly)) return Walls::kernel;
-  // Before this program began it was kept from writing by Landlock, if there
-  // is any.
+Sandbox enter_sandbox() {
+  if (apply_seccomp(Refusing::quietly)) return Sandbox::kernel;
+  // Landlock, if available, denied writing before this program began.
   const int rule = make_landlock(LandlockRule::no_execution);
   const bool holds = apply_landlock(rule);
   if (rule >= 0) close(rule);
-  return holds ? Walls::kernel : Walls::words;
+  return holds ? Sandbox::kernel : Sandbox::text_search;
 }
 
-void watch_walls() { apply_seccomp(Refusing::with_words); }
+void report_violations() { apply_seccomp(Refusing::with_message); }
 
-std::optional<std::string> find_dangerous_word(std::string_view text) {
+std::optional<std::string> find_dangerous_command(std::string_view text) {
   std::optional<std::string> found;
   find_name(strip(text), [&](std::string_view name, std::string_view rest) {
     if (is_in(kDangerous, name) || prints_to_file(name, rest)) {
@@ -104,20 +102,10 @@ std::optional<std::string> find_dangerous_word(std::string_view text) {
   return found;
 }
 
-bool has_fleeting_word(std::string_view text) {
+bool has_unrepeatable_command(std::string_view text) {
   return find_name(text, [](std::string_view name, std::string_view) {
     return is_in(kFleeting, name);
   });
-}
-
-void refuse(std::string_view what) {
-  constexpr std::string_view kBefore = "it tries to ";
-  constexpr std::string_view kAfter =
-      ". A geometry may read files, and do nothing else here.";
-  for (const std::string_view part : {kBefore, what, kAfter}) {
-    static_cast<void>(!write(STDERR_FILENO, part.data(), part.size()));
-  }
-  _exit(fem::kMesherRefused);
 }
 
 }  // namespace limber::mesher

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesher/seccomp.hpp"
+#include "limber/mesher/seccomp.hpp"
 
 #include <fcntl.h>
 #include <linux/audit.h>
@@ -19,8 +19,8 @@
 #include <cstring>
 #include <vector>
 
-#include "fem/mesher.hpp"
-#include "mesher/walls.hpp"
+#include "limber/fem/mesh/mesher.hpp"
+#include "limber/mesher/refusal.hpp"
 
 #ifndef CLONE_THREAD
 #define CLONE_THREAD 0x00010000
@@ -37,7 +37,7 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t kArchitecture = 0;  // no filter
 #endif
 
-/// What a refused call would have done, as a geometry's reader says it.
+/// What a refused call would have done, for the message.
 enum class Deed { program, process, writing, network };
 
 struct Refusal {
@@ -45,8 +45,8 @@ struct Refusal {
   Deed deed;
 };
 
-// Calls that end the mesher with words. Whatever is neither here nor among the
-// calls that are needed is unknown to it (ENOSYS).
+// Calls that end the mesher with a message. Any call neither here nor among the
+// needed ones fails with ENOSYS.
 constexpr Refusal kRefusals[] = {
     {SYS_execve, Deed::program},    {SYS_execveat, Deed::program},
     {SYS_socket, Deed::network},    {SYS_socketpair, Deed::network},
@@ -172,7 +172,7 @@ constexpr std::size_t low_half(std::size_t argument) {
   return offsetof(seccomp_data, args) + 8 * argument;  // little endian
 }
 
-/// If the call is `call`: by whether its argument has any of `bits`.
+/// If the call is `call`: decides by whether its argument has any of `bits`.
 void choose_by_bits(Program& program, std::uint32_t call, std::size_t argument,
                     std::uint32_t bits, std::uint32_t with,
                     std::uint32_t without) {
@@ -250,7 +250,7 @@ const char* describe(int call) {
   return call == SYS_clone ? "start a process" : "write the file ";
 }
 
-/// The path that an open was asked for.
+/// The path argument of an open call.
 const char* find_path(int call, const ucontext_t& context) {
 #if defined(__x86_64__)
   const auto& registers = context.uc_mcontext.gregs;
@@ -268,7 +268,7 @@ const char* find_path(int call, const ucontext_t& context) {
   return reinterpret_cast<const char*>(static_cast<std::uintptr_t>(value));
 }
 
-// In a signal handler: nothing that takes memory or locks.
+// In a signal handler: no allocation, no locks.
 [[noreturn]] void end_refused(int, siginfo_t* info, void* context) {
   std::array<char, 600> text{};
   const char* path =

@@ -3,16 +3,16 @@
 
 namespace limber::mesher {
 
-/// What happens to a call that goes beyond.
+/// Effect of a forbidden call.
 enum class Refusing {
-  quietly,     ///< it fails, and a stricter filter may follow
-  with_words,  ///< it ends the process, see Walls
+  quietly,       ///< it fails, and a stricter filter may follow
+  with_message,  ///< it ends the process with a message, see Sandbox
 };
 
-/// Lays a filter of system calls on the process, all threads to come included:
-/// it computes and reads files, and nothing else.
+/// Applies a filter of system calls to the process, including later threads: it
+/// can compute and read files, nothing else.
 /// Source     Linux, Documentation/userspace-api/seccomp_filter.rst
-/// @return whether the kernel has it
+/// @return whether the kernel supports it
 bool apply_seccomp(Refusing refusing);
 
 }  // namespace limber::mesher

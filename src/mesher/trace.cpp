@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesher/trace.hpp"
+#include "limber/mesher/trace.hpp"
 
 #include <dirent.h>
 #include <dlfcn.h>
@@ -18,11 +18,13 @@
 #include <string>
 #include <utility>
 
+#include "limber/mesher/refusal.hpp"
+
 namespace limber::mesher {
 namespace {
 
-/// Notes of one process: a function in place of the C library's own has no
-/// other way to reach them.
+/// Record of the process: global, since functions that replace those of the C
+/// library cannot get it otherwise.
 class Notes {
  public:
   static Notes& get() {
@@ -30,8 +32,8 @@ class Notes {
     return notes;
   }
 
-  void start(Walls walls) {
-    walls_ = walls;
+  void start(Sandbox sandbox) {
+    sandbox_ = sandbox;
     is_on_ = true;
   }
 
@@ -51,7 +53,7 @@ class Notes {
 
  private:
   void note(const char* name, bool is_opened) {
-    // Taking notes opens files too.
+    // Recording opens files too.
     thread_local bool is_busy = false;
     if (!is_on_ || is_busy || !name) return;
     is_busy = true;
@@ -76,7 +78,7 @@ class Notes {
     FileStamp stamp = stamp_content(path);
     if (stamp.mark.starts_with("content ")) screen(path);
     const std::string text = path.string();
-    // A folder, a device, or a file of the kernel's, which looks empty.
+    // A folder, a device, or a kernel file, whose size is reported as 0.
     if (stamp.mark == "there" || text.starts_with("/proc/") ||
         text.starts_with("/sys/")) {
       is_repeatable_ = false;
@@ -85,7 +87,7 @@ class Notes {
     stamps_[text] = std::move(stamp);
   }
 
-  // A pipe may never be written to, and a device has no end.
+  // A pipe may never be written to; a device has no end.
   static void require_end(const std::filesystem::path& path) {
     const std::string text = path.string();
     const bool is_known =
@@ -98,9 +100,9 @@ class Notes {
   void screen(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (has_fleeting_word(text)) is_repeatable_ = false;
-    if (walls_ == Walls::kernel) return;
-    if (const auto word = find_dangerous_word(text)) {
+    if (has_unrepeatable_command(text)) is_repeatable_ = false;
+    if (sandbox_ == Sandbox::kernel) return;
+    if (const auto word = find_dangerous_command(text)) {
       refuse(fmt::format("use '{}' (in {})", *word, path.string()));
     }
   }
@@ -109,7 +111,7 @@ class Notes {
   std::map<std::string, FileStamp> stamps_;
   std::atomic<bool> is_on_ = false;
   std::atomic<bool> is_repeatable_ = true;
-  Walls walls_ = Walls::kernel;
+  Sandbox sandbox_ = Sandbox::kernel;
 };
 
 template <typename Function>
@@ -132,30 +134,30 @@ std::set<std::string> list_programs() {
 
 }  // namespace
 
-void start_trace(Walls walls) { Notes::get().start(walls); }
+void start_trace(Sandbox sandbox) { Notes::get().start(sandbox); }
 
 Trace finish_trace() {
   Trace trace = Notes::get().finish();
   for (const std::string& program : list_programs()) {
     trace.files.push_back(stamp_version(program));
   }
-  // It says which library a name leads to: another may have come.
+  // The cache maps names to libraries; its change may select another one.
   trace.files.push_back(stamp_version("/etc/ld.so.cache"));
   return trace;
 }
 
 }  // namespace limber::mesher
 
-// The C library's functions by which files are reached, each in place of its
-// own: it takes a note, and asks the one that comes next. Headers may define
-// some of them inline; the labels keep clear of that.
+// Replacements of the C library's functions that open files: each records the
+// name and calls the original. Headers may define some of them inline; the
+// labels avoid the conflict.
 #define LIMBER_IN_PLACE_OF(name) \
   __asm__(#name) __attribute__((visibility("default")))
 
 using limber::mesher::next;
 using limber::mesher::Notes;
 
-// Of open's kind, where a mode may follow the flags.
+// Like open, where a mode may follow the flags.
 #define LIMBER_TRACE_OPEN(own, name)                                      \
   int own(const char* file, int flags, ...) LIMBER_IN_PLACE_OF(name);     \
   int own(const char* file, int flags, ...) {                             \
@@ -169,7 +171,7 @@ using limber::mesher::Notes;
     return real(file, flags, mode);                                       \
   }
 
-// Of two arguments, the first the file's name.
+// With two arguments, the first the file's name.
 #define LIMBER_TRACE(note, own, name, Result, Second)                      \
   Result own(const char* file, Second second) LIMBER_IN_PLACE_OF(name);    \
   Result own(const char* file, Second second) {                            \

@@ -3,24 +3,24 @@
 
 #include <vector>
 
-#include "common/file_stamp.hpp"
-#include "mesher/walls.hpp"
+#include "limber/common/files/file_stamp.hpp"
+#include "limber/mesher/sandbox.hpp"
 
 namespace limber::mesher {
 
-/// From now on notes every file that this process opens or looks for, by
-/// whichever library: this program's own fopen, open, stat and their like come
-/// before those of the C library. With Walls::words, files with a dangerous
-/// word end the process.
-void start_trace(Walls walls);
+/// From now on records every file that this process opens or searches for,
+/// through any library: this program's fopen, open, stat and the like replace
+/// those of the C library. With Sandbox::text_search, files with a dangerous
+/// command end the process.
+void start_trace(Sandbox sandbox);
 
 struct Trace {
   std::vector<FileStamp> files;
-  /// Nothing was read that stamps do not cover: no folder was listed, no
-  /// device or pipe opened, no text asked for the clock or the like.
+  /// Everything read is covered by stamps: no folder was listed, no device or
+  /// pipe opened, no geometry reads the clock or the like.
   bool is_repeatable = true;
 };
-/// Ends the notes. With the program itself and its libraries.
+/// Ends the recording. Includes the program itself and its libraries.
 [[nodiscard]] Trace finish_trace();
 
 }  // namespace limber::mesher

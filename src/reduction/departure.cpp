@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/fem_departure.hpp"
+#include "limber/reduction/departure.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 
-#include "common/errors.hpp"
-#include "flexbody/reduce_krylov.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/reduction/krylov.hpp"
 
 namespace limber::flexbody {
 namespace {

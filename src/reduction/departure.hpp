@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
-#include "flexbody/fem_operating_state.hpp"
-#include "flexbody/reduced_basis.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/reduction/operating_states.hpp"
 
 /// How a body departs from a static deformation when its loads change in time,
 /// F(t) = sum_j alpha_j(t) F_j: docs/theory/operating_states.md
@@ -25,7 +25,7 @@ struct SingleInputModel {
       std::complex<double> s) const;
   /// m / k [s^2]: for slow changes beta = -(m / k) alpha'' - (d / k) alpha'.
   [[nodiscard]] double inertial_delay() const { return m / k; }
-  /// d / k [s]: the deformation follows its load this much later.
+  /// d / k [s]: the delay of the deformation behind its load.
   [[nodiscard]] double frictional_delay() const { return d / k; }
 };
 /// @throws InputError for a state without deformation, and friction below zero.
@@ -34,7 +34,7 @@ struct SingleInputModel {
     const Friction& friction = {});
 
 /// Several inputs, each with its terms x_n = (K^+ M)^n x_0, projected so that
-/// energy is kept: Lagrange's equations in the span of all terms.
+/// energy is conserved: Lagrange's equations in the span of all terms.
 ///
 /// Equation   r'' + C r' + diag(lambda) r = Q alpha,  x = Phi r
 struct DepartureModel {
@@ -42,13 +42,13 @@ struct DepartureModel {
   MatrixX C;           ///< Phi^T D Phi, m x m [1/s]
   MatrixX Q;           ///< Phi^T F, m x inputs [kg^-1/2 N]
 
-  /// r at alpha = 1, held: the instantaneous answer, m x inputs [kg^1/2 m].
+  /// r at constant alpha = 1: the static response, m x inputs [kg^1/2 m].
   [[nodiscard]] MatrixX calc_static() const;
-  /// r of alpha = e^(s t), m x inputs; s in [1/s].
+  /// r for alpha = e^(s t), m x inputs; s in [1/s].
   [[nodiscard]] Eigen::MatrixXcd calc_response(std::complex<double> s) const;
 };
-/// @param loads 3N x inputs on all nodes, mesh axes [N]; rigid acceleration is
-///        taken out of a free body's
+/// @param loads 3N x inputs on all nodes, mesh frame [N]; for a free body the
+///        part of rigid acceleration is removed
 /// @param terms >= 1, of each input
 /// @throws InputError for a load without deformation, values that are not
 /// finite, terms below 1 and friction below zero.
@@ -56,27 +56,26 @@ struct DepartureModel {
     const MeshedBody& body, const MatrixX& loads, int terms,
     const Friction& friction = {});
 
-/// Loads that act one after another, each with a model of its own input that
-/// also spans the first terms of the load before: what that one leaves rings
-/// on.
+/// Models of loads that act one after another. Each also spans the first terms
+/// of the previous load, whose vibration continues.
 ///
 /// Source     [@ligterink2005, section 6.1]
 /// @param loads 3N x intervals, as make_departure_model's
-/// @param carried >= 0, terms of the load before that are kept
+/// @param carried >= 0, terms kept of the previous load
 [[nodiscard]] std::vector<DepartureModel> make_interval_models(
     const MeshedBody& body, const MatrixX& loads, int terms, int carried,
     const Friction& friction = {});
 
-/// Where a model's motion stands.
+/// State of a model.
 struct DepartureMotion {
   VectorX r;     ///< [kg^1/2 m]
   VectorX rdot;  ///< [kg^1/2 m/s]
 };
-/// A motion in the coordinates of another model: nearest in elastic energy, its
-/// rate nearest in kinetic energy. Never gains energy.
+/// A motion projected on another model: nearest in elastic energy, its rate
+/// nearest in kinetic energy. Never gains energy.
 struct CarriedMotion {
   DepartureMotion motion;
-  double lost = 0.0;  ///< energy that the new model cannot hold [J]
+  double lost = 0.0;  ///< energy outside the new model [J]
 };
 [[nodiscard]] CarriedMotion carry_motion(const MeshedBody& body,
                                          const DepartureModel& from,

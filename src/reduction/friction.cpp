@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/fem_friction.hpp"
+#include "limber/reduction/friction.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "fem/skin.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/skin.hpp"
 
 namespace limber::flexbody {
 namespace {

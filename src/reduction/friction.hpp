@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "flexbody/reduce_meshed_body.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
 namespace limber::flexbody {
 
-/// What resists a body's motion: D = mass_rate M + stiffness_time K + surface
-/// S, S being the skin of fem::assemble_skin. The stiffness part resists no
-/// rigid motion, and so no steady one.
+/// Damping of a body: D = mass_rate M + stiffness_time K + surface S, with S
+/// from fem::assemble_skin. The stiffness part does not resist rigid motion,
+/// and so no steady motion.
 struct Friction {
   double mass_rate = 0.0;       ///< >= 0, Rayleigh's alpha [1/s]
   double stiffness_time = 0.0;  ///< >= 0, Rayleigh's beta [s]
-  double surface = 0.0;         ///< >= 0, drag a speed and area [N s/m^3]
+  double surface = 0.0;         ///< >= 0, drag per speed and area [N s/m^3]
 };
 
 /// D_s of D = D_s (x) I_3 + stiffness_time K: N x N on all nodes [N s/m].

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/fem_full_body.hpp"
+#include "limber/reduction/full_body_maker.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 #include <utility>
 
-#include "common/duration.hpp"
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/factor_cost.hpp"
-#include "fem/mesh_reader.hpp"
-#include "fem/nodal_mass.hpp"
-#include "fem/nonlinear_solid.hpp"
-#include "fem/tangent.hpp"
-#include "flexbody/cache.hpp"
-#include "flexbody/reduce_interfaces.hpp"
-#include "flexbody/reduce_meshed_body.hpp"
-#include "flexbody/reduce_support.hpp"
+#include "limber/common/duration.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/factor_cost.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/nodal_mass.hpp"
+#include "limber/fem/solid/nonlinear_solid.hpp"
+#include "limber/fem/solid/tangent.hpp"
+#include "limber/flexbody/file/cache.hpp"
+#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/support.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -34,7 +34,7 @@ fem::SparseMatrix make_diagonal(const VectorX& mass) {
   return M_s;
 }
 
-/// What all solvers of one body share.
+/// Data shared by all solvers of one body.
 struct SolidParts {
   SolidParts(fem::Mesh mesh_, std::vector<fem::ElasticMaterial> materials_,
              const std::vector<int>& held, const fem::SparseMatrix& consistent,
@@ -62,7 +62,7 @@ struct SolidParts {
   fem::NonlinearSolid solid;
   bool is_lumped;
   fem::SparseMatrix M_s;                    // of all nodes
-  std::optional<fem::NodalMass> free_mass;  // of those that can move
+  std::optional<fem::NodalMass> free_mass;  // of the free nodes
 };
 
 class MeshSolver : public FullBodySolver {
@@ -127,7 +127,7 @@ Matrix3X find_first_moment(const Matrix3X& x, const fem::SparseMatrix& M_s,
   return centered * M_s;
 }
 
-/// A geometry may make another mesh each time.
+/// A geometry may give a different mesh each time.
 void require_same_mesh(const Recipe& recipe, const fem::Mesh& mesh,
                        const std::string& key) {
   if (key.empty()) return;
@@ -142,7 +142,7 @@ void require_same_mesh(const Recipe& recipe, const fem::Mesh& mesh,
 // Implicit steps and equilibria need factors, one or more each.
 void tell_factors(const std::string& name, const fem::SparseMatrix& M_s,
                   const Progress& progress) {
-  constexpr Eigen::Index kMany = 10000;  // nodes: fewer never take long
+  constexpr Eigen::Index kMany = 10000;  // nodes; fewer are always fast
   constexpr double kLong = 5.0;          // s, of many
   if (!progress || M_s.cols() < kMany) return;
   const double seconds =
@@ -150,7 +150,7 @@ void tell_factors(const std::string& name, const fem::SparseMatrix& M_s,
   const std::string what =
       fmt::format("each factorisation of '{}' at level full, {} unknowns", name,
                   3 * M_s.cols());
-  const std::string text = foretell(what, seconds, kLong);
+  const std::string text = with_duration(what, seconds, kLong);
   if (text != what) report(progress, text, 0.0);
 }
 

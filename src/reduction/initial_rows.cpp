@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_initial.hpp"
+#include "limber/reduction/initial_rows.hpp"
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 
@@ -19,8 +19,8 @@ void check_initial_fields(const MeshedBody& body, const Recipe& recipe) {
           "not clamped",
           field->name, field->values.size(), rows, rows / 3));
     if (!field->values.allFinite())
-      problems.push_back(
-          fmt::format("{}: it holds what is not finite", field->name));
+      problems.push_back(fmt::format(
+          "{}: it contains values that are not finite", field->name));
   }
   if (!problems.empty()) throw InputError(problems);
 }

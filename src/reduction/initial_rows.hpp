@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "flexbody/initial_deformation.hpp"
-#include "flexbody/reduce_meshed_body.hpp"
-#include "flexbody/reduced_basis.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/flexbody/model/initial_deformation.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
-/// The deformation that a body starts with. Part of limber_reduction.
+/// Initial deformation of a body. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// @throws InputError for fields of another number of rows than the body has
+/// @throws InputError for fields whose number of rows is not that of the body's
 /// free degrees of freedom, or with values that are not finite.
 void check_initial_fields(const MeshedBody& body, const Recipe& recipe);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_interfaces.hpp"
+#include "limber/reduction/interfaces.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::flexbody {
 namespace {

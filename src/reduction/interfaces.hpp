@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "fem/mesh.hpp"
-#include "fem/node_weights.hpp"
-#include "flexbody/interface_motion.hpp"
-#include "flexbody/recipe.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
+#include "limber/flexbody/model/interface_motion.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 /// A recipe's interfaces and the loads on them, on its mesh. Part of
 /// limber_reduction.
 namespace limber::flexbody {
 
-/// An interface request, tied to the mesh.
+/// An interface request resolved on the mesh.
 struct Interface {
   std::string name;
   bool static_modes = true;
@@ -26,7 +26,7 @@ struct Interface {
 [[nodiscard]] std::vector<Interface> find_interfaces(const fem::Mesh& mesh,
                                                      const Recipe& recipe);
 
-/// Forces and moments that the interface can carry: 3 + rotation rank.
+/// Unit forces and moments that the interface can carry: 3 + rotation rank.
 [[nodiscard]] Matrix6X unit_wrenches(const InterfaceMotion& motion);
 
 /// Nodal forces of each load pattern, 3N x patterns [N].

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_krylov.hpp"
+#include "limber/reduction/krylov.hpp"
 
-#include "flexbody/multiply_mass.hpp"
-#include "flexbody/reduced_basis.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/flexbody/model/multiply_mass.hpp"
 
 namespace limber::flexbody {
 

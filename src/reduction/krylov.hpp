@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "flexbody/reduce_meshed_body.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
 namespace limber::flexbody {
 
 /// The span of x_n = (K^+ M)^n x_0, n < terms, for each column x_0 of `first`.
-/// With one term `first` itself; above, its M-orthonormal columns, each block
-/// K^+ M of the orthonormal block before it, because the plain powers lean
-/// towards the first mode until round-off is all that tells them apart.
+/// With one term `first` itself; otherwise M-orthonormal columns, each block
+/// from K^+ M times the orthonormal block before it, because plain powers
+/// converge to the first mode until they differ only by round-off.
 ///
 /// Source     [@ligterink2005, section 5]
 /// @param first 3n x inputs on the free nodes, without rigid motion [m]

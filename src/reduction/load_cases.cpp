@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_load_cases.hpp"
+#include "limber/reduction/load_cases.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <set>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -22,8 +22,8 @@ class Collection {
  public:
   explicit Collection(Eigen::Index rows) : rows_(rows) {}
 
-  /// A load that is zero or a multiple of one that is there adds nothing.
-  /// Names are one line each: a body's file lists them so.
+  /// Ignores a load that is zero or a multiple of an earlier one. Names are one
+  /// line each, for the lists of body files.
   void add(const std::string& name, const VectorX& load) {
     if (load.isZero(0.0) || !seen_.insert(find_direction(load)).second) return;
     names_.push_back(name);
@@ -120,8 +120,8 @@ void add_base_motion(const Support& support, Collection& cases) {
 }
 
 /// f^T K^+ f, column by column in blocks, so that many cases need little
-/// memory. A load that only moves a free body is made zero: what is left of it
-/// is roundoff.
+/// memory. A load that only moves a free body is set to zero: the rest is
+/// roundoff.
 void find_compliance(const fem::ElasticInverse& inverse, LoadCases& cases) {
   constexpr Eigen::Index kBlock = 64;
   constexpr double kRoundoff = 1e-11;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_meshed_body.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/assembly.hpp"
 
 namespace limber::flexbody {
 fem::TracedMesh read_source(const MeshSource& source,
@@ -39,8 +39,8 @@ void check_basis(const Recipe& recipe) {
   if (recipe.basis.automatic) check_count(recipe.basis.automatic->candidates);
 }
 
-/// Assembles after everything a user may have misspelt was looked at, so that
-/// no long work is lost. Fills `M_s`.
+/// Checks all names in the recipe before assembling, so that errors are found
+/// before long work. Fills `M_s`.
 Support assemble_support(const fem::Mesh& mesh, const Recipe& recipe,
                          const std::vector<Interface>& interfaces,
                          fem::SparseMatrix& M_s, const Progress& progress) {

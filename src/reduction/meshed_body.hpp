@@ -4,14 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "common/progress.hpp"
-#include "fem/elastic_inverse.hpp"
-#include "fem/material.hpp"
-#include "fem/mesh.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/recipe.hpp"
-#include "flexbody/reduce_interfaces.hpp"
-#include "flexbody/reduce_support.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
+#include "limber/fem/solid/material.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/support.hpp"
 
 namespace limber::flexbody {
 
@@ -23,12 +23,12 @@ namespace limber::flexbody {
 [[nodiscard]] std::vector<fem::ElasticMaterial> find_materials(
     const fem::Mesh& mesh, const Recipe& recipe);
 
-/// A recipe's body with its matrices, ready to be asked for modes and static
-/// answers. Part of limber_reduction.
+/// A recipe's body with its matrices, for computing modes and static responses.
+/// Part of limber_reduction.
 struct MeshedBody {
   /// @throws InputError naming the file, group or value.
   MeshedBody(const Recipe& recipe, const Progress& progress);
-  /// Of a mesh that was made as the recipe says.
+  /// From a mesh that was made for the recipe.
   MeshedBody(const Recipe& recipe,
              std::shared_ptr<const fem::TracedMesh> traced,
              const Progress& progress);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_mode_study.hpp"
+#include "limber/reduction/mode_study.hpp"
 
-#include "flexbody/mode_selection.hpp"
-#include "flexbody/reduce_selection.hpp"
-#include "flexbody/reduce_static_modes.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
+#include "limber/reduction/selection.hpp"
+#include "limber/reduction/static_modes.hpp"
 
 namespace limber::flexbody {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/fem_power.hpp"
+#include "limber/reduction/power.hpp"
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {

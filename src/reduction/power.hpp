@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "flexbody/fem_friction.hpp"
+#include "limber/reduction/friction.hpp"
 
-/// What a load's energy becomes in a body: docs/theory/operating_states.md
+/// Energy balance of a load on a body: docs/theory/operating_states.md
 /// [@ligterink2005, sections 2.1 and 7]. Loads and motions are nodal, on the
-/// free nodes, 3n, mesh axes. Part of limber_reduction.
+/// free nodes, 3n, mesh frame. Part of limber_reduction.
 namespace limber::flexbody {
 
 /// A load in two parts: F = F_parallel + F_perpendicular.
@@ -26,7 +26,7 @@ struct BodyMotion {
   VectorX qddot;  ///< [m/s^2]
   VectorX x;      ///< [m]
   VectorX xdot;   ///< [m/s]
-  VectorX xddot;  ///< [m/s^2]; zero: the deformation follows at once
+  VectorX xddot;  ///< [m/s^2]; zero if quasi-static
 };
 
 struct BodyEnergy {
@@ -38,18 +38,18 @@ struct BodyEnergy {
 [[nodiscard]] BodyEnergy calc_energy(const MeshedBody& body,
                                      const BodyMotion& motion);
 
-/// Where the power of a load goes.
+/// Power balance of a load.
 ///
 /// Equation   F^T (q' + x') = F_parallel^T q' + F_perpendicular^T x'
 ///            = q'^T M q'' + x'^T M x'' + x'^T K x + (q' + x')^T D (q' + x')
-/// Limits     The second line holds as far as the motion satisfies the
-///            equations of motion, in full or on a span that has q' and x'.
+/// Limits     The second line holds if the motion satisfies the
+///            equations of motion, in full or on a subspace with q' and x'.
 struct PowerBalance {
   double into_motion = 0.0;        ///< F_parallel^T q' [W]
   double into_deformation = 0.0;   ///< F_perpendicular^T x' [W]
-  double rigid = 0.0;              ///< q'^T M q' / 2 grows by this [W]
-  double swing = 0.0;              ///< x'^T M x' / 2 grows by this [W]
-  double elastic = 0.0;            ///< x^T K x / 2 grows by this [W]
+  double rigid = 0.0;              ///< rate of q'^T M q' / 2 [W]
+  double swing = 0.0;              ///< rate of x'^T M x' / 2 [W]
+  double elastic = 0.0;            ///< rate of x^T K x / 2 [W]
   double rigid_friction = 0.0;     ///< q'^T D q' [W]
   double internal_friction = 0.0;  ///< x'^T D (q' + x') + q'^T D x' [W]
 
@@ -60,12 +60,12 @@ struct PowerBalance {
   [[nodiscard]] double dissipated() const {
     return rigid_friction + internal_friction;
   }
-  /// What does not close [W].
+  /// Error of the balance [W].
   [[nodiscard]] double residual() const {
     return supplied() - stored() - dissipated();
   }
 };
-/// @param F 3n, of the instant [N]
+/// @param F 3n, at this instant [N]
 /// @throws InputError as split_load, and for friction below zero.
 [[nodiscard]] PowerBalance calc_power(const MeshedBody& body, const VectorX& F,
                                       const BodyMotion& motion,

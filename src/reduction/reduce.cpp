@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce.hpp"
+#include "limber/reduction/reduce.hpp"
 
 #include <memory>
 
-#include "fem/mesh_reader.hpp"
-#include "flexbody/decision_boundary.hpp"
-#include "flexbody/reduce_initial.hpp"
-#include "flexbody/reduce_meshed_body.hpp"
-#include "flexbody/reduce_rows.hpp"
-#include "flexbody/reduce_selection.hpp"
-#include "flexbody/reduce_static_modes.hpp"
-#include "flexbody/shape_integrals.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
+#include "limber/flexbody/model/shape_integrals.hpp"
+#include "limber/reduction/initial_rows.hpp"
+#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/rows.hpp"
+#include "limber/reduction/selection.hpp"
+#include "limber/reduction/static_modes.hpp"
 
 namespace limber::flexbody {
 namespace {

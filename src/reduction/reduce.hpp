@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/progress.hpp"
-#include "flexbody/cache.hpp"
-#include "flexbody/recipe.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/flexbody/file/cache.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::flexbody {
 
-/// The offline part: mesh to matrices to modes to reduced body. Linked by
-/// limber::reduction alone (Gmsh, CHOLMOD).
+/// Offline reduction: mesh to matrices to modes to reduced body. In
+/// limber::reduction only (Gmsh, CHOLMOD).
 /// @throws InputError naming the file, group or value; NumericalError if an
 /// eigenpair or a solve misses its tolerance.
 [[nodiscard]] ReducedBody reduce(const Recipe& recipe,
                                  const Progress& progress = {});
 
-/// For the cache: meshes are made by limber-mesh, and reduced as above.
+/// For the cache: meshes by limber-mesh, reduced as above.
 [[nodiscard]] Reducer make_reducer(const Progress& progress = {});
 
 }  // namespace limber::flexbody

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_rows.hpp"
+#include "limber/reduction/rows.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "flexbody/reduce_support.hpp"
+#include "limber/reduction/support.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-/// Nodes whose rows are kept, sorted.
+/// Nodes whose rows are stored, sorted.
 std::vector<int> choose_rows(const fem::Mesh& mesh, const Recipe& recipe,
                              const std::vector<Interface>& interfaces) {
   using Extent = KeptRows::Extent;

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "fem/mesh.hpp"
-#include "flexbody/reduce_interfaces.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/reduction/interfaces.hpp"
 
 namespace limber::flexbody {
 

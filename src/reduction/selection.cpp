@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_selection.hpp"
+#include "limber/reduction/selection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -47,7 +47,7 @@ SelectionRecord make_record(const AutomaticModes& options,
   return record;
 }
 
-/// Before any long work.
+/// Called before any long work.
 void check_measure(ModeMeasure measure, const MeshedBody& body) {
   if (measure != ModeMeasure::report || can_find_all_modes(body)) return;
   throw InputError(fmt::format(

@@ -3,18 +3,17 @@
 
 #include <optional>
 
-#include "fem/eigenmodes.hpp"
-#include "flexbody/mode_selection.hpp"
-#include "flexbody/reduce_load_cases.hpp"
-#include "flexbody/reduced_basis.hpp"
-#include "flexbody/selection_record.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/flexbody/model/selection_record.hpp"
+#include "limber/reduction/load_cases.hpp"
 
 /// Which eigenmodes enter a basis. Part of limber_reduction.
 namespace limber::flexbody {
 
 /// Degrees of freedom up to which all modes of a mesh are found, as the
-/// report's measure wants them: the time grows with their third power, from
-/// 5 s at 1626.
+/// report's measure requires: the time is cubic in them, 5 s at 1626.
 inline constexpr Eigen::Index kMostDofsForAllModes = 4000;
 
 [[nodiscard]] bool can_find_all_modes(const MeshedBody& body);
@@ -25,19 +24,20 @@ inline constexpr Eigen::Index kMostDofsForAllModes = 4000;
                                          const MeshedBody& body,
                                          const Progress& progress);
 
-/// Participation in translations of a clamped body's base, with the mass of
-/// its free nodes, on which all modes together are complete. The rotations'
-/// rows are zero.
+/// Participation in translations of a clamped body's base, with the mass of its
+/// free nodes, on which the set of all modes is complete. The rows of rotation
+/// are zero.
 [[nodiscard]] Participation calc_base_participation(
     const MeshedBody& body, const fem::Eigenmodes& modes);
 
-/// What every mode carries of every load case.
+/// Share of every mode in every load case, in the unit of the measure:
+/// compliance [J], report [kg^1/2 N s^2], mass [kg].
 struct CaseShares {
-  MatrixX shares;  ///< m x k
-  VectorX totals;  ///< k, of all modes of the mesh
+  MatrixX shares;  ///< m x k [as the measure]
+  VectorX totals;  ///< k, of all modes of the mesh [as the measure]
 };
 
-/// The report's measure needs a body of which all modes can be found.
+/// The report's measure needs a body for which all modes can be found.
 [[nodiscard]] CaseShares find_shares(ModeMeasure measure,
                                      const fem::Eigenmodes& modes,
                                      const LoadCases& cases,
@@ -50,7 +50,7 @@ struct ChosenModes {
   std::optional<SelectionRecord> record;  ///< none without automatic modes
 };
 
-/// As many eigenmodes as the recipe says, or those that its load cases need.
+/// The recipe's number of eigenmodes, or those that its load cases need.
 /// @throws InputError
 [[nodiscard]] ChosenModes choose_eigenmodes(const MeshedBody& body,
                                             const Recipe& recipe,

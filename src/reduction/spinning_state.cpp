@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "common/errors.hpp"
-#include "fem/spin.hpp"
-#include "flexbody/fem_operating_state.hpp"
-#include "flexbody/fem_state_balance.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/spin.hpp"
+#include "limber/reduction/operating_states.hpp"
+#include "limber/reduction/state_balance.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -34,7 +34,7 @@ void check_speed(const MeshedBody& body, double speed, double critical) {
       body.mesh.source, std::abs(speed), critical));
 }
 
-/// The body in axes that turn about n.
+/// The body in a frame that rotates about n.
 class Spin {
  public:
   Spin(const MeshedBody& body, const SpinAxis& axis)
@@ -67,7 +67,7 @@ class Spin {
     return speed * speed * (normal * body_.M_s);
   }
 
-  /// The deformation under further forces, on the free nodes.
+  /// The deformation under additional forces, on the free nodes.
   [[nodiscard]] VectorX solve(double speed, const Matrix3X& F) const {
     check_speed(body_, speed, critical_);
     const Matrix3X rest = Matrix3X::Zero(3, r_.cols());
@@ -85,7 +85,7 @@ class Spin {
  private:
   const MeshedBody& body_;
   Vector3 n_;
-  Matrix3X r_;  ///< from the axis's point
+  Matrix3X r_;  ///< relative to the axis's point
   double critical_;
 };
 

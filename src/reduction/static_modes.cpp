@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_static_modes.hpp"
+#include "limber/reduction/static_modes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "flexbody/force_directions.hpp"
-#include "flexbody/reduce_krylov.hpp"
-#include "flexbody/reduce_load_cases.hpp"
+#include "limber/flexbody/model/force_directions.hpp"
+#include "limber/reduction/krylov.hpp"
+#include "limber/reduction/load_cases.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -18,7 +18,7 @@ void append(const MatrixX& columns, MatrixX& to) {
   to = std::move(joined);
 }
 
-/// Columns of the patterns whose static answers enter the basis, on all nodes.
+/// Loads of the patterns whose static responses enter the basis, on all nodes.
 MatrixX find_pattern_columns(const MeshedBody& body, const Recipe& recipe) {
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < recipe.load_patterns.size(); ++i)
@@ -28,7 +28,7 @@ MatrixX find_pattern_columns(const MeshedBody& body, const Recipe& recipe) {
                                                                 columns);
 }
 
-/// Forces that deform the body: without those that only move it, of which
+/// Forces that deform the body: omits those that only move it, of which
 /// roundoff would remain.
 MatrixX find_deforming(const fem::ElasticInverse& inverse, const MatrixX& F) {
   constexpr double kRoundoff = 1e-11;
@@ -39,8 +39,8 @@ MatrixX find_deforming(const fem::ElasticInverse& inverse, const MatrixX& F) {
   return elastic;
 }
 
-/// Static answers of a history, the most elastic energy first. With F = Q R,
-/// X = K^+ Q and Q^T X = A^T A, the answers X R have the energy Gram matrix
+/// Static responses to a history, the most elastic energy first. With F = Q R,
+/// X = K^+ Q and Q^T X = A^T A, the responses X R have the energy Gram matrix
 /// (A R)^T (A R); A R R^T A^T = U diag(energy) U^T gives their principal
 /// directions X R R^T A^T U.
 MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,

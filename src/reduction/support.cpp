@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_support.hpp"
+#include "limber/reduction/support.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
 #include <set>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-/// @throws InputError if the clamped nodes leave the body a rigid motion.
+/// @throws InputError if the clamped nodes leave a rigid motion.
 void check_clamp(const fem::Mesh& mesh, const std::vector<int>& clamped) {
   const Matrix3X x = mesh.x(Eigen::all, clamped);
   const Matrix3X d = x.colwise() - Vector3(x.rowwise().mean());

@@ -3,20 +3,21 @@
 
 #include <vector>
 
-#include "fem/matrices.hpp"
-#include "fem/mesh.hpp"
-#include "flexbody/recipe.hpp"
-#include "flexbody/reduced_basis.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/matrices.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
-/// Which nodes of a body can move. Part of limber_reduction.
+/// Free and clamped nodes of a body. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// Which nodes move, and the body's matrices on them.
+/// The free nodes and the body's matrices on them.
 struct Support {
   bool is_clamped = false;
-  std::vector<int> free_nodes;
+  std::vector<int> free_nodes;  ///< indices
   fem::StructuralMatrices matrices;
-  MatrixX R;  ///< rigid modes of the free nodes; no columns if clamped
+  /// Rigid modes of the free nodes [kg^-1/2]; no columns if clamped.
+  MatrixX R;
 };
 
 /// Nodes of the recipe's clamped groups, sorted. @throws InputError for a group
@@ -24,17 +25,18 @@ struct Support {
 [[nodiscard]] std::vector<int> find_clamped_nodes(const fem::Mesh& mesh,
                                                   const Recipe& recipe);
 
-/// @throws InputError if the clamp holds every node, or leaves the body a rigid
+/// @throws InputError if every node is clamped, or the clamp leaves a rigid
 /// motion.
 [[nodiscard]] Support make_support(const fem::Mesh& mesh, const Recipe& recipe,
                                    fem::StructuralMatrices matrices);
 
 /// make_reduced_basis on the support's matrices.
+/// @param drop_tolerance as for orthonormalise() [-]
 [[nodiscard]] ReducedBasis make_reduced_basis(const MatrixX& vectors,
                                               const Support& support,
                                               double drop_tolerance);
 
-/// The rows (three a node) of `nodes`.
+/// The rows (three per node) of `nodes`.
 [[nodiscard]] MatrixX take_rows(const MatrixX& full,
                                 const std::vector<int>& nodes);
 

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "dynamics/time_function.hpp"
-#include "flexbody/nodal_load.hpp"
-#include "joints/axis_coordinate.hpp"
-#include "joints/bushing.hpp"
-#include "joints/point_spring.hpp"
-#include "joints/universal_hold.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/time_function.hpp"
+#include "limber/flexbody/model/nodal_load.hpp"
+#include "limber/joints/axis_coordinate.hpp"
+#include "limber/joints/bushing.hpp"
+#include "limber/joints/point_spring.hpp"
+#include "limber/joints/universal_hold.hpp"
 
-/// A tree of rigid bodies in words that any rigid-body program can read:
-/// nothing of it is prepared for, or by, our own equations. Plain values.
+/// A tree of rigid bodies described independently of our equations, for any
+/// rigid-body program. Plain values.
 namespace limber::reference {
 
 /// The ground, as a parent or as the body of a frame.
@@ -22,32 +22,32 @@ inline constexpr int kGround = -1;
 /// How a body's frame M may move in its parent's frame F.
 enum class Mobilizer {
   weld,       ///< not at all
-  pin,        ///< turns about z: angle [rad]
+  pin,        ///< rotates about z: angle [rad]
   slider,     ///< slides along z: distance [m]
-  planar,     ///< x, y [m] along F, then an angle [rad] about z
-  universal,  ///< turns about x of F: angle [rad]; about y of M: angle [rad]
-  ball,       ///< turns: roll, pitch, yaw [rad]
-  free,       ///< x, y, z [m] along F, then roll, pitch, yaw [rad]
+  planar,     ///< x, y [m] in F, then an angle [rad] about z
+  universal,  ///< rotates about x of F: angle [rad]; about y of M: angle [rad]
+  ball,       ///< rotates: roll, pitch, yaw [rad]
+  free,       ///< x, y, z [m] in F, then roll, pitch, yaw [rad]
 };
 
-/// A rigid body, its mass about its own frame, and the joint that it hangs on.
+/// A rigid body, its mass properties in its own frame, and its inboard joint.
 struct MechanismBody {
   std::string name;
   double mass = 0.0;                  ///< [kg]; may be 0 on a weld
-  Vector3 p_LBcm = Vector3::Zero();   ///< centre of mass, body axes [m]
-  Matrix3 inertia = Matrix3::Zero();  ///< about it, body axes [kg m^2]
-  int parent = kGround;               ///< a body before this one
+  Vector3 p_LBcm = Vector3::Zero();   ///< centre of mass, body frame [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< about it, body frame [kg m^2]
+  int parent = kGround;               ///< index of a body before this one
   Mobilizer mobilizer = Mobilizer::weld;
   Pose X_PF;  ///< F on the parent
   Pose X_LM;  ///< M on this body
-  /// Coordinates at the start as Mobilizer tells, and their rates; of ball
-  /// and free the velocity and the angular velocity of M in F, along F.
-  std::vector<double> position;  ///< empty: zero
+  /// Initial coordinates as listed at Mobilizer, and their rates; for ball and
+  /// free the velocity and angular velocity of M in F, expressed in F.
+  std::vector<double> position;  ///< empty: zero [m, rad]
   std::vector<double> velocity;  ///< empty: zero [m/s, rad/s]
 };
 
 struct MechanismFrame {
-  int body = kGround;
+  int body = kGround;  ///< index
   Pose X_LF;
 };
 
@@ -55,23 +55,24 @@ struct BushingElement {
   MechanismFrame F;
   MechanismFrame M;
   joints::Bushing::Parameters law;  ///< in F
-  /// Axes in F along which all of `law` is diagonal; a free rotation is about
-  /// its z.
+  /// Axes in F in which all of `law` is diagonal; a free rotation is about its
+  /// z [-].
   Matrix3 R_FD = Matrix3::Identity();
-  /// Body whose joint this stands for; its joint is free while it acts.
+  /// Index of the body whose joint this element models; that joint is free if
+  /// it is used.
   int joint_of = kGround;
 };
 
-/// What a universal joint holds.
+/// Constraint springs of a universal joint.
 struct UniversalElement {
   std::string name;
   MechanismFrame F;
   MechanismFrame M;
   joints::UniversalHold::Parameters law;
-  int joint_of = kGround;  ///< as of a BushingElement
+  int joint_of = kGround;  ///< index, as of a BushingElement
 };
 
-/// Linear spring and damper along a coordinate of M in F. Whole turns are not
+/// Linear spring and damper along a coordinate of M in F. Full turns are not
 /// counted.
 struct CoordinateElement {
   std::string name;
@@ -89,9 +90,10 @@ struct SpringElement {
   joints::PointSpring::Parameters law;
 };
 
-/// Force and moment at a point, constant in body or world axes, times c(t).
+/// Force and moment at a point, constant in the body or world frame, times
+/// c(t).
 struct LoadElement {
-  int body = 0;
+  int body = 0;                      ///< index
   Vector3 point = Vector3::Zero();   ///< in the body's frame [m]
   Vector3 force = Vector3::Zero();   ///< [N]
   Vector3 moment = Vector3::Zero();  ///< [N m]
@@ -99,7 +101,7 @@ struct LoadElement {
   dynamics::TimeFunction function;
 };
 
-/// Force and moment on a body as a nodal load gives them at its frame B.
+/// Force and moment of a nodal load on a body, at its frame B.
 struct HistoryElement {
   MechanismFrame B;
   flexbody::NodalLoad history;
@@ -114,7 +116,7 @@ struct Mechanism {
   std::vector<LoadElement> loads;
   std::vector<HistoryElement> histories;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
-  std::vector<MechanismFrame> watched;  ///< whose motion is asked for
+  std::vector<MechanismFrame> watched;  ///< whose motion is reported
 };
 
 }  // namespace limber::reference

@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/scene_mechanism.hpp"
+#include "limber/reference/scene_mechanism.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 
-#include "common/errors.hpp"
-#include "scene/body_plan.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/scene/build/body_plan.hpp"
 
 namespace limber::reference {
 namespace {
 
 using joints::JointKind;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 Pose turn_z_to(const Vector3& axis) {
   return {Quaternion::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix(),
           Vector3::Zero()};
 }
 
-/// Axes of a mobilizer in those of its joint: z along the axis or, of a
-/// universal joint, x along the first and y along the second.
+/// Mobilizer frame in the joint's frame: z along the axis or, for a universal
+/// joint, x along the first and y along the second.
 Pose find_axes(const scene::Joint& joint) {
   if (!joints::needs_axis(joint.kind)) return {};
   if (joint.kind != JointKind::universal) return turn_z_to(joint.axis_J);
@@ -63,8 +62,8 @@ bool is_linear(const joints::SpringCurve::Parameters& curve) {
   return curve.quadratic == 0.0 && curve.forces.empty();
 }
 
-/// What of a law along a joint's coordinate Simbody is asked about.
-/// @throws InputError if that is not all of it.
+/// The linear spring and damper of a law along a joint's coordinate.
+/// @throws InputError if the law has other parts.
 CoordinateElement find_linear(const joints::ScalarLaw& law,
                               const std::string& joint) {
   CoordinateElement element;
@@ -90,7 +89,7 @@ CoordinateElement find_linear(const joints::ScalarLaw& law,
   return element;
 }
 
-/// Laws that only our own equations have. @throws InputError naming one.
+/// Rejects laws that only Limber implements. @throws InputError naming one.
 void check_laws(const dynamics::SystemModel& model) {
   for (const dynamics::Coupler& coupler : model.couplers) {
     const std::string who = "'" + coupler.name + "'";
@@ -245,7 +244,7 @@ class Translator {
 
   [[nodiscard]] MechanismFrame on_body(dynamics::BodyIndex body,
                                        const Pose& X_BF) const {
-    dynamics::BodyIndex count = 0;
+    int count = 0;
     for (const scene::BodyPlan& plan : plans_.bodies) {
       if (plan.is_world || count++ != body) continue;
       const int link = plan.links.front();
@@ -255,7 +254,7 @@ class Translator {
     return {};
   }
 
-  /// Couplers come in the order in which a scene adds them: joints first.
+  /// Couplers are in the order in which a scene adds them: joints first.
   void add_joints() {
     std::size_t coupler = 0;
     for (const int i : plans_.coupled_joints) {

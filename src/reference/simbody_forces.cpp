@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/simbody_forces.hpp"
+#include "limber/reference/simbody_forces.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::reference {
 namespace {
@@ -31,12 +31,12 @@ void push(const SimTK::MobilizedBody& body, const State& state,
       SpatialVec(moment + SimTK::cross(arm, force), force);
 }
 
-/// How M moves in F, in world axes.
+/// Motion of M in F, world frame.
 struct Motion {
   Transform X_GF;
   Transform X_GM;
   Vec3 w;
-  Vec3 v;  ///< of Mo past the point of F's body that is there now
+  Vec3 v;  ///< of Mo relative to the coincident point of F's body
 };
 
 Motion find_motion(const SimbodyFrame& F, const SimbodyFrame& M,
@@ -52,7 +52,8 @@ Motion find_motion(const SimbodyFrame& F, const SimbodyFrame& M,
   return motion;
 }
 
-/// A moment and a force at Mo on M, in world axes, and their reaction on F.
+/// A moment and a force at Mo on M, expressed in the world frame, and their
+/// reaction on F.
 void push_apart(const SimbodyFrame& F, const SimbodyFrame& M,
                 const State& state, const Vec3& moment, const Vec3& force,
                 SimTK::Vector_<SpatialVec>& body_forces) {
@@ -155,8 +156,8 @@ double CoordinateSpring::find_extension(const State& state) const {
   constexpr double kNearlyHalfTurn = 3.0;
   if (element_.stiffness > 0.0 && std::abs(wound) > kNearlyHalfTurn) {
     throw NumericalError(
-        fmt::format("a spring of joint '{}' is wound by {:.3g} rad; Simbody is "
-                    "asked about no more than {:g} rad",
+        fmt::format("a spring of joint '{}' is wound by {:.3g} rad; "
+                    "Simbody's angle is valid up to {:g} rad",
                     element_.name, std::abs(wound), kNearlyHalfTurn));
   }
   return wound;
@@ -168,7 +169,7 @@ void CoordinateSpring::calcForce(const State& state,
                                  SimTK::Vector& /*mobility_forces*/) const {
   const Motion motion = find_motion(F_, M_, state);
   const Vec3 e = to_simtk(element_.coordinate.axis);
-  Vec3 along = e;  // dz/dt is the motion along this
+  Vec3 along = e;  // dz/dt is the rate along this
   if (is_angle()) {
     const SimTK::Quaternion q = Rotation(~motion.X_GF.R() * motion.X_GM.R())
                                     .convertRotationToQuaternion();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "reference/mechanism.hpp"
-#include "reference/simbody_types.hpp"
+#include "limber/reference/mechanism.hpp"
+#include "limber/reference/simbody_types.hpp"
 
 /// Force elements that Simbody does not have. Not installed.
 namespace limber::reference {
@@ -39,7 +39,7 @@ class ChordalBushing : public SimTK::Force::Custom::Implementation {
   SimTK::Vec3 strength_;  ///< D_i [N m]
 };
 
-/// What a universal joint of docs/joints.md holds.
+/// Constraint springs of a universal joint of docs/joints.md.
 ///
 /// Equation   V = kt p' p / 2 + kr h^2 / 2, h = a . b with a on F, b on M;
 ///            dh/dt = w . (b x a), so the moment on M is
@@ -67,9 +67,9 @@ class CrossBushing : public SimTK::Force::Custom::Implementation {
 /// Equation   distance: z = e . p. Angle: z = 2 atan2(s, c), s = e . q_v,
 ///            c = q_0 of the quaternion of R_FM, and
 ///            dz/dt = w . (c (c e + q_v x e) + s q_v) / (c^2 + s^2)
-/// Limits     the turn of an angle is the one nearest to the spring's rest.
-///            @throws NumericalError where a spring is wound by nearly a half
-///            turn, beyond which that may be another than it was.
+/// Limits     an angle is taken within half a turn of the spring's rest.
+///            @throws NumericalError if a spring is wound by nearly half a
+///            turn, beyond which the angle would jump.
 class CoordinateSpring : public SimTK::Force::Custom::Implementation {
  public:
   CoordinateSpring(const SimbodyFrame& F, const SimbodyFrame& M,
@@ -102,7 +102,7 @@ struct Interval {
   }
 };
 
-/// A load that stays put on its body. `interval` outlives the element.
+/// A load at a fixed point of its body. `interval` must outlive the element.
 class TimedLoad : public SimTK::Force::Custom::Implementation {
  public:
   TimedLoad(const SimTK::MobilizedBody& body, const LoadElement& load,
@@ -123,7 +123,7 @@ class TimedLoad : public SimTK::Force::Custom::Implementation {
   const Interval& interval_;
 };
 
-/// A force and moment that hold from time to time, axes of frame B.
+/// A piecewise constant force and moment, expressed in frame B.
 class SteppedLoad : public SimTK::Force::Custom::Implementation {
  public:
   SteppedLoad(const SimbodyFrame& B, flexbody::NodalLoad history,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/simbody_model.hpp"
+#include "limber/reference/simbody_model.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::reference {
 namespace {
@@ -83,7 +83,7 @@ std::vector<double> take_coordinates(const std::vector<double>& given,
   return given.empty() ? std::vector<double>(count, 0.0) : given;
 }
 
-/// Roll, pitch, yaw: about x, then y, then z, all fixed in F.
+/// Roll, pitch, yaw: about the x, then y, then z axis of F.
 Rotation rotation_rpy(double roll, double pitch, double yaw) {
   return {SimTK::SpaceRotationSequence,
           roll,
@@ -149,8 +149,8 @@ bool stands_for_joint(const Mechanism& mechanism, int body) {
                      stands);
 }
 
-/// What is left of a joint's bushing when a mobilizer holds: damping of the
-/// motion that it leaves free: along or about z of D; of a ball, all turning.
+/// Part of a joint's bushing that acts with a mobilizer: damping of its free
+/// motion, along or about z of D; of a ball, all rotation.
 joints::Bushing::Parameters keep_free_damping(const BushingElement& element,
                                               Mobilizer mobilizer) {
   const Vector3 z = element.R_FD.col(2);
@@ -174,7 +174,7 @@ joints::Bushing::Parameters keep_free_damping(const BushingElement& element,
   return left;
 }
 
-/// Whether what is left is round-off of the damping that is held.
+/// Whether the rest is round-off of the constrained damping.
 bool is_inert(const joints::Bushing::Parameters& left,
               const joints::Bushing::Parameters& law) {
   constexpr double kRoundOff = 1e-14;
@@ -184,7 +184,7 @@ bool is_inert(const joints::Bushing::Parameters& left,
              kRoundOff * law.rotational_damping.norm();
 }
 
-/// Rotations first, as Simbody has them.
+/// Rotations first, as in Simbody.
 Vec6 diagonal_along(const Matrix3& R_FD, const Matrix3& rotational,
                     const Matrix3& translational) {
   const Vector3 r = (R_FD.transpose() * rotational * R_FD).diagonal();
@@ -212,7 +212,7 @@ SimbodyModel::SimbodyModel(const Mechanism& mechanism, JointModel joints)
       joints_(joints),
       matter_(system_),
       forces_(system_) {
-  // The system keeps an element; what is named here is a handle to it.
+  // The system owns the element; this is a handle.
   const SimTK::Force::UniformGravity gravity(forces_, matter_,
                                              to_simtk(mechanism.gravity_W));
   for (int i = 0; i < std::ssize(mechanism.bodies); ++i) {

@@ -3,14 +3,15 @@
 
 #include <vector>
 
-#include "reference/mechanism.hpp"
-#include "reference/simbody_forces.hpp"
-#include "reference/witness.hpp"
+#include "limber/reference/joint_model.hpp"
+#include "limber/reference/mechanism.hpp"
+#include "limber/reference/simbody_forces.hpp"
+#include "limber/reference/snapshot.hpp"
 
 /// Not installed.
 namespace limber::reference {
 
-/// A mechanism as a system of Simbody's.
+/// A mechanism as a Simbody system.
 class SimbodyModel {
  public:
   SimbodyModel(const Mechanism& mechanism, JointModel joints);
@@ -44,7 +45,7 @@ class SimbodyModel {
   SimTK::SimbodyMatterSubsystem matter_;
   SimTK::GeneralForceSubsystem forces_;
   std::vector<SimTK::MobilizedBody> bodies_;
-  std::vector<SimTK::Force> couplers_;  ///< what stores energy
+  std::vector<SimTK::Force> couplers_;  ///< those that store energy
 };
 
 }  // namespace limber::reference

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/witness.hpp"
+#include "limber/reference/simbody_reference.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "reference/simbody_model.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/reference/simbody_model.hpp"
 
 namespace limber::reference {
 namespace {
@@ -21,7 +20,7 @@ bool at_time(const Integrator& integrator, double t) {
 /// From one jump to the next, through the marks in between.
 class Passage {
  public:
-  Passage(SimbodyModel& model, const WitnessOptions& options)
+  Passage(SimbodyModel& model, const SimbodyOptions& options)
       : model_(model), integrator_(model.system()) {
     integrator_.setAccuracy(options.accuracy);
     integrator_.setAllowInterpolation(false);
@@ -30,7 +29,7 @@ class Passage {
 
   void begin(SimTK::State state, double begin, double end) {
     model_.interval() = {begin, end};
-    // Loads may differ from what the state remembers of this time.
+    // Loads may have changed since the state's cache was computed.
     state.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
     integrator_.initialize(state);
   }
@@ -47,7 +46,7 @@ class Passage {
   SimTK::RungeKuttaMersonIntegrator integrator_;
 };
 
-double find_next_jump(const std::vector<dynamics::Landmark>& marks,
+double find_next_jump(const std::vector<dynamics::Breakpoint>& marks,
                       std::size_t from) {
   for (std::size_t i = from; i < marks.size(); ++i) {
     if (marks[i].is_jump) return marks[i].time;
@@ -55,16 +54,16 @@ double find_next_jump(const std::vector<dynamics::Landmark>& marks,
   return marks.back().time;
 }
 
-WitnessRun run(const Mechanism& mechanism, const WitnessOptions& options,
-               const std::vector<dynamics::Landmark>& marks,
+SimbodyRun run(const Mechanism& mechanism, const SimbodyOptions& options,
+               const std::vector<dynamics::Breakpoint>& marks,
                const Progress& progress) {
   SimbodyModel model(mechanism, options.joints);
   Passage passage(model, options);
-  WitnessRun result;
+  SimbodyRun result;
   result.snapshots.push_back(model.observe(model.make_start()));
   passage.begin(model.make_start(), 0.0, find_next_jump(marks, 0));
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    const dynamics::Landmark& mark = marks[i];
+    const dynamics::Breakpoint& mark = marks[i];
     passage.advance(mark.time);
     if (mark.is_output) {
       result.snapshots.push_back(model.observe(passage.state()));
@@ -80,22 +79,7 @@ WitnessRun run(const Mechanism& mechanism, const WitnessOptions& options,
 
 }  // namespace
 
-const std::vector<std::string>& joint_model_names() {
-  static const std::vector<std::string> names = {"bushings", "linear-bushings",
-                                                 "ideal"};
-  return names;
-}
-
-JointModel parse_joint_model(std::string_view name) {
-  const auto& names = joint_model_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw InputError(describe_unknown("joint model", name, names));
-  }
-  return static_cast<JointModel>(found - names.begin());
-}
-
-std::string witness_name() {
+std::string simbody_name() {
   int major = 0;
   int minor = 0;
   int build = 0;
@@ -103,8 +87,8 @@ std::string witness_name() {
   return fmt::format("Simbody {}.{}.{}", major, minor, build);
 }
 
-WitnessRun simulate(const Mechanism& mechanism, const WitnessOptions& options,
-                    const std::vector<dynamics::Landmark>& marks,
+SimbodyRun simulate(const Mechanism& mechanism, const SimbodyOptions& options,
+                    const std::vector<dynamics::Breakpoint>& marks,
                     const Progress& progress) {
   LIMBER_EXPECT(!marks.empty() && marks.front().time > 0.0);
   if (!(options.accuracy > 0.0) || !(options.accuracy < 1.0)) {
@@ -114,7 +98,7 @@ WitnessRun simulate(const Mechanism& mechanism, const WitnessOptions& options,
   try {
     return run(mechanism, options, marks, progress);
   } catch (const SimTK::Exception::Base& error) {
-    throw NumericalError(witness_name() + ": " + error.what());
+    throw NumericalError(simbody_name() + ": " + error.what());
   }
 }
 

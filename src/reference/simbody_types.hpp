@@ -5,9 +5,9 @@
 
 namespace SimTK {
 
-/// Simbody 3.7 is C++17: in C++20, which also tries comparisons the other way
-/// round, `==` between two of its index types is ambiguous. Both converted to
-/// int is what it means; being exact, this overload is the better match.
+/// Simbody 3.7 is C++17: in C++20, which also considers reversed comparisons,
+/// `==` between two of its index types is ambiguous. It compares both as int;
+/// being an exact match, this overload is preferred.
 template <typename Index>
 requires requires(const Index& i) {
   { i.isValidExtended() } -> std::same_as<bool>;
@@ -19,11 +19,11 @@ requires requires(const Index& i) {
 
 }  // namespace SimTK
 
-// A helper that we do not use; its vectors of incomplete types are not C++20.
+// Excludes an unused helper, whose vectors of incomplete types are not C++20.
 #define SimTK_SIMMATH_MULTIBODY_GRAPH_MAKER_H_
 #include <Simbody.h>
 
-#include "common/pose.hpp"
+#include "limber/common/pose.hpp"
 
 /// Our small types to Simbody's and back. Not installed.
 namespace limber::reference {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/stiffening.hpp"
+#include "limber/reference/stiffening.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::reference {
 namespace {
 
-/// Damping of the directions that a joint's stiffness holds grows; that of
-/// those that it leaves free stays.
+/// Scales the damping of directions with stiffness; that of free directions is
+/// unchanged.
 Matrix3 stiffen_damping(const Matrix3& stiffness, const Matrix3& damping,
                         double factor) {
   const double largest =
@@ -65,7 +65,7 @@ StiffnessTrend find_trend(const std::vector<double>& factors,
                           const std::vector<double>& differences) {
   LIMBER_EXPECT(factors.size() == differences.size());
   StiffnessTrend trend;
-  std::size_t first = 0;  // of the row that the order belongs to
+  std::size_t first = 0;  // of the run that the order belongs to
   for (std::size_t i = 1; i < factors.size(); ++i) {
     const double order = std::log(differences[i - 1] / differences[i]) /
                          std::log(factors[i] / factors[i - 1]);

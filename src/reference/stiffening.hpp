@@ -4,37 +4,39 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
+#include "limber/dynamics/system/system_model.hpp"
 
-/// Joints on their way to ideal ones (docs/theory/verification.md).
+/// Convergence of stiff joints to ideal ones (docs/theory/verification.md).
 namespace limber::reference {
 
-/// What the joints hold, `factor` > 0 times as stiff, its damping in proportion
-/// to the root, so that damping ratios stay. What joints leave free and what
-/// acts there stays, and so do other couplers.
+/// Multiplies the stiffness of the joints' constrained directions by `factor`
+/// and their damping by its square root, so that damping ratios are unchanged.
+/// Free directions, the laws acting on them, and other couplers are unchanged.
+/// @param factor > 0 [-]
 [[nodiscard]] dynamics::SystemModel stiffen_joints(dynamics::SystemModel model,
                                                    double factor);
 
-/// How differences fall as stiffness grows.
+/// How differences decrease with stiffness.
 struct StiffnessTrend {
   /// Between neighbours: -d log(difference) / d log(stiffness) [-].
   std::vector<double> orders;
-  /// Indices, first < last, of the longest row of differences whose orders are
+  /// Indices, first < last, of the longest run of differences whose orders are
   /// all within kOrderBand of 1.
   struct Row {
-    std::size_t first = 0;
-    std::size_t last = 0;
+    std::size_t first = 0;  ///< index
+    std::size_t last = 0;   ///< index
   };
   std::optional<Row> first_order;
-  /// Index of the difference after which they first fall at less than half an
-  /// order, not counting those before the row of first order: the floor.
+  /// The floor: index of the difference after which the order first is below
+  /// one half, not counting those before the run of first order.
   std::optional<std::size_t> floor;
 };
 
+/// Tolerance of a first order, see StiffnessTrend [-].
 inline constexpr double kOrderBand = 0.05;
 
 /// @param factors increasing, > 0 [-]
-/// @param differences one a factor, > 0
+/// @param differences one per factor, > 0
 [[nodiscard]] StiffnessTrend find_trend(const std::vector<double>& factors,
                                         const std::vector<double>& differences);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/verification.hpp"
+#include "limber/reference/verification.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <functional>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/landmarks.hpp"
-#include "reference/scene_mechanism.hpp"
-#include "reference/stiffening.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
+#include "limber/reference/scene_mechanism.hpp"
+#include "limber/reference/stiffening.hpp"
 
 namespace limber::reference {
 namespace {
@@ -29,7 +29,7 @@ Magnitudes find_difference(const BodyState& a, const BodyState& b) {
           (a.v_WB_W - b.v_WB_W).norm(), (a.w_WB_B - b.w_WB_B).norm()};
 }
 
-/// How far from its start and how fast.
+/// Displacement from the start, and speeds.
 Magnitudes find_motion(const BodyState& start, const BodyState& now) {
   return {(now.p_WB - start.p_WB).norm(),
           find_angle(start.quat_WB, now.quat_WB), now.v_WB_W.norm(),
@@ -44,7 +44,7 @@ void take_larger(Magnitudes& largest, const Magnitudes& m) {
       std::max(largest.angular_velocity, m.angular_velocity);
 }
 
-void measure_witness(const std::vector<Snapshot>& snapshots,
+void measure_simbody(const std::vector<Snapshot>& snapshots,
                      Verification& verification) {
   const Snapshot& start = snapshots.front();
   for (const Snapshot& now : snapshots) {
@@ -70,7 +70,7 @@ dynamics::SimulationSettings halve_steps(dynamics::SimulationSettings settings,
 Agreement run_ours(const dynamics::SystemModel& model,
                    dynamics::SystemState state,
                    const dynamics::SimulationSettings& settings,
-                   const std::vector<Snapshot>& witness,
+                   const std::vector<Snapshot>& theirs,
                    const Progress& progress) {
   std::vector<dynamics::SystemState> states;
   std::vector<dynamics::EnergyBalance> energies;
@@ -80,12 +80,12 @@ Agreement run_ours(const dynamics::SystemModel& model,
     energies.push_back(energy);
   };
   dynamics::simulate(model, state, settings, observer, progress);
-  Agreement agreement = compare(witness, states, energies);
+  Agreement agreement = compare(theirs, states, energies);
   agreement.step = find_longest_step(settings);
   return agreement;
 }
 
-/// The start and the end are always looked at.
+/// The start and the end are always compared.
 void add_ends(const dynamics::SystemState& initial,
               dynamics::SimulationSettings& settings) {
   std::vector<double>& times = settings.output_times;
@@ -102,7 +102,7 @@ Progress report_part(const Progress& progress, double begin, double width) {
   };
 }
 
-/// The witness, run once, and what runs of ours are held against it.
+/// One Simbody run, and comparisons of our runs with it.
 class Comparison {
  public:
   Comparison(const scene::Scene& scene, const scene::BuiltScene& built,
@@ -110,28 +110,28 @@ class Comparison {
       : built_(built), options_(options), settings_(built.settings) {
     LIMBER_EXPECT(options.refinements >= 0);
     add_ends(built.initial, settings_);
-    witness_ = simulate(
-        make_mechanism(scene, built), options.witness,
-        dynamics::find_landmarks(built.model, built.initial.t, settings_),
+    simbody_ = simulate(
+        make_mechanism(scene, built), options.simbody,
+        dynamics::find_breakpoints(built.model, built.initial.t, settings_),
         progress);
   }
 
-  /// Ours with joints `factor` times as stiff.
+  /// Our run with joints `factor` times as stiff.
   [[nodiscard]] Verification run(double factor,
                                  const Progress& progress) const {
     Verification verification;
     for (const dynamics::BodyModel& body : built_.model.bodies) {
       verification.bodies.push_back(body.name);
     }
-    verification.witness_steps = witness_.steps;
-    measure_witness(witness_.snapshots, verification);
+    verification.simbody_steps = simbody_.steps;
+    measure_simbody(simbody_.snapshots, verification);
     const dynamics::SystemModel model =
         factor == 1.0 ? built_.model : stiffen_joints(built_.model, factor);
     const double total = std::exp2(options_.refinements + 1) - 1.0;
     for (int i = 0; i <= options_.refinements; ++i) {
       const double steps = std::exp2(i);  // of the first run
       verification.runs.push_back(run_ours(
-          model, built_.initial, halve_steps(settings_, i), witness_.snapshots,
+          model, built_.initial, halve_steps(settings_, i), simbody_.snapshots,
           report_part(progress, (steps - 1.0) / total, steps / total)));
     }
     return verification;
@@ -141,7 +141,7 @@ class Comparison {
   const scene::BuiltScene& built_;
   VerificationOptions options_;
   dynamics::SimulationSettings settings_;
-  WitnessRun witness_;
+  SimbodyRun simbody_;
 };
 
 void check_factors(const std::vector<double>& factors) {
@@ -172,14 +172,14 @@ double find_relative(const Magnitudes& difference, const Magnitudes& motion) {
        find_share(difference.angular_velocity, motion.angular_velocity)});
 }
 
-Agreement compare(const std::vector<Snapshot>& witness,
+Agreement compare(const std::vector<Snapshot>& reference,
                   const std::vector<dynamics::SystemState>& states,
                   const std::vector<dynamics::EnergyBalance>& energies) {
-  LIMBER_EXPECT(states.size() == witness.size());
-  LIMBER_EXPECT(energies.size() == witness.size());
+  LIMBER_EXPECT(states.size() == reference.size());
+  LIMBER_EXPECT(energies.size() == reference.size());
   Agreement agreement;
-  for (std::size_t i = 0; i < witness.size(); ++i) {
-    const Snapshot& theirs = witness[i];
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const Snapshot& theirs = reference[i];
     LIMBER_EXPECT(states[i].t == theirs.time);
     LIMBER_EXPECT(states[i].bodies.size() == theirs.frames.size());
     agreement.bodies.resize(theirs.frames.size());
@@ -208,7 +208,7 @@ StiffenedVerification verify_stiffened(const scene::Scene& scene,
                                        const VerificationOptions& options,
                                        const Progress& progress) {
   check_factors(factors);
-  if (options.witness.joints != JointModel::ideal) {
+  if (options.simbody.joints != JointModel::ideal) {
     throw InputError(
         "stiffened joints are compared with ideal ones, no others");
   }

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "common/progress.hpp"
-#include "dynamics/energy.hpp"
-#include "reference/witness.hpp"
-#include "scene/scene.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/reference/simbody_reference.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::reference {
 
@@ -19,9 +20,9 @@ struct Magnitudes {
   double angular_velocity = 0.0;  ///< [rad/s]
 };
 
-/// Ours against the witness at the outputs of one run.
+/// Differences between Limber and Simbody at the outputs of one run.
 struct Agreement {
-  std::vector<Magnitudes> bodies;  ///< largest differences, one a body
+  std::vector<Magnitudes> bodies;  ///< largest differences, one per body
   Magnitudes largest;              ///< of all bodies
   double energy = 0.0;             ///< largest difference [J]
   double step = 0.0;               ///< our longest step [s]
@@ -29,33 +30,33 @@ struct Agreement {
 
 struct Verification {
   std::vector<std::string> bodies;
-  /// How much moves, in the witness's run: largest displacement and rotation
+  /// Extent of the motion in Simbody's run: largest displacement and rotation
   /// from the start, largest speeds, of all bodies.
   Magnitudes motion;
-  /// Largest kinetic energy plus energy in couplers in the witness's run [J].
+  /// Largest kinetic energy plus energy in couplers in Simbody's run [J].
   double energy = 0.0;
-  std::vector<Agreement> runs;  ///< each with half the step of the one before
-  long witness_steps = 0;
+  std::vector<Agreement> runs;  ///< each with half the previous step
+  long simbody_steps = 0;       ///< count
 };
 
 struct VerificationOptions {
-  WitnessOptions witness;
-  int refinements = 0;  ///< how often our step is halved, >= 0
+  SimbodyOptions simbody;
+  int refinements = 0;  ///< number of halvings of Limber's step, >= 0
 };
 
-/// Largest share of `difference` in `motion` over the four quantities [-];
-/// what does not move is left out.
+/// Largest ratio of `difference` to `motion` over the four quantities [-];
+/// ignores quantities without motion.
 [[nodiscard]] double find_relative(const Magnitudes& difference,
                                    const Magnitudes& motion);
 
 /// Compares states and energies at the same times.
 [[nodiscard]] Agreement compare(
-    const std::vector<Snapshot>& witness,
+    const std::vector<Snapshot>& theirs,
     const std::vector<dynamics::SystemState>& states,
     const std::vector<dynamics::EnergyBalance>& energies);
 
-/// Runs the scene with the witness once and with us at its settings' step, a
-/// half of it, and so on.
+/// Runs the scene with Simbody once and with Limber at the step of its
+/// settings, half of it, and so on.
 /// @throws InputError if a link is not at level `rigid`; NumericalError as
 /// both simulations do.
 [[nodiscard]] Verification verify(const scene::Scene& scene,
@@ -64,15 +65,16 @@ struct VerificationOptions {
                                   const Progress& progress = {});
 
 struct StiffenedVerification {
-  std::vector<Verification> results;  ///< one a factor, as far as ours got
-  std::string ended;  ///< why there is none for the next factor; else empty
+  std::vector<Verification> results;  ///< one per factor, until Limber failed
+  std::string ended;  ///< why the next factor failed; else empty
 };
 
 /// The same with joints `factors` times as stiff (stiffen_joints), one after
-/// the other, against the witness's ideal joints, which it simulates once.
-/// Where ours fails for the third factor or a later one, that is the end.
-/// @throws InputError if the factors are not two or more, positive and
-/// increasing, or other joints than ideal ones are asked for; else as verify.
+/// the other, against one Simbody run with ideal joints. Stops if Limber fails
+/// for the third factor or a later one.
+/// @throws InputError unless there are at least two factors, positive and
+/// increasing, or if joints other than ideal ones are requested; else as
+/// verify.
 [[nodiscard]] StiffenedVerification verify_stiffened(
     const scene::Scene& scene, const scene::BuiltScene& built,
     const std::vector<double>& factors, const VerificationOptions& options,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/checkpoint_file.hpp"
+#include "limber/results/checkpoint_file.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,11 @@
 #include <system_error>
 #include <utility>
 
-#include "common/archive.hpp"
-#include "common/errors.hpp"
-#include "common/sealed_file.hpp"
-#include "dynamics/archives.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/sealed_file.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/monitors/event_fields.hpp"
 
 namespace limber::results {
 
@@ -28,7 +29,7 @@ namespace {
 constexpr std::string_view kKind = "limber checkpoint";
 constexpr Seal kSeal = {kKind, 3};
 
-// What the file itself holds.
+// Content of the checkpoint file.
 struct Head {
   double time = 0.0;
   std::vector<double> numbers;
@@ -42,10 +43,10 @@ constexpr auto fields_of(const Head*) {
                      "digest");
 }
 
-// A block of the log but the first, which is the manifest.
+// A block of the log; the first block is the manifest.
 struct Entry {
   std::vector<double> run;
-  History history;  // what came since the entry before
+  History history;  // since the previous entry
 };
 
 constexpr auto fields_of(const Entry*) {
@@ -71,7 +72,7 @@ Thing from_bytes(const std::string& bytes) {
   return thing;
 }
 
-// The two logs that take turns: a new run's does not touch that of the
+// Two logs are used alternately: a new run does not touch the log of the
 // checkpoint that it replaces.
 std::filesystem::path find_log(const std::filesystem::path& file, int turn) {
   std::filesystem::path log = file;
@@ -87,7 +88,7 @@ std::filesystem::path choose_log(const std::filesystem::path& file) {
   const std::filesystem::path first = find_log(file, 1);
   try {
     if (first.filename() == read_head(file).log) return find_log(file, 2);
-  } catch (const InputError&) {  // no checkpoint to be kept
+  } catch (const InputError&) {  // no checkpoint to preserve
   }
   return first;
 }
@@ -100,7 +101,7 @@ std::vector<std::size_t> find_ends(const History& history) {
   return ends;
 }
 
-// What is beyond the ends.
+// The part after the ends.
 History cut(const History& history, const std::vector<std::size_t>& ends) {
   History part;
   std::apply(

@@ -6,36 +6,36 @@
 #include <string>
 #include <vector>
 
-#include "common/append_file.hpp"
-#include "common/manifest.hpp"
-#include "dynamics/checkpoint.hpp"
-#include "results/history.hpp"
+#include "limber/common/files/append_file.hpp"
+#include "limber/common/records/manifest.hpp"
+#include "limber/dynamics/simulation/checkpoint.hpp"
+#include "limber/results/history.hpp"
 
 namespace limber::results {
 
-/// A run that is under way, with what it has left behind so far.
+/// An unfinished run, with its results so far.
 struct CheckpointRecord {
-  Manifest manifest;  ///< what the run is made of
+  Manifest manifest;  ///< all inputs of the run
   dynamics::Checkpoint run;
   History history;
-  std::filesystem::path log;  ///< where the history is
+  std::filesystem::path log;  ///< file with the history
   FilePart part;              ///< of it
 };
 
-/// Leaves checkpoints of one run: a file of the state between two steps, which
-/// is written as a whole, and beside it a log that what was left behind since
-/// is appended to. The file says how far the log is its own, so that a run
-/// that is killed at any moment leaves a checkpoint, or that before it.
+/// Writes checkpoints of one run: a file with the state between two steps,
+/// written atomically, and beside it a log to which new results are appended.
+/// The file records the valid length of the log, so that a run that is killed
+/// at any moment leaves this checkpoint or the previous one.
 class CheckpointWriter {
  public:
-  /// Of a run that begins. Nothing is written yet.
+  /// For a new run. Nothing is written yet.
   CheckpointWriter(std::filesystem::path file, Manifest manifest);
-  /// Of a run that goes on from `record`.
+  /// For a run that continues from `record`.
   /// @throws InputError if its log cannot be written.
   CheckpointWriter(std::filesystem::path file, const CheckpointRecord& record);
 
-  /// @throws InputError if the place cannot be written. The next attempt makes
-  /// up for it.
+  /// @throws InputError if it cannot be written. The next attempt includes the
+  /// missing data.
   void write(const dynamics::Checkpoint& run, const History& history);
 
  private:
@@ -52,11 +52,11 @@ class CheckpointWriter {
 /// Removes a checkpoint and its logs, if there are any.
 void remove_checkpoint(const std::filesystem::path& file);
 
-/// Whether it says that it is one, whole or damaged.
+/// Whether the file has a checkpoint's header, even if damaged.
 [[nodiscard]] bool is_checkpoint_file(const std::filesystem::path& file);
 
-/// @throws InputError if the file is no checkpoint, is damaged or is of another
-/// version of the layout: every byte of it and its log counts.
+/// @throws InputError if the file is not a checkpoint, has another layout
+/// version, or any byte of it or its log is damaged.
 [[nodiscard]] CheckpointRecord read_checkpoint(
     const std::filesystem::path& file);
 

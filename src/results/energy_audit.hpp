@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "results/history.hpp"
+#include "limber/results/history.hpp"
 
 namespace limber::results {
 
-/// Whether a run made or lost energy that nothing accounts for.
+/// Energy that a run gained or lost without a physical cause.
 ///
 /// Equation   drift = final + dissipated - initial - work, which should be
 ///            zero: energy created, at the last output; throughput = the
@@ -22,8 +22,8 @@ struct EnergyAudit {
   double largest = 0.0;     ///< magnitude of the drift at any output [J]
   double throughput = 0.0;  ///< [J]
 
-  /// drift / throughput and largest / throughput [-]; none if nothing passed
-  /// through.
+  /// drift / throughput and largest / throughput [-]; none if the throughput is
+  /// zero.
   [[nodiscard]] std::optional<double> relative() const;
   [[nodiscard]] std::optional<double> relative_largest() const;
 };

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/gnuplot.hpp"
+#include "limber/results/gnuplot.hpp"
 
 #include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
 
-#include "results/gnuplot_process.hpp"
+#include "limber/results/gnuplot_process.hpp"
 
 namespace limber::results {
 namespace {
 
 constexpr std::chrono::seconds kLimit(20);
-// Of every picture after one that hung: the next will, too.
+// For every picture after one that hung, since the next will hang too.
 constexpr std::chrono::seconds kLimitAfterHang(1);
 
 std::atomic<bool> has_hung = false;

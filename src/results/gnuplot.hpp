@@ -6,8 +6,8 @@
 
 namespace limber::results {
 
-/// A gnuplot script that draws one PNG, built line by line and then run. Data
-/// travel inside it, so nothing but the picture is left behind.
+/// A gnuplot script that draws one PNG, built line by line and then run. It
+/// contains its data, so there are no other files.
 class GnuplotScript {
  public:
   /// Canvas in pixels.
@@ -16,7 +16,7 @@ class GnuplotScript {
   /// Appends one line of commands or data.
   void add(const std::string& line);
 
-  /// Runs gnuplot, for 20 s at most; once one has hung, for 1 s.
+  /// Runs gnuplot, for at most 20 s; for 1 s after one has hung.
   /// @returns an empty string, or why there is no picture.
   [[nodiscard]] std::string run() const;
 
@@ -25,7 +25,7 @@ class GnuplotScript {
   std::string text_;
 };
 
-/// `text` as a gnuplot string literal that means exactly that text.
+/// `text` as a gnuplot string literal, escaped.
 [[nodiscard]] std::string quote(const std::string& text);
 
 }  // namespace limber::results

@@ -6,12 +6,12 @@
 
 namespace limber::results {
 
-/// How a gnuplot ended.
+/// How a gnuplot process ended.
 enum class GnuplotEnd { done, failed, missing, hung };
 
-/// Runs `gnuplot` on a script and waits for its end, for so long at most; then
-/// it is killed with all that it started. Its own output is dropped, and it
-/// ends with this process, however that ends.
+/// Runs `gnuplot` on a script and waits at most `limit` for its end; then it is
+/// killed with all its children. Its output is discarded, and it is killed if
+/// this process ends.
 [[nodiscard]] GnuplotEnd run_gnuplot(const std::string& script,
                                      std::chrono::milliseconds limit);
 

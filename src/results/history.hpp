@@ -4,27 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/energy.hpp"
-#include "dynamics/event.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/monitors/event.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::results {
 
-/// One scalar that is followed in time.
+/// One scalar recorded over time.
 struct ProbeColumn {
   std::string name;  ///< e.g. "finger_tip.ux"
   std::string unit;  ///< e.g. "m"
 };
 
-/// What a run leaves in memory: one entry an output time everywhere but in
-/// `events`.
+/// Results of a run in memory: one entry per output time, except in `events`.
 struct History {
   std::vector<ProbeColumn> columns;
   std::vector<double> times;                    ///< [s]
   std::vector<std::vector<double>> probe_rows;  ///< [time][column]
   std::vector<dynamics::SystemState> states;
   std::vector<dynamics::EnergyBalance> energies;
-  std::vector<dynamics::Event> events;  ///< in the order of time
+  std::vector<dynamics::Event> events;  ///< sorted by time
 };
 
 }  // namespace limber::results

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/label_placement.hpp"
+#include "limber/results/label_placement.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 namespace limber::results {
 namespace {
 
-// Of a sans font of ten points on a canvas of 96 dots an inch.
+// For a sans-serif font of ten points at 96 dots per inch.
 constexpr double kLetter = 7.0;
 constexpr double kLine = 15.0;
 constexpr double kMarker = 6.0;  // half its width

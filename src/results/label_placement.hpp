@@ -7,24 +7,24 @@
 
 namespace limber::results {
 
-/// A point of a picture [pixels from the panel's lower left corner] and what
-/// should be written beside it; empty: nothing.
+/// A point of a picture [pixels from the panel's lower left corner] and its
+/// label; empty: none.
 struct LabelledPoint {
-  double x = 0.0;
-  double y = 0.0;
+  double x = 0.0;  ///< [pixels]
+  double y = 0.0;  ///< [pixels]
   std::string text;
 };
 
-/// Where a label goes: its end that is next to its point, half its height up.
+/// Position of a label: its end next to the point, at half its height.
 struct LabelPlace {
-  double x = 0.0;
-  double y = 0.0;
-  bool reaches_right = true;  ///< from there
+  double x = 0.0;             ///< [pixels]
+  double y = 0.0;             ///< [pixels]
+  bool reaches_right = true;  ///< from (x, y)
 };
 
-/// Places labels beside their points one by one, in their order, so that none
-/// covers a point, another label, the edge of the panel, or a horizontal line.
-/// What finds no such place has none.
+/// Places labels beside their points one by one, in order, so that none covers
+/// a point, another label, the edge of the panel, or a horizontal line. Labels
+/// without such a place are omitted.
 /// @param width, height of the panel [pixels]
 /// @param lines heights of horizontal lines [pixels]
 [[nodiscard]] std::vector<std::optional<LabelPlace>> place_labels(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/level_picture.hpp"
+#include "limber/results/level_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "flexbody/decision_boundary.hpp"
-#include "results/gnuplot.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
+#include "limber/results/gnuplot.hpp"
 
 namespace limber::results {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using dynamics::RotationPoint;
 using flexbody::InertialDisplacementBound;
 
-// Colours that stay apart for every kind of sight (Okabe and Ito, 2008).
+// Palette for colour-blind readers (Okabe and Ito, 2008).
 constexpr std::array<const char*, 6> kColours = {
     "#0072B2", "#D55E00", "#CC79A7", "#000000", "#56B4E9", "#009E73"};
 constexpr int kWidth = 1100;
@@ -57,7 +57,7 @@ double decade_above(double value) {
 /// Both boundaries, and three decades of each track below its peak.
 void set_axes(Panel& panel) {
   constexpr double kTail = 1e-3;
-  constexpr double kNothing = 1e-12;  // of a boundary: not worth a decade
+  constexpr double kNothing = 1e-12;  // of a boundary: negligible
   panel.least_Omega = 0.1 * panel.sudden;
   panel.most_Omega = 3.0 * panel.linear;
   panel.least_alpha = 0.1 * panel.report;
@@ -113,7 +113,7 @@ void add_track(GnuplotScript& script, const std::string& block,
                const Panel& panel, const RotationTrack& track) {
   script.add(fmt::format("${} << EOD", block));
   for (const RotationPoint& point : track.points) {
-    // Rest lies beyond any logarithmic axis: it is drawn on the edge.
+    // Zero has no place on a logarithmic axis: drawn on the edge.
     script.add(fmt::format("{:.6g} {:.6g}",
                            std::max(point.Omega, panel.least_Omega),
                            std::max(point.alpha, panel.least_alpha)));

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/level_survey.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/dynamics/analysis/level_survey.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::results {
 
-/// One body's way through the plane of alpha and Omega.
+/// One body's trajectory in the plane of alpha and Omega.
 struct RotationTrack {
   std::string name;
   std::shared_ptr<const flexbody::ReducedBody> reduced;
@@ -20,9 +20,9 @@ struct RotationTrack {
   std::vector<dynamics::RotationPoint> points;
 };
 
-/// The plane of angular acceleration and velocity as the report's Figure 9,
+/// The plane of angular acceleration and velocity as in the report's Figure 9,
 /// [@morrison2023], a panel for each body shape: where inertial forces may be
-/// neglected, where linear elasticity ends, where the bodies went. Clamped
+/// neglected, the limit of linear elasticity, the bodies' trajectories. Clamped
 /// bodies and those without modes have no panel.
 /// @returns an empty string, or why there is no picture.
 [[nodiscard]] std::string draw_rotation_plane(

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/motion_error.hpp"
+#include "limber/results/motion_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/body_model.hpp"
-#include "dynamics/node_motion.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::results {
 namespace {
@@ -18,7 +18,7 @@ using dynamics::SystemState;
 
 /// Positions are sums and differences of a few numbers of their scale.
 constexpr double kRoundoff = 1e-13;
-/// States to a block: what the nodes of a large mesh need stays small.
+/// States per block, to bound the memory for the nodes of a large mesh.
 constexpr std::size_t kBlock = 64;
 
 /// Sums of squares over the points of one field, a column a time.
@@ -26,7 +26,7 @@ struct Field {
   VectorX difference;
   VectorX reference;
   double points = 0.0;
-  double scale = 0.0;  ///< size of what was subtracted [m]
+  double scale = 0.0;  ///< size of the subtracted terms [m]
 
   explicit Field(std::size_t times)
       : difference(VectorX::Zero(static_cast<Eigen::Index>(times))),
@@ -67,11 +67,11 @@ struct Fields {
   }
 };
 
-/// Middle and spread of a body's points, from which the mean square of any
-/// rigid displacement of them follows.
+/// Mean and covariance of a body's points, which determine the mean square of
+/// any rigid displacement.
 struct Cloud {
   Vector3 middle_B = Vector3::Zero();  ///< [m]
-  Matrix3 spread_B = Matrix3::Zero();  ///< mean of y y', y from there [m^2]
+  Matrix3 spread_B = Matrix3::Zero();  ///< mean of y y', y relative to it [m^2]
 };
 
 Cloud find_cloud(const BodyModel& body) {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
-/// How far one simulation of a system is from another, the reference:
+/// Error of one simulation of a system relative to another, the reference:
 /// docs/compare.md.
 namespace limber::results {
 
@@ -19,16 +19,16 @@ namespace limber::results {
 ///            rms^2 = mean over times e(t)^2, max = max over times e(t),
 ///            reference^2 = mean over both of |u_ref|^2
 /// Source     [@morrison2023, figures 17 and 19]: RMS error over all nodes in
-///            percent of the reference's RMS displacement. Here one figure for
+///            percent of the reference's RMS displacement. Here one value for
 ///            all times, with one denominator, so that a reference that starts
-///            at rest divides nothing by zero.
+///            at rest causes no division by zero.
 struct FieldError {
   double rms = 0.0;        ///< [m]
   double max = 0.0;        ///< [m]
   double reference = 0.0;  ///< [m]
-  double roundoff = 0.0;   ///< what rounding alone may make of it [m]
+  double roundoff = 0.0;   ///< possible rms from rounding alone [m]
 
-  /// rms / reference [-]; none if the reference is no more than round-off.
+  /// rms / reference [-]; none if the reference is round-off.
   [[nodiscard]] std::optional<double> relative() const;
   /// max / reference [-]; none as above.
   [[nodiscard]] std::optional<double> relative_max() const;
@@ -36,24 +36,24 @@ struct FieldError {
 
 /// The three fields by which motions are compared.
 struct MotionError {
-  /// Of the kept nodes, from where the undeformed nodes start; world axes.
+  /// Of the stored nodes, relative to the undeformed nodes at the start; world
+  /// frame.
   FieldError displacement;
-  /// The same by the motion of the body frame alone. A body without nodes
-  /// counts by the points of its mass, uniform in the sense of its inertia.
+  /// The same for the motion of the body frame alone. A body without nodes uses
+  /// its mass distribution, represented by its inertia.
   FieldError rigid;
-  /// Of the kept nodes, relative to the body frame; body axes.
+  /// Of the stored nodes, relative to the body frame and expressed in it.
   FieldError deformation;
 };
 
 struct BodyMotionError {
   std::string name;
-  bool has_nodes = false;  ///< without, only `rigid` means something
+  bool has_nodes = false;  ///< without, only `rigid` is meaningful
   MotionError error;
 };
 
-/// All bodies, and each by itself. Over all bodies every node counts once in
-/// `displacement` and `deformation`, every body that moves freely once in
-/// `rigid`.
+/// All bodies together, and each body. Over all bodies every node counts once
+/// in `displacement` and `deformation`, every unclamped body once in `rigid`.
 struct SystemMotionError {
   MotionError error;
   std::vector<BodyMotionError> bodies;  ///< the model's order
@@ -65,9 +65,8 @@ struct Motion {
   std::span<const dynamics::SystemState> states;
 };
 
-/// Error of `motion` against `reference`. Times are all counted alike, whatever
-/// lies between them.
-/// @throws ContractError unless both have the same bodies with the same kept
+/// Error of `motion` against `reference`. All output times have equal weight.
+/// @throws ContractError unless both have the same bodies with the same stored
 /// nodes, and the same times.
 [[nodiscard]] SystemMotionError calc_motion_error(const Motion& motion,
                                                   const Motion& reference);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/order_picture.hpp"
+#include "limber/results/order_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -7,19 +7,19 @@
 #include <array>
 #include <cmath>
 
-#include "results/gnuplot.hpp"
+#include "limber/results/gnuplot.hpp"
 
 namespace limber::results {
 namespace {
 
-// Colours that stay apart for every kind of sight (Okabe and Ito, 2008).
+// Palette for colour-blind readers (Okabe and Ito, 2008).
 constexpr std::array<const char*, 4> kColours = {"#0072B2", "#D55E00",
                                                  "#009E73", "#CC79A7"};
 constexpr std::array<int, 4> kMarkers = {7, 5, 9, 13};
 
 bool is_drawable(double y) { return y > 0.0 && std::isfinite(y); }
 
-/// The line's points, then what the slope expects from the first of them on.
+/// The line's points, then a line of the expected slope from the first.
 void add_block(GnuplotScript& script, std::size_t index, const OrderLine& line,
                double slope) {
   script.add(fmt::format("$line{} << EOD", index));

@@ -9,12 +9,13 @@ namespace limber::results {
 
 struct OrderLine {
   std::string name;
-  std::vector<double> x;
-  std::vector<double> y;  ///< one an x; only those above zero are drawn
+  std::vector<double> x;  ///< [as x_label]
+  std::vector<double> y;  ///< one per x; only those above zero are drawn
+                          ///< [as y_label]
 };
 
-/// Errors over what they should fall with, both logarithmic; through the first
-/// point of each line goes a thin one of the expected slope.
+/// Errors over a parameter on logarithmic axes; a thin line of the expected
+/// slope [-] passes through the first point of each line.
 /// @returns an empty string, or why there is no picture.
 [[nodiscard]] std::string draw_order(const std::filesystem::path& file,
                                      const std::string& title,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/path_step.hpp"
+#include "limber/results/path_step.hpp"
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/pictures.hpp"
+#include "limber/results/pictures.hpp"
 
 #include <fmt/format.h>
 
@@ -7,19 +7,19 @@
 #include <array>
 #include <cmath>
 
-#include "results/gnuplot.hpp"
+#include "limber/results/gnuplot.hpp"
 
 namespace limber::results {
 namespace {
 
-// Colours that stay apart for every kind of sight (Okabe and Ito, 2008).
+// Palette for colour-blind readers (Okabe and Ito, 2008).
 constexpr std::array<const char*, 7> kColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7",
     "#E69F00", "#56B4E9", "#000000"};
 constexpr int kWidth = 1200;
 constexpr int kPanelHeight = 300;
 constexpr int kHeaderHeight = 110;
-// More points than this cannot be told apart on the canvas.
+// More points than this are indistinguishable on the canvas.
 constexpr std::size_t kMostPoints = 4000;
 
 std::string style(std::size_t i) {
@@ -41,7 +41,7 @@ void add_data(GnuplotScript& script, const std::string& block,
   script.add("EOD");
 }
 
-// Of the finite values; only these are drawn.
+// Largest finite value; only finite ones are drawn.
 double largest(const Panel& panel) {
   double value = 0.0;
   for (const Series& series : panel.series) {
@@ -78,8 +78,8 @@ std::string plot_peak(const std::string& block, const Series& series,
       is_late ? -1 : 1);
 }
 
-// A panel whose values are round-off beside the others' (or all zero) shows a
-// flat line, not noise blown up to fill it.
+// A panel whose values are round-off relative to the others (or all zero) shows
+// a flat line instead of magnified noise.
 void set_range(GnuplotScript& script, const Panel& panel, double reference) {
   const double own = largest(panel);
   if (own > 1e-9 * reference && own > 0.0) {
@@ -199,7 +199,7 @@ std::string draw_energy(const std::filesystem::path& file,
               }),
        series("work of loads", [](const Balance& e) { return e.work; }),
        series("dissipated", [](const Balance& e) { return e.dissipated; })}};
-  // The panels have different lines, so each is a picture with its own key.
+  // The panels have different curves, so each has its own key.
   GnuplotScript script(file, kWidth, 900);
   const std::array<const Panel*, 2> panels = {&stored, &audit};
   for (std::size_t p = 0; p < panels.size(); ++p) {
@@ -214,7 +214,7 @@ std::string draw_energy(const std::filesystem::path& file,
   script.add("set format y '%.3g'; set lmargin 12; set rmargin 3");
   for (std::size_t p = 0; p < panels.size(); ++p) {
     script.add("set key outside top center horizontal samplen 3");
-    // Where there is nothing to see, gnuplot finds no range by itself.
+    // Without values gnuplot finds no range by itself.
     const bool has_values = largest(*panels[p]) > 0.0;
     script.add(has_values ? "set yrange [*:*]" : "set yrange [-1:1]");
     script.add("set ylabel " + quote(panels[p]->label));

@@ -7,32 +7,32 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/followed.hpp"
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
-#include "results/history.hpp"
+#include "limber/dynamics/monitors/followed.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/results/history.hpp"
 
-/// Pictures for people who would rather look than read. Drawn as PNG by
-/// gnuplot; without it the data are all there, and the answer says what to
-/// install. Each function returns an empty string, or why there is no picture.
+/// PNG pictures by gnuplot. Without gnuplot the results are complete except for
+/// pictures. Each function returns an empty string, or why there is no picture
+/// (such as what to install).
 namespace limber::results {
 
-/// One named line in time.
+/// One named curve over time.
 struct Series {
   std::string name;
-  std::vector<double> times;  ///< [s]
-  std::vector<double> values;
-  /// Marked and labelled; it may be between two times.
+  std::vector<double> times;   ///< [s]
+  std::vector<double> values;  ///< [unit of the panel's label]
+  /// Marked and labelled; may lie between two times.
   std::optional<dynamics::Extreme> peak = {};
 };
 
-/// One panel: lines that share an axis.
+/// One panel: curves that share an axis.
 struct Panel {
   std::string label;  ///< of the vertical axis, with its unit
   std::vector<Series> series;
 };
 
-/// A thin vertical line at a time, with what happened then.
+/// A thin vertical line at a time, with a description of the event.
 struct Mark {
   double time = 0.0;  ///< [s]
   std::string label;
@@ -44,7 +44,7 @@ struct Mark {
                                        const std::vector<Panel>& panels,
                                        const std::vector<Mark>& marks = {});
 
-/// Energies over time: what each part holds, work and dissipation.
+/// Energies over time: stored energy by kind, work and dissipation.
 [[nodiscard]] std::string draw_energy(const std::filesystem::path& file,
                                       const std::string& title,
                                       const History& history);
@@ -56,8 +56,9 @@ struct Mark {
     const dynamics::SystemModel& model,
     const std::vector<dynamics::SystemState>& states);
 
-/// The same of an equilibrium and the start from which it was found; the way
-/// between them is drawn `exaggeration` times, so that joints stay together.
+/// The same for an equilibrium and the start; the displacement between them is
+/// magnified by the factor `exaggeration` [-], for all bodies alike, so that
+/// joints stay together.
 [[nodiscard]] std::string draw_displacement(const std::filesystem::path& file,
                                             const std::string& title,
                                             const dynamics::SystemModel& model,
@@ -67,11 +68,11 @@ struct Mark {
 
 /// Points and the triangles between them.
 struct Surface {
-  Matrix3X points;  ///< 3 x n [m]
-  std::vector<std::array<std::size_t, 3>> triangles;
+  Matrix3X points;                                    ///< 3 x n [m]
+  std::vector<std::array<std::size_t, 3>> triangles;  ///< indices of points
 };
-/// One body, undeformed and with displacements u (3 x n [m]), drawn
-/// `exaggeration` times.
+/// One body, undeformed and with displacements u (3 x n [m]) magnified by
+/// `exaggeration`.
 [[nodiscard]] std::string draw_deformation(const std::filesystem::path& file,
                                            const std::string& title,
                                            const Surface& surface,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/probes_csv.hpp"
+#include "limber/results/probes_csv.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "common/whole_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/whole_file.hpp"
 
 namespace limber::results {
 namespace {
 
-// Quoted if it needs to be, as RFC 4180 has it.
+// Quoted if necessary, as in RFC 4180.
 std::string make_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string field = "\"";

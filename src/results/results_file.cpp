@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/results_file.hpp"
+#include "limber/results/results_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
-#include "common/whole_file.hpp"
-#include "results/path_step.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/results/path_step.hpp"
 
 namespace limber::results {
 namespace {
@@ -74,7 +74,8 @@ void write_energies(Hdf5File& out, const History& history) {
   write("kinetic_rigid", "m v^2/2 + w' J w/2", &EnergyBalance::kinetic_rigid);
   write("kinetic_modal", "w' H etadot + etadot^2/2",
         &EnergyBalance::kinetic_modal);
-  write("elastic", "eta' diag(lambda) eta/2", &EnergyBalance::elastic);
+  write("elastic", "potential of the modes, eta' diag(lambda) eta/2 if linear",
+        &EnergyBalance::elastic);
   write("coupler", "stored in couplers", &EnergyBalance::coupler);
   write("dissipated", "since the start", &EnergyBalance::dissipated);
   write("work", "of loads, gravity and drives since the start",
@@ -169,7 +170,7 @@ ResultsContents read_contents(const std::filesystem::path& file) {
   const MatrixX times = in.read_matrix("time");
   ResultsContents contents;
   contents.outputs = times.rows();
-  // Files from before there were events have none.
+  // Files of older versions have no events.
   if (in.has("events")) contents.events = in.read_matrix("events/time").rows();
   if (times.size() > 0) {
     contents.start = times(0, 0);

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "dynamics/node_motion.hpp"
-#include "results/gnuplot.hpp"
-#include "results/pictures.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/results/gnuplot.hpp"
+#include "limber/results/pictures.hpp"
 
 namespace limber::results {
 namespace {
@@ -16,7 +16,7 @@ using dynamics::BodyModel;
 using dynamics::SystemModel;
 using dynamics::SystemState;
 
-// More triangles than this take gnuplot longer than a look is worth.
+// More triangles than this take gnuplot too long.
 constexpr std::size_t kMostTriangles = 250000;
 constexpr std::array<const char*, 4> kColours = {"#9a9a9a", "#0072B2",
                                                  "#D55E00", "#009E73"};
@@ -30,7 +30,7 @@ struct Bounds {
   }
 };
 
-// What is drawn in one colour.
+// A state drawn in one colour.
 struct Shot {
   std::string name;
   std::vector<Surface> surfaces;
@@ -38,7 +38,7 @@ struct Shot {
   std::vector<std::pair<Vector3, Vector3>> lines;
 };
 
-// Places what moved from one state to another, so many times as far.
+// Magnifies the displacement from one state to another.
 struct Displacement {
   const SystemState& from;
   const SystemState& to;
@@ -50,7 +50,7 @@ struct Displacement {
   }
 };
 
-// Positions of a body's kept rows in the world, 3 x n.
+// Positions of a body's stored rows in the world, 3 x n.
 Matrix3X find_rows(const SystemModel& model, std::size_t b,
                    const SystemState& state) {
   const Matrix3X& x_B = model.bodies[b].reduced->rows.x_B;
@@ -60,8 +60,8 @@ Matrix3X find_rows(const SystemModel& model, std::size_t b,
   return p_WP.reshaped(3, x_B.cols());
 }
 
-// Rigid bodies have no shape: a mark at the centre of mass, lines to what
-// their couplers hold.
+// Rigid bodies have no shape: a mark at the centre of mass, lines to their
+// coupler frames.
 void add_rigid_bodies(const SystemModel& model, const Displacement& moved,
                       Shot& shot) {
   const auto center = [&](std::size_t b) {
@@ -72,13 +72,14 @@ void add_rigid_bodies(const SystemModel& model, const Displacement& moved,
     if (!model.bodies[b].reduced) shot.marks.push_back(center(b));
   }
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
-    const int b = model.attachments[i].body;
+    const dynamics::BodyIndex b = model.attachments[i].body;
     if (b == dynamics::kWorld ||
         model.bodies[static_cast<std::size_t>(b)].reduced) {
       continue;
     }
     const auto frame = [&](const SystemState& state) {
-      return find_frame_motion(model, state, static_cast<int>(i)).X_WF.p;
+      return find_frame_motion(model, state, dynamics::AttachmentIndex(i))
+          .X_WF.p;
     };
     shot.lines.emplace_back(
         center(static_cast<std::size_t>(b)),

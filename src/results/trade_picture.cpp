@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/trade_picture.hpp"
+#include "limber/results/trade_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -9,23 +9,23 @@
 #include <limits>
 #include <numeric>
 
-#include "results/gnuplot.hpp"
-#include "results/label_placement.hpp"
+#include "limber/results/gnuplot.hpp"
+#include "limber/results/label_placement.hpp"
 
 namespace limber::results {
 namespace {
 
-// Colours that stay apart for every kind of sight (Okabe and Ito, 2008), and
-// markers for those who see none.
+// Palette for colour-blind readers (Okabe and Ito, 2008), and markers for print
+// without colour.
 constexpr std::array<const char*, 6> kColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr std::array<int, 6> kMarkers = {7, 5, 9, 13, 11, 15};
 constexpr int kWidth = 1500;
 constexpr int kHeight = 720;
-// What the margins below leave to a panel [pixels].
+// Width of a panel within the margins below [pixels].
 constexpr double kPanelWidth = 0.405 * kWidth;
 constexpr double kPanelHeight = 0.66 * kHeight;
-// More labels than this hide each other: then only the front's are written.
+// With more labels than this only the front's are written.
 constexpr std::size_t kMostLabels = 16;
 
 using Errors = std::vector<std::optional<double>>;
@@ -82,7 +82,7 @@ void add_points(GnuplotScript& script, const std::string& block,
   script.add("EOD");
 }
 
-/// Stairs: for what one can pay, the least error that it buys.
+/// Staircase: the least error at each cost.
 void add_front(GnuplotScript& script, const std::string& block,
                const std::vector<TradePoint>& points, const Errors& errors,
                const std::vector<std::size_t>& front, double end) {
@@ -99,7 +99,7 @@ void add_front(GnuplotScript& script, const std::string& block,
   script.add("EOD");
 }
 
-/// The front's first, in black; where there are few points all of them.
+/// The front's labels first, in black; all labels if there are few points.
 void add_labels(GnuplotScript& script, const std::vector<TradePoint>& points,
                 const Errors& errors, const std::vector<std::size_t>& front,
                 const Range& x, const Range& y,
@@ -122,7 +122,7 @@ void add_labels(GnuplotScript& script, const std::vector<TradePoint>& points,
   std::vector<double> lines;
   if (tolerance) {
     const double height = kPanelHeight * y.find_share(100.0 * *tolerance);
-    lines = {height, height + 12.0};  // and its own label
+    lines = {height, height + 12.0};  // and the line's label
   }
   const auto places = place_labels(labels, kPanelWidth, kPanelHeight, lines);
   for (std::size_t l = 0; l < labels.size(); ++l) {

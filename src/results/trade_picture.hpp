@@ -8,7 +8,7 @@
 
 namespace limber::results {
 
-/// What one choice costs and what it gives up.
+/// Cost and errors of one choice.
 struct TradePoint {
   std::string group;  ///< shown by marker and colour: the level
   std::string label;  ///< written beside the point
@@ -17,9 +17,9 @@ struct TradePoint {
   std::optional<double> deformation;   ///< relative error [-]
 };
 
-/// Error over cost, both logarithmic: a panel for the displacement and one for
-/// the deformation, with the front of choices that nothing cheaper beats.
-/// Points without an error, or with none at all, have no place on it.
+/// Error over cost on logarithmic axes: a panel for the displacement and one
+/// for the deformation, with the Pareto front. Points without an error, or with
+/// error zero, are omitted.
 /// @param reference_cost of the reference [-]
 /// @param tolerance drawn as a line [-]
 /// @returns an empty string, or why there is no picture.
@@ -29,8 +29,9 @@ struct TradePoint {
                                      double reference_cost,
                                      std::optional<double> tolerance);
 
-/// Indices of the points that no other one beats in both cost and error, by
-/// increasing cost. `errors` has an entry a point; those without are left out.
+/// Indices of the Pareto-optimal points in cost and error, by increasing cost.
+/// @param costs in one unit [any]
+/// @param errors one per point, in one unit [any]; points without are omitted
 [[nodiscard]] std::vector<std::size_t> find_front(
     const std::vector<double>& costs,
     const std::vector<std::optional<double>>& errors);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/xdmf.hpp"
+#include "limber/results/xdmf.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
-#include "common/whole_file.hpp"
-#include "dynamics/node_motion.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 
 namespace limber::results {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using dynamics::SystemModel;
 using dynamics::SystemState;
 
-// All surfaces as one mesh: bodies' rows one after the other.
+// All surfaces as one mesh: the bodies' rows concatenated.
 struct Surface {
   std::vector<std::size_t> bodies;    // indices of those with a mesh
   std::vector<std::int64_t> corners;  // three a triangle

@@ -3,15 +3,15 @@
 
 #include <filesystem>
 
-#include "dynamics/system_model.hpp"
-#include "results/history.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/results/history.hpp"
 
 namespace limber::results {
 
 /// Writes a time series of the flexible bodies' moving surfaces for ParaView:
 /// `file` (XDMF) and its data beside it (the same name with .h5). The point
-/// field "deformation" is |Phi eta| [m]. Bodies without a mesh are left out.
-/// @throws InputError if the place cannot be written or no body has a mesh.
+/// field "deformation" is |Phi eta| [m]. Bodies without a mesh are omitted.
+/// @throws InputError if it cannot be written or no body has a mesh.
 void write_xdmf(const std::filesystem::path& file,
                 const dynamics::SystemModel& model, const History& history);
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/stiffening_report.hpp"
-
-#ifdef LIMBER_HAS_REFERENCE
+#include "limber/verifier/stiffening_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "results/order_picture.hpp"
+#include "limber/results/order_picture.hpp"
 
 namespace limber::app {
 namespace {
@@ -39,7 +37,7 @@ std::vector<double> list(const StiffeningReport& report,
   return all;
 }
 
-/// Those that our runs got to.
+/// The factors that our runs completed.
 std::vector<double> list_factors(const StiffeningReport& report) {
   std::vector<double> factors = report.factors;
   factors.resize(report.study.results.size());
@@ -50,7 +48,7 @@ StiffnessTrend find_trend(const StiffeningReport& report) {
   return reference::find_trend(list_factors(report), list_relative(report));
 }
 
-/// How much less the last halving of the step left at the floor; 0 without one.
+/// Reduction of the floor by the last halving of the step; 0 without one.
 double find_step_share(const StiffeningReport& report, std::size_t floor) {
   const Verification& result = report.study.results[floor];
   if (result.runs.size() < 2) return 0.0;
@@ -70,7 +68,7 @@ std::string describe_floor(const StiffeningReport& report, std::size_t floor) {
   text += fmt::format("halving the step divides it by {:.2f}, so ", share);
   return text + (share > kFallsWithStep
                      ? "it is the step's\n"
-                     : "it is round-off's or the witness's, not the step's\n");
+                     : "it is round-off's or Simbody's, not the step's\n");
 }
 
 std::string describe(const StiffeningReport& report) {
@@ -172,5 +170,3 @@ std::string draw(const StiffeningReport& report,
 }
 
 }  // namespace limber::app
-
-#endif

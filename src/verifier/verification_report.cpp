@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/verification_report.hpp"
-
-#ifdef LIMBER_HAS_REFERENCE
+#include "limber/verifier/verification_report.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +19,7 @@ Json to_json(const Magnitudes& m) {
               {"angular_velocity", m.angular_velocity}};
 }
 
-/// Shares of the motion; null for what does not move.
+/// Ratios to the motion; null for quantities without motion.
 Magnitudes divide(const Magnitudes& a, const Magnitudes& b) {
   return {a.position / b.position, a.rotation / b.rotation,
           a.velocity / b.velocity, a.angular_velocity / b.angular_velocity};
@@ -31,7 +29,7 @@ double find_relative(const Agreement& run, const Verification& result) {
   return reference::find_relative(run.largest, result.motion);
 }
 
-/// log2 of how much the difference shrank when the step was halved.
+/// log2 of the reduction of the difference when the step was halved.
 double find_order(const Verification& result, std::size_t i) {
   return std::log2(find_relative(result.runs[i - 1], result) /
                    find_relative(result.runs[i], result));
@@ -96,12 +94,7 @@ std::string step_table(const Verification& result) {
 
 std::string joints_name(const VerificationReport& report) {
   return reference::joint_model_names()[static_cast<std::size_t>(
-      report.options.witness.joints)];
-}
-
-std::string integrator_name(const VerificationReport& report) {
-  return dynamics::integrator_names()[static_cast<std::size_t>(
-      report.integrator)];
+      report.options.simbody.joints)];
 }
 
 }  // namespace
@@ -113,11 +106,11 @@ Json to_json(const VerificationReport& report) {
     runs.push_back(to_json(result, i));
   }
   return Json{{"scenario", report.scenario},
-              {"witness", reference::witness_name()},
+              {"reference", reference::simbody_name()},
               {"joints", joints_name(report)},
-              {"accuracy", report.options.witness.accuracy},
-              {"witness_steps", result.witness_steps},
-              {"integrator", integrator_name(report)},
+              {"accuracy", report.options.simbody.accuracy},
+              {"reference_steps", result.simbody_steps},
+              {"integrator", dynamics::to_string(report.integrator)},
               {"motion", to_json(result.motion)},
               {"energy", result.energy},
               {"runs", runs}};
@@ -128,9 +121,9 @@ std::string describe_runs(const VerificationReport& report) {
   return fmt::format(
       "{}: joints {}, accuracy {:g}, {} steps\n"
       "limber: level rigid, {}, step {:g} s\n\n",
-      reference::witness_name(), joints_name(report),
-      report.options.witness.accuracy, result.witness_steps,
-      integrator_name(report), result.runs.back().step);
+      reference::simbody_name(), joints_name(report),
+      report.options.simbody.accuracy, result.simbody_steps,
+      dynamics::to_string(report.integrator), result.runs.back().step);
 }
 
 std::string to_text(const VerificationReport& report) {
@@ -141,5 +134,3 @@ std::string to_text(const VerificationReport& report) {
 }
 
 }  // namespace limber::app
-
-#endif

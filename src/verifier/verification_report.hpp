@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#ifdef LIMBER_HAS_REFERENCE
-
 #include <string>
 
-#include "app/json.hpp"
-#include "reference/verification.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/reference/verification.hpp"
 
 namespace limber::app {
 
-/// What `limber verify` tells.
+/// Report of `limber verify`.
 struct VerificationReport {
   std::string scenario;
   dynamics::IntegratorKind integrator =
@@ -20,12 +18,10 @@ struct VerificationReport {
 };
 
 [[nodiscard]] Json to_json(const VerificationReport& report);
-/// Who ran how, two lines and an empty one.
+/// Programs and settings of both runs, two lines and an empty one.
 [[nodiscard]] std::string describe_runs(const VerificationReport& report);
 /// Tables: differences body by body at the smallest step; and, if the step was
 /// halved, the relative difference and its order at each.
 [[nodiscard]] std::string to_text(const VerificationReport& report);
 
 }  // namespace limber::app
-
-#endif

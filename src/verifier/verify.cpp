@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/verifier/verify.hpp"
+
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <memory>
+#include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <string>
 
-#include "app/commands.hpp"
-#include "app/output_folder.hpp"
-#include "app/reducer.hpp"
-#include "app/stiffening_report.hpp"
-#include "app/terminal.hpp"
-#include "app/text_file.hpp"
-#include "app/validators.hpp"
-#include "app/verification_report.hpp"
-#include "common/errors.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/verifier/stiffening_report.hpp"
+#include "limber/verifier/verification_report.hpp"
 
 namespace limber::app {
 namespace {
 
-struct Options {
-  std::string scenario;
-  std::string joints;
-  std::string integrator;
-  std::string cache;
-  double step = 0.0;
-  double duration = 0.0;
-  double accuracy = 1e-12;
-  int refine = 0;
-  std::vector<double> stiffen;
-  std::string out;
-  bool json = false;
-};
-
-#ifdef LIMBER_HAS_REFERENCE
-
 /// What the command line puts in place of the file's word.
-void apply(const Options& options, dynamics::SimulationSettings& settings) {
+void apply(const VerifyOptions& options,
+           dynamics::SimulationSettings& settings) {
   if (!options.integrator.empty()) {
     settings.integrator = dynamics::parse_integrator(options.integrator);
   }
@@ -51,7 +39,8 @@ void apply(const Options& options, dynamics::SimulationSettings& settings) {
   }
 }
 
-scene::BuiltScene build(const scene::Scene& scene, const Options& options) {
+scene::BuiltScene build(const scene::Scene& scene,
+                        const VerifyOptions& options) {
   scene::BuiltScene built = scene::build_system(
       scene, make_reducer(make_progress_bar()), options.cache);
   clear_progress_bar();
@@ -59,7 +48,7 @@ scene::BuiltScene build(const scene::Scene& scene, const Options& options) {
   return built;
 }
 
-reference::JointModel find_joint_model(const Options& options) {
+reference::JointModel find_joint_model(const VerifyOptions& options) {
   if (!options.joints.empty()) {
     return reference::parse_joint_model(options.joints);
   }
@@ -73,8 +62,8 @@ using Folder = std::optional<OutputFolder>;
 /// Writes a report and its picture if there is a folder for it, and prints it.
 /// @param draw_in draws in a folder, and says why there is no picture if so
 template <typename Report, typename Draw>
-void tell(const Options& options, const Folder& folder, const Report& report,
-          const Draw& draw_in) {
+void tell(const VerifyOptions& options, const Folder& folder,
+          const Report& report, const Draw& draw_in) {
   clear_progress_bar();
   const Json json = to_json(report);
   if (folder) {
@@ -87,7 +76,7 @@ void tell(const Options& options, const Folder& folder, const Report& report,
   fmt::print("{}\n", options.json ? to_text(json) : to_text(report));
 }
 
-void stiffen(const Options& options, const Folder& folder,
+void stiffen(const VerifyOptions& options, const Folder& folder,
              const scene::Scene& scene, const scene::BuiltScene& built,
              const VerificationReport& common) {
   StiffeningReport report;
@@ -100,13 +89,15 @@ void stiffen(const Options& options, const Folder& folder,
   });
 }
 
-void verify(const Options& options) {
+}  // namespace
+
+void verify(const VerifyOptions& options) {
   Folder folder;
   if (!options.out.empty()) folder.emplace(options.out);
   VerificationReport report;
   report.scenario = options.scenario;
-  report.options.witness.joints = find_joint_model(options);
-  report.options.witness.accuracy = options.accuracy;
+  report.options.simbody.joints = find_joint_model(options);
+  report.options.simbody.accuracy = options.accuracy;
   report.options.refinements = options.refine;
   scene::Overrides overrides;
   overrides.fidelity = dynamics::Fidelity::rigid;
@@ -131,55 +122,6 @@ void verify(const Options& options) {
       reference::verify(scene, built, report.options, make_progress_bar());
   tell(options, folder, report,
        [](const std::filesystem::path&) { return std::string(); });
-}
-
-#else
-
-void verify(const Options& /*options*/) {
-  throw InputError(
-      "verify: this limber was built without Simbody (LIMBER_REFERENCE=OFF); "
-      "build with -DLIMBER_REFERENCE=ON");
-}
-
-#endif
-
-}  // namespace
-
-void add_verify(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "verify", "Compare the level `rigid` with Simbody, body by body");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
-      ->required();
-  command->add_option("--joints", options->joints,
-                      "What stands for joints in Simbody: bushings (default), "
-                      "linear-bushings, ideal");
-  command->add_option("--step", options->step, "Our longest step [s]")
-      ->check(make_positive());
-  command->add_option("--duration", options->duration, "End of both runs [s]")
-      ->check(make_positive());
-  command->add_option("--integrator", options->integrator,
-                      "Ours: generalized-alpha, runge-kutta-4, "
-                      "explicit-euler");
-  command->add_option("--accuracy", options->accuracy,
-                      "Of Simbody's integrator (default 1e-12)");
-  command
-      ->add_option("--refine", options->refine,
-                   "Halve our step this often; shows the order")
-      ->check(CLI::Range(0, 20));
-  command
-      ->add_option("--stiffen", options->stiffen,
-                   "Factors of what all joints hold, as in 1,10,100: how our "
-                   "joints become Simbody's ideal ones")
-      ->delimiter(',')
-      ->check(make_positive());
-  command->add_option("--out", options->out,
-                      "Folder for verification.json and, with --stiffen, "
-                      "stiffness.png (default: none)");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
-  command->add_flag("--json", options->json, "Print one JSON object");
-  command->callback(
-      [&action, options] { action = [options] { verify(*options); }; });
 }
 
 }  // namespace limber::app

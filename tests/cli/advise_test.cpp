@@ -47,7 +47,7 @@ TEST(Advise, FindsTheReportsImpactNeedsNoCoupling) {
   EXPECT_NEAR(boundary["displacement"].get<double>() / 1.19, 1.0, 0.005);
   EXPECT_NEAR(boundary["linear_limit"].get<double>() / 59570.0, 1.0, 0.005);
   EXPECT_LT(boundary["margin"].get<double>(), 1.0);
-  // Who wants to see a nanometre has it at SimpleRB.
+  // A limit of a nanometre requires more than SimpleRB.
   const json finer =
       parse(place.limber("advise '" + kBeam + "' --displacement 1e-9 --json"));
   EXPECT_EQ(finer["bodies"][0]["recommended"], "uncoupled");

@@ -6,13 +6,21 @@
 
 namespace limber::test {
 
+/// Whether the command is built with sanitizers: these take terabytes of
+/// address space, and do not live within limits.
+#ifdef LIMBER_SANITIZED
+inline constexpr bool kIsSanitized = true;
+#else
+inline constexpr bool kIsSanitized = false;
+#endif
+
 struct CommandResult {
   int status = -1;     ///< exit status
   std::string out;     ///< standard output
   std::string errors;  ///< standard error
 };
 
-/// A folder of its own for one test, removed at the end; commands run in it.
+/// A temporary folder for one test, removed at the end; commands run in it.
 class Workspace {
  public:
   Workspace();
@@ -22,7 +30,7 @@ class Workspace {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   void write(const std::string& name, const std::string& text) const;
-  /// Runs `limber ARGUMENTS`, the words quoted for a shell.
+  /// Runs `limber ARGUMENTS`, quoted for a shell.
   [[nodiscard]] CommandResult limber(const std::string& arguments) const;
 
  private:

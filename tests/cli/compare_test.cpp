@@ -105,7 +105,8 @@ bool says(const Workspace& place, const std::string& words) {
          read_text(file).find(words) != std::string::npos;
 }
 
-// Ended by hand: what is looked at is said in its first seconds, in a pipe too.
+// Killed by the test: the checked output appears in its first seconds, also in
+// a pipe.
 TEST(Compare, SaysHowLongItWillTakeBeforeItTakesLong) {
   const Workspace place;
   write_push(place, {100.0, 2e-6, "generalized-alpha", ""});

@@ -58,6 +58,7 @@ void expect_refused(const Workspace& place, const std::string& arguments) {
 }
 
 TEST(Inputs, ThatArePipesDevicesOrFoldersAreRefusedAtOnce) {
+  if (kIsSanitized) GTEST_SKIP() << "sets limits";
   const Workspace place;
   write_scene(place, "s.toml");
   ASSERT_EQ(mkfifo((place.folder() / "pipe").c_str(), 0600), 0);
@@ -217,6 +218,7 @@ TEST(Results, FindAPlaceWithoutATemporaryFolder) {
 }
 
 TEST(Results, ThatAFileLimitCutsAreAnErrorAndNoSignal) {
+  if (kIsSanitized) GTEST_SKIP() << "sets limits";
   const Workspace place;
   write_scene(place, "s.toml");
   ASSERT_EQ(place.limber("run s.toml --out o").status, 0);
@@ -226,6 +228,33 @@ TEST(Results, ThatAFileLimitCutsAreAnErrorAndNoSignal) {
   EXPECT_EQ(result.status, 2) << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("cannot be written"));
   EXPECT_EQ(read_text(place.folder() / "o/results.h5"), before);
+}
+
+// A gnuplot that notes what has been printed, and what is there, and fails.
+TEST(Results, AreTheirsToReadBeforePicturesAreDrawn) {
+  const Workspace place;
+  write_scene(place, "s.toml");
+  std::string text = read_text(place.folder() / "s.toml");
+  text.erase(text.find("[output]\npictures = false\n"), 26);
+  place.write("s.toml", text);
+  fs::create_directories(place.folder() / "bin");
+  place.write("bin/gnuplot",
+              "#!/bin/sh\ncat output > seen; ls o > files; exit 1\n");
+  fs::permissions(place.folder() / "bin/gnuplot", fs::perms::owner_all);
+  for (const char* form : {"", " --json"}) {
+    const CommandResult result =
+        run_shell(place, fmt::format("PATH=\"$PWD/bin:$PATH\" '" LIMBER_COMMAND
+                                     "' run s.toml --out o{} > output",
+                                     form));
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("no picture"));
+    EXPECT_FALSE(read_text(place.folder() / "output").empty());
+    EXPECT_EQ(read_text(place.folder() / "seen"),
+              read_text(place.folder() / "output"));
+    EXPECT_EQ(read_text(place.folder() / "files"),
+              "probes.csv\nresults.h5\nsummary.json\n");
+    fs::remove_all(place.folder() / "o");
+  }
 }
 
 TEST(Results, OfAnEarlierRunGoAndFilesOfTheUserStay) {
@@ -299,6 +328,7 @@ TEST(Results, ListOfFilesThatLeadsElsewhereRemovesNothing) {
 }
 
 TEST(AddressSpace, ThatIsShortEndsWithWordsAndNeverHangs) {
+  if (kIsSanitized) GTEST_SKIP() << "sets limits";
   const Workspace place;
   write_scene(place, "s.toml");
   for (const int kilobytes :
@@ -334,7 +364,7 @@ TEST(RigidScene, NeedsNoPlaceForReducedBodies) {
   EXPECT_EQ(result.status, 0) << result.errors;
 }
 
-TEST(Stack, ThatIsShortIsToldAndDoesNotOverflow) {
+TEST(Stack, ThatIsShortIsReportedAndDoesNotOverflow) {
   const Workspace place;
   write_scene(place, "s.toml");
   for (const int kilobytes : {64, 256, 1024}) {

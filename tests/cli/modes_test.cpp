@@ -116,8 +116,8 @@ TEST_F(Modes, OfAFreeBodyHaveNoBaseMotion) {
   EXPECT_FALSE(free.contains("load_cases"));
 }
 
-// A static-deformation mode answers its load whole; Rayleigh and Ritz: what
-// joins the lowest eigenmodes lies above them, and they stay.
+// A static-deformation mode represents its load exactly; by Rayleigh-Ritz,
+// modes added to the lowest eigenmodes lie above them and do not change them.
 TEST_F(Modes, OfABasisWithStaticDeformationAnswerTheLoadWhole) {
   place_.write("shear.txt", shear_file());
   const std::string load = "--clamp root --force shear.txt --json ";

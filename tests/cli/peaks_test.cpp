@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Peaks, warnings and the energy audit as the command tells them.
+// Peaks, warnings and the energy audit as reported by the command.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -98,7 +98,8 @@ TEST(Peaks, StandInTheTextWithTheirTime) {
                             probes["bend.dx"]["peak_time"].get<double>())));
 }
 
-/// One rigid link on a hinge, let go lying; 0.09 s are long for its swing.
+/// One rigid link on a hinge, released horizontally; 0.09 s are long for its
+/// swing.
 void write_pendulum(const Workspace& place, const std::string& integrator,
                     double step) {
   place.write(

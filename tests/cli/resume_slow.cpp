@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that is killed goes on where it was.
+// A run that is killed resumes where it was.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
-#include "common/hdf5_file.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 
 namespace limber::test {
 namespace {
@@ -28,7 +28,7 @@ void write_scenario(const Workspace& place) {
   };
   replace("../models/", LIMBER_SOURCE_DIR "/models/");
   replace("duration = 1.2", "duration = 0.4");
-  replace("step = 1.5e-5", "step = 6e-5");
+  replace("tolerance = 1e-6", "step = 6e-5");
   place.write("claw.toml", text + "\n[output]\npictures = false\n");
 }
 
@@ -59,7 +59,7 @@ int wait_for(pid_t child) {
   return status;
 }
 
-/// No file in a results folder is half there, whatever the moment.
+/// No file in a results folder is incomplete at any time.
 void expect_readable(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename();

@@ -121,7 +121,7 @@ TEST_F(KilledRunOfASled, IsNotGoneOnFromByAProgramThatWasRebuilt) {
   EXPECT_THAT(refused.errors, HasSubstr("run without --resume"));
 }
 
-TEST_F(KilledRunOfASled, IsToldByInfo) {
+TEST_F(KilledRunOfASled, IsReportedByInfo) {
   const CommandResult result = place_.limber("info out/checkpoint.bin");
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("checkpoint"));

@@ -38,7 +38,7 @@ void write_pendulum(const Workspace& place, double duration) {
           duration));
 }
 
-// Runs that long cannot end by themselves before they are asked to.
+// Long enough not to end before the signal.
 constexpr double kLong = 1000.0;
 
 void let_it_work() { std::this_thread::sleep_for(seconds(1)); }

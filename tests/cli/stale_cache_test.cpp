@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Reaches, StaleCache,
                          ::testing::ValuesIn(list_reaches()),
                          [](const auto& one) { return one.param.name; });
 
-// What is looked for and not there may appear.
+// Missing files that were searched for may appear later.
 TEST(StaleCacheOfAbsentFile, IsNotUsedAfterTheFileAppeared) {
   const Workspace place;
   write_scene(place, "bar.geo");
@@ -237,7 +237,7 @@ const std::string kTube =
     "Physical Volume(\"body\") = {1};\n"
     "Mesh.MeshSizeMax = 0.01; Mesh.ElementOrder = 2;\n";
 
-TEST(StraightEdges, AreToldOfInEachRunOnceForAMesh) {
+TEST(StraightEdges, AreReportedInEachRunOnceForAMesh) {
   const Workspace place;
   place.write("tube.geo", kHead + kTube);
   const std::string link =
@@ -255,17 +255,17 @@ TEST(StraightEdges, AreToldOfInEachRunOnceForAMesh) {
   for (const int cached : {0, 2}) {
     const json summary = run(place);
     EXPECT_EQ(summary["bodies_cached"], cached);
-    int told = 0;
+    int notices = 0;
     for (const std::string text : summary["warnings"]) {
       if (text.find("all edges were made straight") != std::string::npos) {
-        ++told;
+        ++notices;
       }
     }
-    EXPECT_EQ(told, 1);
+    EXPECT_EQ(notices, 1);
   }
 }
 
-TEST(StraightEdges, AreToldOfByEveryCommandThatMakesAMesh) {
+TEST(StraightEdges, AreReportedByEveryCommandThatMakesAMesh) {
   const Workspace place;
   place.write("tube.geo", kHead + kTube);
   const std::string material =

@@ -125,7 +125,7 @@ TEST(Static, BeamOnAJointAtLevelFullHasTheClosedForm) {
   }
 }
 
-// CalculiX, nlgeom, clamped: the joint gives way a little more.
+// CalculiX, nlgeom, clamped: the joint adds a little.
 TEST(Static, BeamOnAJointBendsByAFifthAsAnIndependentProgramsClampedOne) {
   const Workspace place;
   write_held_beam(place, "4e8");
@@ -159,7 +159,7 @@ TEST(Static, ExamplesWithoutALoadAtTheirStartAreTrivial) {
   }
 }
 
-// Four rods of 0.5 m, from along x; their hinges give way by some um.
+// Four rods of 0.5 m, from along x; their hinges deflect by some um.
 TEST(Static, ChainRelaxesUntilItHangs) {
   const Workspace place;
   const CommandResult r = place.limber(

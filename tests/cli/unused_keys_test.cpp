@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked for in vain is told; what contradicts itself is refused.
+// Options without effect give warnings; contradictory ones are errors.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -27,56 +27,59 @@ CommandResult run_beam(const Workspace& place, const std::string& time,
   return place.limber("run s.toml --out o " + arguments);
 }
 
-struct VainKey {
+struct UnusedKey {
   const char* name;
   const char* time;
   const char* more;
-  const char* told;
+  const char* warning;
 };
 
-class KeyInVain : public ::testing::TestWithParam<VainKey> {};
+class KeyWithoutEffect : public ::testing::TestWithParam<UnusedKey> {};
 
-TEST_P(KeyInVain, IsToldWithWhyAndStandsInTheSummary) {
+TEST_P(KeyWithoutEffect, IsReportedWithTheReasonAndInTheSummary) {
   const Workspace place;
   const CommandResult result =
       run_beam(place, GetParam().time, GetParam().more);
   EXPECT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr(GetParam().told));
+  EXPECT_THAT(result.errors, HasSubstr(GetParam().warning));
   EXPECT_THAT(result.errors, HasSubstr(" changes nothing: "));
   EXPECT_THAT(read_text(place.folder() / "o/summary.json"),
-              HasSubstr(GetParam().told));
+              HasSubstr(GetParam().warning));
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    , KeyInVain,
+    , KeyWithoutEffect,
     ::testing::Values(
-        VainKey{"RhoInf", "integrator = 'implicit-euler'\nrho_inf = 0.5", "",
-                "[time] rho_inf"},
-        VainKey{"NewtonTolerance",
-                "integrator = 'runge-kutta-4'\nnewton_tolerance = 1e-9", "",
-                "[time] newton_tolerance"},
-        VainKey{"NewtonIterations",
-                "integrator = 'splitting'\nnewton_iterations = 9", "",
-                "[time] newton_iterations"},
-        VainKey{"MostSteps", "most_steps = 100", "", "[time] most_steps"},
-        VainKey{"ExactModes", "exact_modes = false", "", "[time] exact_modes"},
-        VainKey{"LawOfFull", "", "[full]\nlaw = 'neo-hookean'\n", "[full] law"},
-        VainKey{"MassOfFull", "", "[full]\nmass = 'lumped'\n", "[full] mass"},
-        VainKey{"DefaultLevel", "",
-                "[fidelity]\ndefault = 'rigid'\nlinks = { beam = 'coupled' }\n",
-                "[fidelity] default"},
-        VainKey{"ZeroLoad", "",
-                "[[load]]\nname = 'none'\nlink = 'beam'\nnode = 1\n"
-                "force = [0, 0, 0]\ntime = { kind = 'constant' }\n",
-                "load 'none'"},
-        VainKey{"LateLoad", "",
-                "[[load]]\nname = 'late'\nlink = 'beam'\nnode = 1\n"
-                "force = [1, 0, 0]\ntime = { kind = 'pulse', "
-                "shape = 'half-sine', start = 0.01, duration = 1 }\n",
-                "load 'late'"}),
+        UnusedKey{"RhoInf", "integrator = 'implicit-euler'\nrho_inf = 0.5", "",
+                  "[time] rho_inf"},
+        UnusedKey{"NewtonTolerance",
+                  "integrator = 'runge-kutta-4'\nnewton_tolerance = 1e-9", "",
+                  "[time] newton_tolerance"},
+        UnusedKey{"NewtonIterations",
+                  "integrator = 'splitting'\nnewton_iterations = 9", "",
+                  "[time] newton_iterations"},
+        UnusedKey{"MostSteps", "most_steps = 100", "", "[time] most_steps"},
+        UnusedKey{"ExactModes", "exact_modes = false", "",
+                  "[time] exact_modes"},
+        UnusedKey{"LawOfFull", "", "[full]\nlaw = 'neo-hookean'\n",
+                  "[full] law"},
+        UnusedKey{"MassOfFull", "", "[full]\nmass = 'lumped'\n", "[full] mass"},
+        UnusedKey{
+            "DefaultLevel", "",
+            "[fidelity]\ndefault = 'rigid'\nlinks = { beam = 'coupled' }\n",
+            "[fidelity] default"},
+        UnusedKey{"ZeroLoad", "",
+                  "[[load]]\nname = 'none'\nlink = 'beam'\nnode = 1\n"
+                  "force = [0, 0, 0]\ntime = { kind = 'constant' }\n",
+                  "load 'none'"},
+        UnusedKey{"LateLoad", "",
+                  "[[load]]\nname = 'late'\nlink = 'beam'\nnode = 1\n"
+                  "force = [1, 0, 0]\ntime = { kind = 'pulse', "
+                  "shape = 'half-sine', start = 0.01, duration = 1 }\n",
+                  "load 'late'"}),
     [](const auto& key) { return std::string(key.param.name); });
 
-TEST(KeyThatHasItsUse, IsNotToldOf) {
+TEST(KeyWithAnEffect, IsNotReported) {
   const Workspace place;
   const CommandResult result = run_beam(
       place, "rho_inf = 0.5\nnewton_tolerance = 1e-9\nexact_modes = false",
@@ -86,7 +89,7 @@ TEST(KeyThatHasItsUse, IsNotToldOf) {
   EXPECT_EQ(result.errors, "");
 }
 
-TEST(KeysOfFlexibleLinks, AreToldWhereNoLinkIsFlexible) {
+TEST(KeysOfFlexibleLinks, AreReportedWhereNoLinkIsFlexible) {
   const Workspace place;
   place.write("r.urdf",
               "<robot name='r'><link name='arm'><inertial><mass value='1'/>"
@@ -105,8 +108,8 @@ TEST(KeysOfFlexibleLinks, AreToldWhereNoLinkIsFlexible) {
   }
 }
 
-// Its modes alone move, and they are known at any time.
-TEST(CheckpointInterval, IsToldToBeInVainWhereNoStepIsTaken) {
+// Only modes move, which are known in closed form.
+TEST(CheckpointInterval, IsReportedToHaveNoEffectWithoutSteps) {
   const Workspace place;
   place.write("r.urdf",
               "<robot name='r'><link name='beam'/><flexible link='beam'>"
@@ -119,15 +122,16 @@ TEST(CheckpointInterval, IsToldToBeInVainWhereNoStepIsTaken) {
               "robot = 'r.urdf'\n[time]\nduration = 0.01\nstep = 1e-3\n"
               "[fidelity]\ndefault = 'uncoupled'\n"
               "[output]\npictures = false\n");
-  const std::string told = "--checkpoint-interval changes nothing";
+  const std::string warning = "--checkpoint-interval changes nothing";
   const CommandResult asked =
       place.limber("run s.toml --out o --checkpoint-interval 5");
   EXPECT_EQ(asked.status, 0) << asked.errors;
-  EXPECT_THAT(asked.errors, HasSubstr(told));
-  EXPECT_THAT(place.limber("run s.toml --out o").errors, Not(HasSubstr(told)));
+  EXPECT_THAT(asked.errors, HasSubstr(warning));
+  EXPECT_THAT(place.limber("run s.toml --out o").errors,
+              Not(HasSubstr(warning)));
 }
 
-TEST(OptionsThatContradictThemselves, AreRefused) {
+TEST(ContradictoryOptions, AreRefused) {
   const Workspace place;
   ASSERT_EQ(run_beam(place, "", "").status, 0);
   const auto expect_refused = [&](const std::string& arguments,

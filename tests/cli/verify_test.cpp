@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 
+#include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
+#include "cli/shell.hpp"
 
 namespace limber::test {
 namespace {
@@ -21,7 +23,7 @@ TEST(VerifyCommand, TellsDifferencesByBodyAndTheirOrder) {
                    "' --duration 0.05 --step 1e-4 --refine 1 --json");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto json = nlohmann::json::parse(result.out);
-  EXPECT_THAT(json["witness"].get<std::string>(), HasSubstr("Simbody"));
+  EXPECT_THAT(json["reference"].get<std::string>(), HasSubstr("Simbody"));
   EXPECT_EQ(json["joints"], "bushings");
   EXPECT_GT(json["motion"]["velocity"].get<double>(), 0.0);
   ASSERT_EQ(json["runs"].size(), 2U);
@@ -54,6 +56,32 @@ TEST(VerifyCommand, ShowsHowStiffenedJointsBecomeIdealAndDrawsIt) {
             json);
   EXPECT_THAT(read_text(place.folder() / "shown/stiffness.png"),
               ::testing::StartsWith("\x89PNG"));
+}
+
+// The program that links Simbody is not beside it.
+TEST(VerifyCommand, SaysWhichProgramIsMissing) {
+  const Workspace place;
+  std::filesystem::copy_file(LIMBER_COMMAND, place.folder() / "limber");
+  EXPECT_EQ(run_shell(place, "./limber --version").status, 0);
+  const CommandResult result =
+      run_shell(place, "./limber verify '" + kExample + "'");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors,
+              HasSubstr("the verifier 'limber-verify' is not there: looked "
+                        "for "));
+}
+
+// Its folder is there once it listens to signals.
+TEST(VerifyCommand, IsOneProcessThatSignalsReach) {
+  const Workspace place;
+  RunningCommand command(place, "verify --out o '" LIMBER_SOURCE_DIR
+                                "/examples/pendulum_chain.toml'");
+  ASSERT_TRUE(wait_for(place, "o"));
+  const auto program =
+      std::filesystem::path("/proc") / std::to_string(command.id()) / "exe";
+  EXPECT_EQ(std::filesystem::read_symlink(program).filename(), "limber-verify");
+  command.send(SIGTERM);
+  EXPECT_EQ(command.wait().status, 143);
 }
 
 TEST(VerifyCommand, RefusesUnknownWords) {

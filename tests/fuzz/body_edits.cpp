@@ -12,7 +12,7 @@
 #include <sstream>
 #include <vector>
 
-#include "flexbody/body_file.hpp"
+#include "limber/flexbody/file/body_file.hpp"
 #include "unit/flexbody/files.hpp"
 #include "unit/flexbody/small_body.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr hsize_t kMostEntries = 4096;
 
-// "3x0x2" to its numbers; whatever is no number ends it.
+// "3x0x2" to its numbers; ends at anything that is not a number.
 std::vector<hsize_t> parse_shape(const std::string& text) {
   std::vector<hsize_t> shape;
   const char* at = text.data();

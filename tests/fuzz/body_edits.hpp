@@ -20,7 +20,7 @@ namespace limber::fuzz {
 ///     rows/tags gone
 ///
 /// Values that are missing are 0; a dataset of more than 4096 entries is left
-/// without any. What cannot be done is passed over. The seal is not renewed.
+/// without any. Impossible edits are ignored. The seal is not updated.
 void apply_edits(std::string_view edits, const std::filesystem::path& file);
 
 }  // namespace limber::fuzz

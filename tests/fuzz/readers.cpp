@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz/readers.hpp"
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #ifdef LIMBER_HAS_REDUCTION
-#include "fem/mesh_checks.hpp"
-#include "fem/mesh_wire.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_wire.hpp"
 #endif
-#include "flexbody/body_file.hpp"
 #include "fuzz/body_edits.hpp"
-#include "scene/akantu_material.hpp"
-#include "scene/force_file.hpp"
-#include "scene/robot_reader.hpp"
-#include "scene/scenario_reader.hpp"
-#include "scene/series_file.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/scene/robot/akantu_material.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
+#include "limber/scene/text/force_file.hpp"
+#include "limber/scene/text/series_file.hpp"
 #include "unit/flexbody/files.hpp"
 
 namespace limber::fuzz {

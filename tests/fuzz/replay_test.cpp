@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads every file in corpus/ as the fuzzers do: seeds, what reached new code,
-// and what was once a finding.
+// Reads every file in corpus/ as the fuzzers do: seeds, inputs that reached new
+// code, and former findings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -21,6 +21,11 @@ expect("${dynamic}" "FLAGS[^\n]*BIND_NOW|Flags:[^\n]*NOW" "binding at the start"
 expect("${symbols}" "__stack_chk_fail" "stack protector")
 expect("${symbols}" "__(memcpy|memmove|memset|read|fprintf|snprintf|vsnprintf|printf)_chk"
   "checks of sizes")
+# The command starts fast: what links these starts when it is needed.
+if(NAME STREQUAL "limber" AND
+   dynamic MATCHES "NEEDED[^\n]*lib(gmsh|cholmod|[a-z]*blas|lapack|SimTK)[^\n]*")
+  message(SEND_ERROR "${PROGRAM}: starts with a library that few commands need: ${CMAKE_MATCH_0}")
+endif()
 
 execute_process(COMMAND strings -a ${PROGRAM} COMMAND grep -F ${SOURCE_DIR}/
   OUTPUT_VARIABLE paths)

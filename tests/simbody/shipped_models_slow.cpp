@@ -4,8 +4,10 @@
 #include <cmath>
 #include <ostream>
 
-#include "flexbody/reduce.hpp"
-#include "reference/verification.hpp"
+#include "limber/reduction/reduce.hpp"
+#include "limber/reference/verification.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 /// The shipped models, rigid, struck as in their examples, by Simbody and us.

@@ -22,9 +22,9 @@ Chain make_chain(const ChainOptions& options) {
                                   .rotational_damping = options.damping});
   Chain chain;
   for (int i = 0; i < options.bodies; ++i) {
-    const int b = chain.builder.add_flexible_body(
+    const auto b = chain.builder.add_flexible_body(
         "link" + std::to_string(i), reduced, options.fidelity, {});
-    const int root = chain.builder.attach_interface(
+    const auto root = chain.builder.attach_interface(
         "root", b, near, {Matrix3::Identity(), near.p_B});
     if (i > 0) {
       chain.builder.add_coupler("joint" + std::to_string(i), bushing,
@@ -38,6 +38,20 @@ Chain make_chain(const ChainOptions& options) {
     chain.state.bodies[static_cast<std::size_t>(i)].p_WB =
         i * (far.p_B - near.p_B);
   }
+  return chain;
+}
+
+Chain make_loaded_chain(double stiffness, double damping,
+                        const dynamics::TimeFunction& load) {
+  Chain chain = make_chain({.bodies = 3,
+                            .modes = 4,
+                            .stiffness = stiffness,
+                            .damping = damping,
+                            .joint = joints::JointKind::revolute,
+                            .lowest = 20.0});
+  chain.builder.set_gravity({0, 0, -2});
+  chain.builder.add_load("push", chain.last_interfaces.back(), {0, 8, 1},
+                         {0.5, 0, 0.2}, dynamics::LoadFrame::body, load);
   return chain;
 }
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "dynamics/system_builder.hpp"
-#include "dynamics/system_state.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 namespace limber::testing {
 
@@ -24,9 +24,16 @@ struct ChainOptions {
 struct Chain {
   dynamics::SystemBuilder builder;
   dynamics::SystemState state;
-  std::vector<int> last_interfaces;  ///< attachment at each body's far end
+  /// Attachment at each body's far end.
+  std::vector<dynamics::AttachmentIndex> last_interfaces;
 };
 
 Chain make_chain(const ChainOptions& options);
+
+/// Three flexible bodies on hinges, under gravity and a load that rotates with
+/// the last one.
+/// @param stiffness, damping of the couplers, as in ChainOptions
+Chain make_loaded_chain(double stiffness, double damping,
+                        const dynamics::TimeFunction& load);
 
 }  // namespace limber::testing

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
-/// Dense eigenproblems of small models: an answer apart from the library's own
-/// solvers. Of symmetric matrices, values ascending.
+/// Dense eigenproblems of small models: independent of the library's solvers.
+/// Of symmetric matrices, values ascending.
 namespace limber::testing {
 
 /// K x = value M x, M positive definite.

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "dynamics/energy.hpp"
-#include "dynamics/energy_conserving.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/integrators/energy_conserving.hpp"
 #include "support/chain.hpp"
 
 namespace limber::testing {
@@ -27,7 +27,7 @@ FreeChain make_free_chain(double stiffness, double spin, double vibration) {
   for (double& rate : out.state.etadot) rate = vibration * uniform(random);
   double highest = 0.0;
   for (const dynamics::BodyModel& body : out.model.bodies) {
-    highest = std::max(highest, std::sqrt(body.lambda.maxCoeff()));
+    highest = std::max(highest, std::sqrt(body.reduced->lambda.maxCoeff()));
   }
   out.shortest = 2.0 / highest;
   return out;

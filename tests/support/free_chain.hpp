@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::testing {
 
@@ -16,14 +16,15 @@ struct FreeChain {
 
 FreeChain make_free_chain(double stiffness, double spin, double vibration);
 
-/// Largest change of what a free system keeps, relative to the start.
+/// Largest change of the conserved quantities of a free system, relative to the
+/// start.
 struct KeptDrift {
   double energy = 0.0;
   double linear = 0.0;   ///< of the momentum, to the bodies' own at 1 m/s
   double angular = 0.0;  ///< of the angular momentum
 };
 
-/// Looks at a hundred times of the run.
+/// Sampled at a hundred times of the run.
 KeptDrift find_energy_conserving_drift(const FreeChain& chain, double h,
                                        long steps);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::testing {
 

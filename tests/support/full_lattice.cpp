@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::testing {
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "dynamics/system_builder.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 #include "support/spring_network.hpp"
 
 /// One lattice of springs at level `full`, and states that stir it.

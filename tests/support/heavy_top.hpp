@@ -3,16 +3,16 @@
 
 namespace limber::testing {
 
-/// The heavy symmetric top, let go at a tilt with spin about its axis alone: it
-/// falls, precesses and nutates between two tilts, with a cusp at the upper
+/// The heavy symmetric top, released at a tilt with spin about its axis only:
+/// it falls, precesses and nutates between two tilts, with a cusp at the upper
 /// one.
 ///
 /// Equation   u'^2 = beta (u - u1) (u - u2) (u - u3), u = cos(tilt), u1 <= u <=
 ///            u2 < u3;  u = u1 + (u2 - u1) cd^2(s t);  phi' = a (u2 - u) /
 ///            (1 - u^2)
 /// Source     Goldstein, Classical Mechanics, sec. 5.7; the cubic as in
-/// Jacobi's
-///            elliptic functions (Whittaker, Analytical Dynamics, sec. 71).
+///            Jacobi's elliptic functions (Whittaker, Analytical Dynamics,
+///            sec. 71).
 class HeavyTop {
  public:
   /// @param I1 across, about the fixed point [kg m^2]; @param I3 along

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "flexbody/interface_motion.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/flexbody/model/interface_motion.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 namespace limber::testing {
 namespace {
@@ -24,7 +24,7 @@ LatticeChain::LatticeChain()
 
 template <typename Attach>
 void LatticeChain::attach(const Attach& at) {
-  const int first = at(first_set);
+  const auto first = at(first_set);
   ends_.emplace_back(first, at(last_set));
 }
 
@@ -32,8 +32,8 @@ void LatticeChain::add(Fidelity fidelity, int modes,
                        const ModalDamping& damping) {
   const std::string name = "link" + std::to_string(ends_.size());
   if (fidelity == Fidelity::full) {
-    const int b = builder.add_full_body(name, make_reduced(network_, modes),
-                                        full_, damping);
+    const auto b = builder.add_full_body(name, make_reduced(network_, modes),
+                                         full_, damping);
     attach([&](const std::string& set) {
       return builder.attach_nodes(set, b, find_node_set(*full_, set),
                                   {Matrix3::Identity(), find_mean(set)});
@@ -41,7 +41,7 @@ void LatticeChain::add(Fidelity fidelity, int modes,
     return;
   }
   const auto reduced = make_reduced(network_, modes);
-  const int b = builder.add_flexible_body(name, reduced, fidelity, damping);
+  const auto b = builder.add_flexible_body(name, reduced, fidelity, damping);
   attach([&](const std::string& set) {
     return builder.attach_interface(set, b, make_table(set, *reduced),
                                     {Matrix3::Identity(), find_mean(set)});
@@ -55,7 +55,7 @@ void LatticeChain::join(double stiffness, double damping) {
 }
 
 void LatticeChain::join_world(double stiffness, double damping) {
-  const int world = builder.attach_world(
+  const auto world = builder.attach_world(
       "world", {Matrix3::Identity(), find_mean(first_set)});
   builder.add_coupler("mount", make_bushing(stiffness, damping), world,
                       ends_.front().first);

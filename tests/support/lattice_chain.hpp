@@ -6,12 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/system_builder.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 #include "support/spring_network.hpp"
 
 namespace limber::testing {
 
+using dynamics::AttachmentIndex;
 using dynamics::Fidelity;
 using dynamics::ModalDamping;
 using dynamics::SystemModel;
@@ -27,10 +28,10 @@ class LatticeChain {
   void add(Fidelity fidelity, int modes = kAllModes,
            const ModalDamping& damping = {});
 
-  /// Joins what was added last to what was added before it.
+  /// Connects the last added body to the previous one.
   void join(double stiffness, double damping);
   void join_world(double stiffness, double damping);
-  [[nodiscard]] int last_end() const { return ends_.back().second; }
+  [[nodiscard]] AttachmentIndex last_end() const { return ends_.back().second; }
 
   [[nodiscard]] SystemModel build() const { return builder.build(); }
 
@@ -51,7 +52,7 @@ class LatticeChain {
 
   SpringNetwork network_;
   std::shared_ptr<const flexbody::FullBody> full_;
-  std::vector<std::pair<int, int>> ends_;
+  std::vector<std::pair<AttachmentIndex, AttachmentIndex>> ends_;
 };
 
 }  // namespace limber::testing

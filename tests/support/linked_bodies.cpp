@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <random>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 #include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
@@ -72,9 +72,11 @@ std::vector<Link> make_all_links(double damping) {
   links.push_back(
       {"gear", [=](dynamics::SystemBuilder& builder, const BodyEnds& ends) {
          link_joints("", JointKind::revolute, damping).add(builder, ends);
-         builder.add_joint_sum(
-             "gear", {.terms = {{0, 0, 1.0}, {1, 0, -2.5}}, .offset = 0.3},
-             {spring});
+         builder.add_joint_sum("gear",
+                               {.terms = {{dynamics::CouplerIndex(0), 0, 1.0},
+                                          {dynamics::CouplerIndex(1), 0, -2.5}},
+                                .offset = 0.3},
+                               {spring});
        }});
   links.push_back(
       {"line", [=](dynamics::SystemBuilder& builder, const BodyEnds& ends) {
@@ -103,7 +105,7 @@ LinkedBodies make_linked_bodies(const Link& link,
   dynamics::SystemBuilder builder;
   BodyEnds ends{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const int b =
+    const auto b =
         builder.add_flexible_body("body" + std::to_string(i), reduced,
                                   is_flexible[i] ? dynamics::Fidelity::coupled
                                                  : dynamics::Fidelity::rigid,

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_builder.hpp"
-#include "dynamics/system_state.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 /// Three bodies A, B, C, rigid or flexible, with every kind of link between
 /// them, in random configurations.
@@ -43,8 +43,8 @@ struct LinkedBodies {
   dynamics::SystemState state;
 };
 
-/// Bodies A and C flexible, or A rigid, or all; the joints turned by up to 3
-/// rad about each axis that they leave free, what they hold strained a little.
+/// Bodies A and C flexible, or A rigid, or all; the joints rotated by up to 3
+/// rad about each free axis, their constraints slightly strained.
 LinkedBodies make_linked_bodies(const Link& link,
                                 std::array<bool, 3> is_flexible, unsigned seed,
                                 double speed);

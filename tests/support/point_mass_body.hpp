@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "flexbody/reduced_body.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::testing {
 

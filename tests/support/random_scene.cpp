@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::testing {
 namespace {
+
+using dynamics::AttachmentIndex;
 
 class SceneDraw {
  public:
@@ -66,9 +68,9 @@ class SceneDraw {
     const double mass = mass_ * log_uniform(1e-3, 1e3);
     const double length = size_ * log_uniform(0.1, 10.0);
     const bool is_rigid = chance(0.3);
-    int body = 0;
-    int near = 0;
-    int far = 0;
+    dynamics::BodyIndex body;
+    AttachmentIndex near;
+    AttachmentIndex far;
     if (is_rigid) {
       const Matrix3 J = mass * length * length *
                         Vector3(0.09, 0.08, 0.02).asDiagonal().toDenseMatrix();
@@ -117,11 +119,12 @@ class SceneDraw {
     p_WB_.emplace_back(at - near_.back());
   }
 
-  void join(int b, const std::string& name, int near) {
+  void join(int b, const std::string& name, AttachmentIndex near) {
     const int parent = parents_.back();
     if (parent < 0 && chance(0.5)) return;  // free in space
-    const int to = parent < 0 ? builder_.attach_world("ground" + name, {})
-                              : ends_[index(parent)];
+    const AttachmentIndex to = parent < 0
+                                   ? builder_.attach_world("ground" + name, {})
+                                   : ends_[index(parent)];
     const double k = log_uniform(1e2, 1e14);
     const double damping = chance(0.4) ? 0.0 : k * log_uniform(1e-9, 1e-1);
     joints::JointParameters parameters{
@@ -180,7 +183,7 @@ class SceneDraw {
     }
   }
 
-  void push(const std::string& name, int where, double mass) {
+  void push(const std::string& name, AttachmentIndex where, double mass) {
     dynamics::Pulse pulse;
     pulse.shape = static_cast<dynamics::PulseShape>(draw_int(0, 2));
     pulse.start = chance(0.5) ? 0.0 : log_uniform(1e-6, 1.0);
@@ -245,7 +248,7 @@ class SceneDraw {
   std::vector<Vector3> far_;
   std::vector<Vector3> p_WB_;
   std::vector<int> parents_;
-  std::vector<int> ends_;
+  std::vector<AttachmentIndex> ends_;
 };
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::testing {
 
@@ -14,9 +14,9 @@ struct RandomScene {
   dynamics::SimulationSettings settings;
 };
 
-/// A tree of bodies, hinged, on springs or free, that turn, are pushed and meet
-/// stops. The same seed draws the same one on every machine that has the same
-/// standard library.
+/// A tree of bodies, hinged, on springs or free, that rotate, are loaded and
+/// reach stops. The same seed gives the same scene on every machine with the
+/// same standard library.
 RandomScene draw_scene(unsigned seed);
 
 }  // namespace limber::testing

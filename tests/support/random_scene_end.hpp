@@ -10,12 +10,13 @@
 
 namespace limber::testing {
 
-/// Solves of one attempt at a step, after which the budget is looked at again:
+/// Solves of one attempt at a step, after which the budget is checked again:
 /// twice 20 iterations with 60 Krylov vectors, each with its own few.
 inline constexpr long kSolvesOfAnAttempt = 2 * 20 * 64;
 
-/// Expects that a scene ends with numbers, or with words that name a body or a
-/// coupler, after no more work than dynamics/work_budget.hpp allows.
+/// Expects that a scene ends with finite results, or with an error that names a
+/// body or a coupler, within the work allowed by
+/// dynamics/simulation/work_budget.hpp.
 inline void expect_good_end(unsigned seed) {
   using ::testing::AnyOf;
   using ::testing::HasSubstr;

@@ -6,7 +6,7 @@
 #include <exception>
 #include <optional>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "support/random_scene.hpp"
 
 namespace limber::testing {

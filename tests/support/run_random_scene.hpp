@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dynamics/run_record.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
 
 namespace limber::testing {
 
@@ -11,8 +11,8 @@ namespace limber::testing {
 struct RandomOutcome {
   enum class Kind {
     finished,  ///< with numbers at every output
-    refused,   ///< by an InputError or a NumericalError with words
-    failed,    ///< no number called a success, or any other exception
+    refused,   ///< by an InputError or a NumericalError with a message
+    failed,    ///< NaN or infinity as a result, or any other exception
   };
   Kind kind = Kind::finished;
   std::string text;                                ///< why, unless it finished

@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 /// Rigid bodies on rails along x, for closed forms of one coordinate.
 namespace limber::testing {
 
 /// A body and the frame at its centre.
 struct Mass {
-  dynamics::BodyIndex body = 0;
-  dynamics::AttachmentIndex frame = 0;
+  dynamics::BodyIndex body;
+  dynamics::AttachmentIndex frame;
 };
 
 Mass add_mass(dynamics::SystemBuilder& builder, const std::string& name,

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "common/errors.hpp"
-#include "flexbody/shape_integrals.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/model/shape_integrals.hpp"
 #include "support/eigenpairs.hpp"
 
 namespace limber::testing {

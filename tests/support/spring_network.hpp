@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "flexbody/full_body.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/flexbody/model/full_body.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 /// A body at level `full` without a mesher: point-like and bar-like masses held
 /// by springs that are linear in Green's strain,

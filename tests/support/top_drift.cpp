@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limber/dynamics/equations/energy.hpp"
+
 namespace limber::testing {
 
 Drift find_drift(const dynamics::SystemModel& model,

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <string>
 
-#include "dynamics/simulation.hpp"
-#include "flexbody/reduce.hpp"
-#include "scene/scene.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/reduction/reduce.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/build/scene.hpp"
 
 /// The capture arm of examples/struck_finger.toml at a step of 1 ms, its joints
 /// from soft to stiffer than any material.
@@ -45,7 +47,7 @@ class CaptureArm : public ::testing::Test {
     EXPECT_EQ(state.t, built.settings.end_time);
     EXPECT_LE(static_cast<double>(statistics.newton_iterations),
               4.0 * static_cast<double>(statistics.steps));
-    // It moves by what the strike puts in, no more: 100 N and 10 N for 10 ms.
+    // Its motion is that of the strike only: 100 N and 10 N for 10 ms.
     EXPECT_NEAR(last.linear_momentum.norm(), std::hypot(1.0, 0.1), 0.05);
     EXPECT_LE(last.total(), last.work);
   }

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/elastic_inverse.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 #include "verification/shear_load.hpp"
 
@@ -34,7 +34,7 @@ MatrixX shear_and_stretch() {
   return loads;
 }
 
-/// Relative error of the basis' static answer in the norm of elastic energy,
+/// Relative error of the basis' static response in the norm of elastic energy,
 /// by solving with the whole stiffness.
 double measure_static_error(const flexbody::ReducedBody& body,
                             const VectorX& load) {
@@ -119,7 +119,7 @@ TEST(AutomaticModesByMass, TakeTheFirstAxialModeForItsShare) {
   EXPECT_NEAR(record.cases[2].reached, 8.0 / (M_PI * M_PI), 0.013);
 }
 
-// The default basis answers its loads exactly; eigenmodes alone do not.
+// The default basis represents its loads exactly; eigenmodes alone do not.
 TEST(AutomaticModes, WithStaticDeformationModesHaveNoStaticErrorLeft) {
   flexbody::Recipe recipe = test::beam_recipe("beam579_v41.msh");
   recipe.interfaces = {{"tip", flexbody::GroupNodes{"tip"}}};

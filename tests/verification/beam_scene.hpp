@@ -7,8 +7,9 @@
 #include <iterator>
 #include <string>
 
-#include "flexbody/reduce.hpp"
-#include "scene/scene.hpp"
+#include "limber/reduction/reduce.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene.hpp"
 #include "unit/flexbody/files.hpp"
 #include "verification/body_reference.hpp"
 

@@ -4,13 +4,13 @@
 #include <memory>
 #include <string>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's beam clamped at its root, 500 N across its tip: the
-/// static-deformation mode of the load alone is the whole answer.
+/// static-deformation mode of the load alone is the exact solution.
 namespace limber {
 namespace {
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "common/rotation.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's beam hit for 10 ms, against an explicit finite-element run of
@@ -69,10 +69,10 @@ std::vector<Row> simulate_strike(const std::vector<Row>& reference) {
       std::make_shared<const flexbody::ReducedBody>(struck_body());
   dynamics::SystemBuilder builder;
   const auto& patch = body->interfaces[0];
-  const int beam =
+  const auto beam =
       builder.add_flexible_body("beam", body, dynamics::Fidelity::coupled, {});
-  const int where = builder.attach_interface("patch", beam, patch,
-                                             {Matrix3::Identity(), patch.p_B});
+  const auto where = builder.attach_interface("patch", beam, patch,
+                                              {Matrix3::Identity(), patch.p_B});
   builder.add_load(
       "strike", where, Vector3(100.0, 0.0, 10.0), Vector3::Zero(),
       dynamics::LoadFrame::world,

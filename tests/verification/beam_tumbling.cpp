@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's beam tumbles freely: ten modes, no damping, no load. What must
@@ -108,7 +108,8 @@ double mean(std::vector<double>::const_iterator begin,
 TEST_F(TumblingBeam, DoesNotDriftUnderGeneralizedAlphaOver100000Steps) {
   constexpr int kSteps = 100000;
   const double step = 2.0 * std::numbers::pi /
-                      std::sqrt(model_->bodies[0].lambda.maxCoeff()) / 20.0;
+                      std::sqrt(model_->bodies[0].reduced->lambda.maxCoeff()) /
+                      20.0;
   std::vector<double> times;
   for (int i = 0; i <= kSteps; i += 50) times.push_back(i * step);
   const auto balances = run({.end_time = times.back(),

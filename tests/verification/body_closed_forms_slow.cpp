@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "fem/assembly.hpp"
-#include "fem/eigenmodes.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
 
 /// Free bodies whose frequencies are known without finite elements. The error
 /// of an eigenvalue on elements of order p falls as h^(2p) (Strang, Fix, An

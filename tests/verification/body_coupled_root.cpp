@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "common/rotation.hpp"
-#include "fem/assembly.hpp"
-#include "fem/mesh_reader.hpp"
-#include "fem/node_weights.hpp"
-#include "flexbody/interface_motion.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/flexbody/model/interface_motion.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 

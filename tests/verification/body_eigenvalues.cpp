@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "flexbody/reduce.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 namespace limber {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "flexbody/recipe.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 /// The reference beam (tests/data/beam) and its published figures.
 namespace limber::test {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "common/errors.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
-/// Which rows a reduced body keeps; everything else must not notice.
+/// Which rows a reduced body stores must not affect anything else.
 namespace limber {
 namespace {
 

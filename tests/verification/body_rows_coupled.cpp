@@ -9,7 +9,7 @@
 #include "verification/beam_scene.hpp"
 
 /// The report's boundary approach at level `coupled`: a beam that spins and is
-/// struck moves the same to the last bit, whichever rows are kept.
+/// struck moves bitwise the same, whichever rows are stored.
 namespace limber {
 namespace {
 

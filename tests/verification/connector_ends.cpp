@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/simulation.hpp"
-#include "flexbody/fem_full_body.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/reduction/full_body_maker.hpp"
 #include "verification/beam_scene.hpp"
 
 /// A spring between the world and the beam's tip, named in several ways.

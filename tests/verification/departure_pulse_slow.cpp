@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "fem/elastic_inverse.hpp"
-#include "flexbody/fem_departure.hpp"
-#include "flexbody/modal_response.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
+#include "limber/reduction/departure.hpp"
 #include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
-/// The report's beam pushed at its tip by sin^4(pi t / T). Slow because the
+/// The report's beam loaded at its tip by sin^4(pi t / T). Slow because the
 /// full linear model is all modes of the mesh: a dense eigenproblem of 1737
 /// unknowns.
 namespace limber {

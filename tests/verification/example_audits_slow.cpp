@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
-#include "app/reducer.hpp"
-#include "app/run_scene.hpp"
-#include "results/energy_audit.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
+#include "limber/results/energy_audit.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 /// The energy of every scenario in examples/, each in full and at its own
@@ -16,6 +20,21 @@ namespace limber {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Steps that resolve all that rings, with which second order shows: shorter
+/// than those of most files, which what is seen of them does not need.
+struct Steps {
+  double first = 0.0;                              ///< [s]
+  std::vector<dynamics::StepChange> changes = {};  ///< [s]
+};
+const std::map<std::string, Steps> kShortSteps = {
+    {"claw", {1.5e-5}},
+    {"four_bar", {5e-5}},
+    {"joint_chain", {2e-5}},
+    {"pendulum_chain", {5e-5}},
+    {"report_beam", {4e-5}},
+    {"slew", {1e-4}},
+    {"struck_finger", {5e-6, {{0.05, 1e-5}, {0.2, 2e-5}, {0.5, 4e-5}}}}};
 
 std::vector<fs::path> find_examples() {
   std::vector<fs::path> files;
@@ -32,15 +51,8 @@ struct Audit {
   bool has_latched = false;
 };
 
-/// Steps are `share` of the scenario's.
-Audit audit(const fs::path& file, double share) {
+Audit audit(const scene::Scene& scene) {
   static const results::test::TemporaryFolder cache;  // reduces once
-  scene::Scene scene = scene::load_scene(file);
-  dynamics::SimulationSettings& settings = scene.scenario.settings;
-  settings.step *= share;
-  for (dynamics::StepChange& change : settings.step_changes) {
-    change.step *= share;
-  }
   const app::Run run =
       app::simulate_scene(scene, app::make_reducer({}), cache.path(), {});
   EXPECT_FALSE(run.failure);
@@ -52,12 +64,35 @@ Audit audit(const fs::path& file, double share) {
       })};
 }
 
+/// Steps are `share` of the short ones.
+Audit audit(const fs::path& file, double share) {
+  scene::Scene scene = scene::load_scene(file);
+  dynamics::SimulationSettings& settings = scene.scenario.settings;
+  const Steps& steps = kShortSteps.at(file.stem());
+  settings.tolerance = 0.0;
+  settings.step = share * steps.first;
+  settings.step_changes = steps.changes;
+  for (dynamics::StepChange& change : settings.step_changes) {
+    change.step *= share;
+  }
+  return audit(scene);
+}
+
+// A hundredth of what users are warned of.
+TEST(ExampleAudit, ClosesToATenThousandthAsTheFilesAre) {
+  for (const fs::path& file : find_examples()) {
+    SCOPED_TRACE(file.filename());
+    EXPECT_LE(audit(scene::load_scene(file)).drift,
+              0.01 * dynamics::kToldDrift);
+  }
+}
+
 // Half the step leaves a quarter of the drift where dampers or large rotations
 // count, an eighth where only the default rho_inf = 0.9 takes energy from
 // vibration, as of the report's beam: its damping ratio is of third order. A
 // latch's damper begins with a jump in mid-step: first order at least, over two
 // halvings, as what it leaves depends on where in its step the jump falls.
-TEST(ExampleAudit, ClosesToAMillionthAtEveryScenariosStepAndAtSecondOrder) {
+TEST(ExampleAudit, ClosesToAMillionthInShortStepsAndAtSecondOrder) {
   constexpr double kRoundOff = 1e-10;
   const std::vector<fs::path> files = find_examples();
   ASSERT_GE(files.size(), 6U);

@@ -109,7 +109,7 @@ inline std::vector<double> find_angles(const std::vector<double>& times,
   return angles;
 }
 
-/// First bending frequency between pins that do not give way [Hz].
+/// First bending frequency between rigid pins [Hz].
 ///
 /// Equation   (pi / 2) sqrt(EI / (mu L^4))
 inline double find_pinned_frequency() {
@@ -155,8 +155,8 @@ inline double find_deflection(double theta, double rate_at_zero) {
   return -5.0 * kMassPerLength * a * std::pow(kRod, 4) / (384.0 * kBending);
 }
 
-/// By how much the flexible rod slows the crank, averaged over the ringing that
-/// a straight rod starts with [rad/s].
+/// Reduction of the crank's speed by the flexible rod, averaged over the
+/// vibration of an initially straight rod [rad/s].
 ///
 /// Equation   (E(0) + 3 E(theta)) / (I thetadot), E = k w^2 / 2 of the
 ///            deflection w, k = pi^4 EI / (2 L^3) of the half sine. E(0) rings,

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/reducer.hpp"
-#include "app/run_scene.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "unit/results/temporary_folder.hpp"
 #include "verification/four_bar_closed_form.hpp"
 
@@ -124,8 +125,8 @@ TEST(FourBar, StiffeningItsPinsConvergesToTheClosedFormAtFirstOrder) {
 /// by (pi r / L)^2 (1 + E / (5/6 G)) / 2, r the radius of gyration [-].
 constexpr double kShear = 0.00069;
 
-/// The shipped rod. It is straight at the start, where its own inertia would
-/// bend it, so it rings about that deflection.
+/// The shipped rod. It is straight at the start, while its inertia would bend
+/// it, so it vibrates about that deflection.
 class FourBarsRod : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -144,8 +145,8 @@ class FourBarsRod : public ::testing::Test {
     }
   }
 
-  /// Without what is faster than about 50 Hz: weights of a raised cosine over
-  /// two periods of the ringing. The ends, a period each, are left out.
+  /// Low-pass at about 50 Hz: weights of a raised cosine over two periods of
+  /// the vibration. The ends, a period each, are omitted.
   static Series smooth(const Series& values) {
     constexpr std::size_t kHalf = 108;
     Series smoothed;
@@ -176,8 +177,8 @@ class FourBarsRod : public ::testing::Test {
   static inline Series formula_;     ///< of that, without ringing [m]
 };
 
-// The formula leaves out the share (Omega / omega)^2 of what changes at Omega:
-// a hundredth at three times the crank's rate.
+// The formula neglects the share (Omega / omega)^2 of terms that change at
+// Omega: a hundredth at three times the crank's rate.
 TEST_F(FourBarsRod, BendsOnAverageAsABeamUnderItsOwnInertia) {
   const double off =
       find_largest(subtract(smooth(deflection_), smooth(formula_)));
@@ -226,8 +227,8 @@ TEST_F(FourBarsRod, ShakesTheCrankByTheMomentumThatItSharesWithIt) {
             0.1 * find_largest(predicted));
 }
 
-// An estimate: higher modes are left out, and what turns the crank by the order
-// of c w / I without adding up.
+// An estimate: neglects higher modes, and rotations of the crank of the order
+// of c w / I that do not accumulate.
 TEST_F(FourBarsRod, SlowsTheCrankByTheEnergyOfItsBending) {
   Series lag{0.0};
   for (std::size_t i = 1; i < times_.size(); ++i) {

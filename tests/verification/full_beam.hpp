@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/fem_full_body.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/full_body_maker.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// The reference beam at level `full`, and the histories of another program
@@ -89,8 +89,8 @@ inline void push_beam(dynamics::SystemBuilder& builder, const BeamBodies& beam,
         Vector3(table.at("Fx")[i], table.at("Fy")[i], table.at("Fz")[i]);
   }
   builder.add_nodal_load(
-      file, 0, flexbody::reduce_nodal_load(*beam.reduced, {0.0, until}, forces),
-      forces);
+      file, dynamics::BodyIndex(0),
+      flexbody::reduce_nodal_load(*beam.reduced, {0.0, until}, forces), forces);
 }
 
 /// The displacement of one node [m].

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fem/mesh_reader.hpp"
-#include "fem/node_weights.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
 #include "verification/full_beam.hpp"
 
 /// The whole mesh of the reference beam, small motion and large bending.
@@ -63,8 +63,8 @@ TEST(FullBeamStatic, SettlesWhereTheReferenceIsBentByAFifthOfItsLength) {
   dynamics::SystemBuilder builder;
   builder.add_full_body("beam", beam.reduced, beam.full, {});
   const Vector3 mean = beam.full->x_B(Eigen::all, set.nodes) * set.weights;
-  const int end =
-      builder.attach_nodes("tip", 0, set, {Matrix3::Identity(), mean});
+  const auto end = builder.attach_nodes("tip", dynamics::BodyIndex(0), set,
+                                        {Matrix3::Identity(), mean});
   builder.add_load("traction", end, {4e8, 0.0, 0.0}, Vector3::Zero(),
                    dynamics::LoadFrame::world,
                    dynamics::Table{{0.0, 0.2, 10.0}, {0.0, 1.0, 1.0}});

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <random>
 
-#include "common/errors.hpp"
-#include "dynamics/central_differences.hpp"
-#include "dynamics/stable_step.hpp"
-#include "fem/mesh_reader.hpp"
-#include "fem/nonlinear_solid.hpp"
-#include "fem/parallel.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/integrators/central_differences.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/nonlinear_solid.hpp"
 #include "verification/full_beam.hpp"
 
 /// The whole mesh in large rotation against an explicit fourth-order run of
@@ -118,9 +119,9 @@ TEST_F(FullBeam, SpinningFastAgreesWithTheReference) {
             5e-6);
 }
 
-// The spin is there at once, so all modes ring, up to 1.6e5 rad/s. A mode whose
-// phase is off, omega^3 h^2 t / 12 > 1, errs by as much as it moves, whatever
-// the step: the order shows early, and below 5e-6 s.
+// The spin starts suddenly, so all modes vibrate, up to 1.6e5 rad/s. A mode
+// with a phase error omega^3 h^2 t / 12 > 1 has an error of its amplitude, for
+// any step: the order is visible early, and below 5e-6 s.
 TEST_F(FullBeam, ImplicitStepsConvergeToTheReferenceAtTheirOrder) {
   spin({30.0, 2.0, 5.0});
   const Table reference =
@@ -195,7 +196,7 @@ bool is_stable(const SystemModel& model, double step) {
   state.u_H =
       VectorX::NullaryExpr(model.nodal_count, [&] { return uniform(random); });
   dynamics::CentralDifferences scheme(model);
-  scheme.start(state);
+  scheme.start(state, step);
   const double start = calc_energy(model, state).elastic;
   try {
     for (int i = 1; i <= 3000; ++i) scheme.step(state, step, i * step);
@@ -231,7 +232,7 @@ TEST_F(FullBeam, EstimatedStableStepIsTheOneThatBisectionFinds) {
     builder.add_full_body("beam", beam->reduced, beam->full, {});
     const SystemModel model = builder.build();
     const double estimate = find_stable_step(model, make_state(model));
-    // Just above it growth is slow: bisection sees it a little late.
+    // Just above it growth is slow: bisection detects it a little late.
     EXPECT_NEAR(bisect_stable_step(model), estimate, 2e-3 * estimate);
     RecordProperty("stable_step", std::to_string(estimate));
   }

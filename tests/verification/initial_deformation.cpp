@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/energy.hpp"
-#include "fem/assembly.hpp"
-#include "flexbody/body_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/flexbody/file/body_file.hpp"
 #include "verification/beam_scene.hpp"
 #include "verification/shear_load.hpp"
 
@@ -148,7 +148,7 @@ TEST(InitialDeformation, SwingsFreelyAsACosine) {
     EXPECT_THAT(built.warnings, IsEmpty());
     dynamics::SystemState state = built.initial;
     dynamics::simulate(built.model, state, built.settings, {});
-    const double omega = std::sqrt(built.model.bodies[0].lambda[2]);
+    const double omega = std::sqrt(built.model.bodies[0].reduced->lambda[2]);
     const double steps = built.settings.end_time / built.settings.step;
     const double error =
         steps * std::pow(omega * built.settings.step, 5) / 120.0;
@@ -241,7 +241,7 @@ TEST(InitialDeformation, OfAnotherMeshOrNotFiniteIsRefused) {
   EXPECT_THAT(error_of(bench, scene), HasSubstr("u.txt:1: value 1: 'nan'"));
 }
 
-/// A scene whose link is a saved reduced body that keeps few rows.
+/// A scene whose link is a saved reduced body with few rows.
 scene::Scene saved_scene(const test::SceneBench& bench,
                          const ReducedBody& body) {
   flexbody::write_body(body, bench.path() / "body.h5");

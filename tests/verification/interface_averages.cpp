@@ -4,12 +4,12 @@
 #include <numbers>
 #include <set>
 
-#include "common/rotation.hpp"
-#include "dynamics/nodal_frame.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/fem_full_body.hpp"
-#include "flexbody/reduce.hpp"
-#include "flexbody/reduce_interfaces.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/system/nodal_frame.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/reduction/full_body_maker.hpp"
+#include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// The motion of an interface against the rigid motion that its nodes make.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/level_advice.hpp"
+#include "limber/dynamics/analysis/level_advice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
-/// The advice on the report's beam, against what the levels really leave out:
-/// the largest distance of any node from where `coupled` has it, at any time.
+/// The advice on the report's beam, against the true errors of the levels: the
+/// largest distance of any node from its position at `coupled`, at any time.
 namespace limber {
 namespace {
 
@@ -51,10 +51,10 @@ class AdviceOnBeam : public ::testing::Test {
   static dynamics::SystemModel make_model(const Motion& motion,
                                           Fidelity level) {
     dynamics::SystemBuilder builder;
-    const int beam = builder.add_flexible_body("beam", body_, level, {});
+    const auto beam = builder.add_flexible_body("beam", body_, level, {});
     const flexbody::InterfaceTable& tip = body_->interfaces.front();
-    const int where = builder.attach_interface("tip", beam, tip,
-                                               {Matrix3::Identity(), tip.p_B});
+    const auto where = builder.attach_interface("tip", beam, tip,
+                                                {Matrix3::Identity(), tip.p_B});
     builder.add_load(
         "push", where, motion.force_B, motion.moment_B,
         dynamics::LoadFrame::body,
@@ -70,7 +70,7 @@ class AdviceOnBeam : public ::testing::Test {
     settings.integrator = dynamics::IntegratorKind::runge_kutta_4;
     settings.end_time = kEnd;
     settings.step = 5e-5;
-    // All levels by the same steps: their difference is the physics left out.
+    // All levels by the same steps: their difference is the neglected physics.
     settings.exact_modes = false;
     for (int i = 0; i <= 1000; ++i) settings.output_times.push_back(2e-4 * i);
     std::vector<SystemState> states;
@@ -147,7 +147,7 @@ std::vector<Motion> make_motions() {
 /// peaks alone is within 1 %), and no more than this factor above it.
 constexpr double kBelow = 0.1;
 constexpr double kAbove = 5.0;
-/// Errors below this share of what is neglected are of no account.
+/// Errors below this share of the neglected displacement are ignored.
 constexpr double kNoAccount = 1e-3;
 
 void expect_estimate(double estimate, double truth, const std::string& what) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "flexbody/reduce.hpp"
-#include "flexbody/reduce_static_modes.hpp"
+#include "limber/reduction/reduce.hpp"
+#include "limber/reduction/static_modes.hpp"
 #include "support/eigenpairs.hpp"
 #include "verification/shear_load.hpp"
 
@@ -70,7 +70,7 @@ TEST(LoadModes, OfForcesThatOnlyMoveTheBodyAreNone) {
   EXPECT_EQ(flexbody::reduce(recipe_with(both, false)).mode_count(), 5);
 }
 
-TEST(LoadModes, AreTheLargestOfManyAndTheRestIsTold) {
+TEST(LoadModes, AreTheLargestOfManyAndTheRestIsReported) {
   constexpr Eigen::Index kColumns = 30;
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> number(-1.0, 1.0);

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "fem/eigenmodes.hpp"
-#include "flexbody/modal_response.hpp"
-#include "flexbody/reduce.hpp"
-#include "flexbody/reduce_meshed_body.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
+#include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 

@@ -6,11 +6,11 @@
 #include <memory>
 #include <random>
 
-#include "fem/assembly.hpp"
-#include "fem/eigenmodes.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/decision_boundary.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "support/draw_vector.hpp"
 #include "verification/body_reference.hpp"
 
@@ -59,7 +59,7 @@ TEST_F(ReportBoundaryOfBeam, OfDisplacementHasTheReportsFigures) {
   EXPECT_NEAR(report_limit(0.05) / 59570.0, 1.0, kOtherMesh);
 }
 
-// What the reduced body keeps, whatever rows it keeps.
+// Stored in the reduced body, independent of its rows.
 TEST_F(ReportBoundaryOfBeam, IsKeptByTheReducedBody) {
   constexpr double kRoundoff = 1e-9;
   const flexbody::InertialLevers& levers = body_->levers;
@@ -91,8 +91,8 @@ TEST(ReportBoundaryOfBox, OfDisplacementHasTheReportsFigures) {
   EXPECT_NEAR(0.05 / 1e-6 * boundary / 59570.0, 1.0, kOtherMesh);
 }
 
-// Eq. 31 passes over the corners, whose row sums are negative, and there the
-// largest m |b| is.
+// Eq. 31 ignores the corners, whose row sums are negative and where the largest
+// m |b| is.
 TEST_F(ReportBoundaryOfBeam, OfForceIsNoBoundWithRowSums) {
   const VectorX m = lumped();
   const VectorX levers =

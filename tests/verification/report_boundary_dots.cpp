@@ -5,17 +5,16 @@
 #include <cmath>
 #include <memory>
 
-#include "dynamics/node_motion.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// Simulated dots of the report's Figure 9: the free beam with ten modes turns
 /// at Omega about x and is given alpha about x by a couple on its end faces.
-/// What `uncoupled` leaves out is the difference in deformation from
-/// `coupled`, root mean square over all nodes, at its largest. bench/report
-/// has the whole sweep.
+/// The error of `uncoupled` is the largest root mean square difference in
+/// deformation from `coupled` over all nodes. bench/report has the whole sweep.
 namespace limber {
 namespace {
 
@@ -54,7 +53,7 @@ MatrixX make_couple(const flexbody::ReducedBody& body, double alpha) {
 
 MatrixX simulate_deformation(Fidelity level, double alpha, double Omega) {
   dynamics::SystemBuilder builder;
-  const int index = builder.add_flexible_body("beam", beam(), level, {});
+  const auto index = builder.add_flexible_body("beam", beam(), level, {});
   builder.add_nodal_load(
       "couple", index,
       flexbody::reduce_nodal_load(*beam(), {0.0}, make_couple(*beam(), alpha)));
@@ -82,7 +81,7 @@ MatrixX simulate_deformation(Fidelity level, double alpha, double Omega) {
   return u;
 }
 
-/// What `uncoupled` leaves out [m].
+/// Error of `uncoupled` [m].
 double find_difference(double alpha, double Omega) {
   const MatrixX d = simulate_deformation(Fidelity::coupled, alpha, Omega) -
                     simulate_deformation(Fidelity::uncoupled, alpha, Omega);

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "flexbody/mode_selection.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
 
 /// Mode selection on the report's own printed numbers.
 namespace limber {

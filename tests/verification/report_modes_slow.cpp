@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "fem/assembly.hpp"
-#include "fem/elastic_inverse.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/mode_selection.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
 #include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
@@ -185,10 +185,10 @@ struct Errors {
   Vector3 acceleration;
   Vector3 augmentation;  ///< the residual vector in place of the last mode
   Vector3 joined;        ///< the residual vector beside all modes
-  Vector3 size;          ///< of the answer itself
+  Vector3 size;          ///< of the response itself
 };
 
-/// Answer from rest to the load applied at t = 0 and held.
+/// Response from rest to a constant load applied at t = 0.
 MatrixX step_answer(const VectorX& lambda, const VectorX& modal_load,
                     const VectorX& times) {
   MatrixX eta(lambda.size(), times.size());
@@ -200,7 +200,7 @@ MatrixX step_answer(const VectorX& lambda, const VectorX& modal_load,
 }
 
 /// A load that rises as (1 - cos(w t)) / 2 in place of a step, so that its
-/// content ends below the modes left out: forced answer from rest.
+/// content ends below the omitted modes: forced response from rest.
 MatrixX smooth_answer(const VectorX& lambda, const VectorX& modal_load,
                       const VectorX& times, double w) {
   MatrixX eta(lambda.size(), times.size());
@@ -268,9 +268,9 @@ TEST_F(ReportShearTest, SameModesGiveMoreByAccelerationAndAugmentation) {
     }
 }
 
-// A step drives every mode: what is gained is the mean alone. A load that
-// rises slower than the modes left out gains all. From three modes on: with
-// two, augmentation has to do without the second of the pair that carries y.
+// A step excites every mode: only the mean is improved. A load that rises
+// slower than the omitted modes is fully corrected. From three modes on: with
+// two, augmentation lacks the second mode of the pair for y.
 TEST_F(ReportShearTest, AugmentationBeatsAModeOfTheBasisUnderASmoothLoad) {
   for (const Eigen::Index modes : {3, 4, 5, 6, 8, 10, 15, 20, 40}) {
     const Errors errors = compare(*shear_, modes, History::smooth);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "fem/mesh_reader.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
 /// Loads on the reference beam, as force files have them, and eigenmodes that
@@ -52,7 +52,7 @@ inline flexbody::Recipe recipe_of(const MatrixX& loads,
   return recipe;
 }
 
-/// What is chosen; nothing else is in the basis.
+/// The selected modes; nothing else is in the basis.
 inline flexbody::SelectionRecord select_modes(
     const MatrixX& loads, const flexbody::AutomaticModes& automatic) {
   const flexbody::ReducedBody body =

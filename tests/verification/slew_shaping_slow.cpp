@@ -6,9 +6,11 @@
 #include <numbers>
 #include <optional>
 
-#include "app/reducer.hpp"
-#include "app/run_scene.hpp"
-#include "dynamics/natural_frequencies.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 /// examples/slew.toml: the hub is driven through half a turn by a trapezoidal

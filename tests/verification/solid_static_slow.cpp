@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "common/errors.hpp"
-#include "fem/mesh_reader.hpp"
-#include "fem/node_weights.hpp"
-#include "fem/static_solid.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
+#include "limber/fem/solid/static_solid.hpp"
 #include "verification/body_reference.hpp"
 
 /// The beam clamped at its root and bent by a fifth of its length: 4e8 N of

@@ -6,15 +6,16 @@
 #include <cmath>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/levels.hpp"
-#include "app/output_folder.hpp"
-#include "app/reducer.hpp"
-#include "app/terminal.hpp"
-#include "app/text_file.hpp"
-#include "app/validators.hpp"
-#include "common/errors.hpp"
-#include "results/level_picture.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/app/reports/levels.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/results/level_picture.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {

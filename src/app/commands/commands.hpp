@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
-
-namespace CLI {
-class App;
-}
+#include "limber/app/console/command_line.hpp"
 
 namespace limber::app {
-
-/// What the chosen subcommand does once the command line is read.
-using Action = std::function<void()>;
 
 /// Each adds its subcommand to `app`; choosing it sets `action`.
 void add_run(CLI::App& app, Action& action);
 void add_advise(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
-void add_verify(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);
 void add_frequencies(CLI::App& app, Action& action);
 void add_static(CLI::App& app, Action& action);

@@ -6,15 +6,18 @@
 #include <set>
 #include <string>
 
-#include "app/commands.hpp"
-#include "app/comparison.hpp"
-#include "app/comparison_report.hpp"
-#include "app/comparison_selection.hpp"
-#include "app/output_folder.hpp"
-#include "app/text_file.hpp"
-#include "app/validators.hpp"
-#include "common/errors.hpp"
-#include "scene/scenario_writer.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/compare/comparison.hpp"
+#include "limber/app/compare/comparison_pictures.hpp"
+#include "limber/app/compare/comparison_report.hpp"
+#include "limber/app/compare/comparison_selection.hpp"
+#include "limber/app/console/percent.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/build/scenario_writer.hpp"
 
 namespace limber::app {
 namespace {
@@ -59,7 +62,8 @@ ReferenceWish make_wish(const Options& options) {
 std::optional<Demand> make_demand(const Options& options) {
   if (options.tolerance.empty() && !options.measure.empty()) {
     throw InputError(
-        "--measure says which error --tolerance holds; give --tolerance, too");
+        "--measure says which error --tolerance applies to; give --tolerance, "
+        "too");
   }
   const ErrorMeasure measure =
       parse_error_measure(options.measure.empty() ? "both" : options.measure);
@@ -77,7 +81,7 @@ ComparisonSettings make_settings(const Options& options) {
           : fs::path(options.out);
   settings.cache = options.cache;
   settings.repeats = options.repeats;
-  // Levels alone are few; other axes multiply.
+  // Levels alone give few runs; other axes multiply them.
   settings.keep_runs = options.keep || (options.axes.eigenmodes.empty() &&
                                         options.axes.sources.empty() &&
                                         options.axes.steps.empty());
@@ -122,7 +126,7 @@ std::string describe_chosen(const Demand& demand, const ComparedRun& chosen,
       comparison.reference.cost.online / chosen.cost.online, file.string());
 }
 
-/// What the comparison says and draws.
+/// Text and pictures of the comparison.
 class ComparisonWriter {
  public:
   ComparisonWriter(const Comparison& comparison,
@@ -184,13 +188,13 @@ void compare(const Options& options) {
   const ComparisonSettings settings = make_settings(options);
   const scene::Scene scene = scene::load_scene(options.scenario);
   const ComparisonPlan plan = make_plan(axes, wish, scene);
-  // What a scene refuses, it refuses before anything is written.
+  // Errors of the scene are found before anything is written.
   for (const Choice& choice : plan.runs) {
     (void)scene::load_scene(options.scenario, to_overrides(choice));
   }
   OutputFolder folder(settings.folder);
   folder.claim(find_run_folders(plan, settings));
-  // Before the runs: who does not want it need not wait for them.
+  // Before the runs, so that a user can stop them at once.
   const std::string note = describe_default_reference(plan);
   if (!note.empty()) fmt::print(stderr, "limber: {}\n", note);
   const Comparison comparison = run_comparison(plan, settings);
@@ -253,7 +257,7 @@ void add_demand(CLI::App& command, Options& options) {
                      "Largest error, as in 1% or 0.01: choose the cheapest run "
                      "that meets it and write it as chosen.toml");
   command.add_option("--measure", options.measure,
-                     "Error that the tolerance holds: displacement, "
+                     "Error that the tolerance applies to: displacement, "
                      "deformation, or both (default): the larger one");
 }
 

@@ -9,13 +9,15 @@
 #include <numbers>
 #include <optional>
 
-#include "app/commands.hpp"
-#include "app/json.hpp"
-#include "app/reducer.hpp"
-#include "app/terminal.hpp"
-#include "app/validators.hpp"
-#include "dynamics/natural_frequencies.hpp"
-#include "scene/scene.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -28,7 +30,7 @@ struct Options {
   bool json = false;
 };
 
-/// What small motion is about, and what the user should know of it.
+/// The reference motion of the linearisation, and remarks for the user.
 struct Findings {
   std::string name;
   dynamics::NaturalModes modes;
@@ -66,27 +68,28 @@ void warn(Findings& f) {
   if (m.imbalance.matters) f.warnings.push_back(describe_imbalance(m));
   if (m.change > kExact) {
     f.warnings.push_back(fmt::format(
-        "what the system is changes by {:.2g} of itself while it turns by 1 "
-        "rad, in axes that rest and in axes that turn with it: frequencies are "
-        "of the instant, and exact only for a round rotor, or for any rotor in "
-        "round bearings",
+        "the linearised system changes by a fraction of {:.2g} while it "
+        "rotates by 1 rad, in fixed and in rotating axes: frequencies are "
+        "instantaneous, and exact only for an axisymmetric rotor, or for any "
+        "rotor in isotropic bearings",
         m.change));
   }
 }
 
 std::string name_whirl(const dynamics::NaturalMode& mode) {
-  constexpr double kLine = 0.05;  // less is no orbit
+  constexpr double kLine = 0.05;  // below this it is a line, not an orbit
   if (mode.orbit > kLine) return "forward";
   return mode.orbit < -kLine ? "backward" : "";
 }
 
-/// Of a circle in axes that turn, as it is seen from the world, with its sign.
+/// Frequency in the world frame of a circular motion in a rotating frame, with
+/// sign.
 std::optional<double> find_world_frequency(const Findings& f,
                                            const dynamics::NaturalMode& mode) {
   constexpr double kCircle = 0.99;
   const double spin = find_spin(f).norm();
   if (spin == 0.0 || std::abs(mode.orbit) < kCircle) return {};
-  constexpr double kStill = 1e-6;  // of the spin: its axis, put elsewhere
+  constexpr double kStill = 1e-6;  // of the spin: displaced axis
   const double w = std::copysign(mode.value.imag(), mode.orbit) + spin;
   return std::abs(w) < kStill * spin ? 0.0 : w / (2.0 * std::numbers::pi);
 }
@@ -106,7 +109,7 @@ std::string describe_mode(const Findings& f, const dynamics::NaturalMode& m) {
   }
   const std::optional<double> world = find_world_frequency(f, m);
   if (world && *world == 0.0) {
-    add("stands still, seen from the world");
+    add("stationary, seen from the world");
   } else if (world) {
     add(fmt::format("{} at {:.6g} Hz, seen from the world",
                     *world > 0.0 ? "forward" : "backward", std::abs(*world)));

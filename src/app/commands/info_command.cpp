@@ -8,11 +8,11 @@
 #include <memory>
 #include <optional>
 
-#include "app/commands.hpp"
-#include "app/describe.hpp"
-#include "common/errors.hpp"
-#include "fem/mesh_file_kind.hpp"
-#include "results/checkpoint_file.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/reports/describe.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_file_kind.hpp"
+#include "limber/results/checkpoint_file.hpp"
 
 namespace limber::app {
 namespace {
@@ -63,10 +63,8 @@ Json describe(const Options& options) {
 
 void add_info(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("info",
-                         "Tell what is in a mesh, reduced body, scenario, "
-                         "robot or results file");
+  CLI::App* command = app.add_subcommand(
+      "info", "Describe a mesh, reduced body, scenario, robot or results file");
   command->add_option("file", options->file, "File")->required();
   command->add_option("--unit", options->unit, "Metres per mesh unit");
   command->add_flag("--json", options->json, "Print one JSON object");

@@ -5,14 +5,14 @@
 #include <memory>
 #include <optional>
 
-#include "app/commands.hpp"
-#include "app/mesh_options.hpp"
-#include "app/mode_table.hpp"
-#include "app/reducer.hpp"
-#include "app/terminal.hpp"
-#include "app/validators.hpp"
-#include "common/errors.hpp"
-#include "scene/nodal_forces.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/mesh_options.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/app/reports/mode_table.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/scene/build/nodal_forces.hpp"
 
 namespace limber::app {
 namespace {

@@ -6,14 +6,14 @@
 #include <memory>
 #include <optional>
 
-#include "app/commands.hpp"
-#include "app/mesh_options.hpp"
-#include "app/operate.hpp"
-#include "app/output_folder.hpp"
-#include "app/terminal.hpp"
-#include "app/text_file.hpp"
-#include "common/hdf5_file.hpp"
-#include "common/whole_file.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/options/mesh_options.hpp"
+#include "limber/app/reports/operate.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/files/whole_file.hpp"
 
 namespace limber::app {
 namespace {
@@ -65,7 +65,7 @@ void write_fields(const OperatingAnswer& answer,
   });
 }
 
-/// To a tenth of the body's size, if it is less.
+/// Magnifies displacements to a tenth of the body's size if they are smaller.
 double find_exaggeration(const OperatingAnswer& answer) {
   constexpr double kSeen = 0.1;
   const double share =

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/describe.hpp"
-#include "app/mesh_options.hpp"
-#include "app/mode_options.hpp"
-#include "app/reducer.hpp"
-#include "app/terminal.hpp"
-#include "app/validators.hpp"
-#include "common/errors.hpp"
-#include "flexbody/body_file.hpp"
-#include "scene/link_start.hpp"
-#include "scene/nodal_forces.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/mesh_options.hpp"
+#include "limber/app/options/mode_options.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/app/reports/describe.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/scene/build/link_start.hpp"
+#include "limber/scene/build/nodal_forces.hpp"
 
 namespace limber::app {
 namespace {

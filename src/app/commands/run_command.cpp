@@ -5,14 +5,15 @@
 #include <memory>
 #include <optional>
 
-#include "app/commands.hpp"
-#include "app/interruption.hpp"
-#include "app/output_folder.hpp"
-#include "app/run_scene.hpp"
-#include "app/terminal.hpp"
-#include "app/validators.hpp"
-#include "dynamics/fidelity.hpp"
-#include "results/checkpoint_file.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/results/checkpoint_file.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -51,16 +52,16 @@ void run(const Options& options) {
   Run result = run_scene(scene, options.cache, checkpoints);
   if (options.checkpoint_interval && result.statistics.steps == 0 &&
       !result.failure) {
-    result.told.push_back(
+    result.printed_warnings.push_back(
         "--checkpoint-interval changes nothing: the run took no steps, all of "
         "it is known in closed form");
-    print_warnings({result.told.back()});
+    print_warnings({result.printed_warnings.back()});
   }
   folder.write([&](const std::filesystem::path& place) {
     write_run(result, place, options.xdmf || scene.scenario.output.xdmf);
   });
-  if (find_noted_signal() == 0) results::remove_checkpoint(checkpoints.file);
-  finish_run(result, folder.path(), options.json);
+  if (find_received_signal() == 0) results::remove_checkpoint(checkpoints.file);
+  finish_run(result, folder, options.json);
 }
 
 }  // namespace

@@ -5,19 +5,21 @@
 #include <cmath>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/levels.hpp"
-#include "app/output_folder.hpp"
-#include "app/reducer.hpp"
-#include "app/static_report.hpp"
-#include "app/terminal.hpp"
-#include "app/text_file.hpp"
-#include "common/errors.hpp"
-#include "dynamics/energy.hpp"
-#include "results/pictures.hpp"
-#include "results/probes_csv.hpp"
-#include "results/results_file.hpp"
-#include "results/xdmf.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/reports/levels.hpp"
+#include "limber/app/reports/static_report.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/results/pictures.hpp"
+#include "limber/results/probes_csv.hpp"
+#include "limber/results/results_file.hpp"
+#include "limber/results/xdmf.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -32,7 +34,7 @@ struct Options {
   bool xdmf = false;
 };
 
-/// An equilibrium, as a run of one state.
+/// An equilibrium as a run with one state.
 struct StaticRun {
   scene::Scene scene;
   scene::BuiltScene built;  ///< its initial state is the start
@@ -131,7 +133,7 @@ Json summarize(const StaticRun& run) {
   return json;
 }
 
-/// So that small displacements are seen.
+/// Magnifies small displacements to be visible.
 double find_exaggeration(const dynamics::Equilibrium& found) {
   constexpr double kSeen = 0.1;  // of the extent
   const double share = found.distance / found.extent;

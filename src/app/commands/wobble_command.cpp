@@ -5,14 +5,14 @@
 #include <cmath>
 #include <memory>
 
-#include "app/commands.hpp"
-#include "app/interruption.hpp"
-#include "app/mode_options.hpp"
-#include "app/output_folder.hpp"
-#include "app/run_scene.hpp"
-#include "app/validators.hpp"
-#include "common/errors.hpp"
-#include "scene/akantu_material.hpp"
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/options/mode_options.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/scene/robot/akantu_material.hpp"
 
 namespace limber::app {
 namespace {
@@ -69,7 +69,7 @@ dynamics::Fidelity find_level(const Options& options) {
 }
 
 std::vector<double> find_output_times(double step, double duration) {
-  constexpr double kMostOutputs = 1e7;  // they stay in memory
+  constexpr double kMostOutputs = 1e7;  // they are kept in memory
   if (!(duration / step <= kMostOutputs)) {
     throw InputError(fmt::format(
         "--step {:g} s takes {:.3g} steps until {:g} s, each an output; at "
@@ -131,7 +131,7 @@ void wobble(const Options& options) {
   folder.write([&](const std::filesystem::path& place) {
     write_run(result, place, options.xdmf);
   });
-  finish_run(result, folder.path(), options.json);
+  finish_run(result, folder, options.json);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/comparison.hpp"
+#include "limber/app/compare/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,12 @@
 #include <cmath>
 #include <set>
 
-#include "app/output_folder.hpp"
-#include "app/reducer.hpp"
-#include "app/terminal.hpp"
-#include "common/errors.hpp"
-#include "results/energy_audit.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/results/energy_audit.hpp"
+#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -82,7 +83,7 @@ class Runner {
       keep(choice, run);
       return assess(choice, run, reference);
     } catch (const NumericalError& error) {
-      // Not even a start: its reduction, or its initial state.
+      // Failed before the start: its reduction, or its initial state.
       clear_progress_bar();
       ComparedRun none;
       none.choice = choice;
@@ -111,7 +112,7 @@ class Runner {
     return run;
   }
 
-  /// Of simulations as one, all that the plan has; of other work as it is.
+  /// Progress over all simulations of the plan together; other work unchanged.
   void report_run(std::string_view what, double cost, double fraction) const {
     const std::size_t count = plan_.runs.size() + 1;
     if (what == "simulating") {
@@ -124,14 +125,14 @@ class Runner {
   }
 
   void report_repeat(int again, double fraction) const {
-    if (settings_.repeats < 2) return;  // short: until they last kEnough
+    if (settings_.repeats < 2) return;  // short: until they take kEnough
     report(bar_,
            fmt::format("run {} of {}, timed again", started_,
                        plan_.runs.size() + 1),
            (again - 1 + fraction) / (settings_.repeats - 1));
   }
 
-  /// Notes how long each reduction takes.
+  /// Records how long each reduction takes.
   scene::Reducer make_timed_reducer(const Progress& progress) {
     return time_reductions(make_reducer(progress),
                            [this](const std::string& key, double seconds) {
@@ -153,6 +154,7 @@ class Runner {
         settings_.folder / (is_reference ? "reference" : name);
     OutputFolder(folder).write([&](const std::filesystem::path& place) {
       write_run(run, place, run.scene.scenario.output.xdmf);
+      if (has_pictures(run)) draw_run(run, place);
     });
   }
 
@@ -192,7 +194,7 @@ class Runner {
     while (!run.failure && !is_enough()) {
       const int again = cost.repeats;
       const double seconds =
-          time_again(run, [&](std::string_view, double fraction) {
+          repeat_timing(run, [&](std::string_view, double fraction) {
             report_repeat(again, fraction);
           });
       least = std::min(least, seconds);
@@ -203,7 +205,7 @@ class Runner {
     return cost;
   }
 
-  /// Of each different body once.
+  /// Counts each distinct body once.
   std::optional<double> find_offline(const Run& run) const {
     std::set<std::string> keys;
     for (const dynamics::BodyModel& body : run.built.model.bodies) {

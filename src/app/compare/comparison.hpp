@@ -7,30 +7,31 @@
 #include <string>
 #include <vector>
 
-#include "app/comparison_plan.hpp"
-#include "app/json.hpp"
-#include "app/run_scene.hpp"
-#include "results/motion_error.hpp"
+#include "limber/app/compare/comparison_plan.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/results/motion_error.hpp"
 
-/// What `limber compare` finds: docs/compare.md.
+/// The comparison of `limber compare`: docs/compare.md.
 namespace limber::app {
 
 /// Difference of one probe column from the reference, over all output times.
 struct ProbeDifference {
-  double rms = 0.0;
-  double max = 0.0;
+  double rms = 0.0;  ///< [as `unit`]
+  double max = 0.0;  ///< [as `unit`]
   std::string unit;
 };
 
-/// What a run costs.
+/// Cost of a run.
 struct Cost {
-  double online = 0.0;  ///< wall time per simulated time, the least found [-]
-  int repeats = 0;      ///< runs of which it is the least
-  /// Wall time of the reductions [s]; none if the cache had one of them.
+  double online = 0.0;  ///< wall time per simulated time, minimum of the
+                        ///< repeats [-]
+  int repeats = 0;      ///< count of the runs of which it is the minimum
+  /// Wall time of the reductions [s]; none if one came from the cache.
   std::optional<double> offline;
-  long steps = 0;
-  long newton_iterations = 0;
-  int modes = 0;
+  long steps = 0;              ///< count
+  long newton_iterations = 0;  ///< count
+  int modes = 0;               ///< number of modes
 };
 
 /// One run of a comparison, without its states.
@@ -41,7 +42,7 @@ struct ComparedRun {
   std::optional<double> energy_drift;  ///< largest, of the throughput [-]
   std::map<std::string, ProbeDifference> probes;
   std::string stopped;       ///< why and when it ended early, or empty
-  results::History history;  ///< probes alone
+  results::History history;  ///< probes only
 };
 
 struct Comparison {
@@ -56,20 +57,20 @@ struct ComparisonSettings {
   std::filesystem::path folder;  ///< of results
   std::filesystem::path cache;   ///< empty for the default one
   bool keep_runs = false;        ///< a folder for each run
-  int repeats = 0;               ///< 0: until they last kEnough together
+  int repeats = 0;               ///< count; 0: until they take kEnough together
 };
-/// Runs shorter than this are simulated again, until they last as long [s].
+/// Runs shorter than this are repeated until they take this long together [s].
 inline constexpr double kEnough = 0.2;
 
 /// Simulates the reference and then every run of the plan.
-/// @throws NumericalError if the reference stops; InputError for a choice that
-/// its scene refuses.
+/// @throws NumericalError if the reference fails; InputError for a choice that
+/// the scene rejects.
 [[nodiscard]] Comparison run_comparison(const ComparisonPlan& plan,
                                         const ComparisonSettings& settings);
 
-/// Output times that steps of any compared length can reach: those of the
-/// scenario, without what is nearer to the one before than `longest` [s]. The
-/// last one stays.
+/// Output times that all compared steps can reach: those of the scenario,
+/// without those nearer than `longest` [s] to the previous one. The last one is
+/// always included.
 [[nodiscard]] std::vector<double> thin_times(const std::vector<double>& times,
                                              double longest);
 

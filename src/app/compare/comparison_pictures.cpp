@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/compare/comparison_pictures.hpp"
+
 #include <algorithm>
 
-#include "app/comparison_report.hpp"
-#include "app/comparison_selection.hpp"
-#include "app/probe_pictures.hpp"
-#include "app/terminal.hpp"
-#include "results/trade_picture.hpp"
+#include "limber/app/compare/comparison_selection.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/reports/probe_pictures.hpp"
+#include "limber/results/trade_picture.hpp"
 
 namespace limber::app {
 namespace {
@@ -15,7 +16,7 @@ std::optional<double> error_of(const ComparedRun& run) {
   return find_error(run.error->error, ErrorMeasure::both);
 }
 
-/// Of each level the completed run with the smallest error.
+/// For each level the completed run with the smallest error.
 std::vector<const ComparedRun*> find_best(const Comparison& comparison) {
   std::vector<const ComparedRun*> best;
   for (const ComparedRun& run : comparison.runs) {
@@ -38,7 +39,7 @@ std::vector<results::TradePoint> list_points(const Comparison& comparison) {
   for (const ComparedRun& run : comparison.runs) {
     if (!run.error) continue;
     const results::MotionError& error = run.error->error;
-    // Rigid links alone: what there is stands for the whole.
+    // Rigid links only: use the error that exists.
     const auto total = error.displacement.relative();
     points.push_back({std::string(to_string(run.choice.level)),
                       make_label(run.choice), run.cost.online,
@@ -58,14 +59,14 @@ void draw_comparison(const Comparison& comparison,
       list_points(comparison), comparison.reference.cost.online, tolerance);
   if (!why.empty()) {
     print_warnings({why});
-    return;  // the next would fail alike
+    return;  // the next would fail too
   }
   std::vector<NamedHistory> lines;
   for (const ComparedRun* run : find_best(comparison)) {
     lines.push_back({std::string(to_string(run->choice.level)), &run->history});
   }
   lines.push_back({"reference", &comparison.reference.history});
-  draw_probes(lines, folder);
+  print_warnings(results::draw_all(list_probe_pictures(lines, folder)));
 }
 
 }  // namespace limber::app

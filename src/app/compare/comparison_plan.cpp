@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/comparison_plan.hpp"
+#include "limber/app/compare/comparison_plan.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::app {
 namespace {
@@ -20,13 +20,13 @@ bool has_flexible_link(const scene::Scene& scene) {
                      [](const scene::Link& link) { return link.flexible; });
 }
 
-/// Whether a level moves its bodies by a reduced basis.
+/// Whether a level uses a reduced basis.
 bool has_basis(Fidelity level) {
   return level != Fidelity::rigid && level <= Fidelity::coupled;
 }
 
-/// The costliest level with a reduced basis, unless a higher one is among those
-/// that were asked for: whole meshes may cost hours.
+/// The most expensive level with a reduced basis, unless a higher one was
+/// requested: whole meshes may take hours.
 Fidelity find_highest_level(const Axes& axes) {
   Fidelity highest = Fidelity::coupled;
   for (const Fidelity level : axes.levels) highest = std::max(highest, level);
@@ -141,7 +141,7 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
   if (!problems.empty()) throw InputError(problems);
 }
 
-/// What was asked for in vain.
+/// Rejects requests without effect.
 void check_runs(const ComparisonPlan& plan, const Axes& axes) {
   if (plan.runs.empty()) {
     throw InputError("nothing to compare: the only run is the reference");
@@ -168,7 +168,7 @@ std::vector<std::string> list_details(const Choice& choice) {
 }
 
 const std::string& name_of(dynamics::IntegratorKind kind) {
-  return dynamics::integrator_names()[static_cast<std::size_t>(kind)];
+  return dynamics::to_string(kind);
 }
 
 std::string describe_details(const Choice& choice) {
@@ -213,7 +213,7 @@ std::string find_source_name(const BasisChoice& basis) {
 ComparisonPlan make_plan(const Axes& axes, const ReferenceWish& wish,
                          const scene::Scene& scene) {
   ComparisonPlan plan;
-  (void)combine_bases(axes);  // names are right, whoever takes them
+  (void)combine_bases(axes);  // checks the names even if unused
   plan.reference = find_reference(axes, wish, scene);
   plan.reference_is_default = !wish.level;
   check_reference(plan, axes, wish, scene);
@@ -245,8 +245,8 @@ std::string describe_default_reference(const ComparisonPlan& plan) {
         to_string(plan.reference.level));
   }
   return fmt::format(
-      "The reference is the costliest reduced level, '{}': what whole meshes "
-      "would tell beyond it shows nowhere. --reference full takes these, at "
+      "The reference is the costliest reduced level, '{}': errors relative to "
+      "whole meshes are not shown. --reference full uses whole meshes, at "
       "their cost.",
       to_string(plan.reference.level));
 }

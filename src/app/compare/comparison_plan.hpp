@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "limber/scene/build/scene.hpp"
 
-/// Which runs `limber compare` does: docs/compare.md.
+/// The runs of `limber compare`: docs/compare.md.
 namespace limber::app {
 
-/// How to simulate a scene. What is not given is as the scenario has it.
+/// How to simulate a scene. Unset values are those of the scenario.
 struct Choice {
   dynamics::Fidelity level = dynamics::Fidelity::coupled;
   scene::BasisChoice basis;
@@ -20,29 +20,30 @@ struct Choice {
   bool operator==(const Choice&) const = default;
 };
 
-/// What takes the scenario's words' place for a choice.
+/// The scenario values that a choice replaces.
 [[nodiscard]] scene::Overrides to_overrides(const Choice& choice);
 
-/// Values to combine; an empty axis means the scenario's own.
+/// Values to combine; an empty axis means the scenario's value.
 struct Axes {
   std::vector<dynamics::Fidelity> levels;  ///< empty: all that have a basis
-  std::vector<int> eigenmodes;
-  std::vector<std::string> sources;  ///< names from source_names()
-  std::vector<double> steps;         ///< [s]
+  std::vector<int> eigenmodes;             ///< numbers of eigenmodes
+  std::vector<std::string> sources;        ///< names from source_names()
+  std::vector<double> steps;               ///< [s]
 };
 
-/// What is asked of the reference; else it is the costliest that is reduced.
+/// Requested properties of the reference; by default the most expensive reduced
+/// one.
 struct ReferenceWish {
   std::optional<dynamics::Fidelity> level;
-  std::optional<int> eigenmodes;
-  std::optional<double> step;  ///< [s]
+  std::optional<int> eigenmodes;  ///< number of eigenmodes
+  std::optional<double> step;     ///< [s]
   std::optional<dynamics::IntegratorKind> integrator = {};
 };
 
 struct ComparisonPlan {
   std::vector<Choice> runs;  ///< none twice
   Choice reference;
-  bool reference_is_default = false;  ///< its level was not asked for
+  bool reference_is_default = false;  ///< its level was not requested
 };
 
 /// "eigenmodes", "interfaces", "loads", "all": eigenmodes alone, or with the
@@ -52,24 +53,24 @@ struct ComparisonPlan {
 [[nodiscard]] std::string find_source_name(const scene::BasisChoice& basis);
 
 /// The product of the axes. Levels without a reduced basis have no basis axes;
-/// neither has a scene without flexible links, which has but one level. The
-/// reference has the costliest level with a reduced basis, or a higher one that
-/// is among the axes, the most eigenmodes and all the sources among the axes,
-/// and half of the shortest step of any run, so that the error of the step
-/// shows in every run.
-/// @throws InputError for a name that is unknown, or a reference that leaves
-/// out what a run computes.
+/// neither has a scene without flexible links, which has only one level. The
+/// reference has the most expensive level with a reduced basis, or a higher one
+/// if that is among the axes, the most eigenmodes and all sources among the
+/// axes, and half the shortest step of any run, so that the error of the step
+/// is visible in every run.
+/// @throws InputError for an unknown name, or a reference that computes less
+/// than a run.
 [[nodiscard]] ComparisonPlan make_plan(const Axes& axes,
                                        const ReferenceWish& wish,
                                        const scene::Scene& scene);
 
-/// What a reference that was not asked for is, and what it leaves out; empty
-/// for one that was.
+/// Describes a default reference and what it neglects; empty for a requested
+/// one.
 [[nodiscard]] std::string describe_default_reference(
     const ComparisonPlan& plan);
 
-/// What a run will cost, in parts of what the reference costs: a rough model
-/// by level and step.
+/// Rough estimate of a run's cost relative to the reference's, by level and
+/// step.
 [[nodiscard]] double estimate_cost(const Choice& choice,
                                    const Choice& reference);
 

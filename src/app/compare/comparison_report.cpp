@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/comparison_report.hpp"
+#include "limber/app/compare/comparison_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/comparison_selection.hpp"
+#include "limber/app/compare/comparison_selection.hpp"
+#include "limber/app/console/percent.hpp"
 
 namespace limber::app {
 namespace {
@@ -17,7 +18,7 @@ Json or_null(const std::optional<double>& value) {
 /// Null: the scenario's.
 Json to_json(const std::optional<dynamics::IntegratorKind>& kind) {
   if (!kind) return nullptr;
-  return dynamics::integrator_names()[static_cast<std::size_t>(*kind)];
+  return dynamics::to_string(*kind);
 }
 
 Json to_json(const results::FieldError& error) {
@@ -112,13 +113,6 @@ std::string align(const std::vector<Cells>& rows) {
 }
 
 }  // namespace
-
-std::string to_percent(std::optional<double> share) {
-  if (!share) return "none";
-  const double percent = 100.0 * *share;
-  return percent < 10.0 ? fmt::format("{:.2g} %", percent)
-                        : fmt::format("{:.3g} %", percent);
-}
 
 Json to_json(const ComparedRun& run) {
   Json json{{"name", describe(run.choice)},

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/comparison_selection.hpp"
+#include "limber/app/compare/comparison_selection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/comparison_report.hpp"
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "common/parse_number.hpp"
+#include "limber/app/console/percent.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/parse_number.hpp"
 
 namespace limber::app {
 namespace {
@@ -102,12 +102,12 @@ void refuse(const Comparison& comparison, const Demand& demand) {
                                : "a " + to_string(demand.measure) + " error";
   if (closest == nullptr) {
     throw NumericalError(
-        fmt::format("no run has an error to hold against the tolerance of {}",
+        fmt::format("no run has an error to compare with the tolerance of {}",
                     to_percent(demand.tolerance)));
   }
   throw NumericalError(fmt::format(
       "nothing meets the tolerance of {}; '{}' comes closest with {} "
-      "of {}. More modes, other sources or a shorter step may mend it",
+      "of {}. More modes, other sources or a shorter step may help",
       to_percent(demand.tolerance), describe(closest->choice), what,
       to_percent(least)));
 }

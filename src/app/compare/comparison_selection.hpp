@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "app/comparison.hpp"
+#include "limber/app/compare/comparison.hpp"
 
 namespace limber::app {
 
-/// The error that a tolerance is held against.
+/// The error that a tolerance applies to.
 enum class ErrorMeasure { displacement, deformation, both };
 
 /// "displacement", "deformation", "both".
@@ -20,13 +20,13 @@ enum class ErrorMeasure { displacement, deformation, both };
 /// @throws InputError for anything else.
 [[nodiscard]] double parse_tolerance(const std::string& text);
 
-/// The error of all bodies [-]: for `both` the larger one. What the reference
-/// does not have does not count; where it has neither (rigid links alone), the
-/// rigid motion does. None if it does not move.
+/// The error of all bodies [-]: for `both` the larger one. Ignores a field that
+/// is zero in the reference; if both are (rigid links only), uses the rigid
+/// motion. None if nothing moves.
 [[nodiscard]] std::optional<double> find_error(
     const results::MotionError& error, ErrorMeasure measure);
 
-/// What a user wants of a choice.
+/// Requirements on a choice.
 struct Demand {
   double tolerance = 0.01;  ///< largest error [-]
   ErrorMeasure measure = ErrorMeasure::both;
@@ -37,7 +37,7 @@ struct Demand {
 [[nodiscard]] const ComparedRun* find_cheapest(const Comparison& comparison,
                                                const Demand& demand);
 
-/// What came closest, with its error.
+/// Reports the closest run and its error.
 /// @throws NumericalError, always.
 [[noreturn]] void refuse(const Comparison& comparison, const Demand& demand);
 

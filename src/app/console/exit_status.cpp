@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/exit_status.hpp"
+#include "limber/app/console/exit_status.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <new>
 #include <system_error>
 
-#include "app/interruption.hpp"
-#include "app/terminal.hpp"
-#include "common/errors.hpp"
-#include "dynamics/interrupted.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
 
 namespace limber::app {
 namespace {
@@ -29,13 +29,13 @@ int refuse(const InputError& error) {
 }
 
 int fail_output(const std::string& why) {
-  return fail(fmt::format("standard output cannot be written ({}); files that "
-                          "were asked for are whole",
+  return fail(fmt::format("standard output cannot be written ({}); the "
+                          "requested files are complete",
                           why),
               kBadInput);
 }
 
-// What is printed waits in a buffer: only now is it known to be written.
+// Output is buffered: flush to detect errors.
 bool has_written_output() {
   return std::cout.flush() && std::fflush(stdout) == 0 &&
          std::ferror(stdout) == 0;
@@ -57,7 +57,7 @@ int find_status(const std::function<void()>& work) {
     return refuse(error);
   } catch (const dynamics::Interrupted& end) {
     print_notice(end.what());
-    return 128 + find_noted_signal();
+    return 128 + find_received_signal();
   } catch (const NumericalError& error) {
     return fail(error.what(), kNoSolution);
   } catch (const std::bad_alloc&) {
@@ -86,10 +86,10 @@ int run_guarded(const std::function<void()>& work) {
   if (!has_written_output() && status == kSuccess) {
     return fail_output(std::generic_category().message(errno));
   }
-  if (status != kSuccess || find_noted_signal() == 0) return status;
+  if (status != kSuccess || find_received_signal() == 0) return status;
   print_notice(fmt::format("{} came after the end; all files are whole",
-                           name_signal(find_noted_signal())));
-  return 128 + find_noted_signal();
+                           name_signal(find_received_signal())));
+  return 128 + find_received_signal();
 }
 
 }  // namespace limber::app

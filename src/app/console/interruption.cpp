@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/interruption.hpp"
+#include "limber/app/console/interruption.hpp"
 
 #include <unistd.h>
 
@@ -7,14 +7,14 @@
 #include <csignal>
 #include <cstring>
 
-#include "common/unfinished_files.hpp"
+#include "limber/common/files/unfinished_files.hpp"
 
 namespace limber::app {
 namespace {
 
-// A handler sees nothing but variables of the process.
+// Signal handlers can only use global variables.
 std::atomic<bool> is_deferred = false;
-std::atomic<int> noted = 0;
+std::atomic<int> received = 0;
 
 void say(const char* text) {
   static_cast<void>(!write(STDERR_FILENO, text, std::strlen(text)));
@@ -23,7 +23,7 @@ void say(const char* text) {
 // Only what POSIX allows in a signal handler.
 void handle(int signal) {
   int none = 0;
-  if (is_deferred && noted.compare_exchange_strong(none, signal)) {
+  if (is_deferred && received.compare_exchange_strong(none, signal)) {
     say("\nlimber: ending between two steps; a second signal ends at once\n");
     return;
   }
@@ -51,7 +51,7 @@ void install_signal_handlers() {
 void DeferredSignals::begin() { is_deferred = true; }
 DeferredSignals::~DeferredSignals() { is_deferred = false; }
 
-int find_noted_signal() { return noted; }
+int find_received_signal() { return received; }
 
 const char* name_signal(int signal) {
   return signal == SIGINT ? "SIGINT" : "SIGTERM";

@@ -3,14 +3,14 @@
 
 namespace limber::app {
 
-/// From now on SIGINT and SIGTERM end the program with status 130 and 143 and
-/// words on standard error; unfinished files go. One that was ignored at the
-/// start, as `nohup` and shells do for jobs in the background, stays so.
+/// From now on SIGINT and SIGTERM end the program with status 130 and 143 and a
+/// message on standard error, and unfinished files are removed. A signal that
+/// was ignored at the start (`nohup`, background jobs) stays ignored.
 void install_signal_handlers();
 
-/// From `begin` to its end the first such signal is only noted, and the work
-/// looks for it between two steps; a second one ends the program as ever. One
-/// at a time.
+/// From `begin` until its destruction the first such signal is only recorded,
+/// and the work polls it between two steps; a second one ends the program as
+/// usual. One instance at a time.
 class DeferredSignals {
  public:
   DeferredSignals() = default;
@@ -20,8 +20,8 @@ class DeferredSignals {
   void begin();  // NOLINT: while this object lives
 };
 
-/// The signal that was noted; 0: none.
-[[nodiscard]] int find_noted_signal();
+/// The recorded signal; 0: none.
+[[nodiscard]] int find_received_signal();
 
 /// "SIGINT" or "SIGTERM".
 [[nodiscard]] const char* name_signal(int signal);

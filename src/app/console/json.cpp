@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/json.hpp"
+#include "limber/app/console/json.hpp"
 
 namespace limber::app {
 namespace {

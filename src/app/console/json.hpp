@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::app {
 
-/// Objects keep the order in which keys were added; what is not finite is
-/// written as null.
+/// Objects keep the order in which keys were added; values that are not finite
+/// are written as null.
 using Json = nlohmann::ordered_json;
 
 /// A column as a list of numbers, any other matrix as a list of its rows.
@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// Indented, for files and --json. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_text(const Json& json);
 
-/// An object for people: "key: value" lines, members indented.
+/// An object as readable text: "key: value" lines, members indented.
 [[nodiscard]] std::string outline(const Json& object);
 
 }  // namespace limber::app

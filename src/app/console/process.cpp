@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/process.hpp"
+#include "limber/app/console/process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,22 +14,24 @@
 #include <optional>
 #include <thread>
 
-#include "app/exit_status.hpp"
-#include "app/interruption.hpp"
-#include "app/terminal.hpp"
-#include "common/hdf5_exit.hpp"
-#include "common/parse_number.hpp"
+#include "limber/app/console/exit_status.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/common/files/hdf5_exit.hpp"
+#include "limber/common/parse_number.hpp"
 
 namespace limber::app {
 namespace {
 
 constexpr std::size_t kMebi = std::size_t{1} << 20;
 constexpr std::size_t kBufferOfAThread = 129 * kMebi;  // OpenBLAS's own
-constexpr rlim_t kStack = kMebi;            // of each thread: 64 KiB overflow
-constexpr std::size_t kRest = 256 * kMebi;  // the least that any command takes
+constexpr rlim_t kStack = kMebi;  // of each thread: 64 KiB overflow
+// The least that any command takes, and the libraries that come with the first
+// factor of a matrix.
+constexpr std::size_t kRest = (256 + 80) * kMebi;
 
-// A file would take the number of a stream that is closed, and what is printed.
-// One that can only be read stands in: printing fails.
+// Otherwise a file would get the descriptor of a closed stream, and receive its
+// output. Opened read-only, so that printing fails.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) < 0) {
@@ -85,7 +87,7 @@ void check_address_space() {
       "the {} MiB that linear algebra by {} threads takes; raise it, or set "
       "OPENBLAS_NUM_THREADS=1",
       needed / kMebi, threads));
-  _exit(kNoSolution);  // a thread of OpenBLAS's may never end
+  _exit(kNoSolution);  // an OpenBLAS thread may never end
 }
 
 void check_stack() {

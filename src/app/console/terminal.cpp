@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/terminal.hpp"
+#include "limber/app/console/terminal.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,8 +11,8 @@
 #include <memory>
 #include <new>
 
-#include "app/time_estimate.hpp"
-#include "common/echo.hpp"
+#include "limber/app/console/time_estimate.hpp"
+#include "limber/common/echo.hpp"
 
 namespace limber::app {
 namespace {
@@ -28,7 +28,7 @@ double now() {
 
 bool is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-/// What is being done, how long it will take, and when it was last drawn.
+/// Current task, its estimated time, and when the bar was last drawn.
 struct Bar {
   TimeEstimate estimate;
   double drawn = 0.0;  // wall time [s]
@@ -76,7 +76,7 @@ void clear_progress_bar() {
 
 void print_notice(const std::string& text) noexcept {
   try {
-    const std::string line = "limber: " + spell_out_controls(text) + "\n";
+    const std::string line = "limber: " + escape_controls(text) + "\n";
     static_cast<void>(!std::fwrite(line.data(), 1, line.size(), stderr));
   } catch (const std::bad_alloc&) {
     std::fputs("limber: error: out of memory\n", stderr);

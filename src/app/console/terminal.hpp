@@ -4,18 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "common/progress.hpp"
+#include "limber/common/progress.hpp"
 
 namespace limber::app {
 
-/// A bar on standard error if that is a terminal; a line if work will be long.
+/// A progress bar if standard error is a terminal; else a line if work will be
+/// long.
 [[nodiscard]] Progress make_progress_bar();
 
 /// Removes the bar, so that other lines can follow.
 void clear_progress_bar();
 
-/// "limber: error: ..." on standard error, control characters spelt out. Like
-/// all that goes there it is no matter if nobody can read it.
+/// "limber: error: ..." on standard error, control characters escaped. Failures
+/// to write there are ignored.
 void print_error(const std::string& text) noexcept;
 
 /// The same without "error: ".

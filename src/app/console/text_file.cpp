@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/text_file.hpp"
+#include "limber/app/console/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "common/whole_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/whole_file.hpp"
 
 namespace limber::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/time_estimate.hpp"
+#include "limber/app/console/time_estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -24,12 +24,12 @@ std::optional<double> TimeEstimate::left() const {
 }
 
 std::string TimeEstimate::take_announcement() {
-  const bool is_foretold = what_.find(kForetold) != std::string::npos;
-  if (is_foretold && told_.insert(what_).second) return what_;
+  const bool has_duration = what_.find(kDurationMark) != std::string::npos;
+  if (has_duration && announced_.insert(what_).second) return what_;
   const double measured = now_ - start_;
   const std::optional<double> rest = left();
   if (!rest || measured < kPiece || measured + *rest < kLong) return "";
-  if (!told_.insert(what_).second) return "";
+  if (!announced_.insert(what_).second) return "";
   return fmt::format("{}: about {} to go, by its first {}", what_,
                      to_duration(*rest), to_duration(measured));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/mesh_options.hpp"
+#include "limber/app/options/mesh_options.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::app {
 namespace {

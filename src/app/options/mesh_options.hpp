@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "flexbody/recipe.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 namespace CLI {
 class App;
@@ -11,18 +11,18 @@ class App;
 
 namespace limber::app {
 
-/// A mesh and one material, as subcommands take them.
+/// Command-line options of a mesh and one material.
 struct MeshOptions {
   std::string file;
   flexbody::Material material;
-  double size = 0.0;
-  int order = 0;
-  double unit = 1.0;
+  double size = 0.0;  ///< element size [mesh units]; 0: the file's
+  int order = 0;      ///< of elements, 1 to 3; 0: the file's, else 2 [-]
+  double unit = 1.0;  ///< metres per mesh unit [m]
 };
 
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 
-/// Recipe of the mesh and its material, nothing else.
+/// Recipe of the mesh and its material only.
 /// @throws InputError for a material outside its range.
 [[nodiscard]] flexbody::Recipe make_recipe(const MeshOptions& options);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/mode_options.hpp"
+#include "limber/app/options/mode_options.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 
-#include "app/validators.hpp"
-#include "common/echo.hpp"
-#include "common/errors.hpp"
+#include "limber/app/options/validators.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::app {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "app/json.hpp"
-#include "flexbody/recipe.hpp"
-#include "flexbody/selection_record.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/flexbody/model/selection_record.hpp"
 
 namespace CLI {
 class App;
@@ -14,19 +14,19 @@ class App;
 
 namespace limber::app {
 
-/// How many eigenmodes, or by what they are chosen.
+/// Number of eigenmodes, or how they are selected.
 struct ModeOptions {
-  std::string count = "10";  ///< a number or "auto"
-  std::optional<double> threshold;
+  std::string count = "10";         ///< a number or "auto"
+  std::optional<double> threshold;  ///< share to reach, in [0, 1] [-]
   std::optional<std::string> measure;
-  std::optional<int> candidates;
+  std::optional<int> candidates;  ///< number to select from
 };
 
 /// @param names of the option that takes the count, e.g. "--modes"
 void add_mode_options(CLI::App& command, const std::string& names,
                       ModeOptions& options);
 
-/// Puts them into a basis. @throws InputError for what is no count, and for a
+/// Copies them to a basis. @throws InputError for an invalid count, and for a
 /// threshold, measure or candidates without "auto".
 void apply(const ModeOptions& options, flexbody::BasisOptions& basis);
 

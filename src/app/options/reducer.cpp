@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/reducer.hpp"
+#include "limber/app/options/reducer.hpp"
 
 #include <chrono>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #ifdef LIMBER_HAS_REDUCTION
-#include "flexbody/fem_full_body.hpp"
-#include "flexbody/reduce.hpp"
+#include "limber/reduction/full_body_maker.hpp"
+#include "limber/reduction/reduce.hpp"
 #endif
 
 namespace limber::app {

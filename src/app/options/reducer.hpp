@@ -4,26 +4,28 @@
 #include <functional>
 #include <string>
 
-#include "common/progress.hpp"
-#include "flexbody/reduce_mode_study.hpp"
-#include "scene/scene.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/reduction/mode_study.hpp"
+#include "limber/scene/build/full_bodies.hpp"
+#include "limber/scene/build/reductions.hpp"
 
 namespace limber::app {
 
-/// flexbody::make_reducer, or a refusal in a build without Gmsh and CHOLMOD.
+/// flexbody::make_reducer; throws InputError in a build without Gmsh and
+/// CHOLMOD.
 [[nodiscard]] scene::Reducer make_reducer(const Progress& progress);
 
-/// Notes how long a body took, with its mesh [s], by its content key.
+/// Receives the time [s] of a body, with its mesh, by its content key.
 using NoteSeconds = std::function<void(const std::string& key, double seconds)>;
-/// `reducer`, watched.
+/// `reducer`, with its times reported to `note`.
 [[nodiscard]] scene::Reducer time_reductions(const scene::Reducer& reducer,
                                              const NoteSeconds& note);
 
 /// flexbody::make_full_body, or nothing in a build without Gmsh and CHOLMOD.
 [[nodiscard]] scene::FullMaker make_full_maker(const Progress& progress);
 
-/// flexbody::study_modes (study_basis if its recipe `has_static` modes), or the
-/// same refusal.
+/// flexbody::study_modes (study_basis if its recipe `has_static` modes); throws
+/// likewise.
 [[nodiscard]] flexbody::ModeStudy run_mode_study(const flexbody::Recipe& recipe,
                                                  bool has_static,
                                                  const Progress& progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/validators.hpp"
+#include "limber/app/options/validators.hpp"
 
 #include <fmt/format.h>
 

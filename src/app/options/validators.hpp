@@ -5,9 +5,9 @@
 
 namespace limber::app {
 
-/// Accepts finite numbers above zero; says so where the value is another.
+/// Accepts finite positive numbers, with a message for others.
 [[nodiscard]] CLI::Validator make_positive();
-/// The same for numbers that are not below zero.
+/// The same for non-negative numbers.
 [[nodiscard]] CLI::Validator make_not_negative();
 
 }  // namespace limber::app

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/describe.hpp"
+#include "limber/app/reports/describe.hpp"
 
 #include <numbers>
 
-#include "app/mode_options.hpp"
-#include "common/errors.hpp"
-#include "dynamics/fidelity.hpp"
-#include "flexbody/body_file.hpp"
-#include "results/checkpoint_file.hpp"
-#include "results/results_file.hpp"
-#include "scene/robot_reader.hpp"
-#include "scene/scenario_reader.hpp"
+#include "limber/app/options/mode_options.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/results/checkpoint_file.hpp"
+#include "limber/results/results_file.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
 #ifdef LIMBER_HAS_REDUCTION
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 #endif
 
 namespace limber::app {

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "app/json.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
-/// What `limber info` tells about each kind of file.
+/// Reports of `limber info` for each kind of file.
 namespace limber::app {
 
 [[nodiscard]] Json describe_scenario(const std::filesystem::path& file);
@@ -18,7 +18,7 @@ namespace limber::app {
 [[nodiscard]] Json describe_mesh(const std::filesystem::path& file,
                                  double unit);
 
-/// Adds how a body's modes were chosen and what it starts with, if at all.
+/// Adds the selection of a body's modes and its initial deformation, if any.
 void add_choices(const flexbody::ReducedBody& body, Json& json);
 
 }  // namespace limber::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/event_report.hpp"
+#include "limber/app/reports/event_report.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ constexpr std::size_t kMostLines = 10;
 constexpr std::size_t kMostMarks = 12;
 /// Width of a mark's label, as a share of the picture's.
 constexpr double kLabelWidth = 0.015;
-/// Letters that fit along a mark.
+/// Characters that fit along a mark.
 constexpr std::size_t kMostLetters = 48;
 
 /// Events of one kind.
@@ -44,7 +44,7 @@ std::string place(const Event& event) {
   return fmt::format("{:.6g} s '{}'", event.time, event.source);
 }
 
-// What no longer fits is there as dots.
+// Abbreviates text that no longer fits by dots.
 void append(std::string& label, const std::string& more) {
   const std::string dots = ", ...";
   if (label.ends_with(dots)) return;

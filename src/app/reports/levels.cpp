@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/levels.hpp"
+#include "limber/app/reports/levels.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,11 @@
 #include <cmath>
 #include <map>
 
-#include "app/reducer.hpp"
-#include "app/terminal.hpp"
-#include "dynamics/mean_frame.hpp"
-#include "dynamics/run_record.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/scene/build/build_system.hpp"
 
 namespace limber::app {
 namespace {
@@ -48,7 +49,7 @@ SystemModel find_flexible_model(const scene::Scene& scene,
   return model;
 }
 
-/// The levels that the scenario asks for, one a body.
+/// The levels that the scenario requests, one per body.
 std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
                                            const dynamics::SystemModel& model) {
   std::vector<dynamics::Fidelity> asked;
@@ -66,7 +67,7 @@ scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
                                  const scene::KnownBodies& known,
                                  const std::filesystem::path& cache) {
   scene::Scene same = scene;
-  // The rows that level full had them keep: so nothing is reduced again.
+  // The same rows as for level `full`, so that nothing is reduced again.
   for (scene::Link& link : same.robot.links) {
     if (link.flexible && scene.scenario.level_of(link.name) == Fidelity::full) {
       link.flexible->rows = flexbody::parse_rows({"all"});

@@ -7,36 +7,38 @@
 #include <string>
 #include <vector>
 
-#include "app/json.hpp"
-#include "dynamics/followed.hpp"
-#include "dynamics/level_advice.hpp"
-#include "scene/scene.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/dynamics/analysis/level_advice.hpp"
+#include "limber/dynamics/monitors/followed.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene.hpp"
 
-/// The level of each flexible body: what it was, what it should be.
+/// The level of each flexible body: used and recommended.
 namespace limber::app {
 
 struct BodyLevel {
   std::string name;
-  dynamics::Fidelity used = dynamics::Fidelity::coupled;  ///< or asked for
+  dynamics::Fidelity used = dynamics::Fidelity::coupled;  ///< or requested
   dynamics::BodyPeaks peaks;
   dynamics::LevelLimits limits;
   dynamics::LevelAdvice advice;
   std::shared_ptr<const flexbody::ReducedBody> reduced;
   std::vector<dynamics::RotationPoint> track;
-  /// Of rotation; made by find_bounds alone, since it takes a while.
+  /// Of rotation; set only by find_bounds, since it is expensive.
   std::shared_ptr<const flexbody::InertialDisplacementBound> bound;
 
-  /// The level used leaves out no more than the limits allow.
+  /// Whether the level used neglects no more than the limits allow.
   [[nodiscard]] bool is_justified() const {
     return used >= advice.level && !is_stretched();
   }
-  /// It deforms too far for linear elasticity, which all but level `full` have.
+  /// Whether the deformation is too large for linear elasticity, which all
+  /// levels but `full` assume.
   [[nodiscard]] bool is_stretched() const {
     return advice.is_beyond_linear && used != dynamics::Fidelity::full;
   }
 };
 
-/// Advice on every flexible body that `survey` watched.
+/// Advice on every flexible body that `survey` observed.
 /// @param model the survey's
 /// @param used one level a body of the model
 [[nodiscard]] std::vector<BodyLevel> judge_levels(
@@ -44,11 +46,11 @@ struct BodyLevel {
     const std::vector<dynamics::Fidelity>& used,
     const dynamics::AdviceSettings& settings);
 
-/// Watches a run of a scene at every step, to tell whether its levels were
+/// Observes a run of a scene at every step, to judge whether its levels were
 /// justified.
 class RunSurvey {
  public:
-  /// Bodies at level `full` are reduced here. @param scene, built kept by
+  /// Bodies at level `full` are reduced here. @param scene, built stored by
   /// reference
   RunSurvey(const scene::Scene& scene, const scene::BuiltScene& built,
             const std::filesystem::path& cache);
@@ -56,7 +58,7 @@ class RunSurvey {
   RunSurvey& operator=(const RunSurvey&) = delete;
   ~RunSurvey() = default;
 
-  /// None where no body is flexible. @returns what refers to this
+  /// None if no body is flexible. @returns an observer that refers to this
   [[nodiscard]] std::optional<dynamics::Spectator> make_spectator();
   void include(const dynamics::SystemState& state);
   [[nodiscard]] std::vector<BodyLevel> judge() const;
@@ -75,8 +77,8 @@ class RunSurvey {
     const scene::Scene& scene, dynamics::Fidelity level,
     const scene::KnownBodies& known, const std::filesystem::path& cache);
 
-/// What `limber advise` says: runs the scene with every link rigid and judges
-/// the levels that it asks for.
+/// Runs the scene with every link rigid and judges the levels that it requests,
+/// for `limber advise`.
 /// @param cache empty for the default one
 [[nodiscard]] std::vector<BodyLevel> advise_scene(
     const scene::Scene& scene, const std::filesystem::path& cache);
@@ -89,7 +91,7 @@ void find_bounds(std::vector<BodyLevel>& levels);
     const std::vector<BodyLevel>& levels);
 
 [[nodiscard]] Json to_json(const BodyLevel& level);
-/// A paragraph for people.
+/// A readable paragraph.
 [[nodiscard]] std::string to_text(const BodyLevel& level);
 /// The [fidelity] table of a scenario that follows the advice.
 [[nodiscard]] std::string to_fidelity_table(

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "app/levels.hpp"
+#include "limber/app/reports/levels.hpp"
 
 namespace limber::app {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using dynamics::Fidelity;
 using dynamics::Peak;
 
-/// The boundaries of one body; what does not exist is empty.
+/// The boundaries of one body; empty if they do not exist.
 struct Boundaries {
   std::optional<double> report_displacement;  ///< |alpha| + |Omega|^2 [1/s^2]
   std::optional<double> report_linear;
@@ -37,7 +37,7 @@ Boundaries find_boundaries(const BodyLevel& level) {
     result.bound_displacement =
         level.bound->find_omega(0.0, limits.displacement);
     result.bound_linear = level.bound->find_omega(0.0, limits.linear_limit);
-    // Both at their peaks: in the mean-axis frame alpha bends nothing.
+    // Both at their peaks: in the mean-axis frame alpha causes no deformation.
     result.margin = level.bound->calc_margin(
         level.peaks.alpha.value, level.peaks.Omega.value, limits.displacement);
   }
@@ -110,7 +110,7 @@ std::string describe_rotation(const BodyLevel& level) {
   return text;
 }
 
-/// A key of TOML: bare where it can be.
+/// A TOML key, quoted only if necessary.
 std::string to_key(const std::string& name) {
   const bool is_bare =
       !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {

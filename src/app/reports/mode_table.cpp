@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/mode_table.hpp"
+#include "limber/app/reports/mode_table.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ VectorX frequencies(const ModeStudy& study) {
   return study.lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
-/// Percent of a total; zeros if that is zero.
+/// Percent of a total; zeros if the total is zero.
 VectorX find_percent(const VectorX& parts, double total) {
   if (total == 0.0) return VectorX::Zero(parts.size());
   return 100.0 / total * parts;

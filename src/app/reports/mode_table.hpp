@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/json.hpp"
-#include "flexbody/reduce_mode_study.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/reduction/mode_study.hpp"
 
 namespace limber::app {
 
-/// The study of `limber modes`, for programs and for people. Shares are in
-/// percent of the total over all modes of the mesh.
+/// The study of `limber modes`, as JSON and as text. Shares are in percent of
+/// the total over all modes of the mesh.
 [[nodiscard]] Json to_json(const flexbody::ModeStudy& study);
 void print_text(const flexbody::ModeStudy& study);
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/operate.hpp"
+#include "limber/app/reports/operate.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "app/reducer.hpp"
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 #ifdef LIMBER_HAS_REDUCTION
-#include "fem/node_weights.hpp"
-#include "flexbody/fem_operating_state.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
+#include "limber/reduction/operating_states.hpp"
 #endif
 
 namespace limber::app {
@@ -166,7 +166,7 @@ OperatingAnswer find_operating_state(const flexbody::Recipe& recipe,
                                      const OperatingRequest& request,
                                      const Progress& progress) {
   check(request);
-  (void)make_reducer(progress).make_mesh(recipe.mesh);  // refuses
+  (void)make_reducer(progress).make_mesh(recipe.mesh);  // throws
   return {};
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/probe_pictures.hpp"
+#include "limber/app/reports/probe_pictures.hpp"
 
 #include <fmt/format.h>
 
-#include "app/event_report.hpp"
-#include "app/terminal.hpp"
-#include "results/path_step.hpp"
-#include "results/pictures.hpp"
+#include "limber/app/reports/event_report.hpp"
+#include "limber/results/path_step.hpp"
+#include "limber/results/pictures.hpp"
 
 namespace limber::app {
 namespace {
@@ -40,8 +39,9 @@ results::Panel make_panel(const std::vector<NamedHistory>& lines,
 
 }  // namespace
 
-void draw_probes(const std::vector<NamedHistory>& lines,
-                 const std::filesystem::path& folder) {
+std::vector<results::Picture> list_probe_pictures(
+    const std::vector<NamedHistory>& lines,
+    const std::filesystem::path& folder) {
   const results::History& history = *lines.front().history;
   const auto& columns = history.columns;
   std::vector<results::Mark> marks;
@@ -49,20 +49,25 @@ void draw_probes(const std::vector<NamedHistory>& lines,
     marks =
         make_marks(history.events, history.times.front(), history.times.back());
   }
+  std::vector<results::Picture> pictures;
   for (std::size_t first = 0; first < columns.size();) {
     const std::string name = find_probe_name(columns[first].name);
-    std::vector<results::Panel> panels;
-    for (; first < columns.size(); ++first) {
-      if (find_probe_name(columns[first].name) != name) break;
-      panels.push_back(make_panel(lines, first));
+    std::size_t end = first;
+    while (end < columns.size() && find_probe_name(columns[end].name) == name) {
+      ++end;
     }
-    const std::string why = results::draw_overlay(
-        folder / ("probe_" + results::to_path_step(name) + ".png"), name,
-        panels, marks);
-    if (why.empty()) continue;
-    print_warnings({why});
-    return;  // the next would fail alike
+    pictures.emplace_back([lines, marks, folder, name, first, end] {
+      std::vector<results::Panel> panels;
+      for (std::size_t column = first; column < end; ++column) {
+        panels.push_back(make_panel(lines, column));
+      }
+      return results::draw_overlay(
+          folder / ("probe_" + results::to_path_step(name) + ".png"), name,
+          panels, marks);
+    });
+    first = end;
   }
+  return pictures;
 }
 
 }  // namespace limber::app

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/followed.hpp"
-#include "results/history.hpp"
+#include "limber/dynamics/monitors/followed.hpp"
+#include "limber/results/draw_all.hpp"
+#include "limber/results/history.hpp"
 
 namespace limber::app {
 
-/// A line in a picture: its name and what it follows.
+/// A curve in a picture: its name and its data.
 struct NamedHistory {
   std::string name;
   const results::History* history;
@@ -19,9 +20,10 @@ struct NamedHistory {
 };
 
 /// A picture a probe, "probe_NAME.png": its columns, a line a history. All have
-/// the columns of the first. A single history's events are marked. What cannot
-/// be drawn is a warning.
-void draw_probes(const std::vector<NamedHistory>& lines,
-                 const std::filesystem::path& folder);
+/// the columns of the first. A single history's events are marked.
+/// @param lines whose histories are there until the pictures are drawn
+[[nodiscard]] std::vector<results::Picture> list_probe_pictures(
+    const std::vector<NamedHistory>& lines,
+    const std::filesystem::path& folder);
 
 }  // namespace limber::app

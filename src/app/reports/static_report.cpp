@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/static_report.hpp"
+#include "limber/app/reports/static_report.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "dynamics/energy.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/natural_frequencies.hpp"
-#include "dynamics/node_motion.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 
 namespace limber::app {
 namespace {
 
+using dynamics::BodyIndex;
 using dynamics::SystemModel;
 using dynamics::SystemState;
 
-/// Its matrix is dense: systems with more unknowns are not asked whether they
-/// are stable.
+/// Limit of the stability analysis, whose matrix is dense.
 constexpr int kMostUnknowns = 600;
 
-double find_deformation(const SystemModel& model, int b,
+double find_deformation(const SystemModel& model, BodyIndex b,
                         const SystemState& state) {
   const auto& rows = model.bodies[static_cast<std::size_t>(b)].reduced->rows;
   MatrixX u(rows.x_B.size(), 1);
@@ -29,7 +29,7 @@ double find_deformation(const SystemModel& model, int b,
       u.reshaped(3, rows.x_B.cols()).colwise().squaredNorm().maxCoeff());
 }
 
-StaticBody describe_body(const SystemModel& model, int b,
+StaticBody describe_body(const SystemModel& model, BodyIndex b,
                          const SystemState& start, const SystemState& state,
                          const dynamics::SystemTerms& terms) {
   const auto i = static_cast<std::size_t>(b);
@@ -47,7 +47,7 @@ StaticBody describe_body(const SystemModel& model, int b,
   out.strain_energy =
       body.full >= 0
           ? terms.full[static_cast<std::size_t>(body.full)].strain_energy
-          : 0.5 * eta.cwiseAbs2().dot(body.lambda);
+          : flexbody::calc_elastic_energy(body.elasticity, eta);
   return out;
 }
 
@@ -69,7 +69,7 @@ StaticReport report_equilibrium(const scene::BuiltScene& built,
   dynamics::SystemTerms terms = make_terms(model);
   calc_terms(model, found.state, Side::right, terms);
   StaticReport report;
-  for (int b = 0; b < std::ssize(model.bodies); ++b) {
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
     report.bodies.push_back(
         describe_body(model, b, built.initial, found.state, terms));
   }

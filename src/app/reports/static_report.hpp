@@ -4,24 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "app/json.hpp"
-#include "dynamics/equilibrium.hpp"
-#include "scene/scene.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/scene/build/build_system.hpp"
 
-/// What `limber static` says of an equilibrium.
+/// Report of `limber static` on an equilibrium.
 namespace limber::app {
 
-/// One body, against the start.
+/// One body, relative to the start.
 struct StaticBody {
   std::string name;
   double moved = 0.0;          ///< of the centre of mass [m]
   double turned = 0.0;         ///< [rad]
-  double deformation = 0.0;    ///< largest of a kept node [m]
+  double deformation = 0.0;    ///< largest of a stored node [m]
   double size = 0.0;           ///< longest edge; 0 if rigid [m]
   double strain_energy = 0.0;  ///< [J]
 };
 
-/// One coupler or transmission: what it carries.
+/// Load of one coupler or transmission.
 struct StaticCoupler {
   std::string name;
   double force = 0.0;   ///< [N]; of a gear the force along its coordinate
@@ -32,8 +32,8 @@ struct StaticReport {
   std::vector<StaticBody> bodies;
   std::vector<StaticCoupler> couplers;
   double coupler_energy = 0.0;  ///< [J]
-  /// Lowest natural frequency there, negative if a disturbance grows; none if
-  /// it was not sought [Hz].
+  /// Lowest natural frequency at equilibrium, negative if a disturbance grows;
+  /// none if not computed [Hz].
   std::optional<double> lowest_frequency;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/checkpoints.hpp"
+#include "limber/app/run/checkpoints.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,24 +9,24 @@
 #include <system_error>
 #include <utility>
 
-#include "app/terminal.hpp"
-#include "common/errors.hpp"
-#include "results/checkpoint_file.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/results/checkpoint_file.hpp"
 
 namespace limber::app {
 namespace {
 
-// Differences that are told; the first ones are usually the cause of the rest.
-constexpr std::size_t kMostTold = 5;
+// Most differences listed; the first ones usually cause the rest.
+constexpr std::size_t kMostListed = 5;
 
 void check_is_same_run(const std::filesystem::path& file,
                        const Manifest& before, const Manifest& now) {
   std::vector<std::string> differences = find_differences(before, now);
   if (differences.empty()) return;
   const std::size_t count = differences.size();
-  if (count > kMostTold) {
-    differences.resize(kMostTold);
-    differences.push_back(fmt::format("and {} more", count - kMostTold));
+  if (count > kMostListed) {
+    differences.resize(kMostListed);
+    differences.push_back(fmt::format("and {} more", count - kMostListed));
   }
   throw InputError(fmt::format(
       "the checkpoint '{}' is of another run: {}; run without --resume, or "
@@ -34,7 +34,7 @@ void check_is_same_run(const std::filesystem::path& file,
       file.string(), fmt::join(differences, "; ")));
 }
 
-// Whatever it is.
+// Whether anything of this name exists.
 bool is_there(const std::filesystem::path& file) {
   std::error_code error;
   return std::filesystem::symlink_status(file, error).type() !=
@@ -46,7 +46,7 @@ void warn(const std::string& text, std::vector<std::string>& warnings) {
   warnings.push_back(text);
 }
 
-// Writes checkpoints for as long as the run lives.
+// Writes checkpoints during the run.
 class Keeper {
  public:
   using MakeWriter = std::function<results::CheckpointWriter()>;
@@ -67,7 +67,7 @@ class Keeper {
       writer_->write(run, history_);
     } catch (const InputError& error) {
       if (std::exchange(has_warned_, true)) return;
-      warn(fmt::format("no checkpoint at t = {:.9g} s: {}; the run goes on",
+      warn(fmt::format("no checkpoint at t = {:.9g} s: {}; the run continues",
                        run.time, error.what()),
            warnings_);
     }
@@ -100,9 +100,9 @@ dynamics::Continuation make_continuation(
   };
   if (!plan.resumes) return continuation;
   if (!is_there(plan.file)) {
-    warn(fmt::format(
-             "there is no checkpoint '{}' to go on from; the run begins anew",
-             plan.file.string()),
+    warn(fmt::format("there is no checkpoint '{}' to resume from; the run "
+                     "starts from the beginning",
+                     plan.file.string()),
          warnings);
     return continuation;
   }

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "app/interruption.hpp"
-#include "common/manifest.hpp"
-#include "dynamics/simulation.hpp"
-#include "results/history.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/common/records/manifest.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/results/history.hpp"
 
 namespace limber::app {
 
-/// Whether and where a run leaves checkpoints, and whether it goes on from one.
+/// Whether and where a run writes checkpoints, and whether it continues from
+/// one.
 struct CheckpointPlan {
   std::filesystem::path file;  ///< empty: none
   double interval = 60.0;      ///< of wall time [s]
@@ -21,15 +22,15 @@ struct CheckpointPlan {
   DeferredSignals* signals = nullptr;  ///< deferred from when steps begin
 };
 
-/// The plan at work on a run. A checkpoint to go on from is read at once, with
-/// the history up to it; without one the run begins anew, with a warning. A
-/// checkpoint that cannot be written is a warning, once, and the run goes on.
-/// From then on `plan.signals` ends the run between two steps.
+/// Applies the plan to a run. A checkpoint to continue from is read at once,
+/// with the history up to it; without one the run starts from the beginning,
+/// with a warning. Failure to write a checkpoint gives one warning, and the run
+/// continues. From then on `plan.signals` ends the run between two steps.
 /// @param describe makes the run's manifest, when it is needed
-/// @param history outlives what is returned
-/// @param warnings likewise; what was printed as it came is added
+/// @param history must outlive the result
+/// @param warnings likewise; warnings already printed are added
 /// @throws InputError if the checkpoint is damaged or of another run, naming
-/// what has changed.
+/// the differences.
 [[nodiscard]] dynamics::Continuation make_continuation(
     const CheckpointPlan& plan, const std::function<Manifest()>& describe,
     results::History& history, std::vector<std::string>& warnings);

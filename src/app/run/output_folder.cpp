@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/output_folder.hpp"
+#include "limber/app/run/output_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,17 +14,17 @@
 #include <system_error>
 #include <vector>
 
-#include "app/terminal.hpp"
-#include "app/text_file.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "common/unfinished_files.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/common/files/unfinished_files.hpp"
 
 namespace limber::app {
 namespace {
 
 namespace fs = std::filesystem;
-// Of files, from their folder; of folders with a "/" at the end.
+// Files relative to their folder; folders end in "/".
 using Names = std::set<std::string>;
 
 constexpr const char* kList = ".limber-files";
@@ -50,7 +50,7 @@ std::optional<fs::path> make_private_folder(const fs::path& start) {
   return name;
 }
 
-// A folder beside the files' places, gone with its object.
+// A temporary folder beside the destination, removed by the destructor.
 class Staging {
  public:
   explicit Staging(const fs::path& folder) {
@@ -80,7 +80,7 @@ Names find_files(const fs::path& folder) {
 
 bool is_folder(const std::string& name) { return name.ends_with('/'); }
 
-// A name that leads elsewhere is none of ours.
+// A name with a path elsewhere is not ours.
 bool is_plain(const std::string& name) {
   const std::string bare =
       is_folder(name) ? name.substr(0, name.size() - 1) : name;
@@ -146,7 +146,7 @@ std::optional<fs::path> make_rescue_folder() {
   return make_private_folder(fs::path("limber-results-"));
 }
 
-// Where the files were written instead; nothing if they cannot be anywhere.
+// Where the files were written instead; nothing if nowhere.
 std::optional<fs::path> rescue(const OutputFolder::Writer& writer) {
   const std::optional<fs::path> folder = make_rescue_folder();
   if (!folder) return std::nullopt;
@@ -160,7 +160,8 @@ std::optional<fs::path> rescue(const OutputFolder::Writer& writer) {
   }
 }
 
-// Of the folder what commands wrote, and itself if nothing else is in it.
+// Removes the commands' files in the folder, and the folder if it is then
+// empty.
 void remove_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::symlink_status(folder, error).type() != fs::file_type::directory) {
@@ -202,7 +203,7 @@ OutputFolder::OutputFolder(fs::path folder)
   write_text(probe.path() / "probe", "x");
 }
 
-// What is there already may be of use to somebody until the new is whole.
+// The old files stay until the new ones are complete.
 void OutputFolder::place(const fs::path& made, bool is_all) const {
   const Names before = read_list(path_);
   const Names files = find_files(made);
@@ -232,23 +233,29 @@ void OutputFolder::claim(const std::set<std::string>& folders) {
 }
 
 void OutputFolder::write(const Writer& writer) const {
+  write_all(writer, true);
+}
+
+void OutputFolder::add(const Writer& writer) const { write_all(writer, false); }
+
+void OutputFolder::write_all(const Writer& writer, bool is_all) const {
   std::optional<Staging> staging;
   std::vector<std::string> problems;
   try {
     staging.emplace(path_);
     writer(staging->path());
-    place(staging->path(), true);
+    place(staging->path(), is_all);
     return;
   } catch (const InputError& error) {
     problems = error.problems();
   }
-  // Where files are to be is what the user knows, not where they are made.
+  // Users know the destination, not the temporary folder.
   if (staging) replace_in_all(problems, staging->path(), path_);
   if (const std::optional<fs::path> elsewhere = rescue(writer)) {
-    problems.push_back(fmt::format("what was computed is in '{}' instead",
-                                   elsewhere->string()));
+    problems.push_back(
+        fmt::format("the results are in '{}' instead", elsewhere->string()));
   } else if (staging) {
-    place_if_possible(staging->path());  // it is not for want of room
+    place_if_possible(staging->path());  // the disk is not full
   }
   throw InputError(problems);
 }
@@ -256,7 +263,7 @@ void OutputFolder::write(const Writer& writer) const {
 void OutputFolder::place_if_possible(const fs::path& made) const {
   try {
     place(made, false);
-  } catch (const InputError&) {  // told already
+  } catch (const InputError&) {  // already reported
   }
 }
 

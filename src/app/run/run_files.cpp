@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "app/probe_pictures.hpp"
-#include "app/run_scene.hpp"
-#include "app/terminal.hpp"
-#include "app/text_file.hpp"
-#include "dynamics/energy_verdict.hpp"
-#include "results/pictures.hpp"
-#include "results/probes_csv.hpp"
-#include "results/results_file.hpp"
-#include "results/xdmf.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/reports/probe_pictures.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
+#include "limber/results/draw_all.hpp"
+#include "limber/results/pictures.hpp"
+#include "limber/results/probes_csv.hpp"
+#include "limber/results/results_file.hpp"
+#include "limber/results/xdmf.hpp"
 
 namespace limber::app {
 namespace {
-
-/// A picture that cannot be drawn costs a warning, not the run.
-void warn(const std::string& why_none) {
-  if (!why_none.empty()) print_warnings({why_none});
-}
 
 /// What a picture's title adds if energy was made or lost.
 std::string describe_open(const Run& run) {
@@ -26,18 +22,6 @@ std::string describe_open(const Run& run) {
   if (!(share > dynamics::kToldDrift)) return "";
   return fmt::format(" ({:.2g} % open at {:.4g} s, most in {})", 100.0 * share,
                      energy.drift.time, energy.place);
-}
-
-void draw_run(const Run& run, const std::filesystem::path& folder) {
-  const std::string& name = run.scene.scenario.name;
-  warn(results::draw_energy(folder / "energy.png", name + describe_open(run),
-                            run.history));
-  warn(results::draw_scene(
-      folder / "scene.png", name, run.built.model,
-      {run.history.states.front(), run.history.states.back()}));
-  draw_probes({{std::string(to_string(run.scene.scenario.fidelity)),
-                &run.history, &run.record.peaks}},
-              folder);
 }
 
 }  // namespace
@@ -49,9 +33,27 @@ void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
   if (xdmf) {
     results::write_xdmf(folder / "motion.xdmf", run.built.model, run.history);
   }
-  if (run.scene.scenario.output.pictures && !run.history.states.empty()) {
-    draw_run(run, folder);
-  }
+}
+
+bool has_pictures(const Run& run) {
+  return run.scene.scenario.output.pictures && !run.history.states.empty();
+}
+
+void draw_run(const Run& run, const std::filesystem::path& folder) {
+  const std::string& name = run.scene.scenario.name;
+  const std::string level(to_string(run.scene.scenario.fidelity));
+  std::vector<results::Picture> pictures =
+      list_probe_pictures({{level, &run.history, &run.record.peaks}}, folder);
+  pictures.emplace_back([&] {
+    return results::draw_energy(folder / "energy.png",
+                                name + describe_open(run), run.history);
+  });
+  pictures.emplace_back([&] {
+    return results::draw_scene(
+        folder / "scene.png", name, run.built.model,
+        {run.history.states.front(), run.history.states.back()});
+  });
+  print_warnings(results::draw_all(pictures));
 }
 
 }  // namespace limber::app

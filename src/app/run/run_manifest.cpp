@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/run_manifest.hpp"
+#include "limber/app/run/run_manifest.hpp"
 
-#include "common/build_id.hpp"
-#include "dynamics/archives.hpp"
-#include "scene/fields.hpp"
+#include "limber/common/files/build_id.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/settings_fields.hpp"
+#include "limber/scene/build/fields.hpp"
+#include "limber/version.hpp"
 
 namespace limber::app {
 

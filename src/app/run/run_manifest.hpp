@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/manifest.hpp"
-#include "scene/scene.hpp"
+#include "limber/common/records/manifest.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::app {
 

@@ -3,18 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
-#include "app/event_report.hpp"
-#include "app/interruption.hpp"
-#include "app/run_scene.hpp"
-#include "app/terminal.hpp"
-#include "dynamics/interrupted.hpp"
-#include "results/energy_audit.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/reports/event_report.hpp"
+#include "limber/app/run/run_scene.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/results/energy_audit.hpp"
 
 namespace limber::app {
 namespace {
 
-/// What the audit leaves open, of the energy that passed through.
+/// Error of the energy audit relative to the throughput.
 std::string describe_drift(const Run& run) {
   const results::EnergyAudit audit = results::audit_energy(run.history);
   const std::optional<double> relative = audit.relative();
@@ -77,19 +78,16 @@ void raise_failure(const Run& run, const std::filesystem::path& folder) {
   } catch (const dynamics::Interrupted& end) {
     throw dynamics::Interrupted(
         fmt::format("{} by {}; results up to there are in '{}'{}", end.what(),
-                    name_signal(find_noted_signal()), folder.string(),
+                    name_signal(find_received_signal()), folder.string(),
                     std::filesystem::exists(folder / "checkpoint.bin")
-                        ? "; go on with --resume"
+                        ? "; continue with --resume"
                         : ""));
   }
 }
 
-}  // namespace
-
-void finish_run(const Run& run, const std::filesystem::path& folder,
-                bool json) {
-  print_warnings(find_level_warnings(run.levels));
-  if (run.failure) raise_failure(run, folder);
+// Prints the report completely before pictures are drawn. Errors of the stream
+// are reported at the end of the command.
+void tell_run(const Run& run, const std::filesystem::path& folder, bool json) {
   if (json) {
     Json summary = summarize(run);
     summary["folder"] = folder.string();
@@ -97,6 +95,19 @@ void finish_run(const Run& run, const std::filesystem::path& folder,
   } else {
     print_text(run, folder);
   }
+  static_cast<void>(std::fflush(stdout));
+}
+
+}  // namespace
+
+void finish_run(const Run& run, const OutputFolder& folder, bool json) {
+  print_warnings(find_level_warnings(run.levels));
+  if (!run.failure) tell_run(run, folder.path(), json);
+  if (has_pictures(run)) {
+    folder.add(
+        [&](const std::filesystem::path& place) { draw_run(run, place); });
+  }
+  if (run.failure) raise_failure(run, folder.path());
 }
 
 }  // namespace limber::app

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/run_scene.hpp"
+#include "limber/app/run/run_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/event_report.hpp"
-#include "app/interruption.hpp"
-#include "app/mode_options.hpp"
-#include "app/reducer.hpp"
-#include "app/run_manifest.hpp"
-#include "app/terminal.hpp"
-#include "common/errors.hpp"
-#include "dynamics/energy_verdict.hpp"
-#include "dynamics/interrupted.hpp"
-#include "results/energy_audit.hpp"
-#include "scene/followed_probes.hpp"
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/mode_options.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/reports/event_report.hpp"
+#include "limber/app/run/run_manifest.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/results/energy_audit.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/probes/followed_probes.hpp"
 
 namespace limber::app {
 namespace {
@@ -105,11 +106,11 @@ Json summarize_selections(const Run& run) {
   return json;
 }
 
-/// Ends a run between two steps once a signal was noted.
+/// Ends a run between two steps after a signal.
 Progress watch_signals(const Progress& bar) {
   return [bar](std::string_view what, double fraction) {
     const bool is_done = fraction >= 1.0;
-    if (find_noted_signal() != 0 && !is_done) {
+    if (find_received_signal() != 0 && !is_done) {
       throw dynamics::Interrupted("interrupted");
     }
     report(bar, what, fraction);
@@ -137,7 +138,7 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
   }
   const dynamics::Continuation continuation = make_continuation(
       checkpoints, [&] { return make_manifest(run.scene, run.built); },
-      run.history, run.told);
+      run.history, run.printed_warnings);
   try {
     simulate(run.built, progress, run.history, run.statistics, run.record,
              continuation, followed);
@@ -149,7 +150,7 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
   return run;
 }
 
-double time_again(const Run& run, const Progress& progress) {
+double repeat_timing(const Run& run, const Progress& progress) {
   results::History history;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;
@@ -187,7 +188,7 @@ Json summarize(const Run& run) {
     json["tolerance"] = run.built.settings.tolerance;
     json["estimated_error"] = run.statistics.estimated_error;
   }
-  // 0: not looked for; infinite: nothing vibrates.
+  // 0: not computed; infinite: nothing vibrates.
   const double stable_step = run.statistics.stable_step;
   if (stable_step > 0.0 && std::isfinite(stable_step)) {
     json["stable_step"] = stable_step;
@@ -204,7 +205,7 @@ Json summarize(const Run& run) {
     json["levels"].push_back(to_json(level));
   }
   json["warnings"] = run.built.warnings;
-  for (const auto& texts : {run.statistics.warnings, run.told}) {
+  for (const auto& texts : {run.statistics.warnings, run.printed_warnings}) {
     for (const std::string& text : texts) json["warnings"].push_back(text);
   }
   return json;

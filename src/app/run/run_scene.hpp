@@ -4,32 +4,34 @@
 #include <exception>
 #include <filesystem>
 
-#include "app/checkpoints.hpp"
-#include "app/json.hpp"
-#include "app/levels.hpp"
-#include "common/progress.hpp"
-#include "dynamics/run_record.hpp"
-#include "results/history.hpp"
-#include "scene/scene.hpp"
+#include "limber/app/console/json.hpp"
+#include "limber/app/reports/levels.hpp"
+#include "limber/app/run/checkpoints.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/results/history.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::app {
 
-/// What one run of a scene gives.
+/// Result of one run of a scene.
 struct Run {
   scene::Scene scene;
   scene::BuiltScene built;
   results::History history;
   dynamics::SimulationStatistics statistics;
-  dynamics::RunRecord record;     ///< peaks of the probes' columns, and energy
-  std::vector<std::string> told;  ///< warnings that were printed as they came
-  std::vector<BodyLevel> levels;  ///< whether each body's was justified
+  dynamics::RunRecord record;  ///< peaks of the probes' columns, and energy
+  std::vector<std::string> printed_warnings;  ///< during the run
+  std::vector<BodyLevel> levels;  ///< and whether they were justified
   std::exception_ptr failure;     ///< the NumericalError that ended it early
 };
 
-/// Builds and simulates a scene, without a word. On NumericalError the run
-/// holds what was computed until then, and `failure`.
+/// Builds and simulates a scene, without output. On NumericalError the run
+/// contains the results until then, and `failure`.
 /// @param cache empty for the default one
-/// @param judges whether it finds `levels`, which costs time at every step
+/// @param judges whether to find `levels`, which costs time at every step
 [[nodiscard]] Run simulate_scene(const scene::Scene& scene,
                                  const scene::Reducer& reducer,
                                  const std::filesystem::path& cache,
@@ -42,20 +44,28 @@ struct Run {
                             const std::filesystem::path& cache,
                             const CheckpointPlan& checkpoints = {});
 
-/// Wall time that simulating the run once more takes, outputs included [s].
-[[nodiscard]] double time_again(const Run& run, const Progress& progress);
+/// Wall time of simulating the run again, outputs included [s].
+[[nodiscard]] double repeat_timing(const Run& run, const Progress& progress);
 
-/// The run in figures: steps, times, energy, probes (name -> final,
-/// peak, peak_time).
+/// Summary of the run: steps, times, energy, probes (name -> final, peak,
+/// peak_time).
 [[nodiscard]] Json summarize(const Run& run);
 
-/// Prints the run's summary, as JSON or as text.
+/// Prints the run's summary, as JSON or as text, and only then draws its
+/// pictures, which take as long as many a run.
 /// @param folder where its files are
-/// @throws NumericalError if the run ended early; Interrupted says how to go
-/// on.
-void finish_run(const Run& run, const std::filesystem::path& folder, bool json);
+/// @throws NumericalError if the run ended early, of which the pictures are
+/// drawn, too; Interrupted says how to go on.
+void finish_run(const Run& run, const OutputFolder& folder, bool json);
 
-/// Writes results.h5, probes.csv, summary.json and what the scenario asks for.
+/// Writes results.h5, probes.csv, summary.json and what the scenario asks for
+/// but pictures.
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf);
+
+/// Whether the scenario asks for pictures, and there is something to draw.
+[[nodiscard]] bool has_pictures(const Run& run);
+
+/// Draws them. One that cannot be drawn costs a warning, not the run.
+void draw_run(const Run& run, const std::filesystem::path& folder);
 
 }  // namespace limber::app

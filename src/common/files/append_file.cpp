@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/append_file.hpp"
+#include "limber/common/files/append_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber {
 namespace {
@@ -91,7 +91,7 @@ void AppendFile::append(std::string_view block) {
   std::string bytes(sizeof(size), '\0');
   std::memcpy(bytes.data(), &size, sizeof(size));
   bytes += block;
-  cut_off();  // what an attempt that failed may have left
+  cut_off();  // remains of a failed attempt
   try {
     write(bytes);
     if (fdatasync(handle_) != 0) {

@@ -7,26 +7,26 @@
 #include <string_view>
 #include <vector>
 
-#include "common/digest.hpp"
+#include "limber/common/records/digest.hpp"
 
 namespace limber {
 
-/// A part of an append file, from its start: whatever comes after it.
+/// The leading part of an append file, independent of what follows it.
 struct FilePart {
-  std::uint64_t length = 0;  ///< bytes
-  std::string digest;        ///< of all of them (XXH3)
+  std::uint64_t length = 0;  ///< [bytes]
+  std::string digest;        ///< of these bytes (XXH3)
 };
 
-/// A file that grows by blocks, each its length (8 bytes) and its bytes. What
-/// was appended is on the disk when `append` returns. A block that a crash
-/// cuts short is beyond the part that is known, and is cut off when the file
-/// is opened again.
+/// A file of blocks, each stored as its length (8 bytes) and its bytes. Data is
+/// synced to disk when `append` returns. A block that a crash truncates lies
+/// beyond the known part, and is removed when the file is reopened.
 class AppendFile {
  public:
-  /// Makes the file anew. @throws InputError if it cannot be written.
+  /// Creates the file, replacing an old one. @throws InputError if it cannot be
+  /// written.
   explicit AppendFile(std::filesystem::path file);
-  /// Goes on after `part`. @throws InputError if it is not there to the bit,
-  /// or cannot be written.
+  /// Continues after `part`. @throws InputError if the file does not contain it
+  /// bit for bit, or cannot be written.
   AppendFile(std::filesystem::path file, const FilePart& part);
 
   AppendFile(const AppendFile&) = delete;
@@ -36,7 +36,7 @@ class AppendFile {
   /// @throws InputError if it cannot be written; the file is then as before.
   void append(std::string_view block);
 
-  /// All of it so far.
+  /// The whole file so far.
   [[nodiscard]] FilePart part() const { return {length_, digest_.text()}; }
 
  private:
@@ -50,7 +50,8 @@ class AppendFile {
   Digest digest_;
 };
 
-/// The blocks of a part. @throws InputError if it is not there to the bit.
+/// The blocks of a part. @throws InputError if the file does not contain it bit
+/// for bit.
 [[nodiscard]] std::vector<std::string> read_blocks(
     const std::filesystem::path& file, const FilePart& part);
 

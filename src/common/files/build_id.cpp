@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/build_id.hpp"
+#include "limber/common/files/build_id.hpp"
 
 #include <elf.h>
 #include <link.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kOwner("GNU\0", 4);
 
-// Parts of a note begin at multiples of four bytes.
+// Parts of a note are aligned to four bytes.
 std::size_t pad(std::size_t size) { return (size + 3) / 4 * 4; }
 
 std::string to_hexadecimal(std::string_view bytes) {
@@ -43,7 +43,7 @@ std::string read_notes(std::string_view notes) {
   return {};
 }
 
-// The program itself comes first; nothing else is looked at.
+// The program itself comes first; the rest is skipped.
 int read_program(dl_phdr_info* info, std::size_t /*size*/, void* result) {
   auto& id = *static_cast<std::string*>(result);
   for (int i = 0; i < info->dlpi_phnum && id.empty(); ++i) {

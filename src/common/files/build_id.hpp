@@ -5,12 +5,12 @@
 
 namespace limber {
 
-/// Which build the running program is: the digest of what it is made of that
-/// its linker put into it (`--build-id`), in hexadecimal digits; empty if it
-/// has none. The same sources and tools give the same one.
+/// Build ID of the running program: the digest of its content that the linker
+/// embeds (`--build-id`), in hexadecimal digits; empty if it has none. The same
+/// sources and tools give the same ID.
 ///
 /// Source     note NT_GNU_BUILD_ID of the program's ELF file
-/// Limits     says nothing of shared libraries
+/// Limits     does not cover shared libraries
 [[nodiscard]] std::string find_build_id();
 
 }  // namespace limber

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/file_stamp.hpp"
+#include "limber/common/files/file_stamp.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 #include <array>
 #include <optional>
 
-#include "common/digest.hpp"
-#include "common/wire.hpp"
+#include "limber/common/records/digest.hpp"
+#include "limber/common/records/wire.hpp"
 
 namespace limber {
 namespace {
@@ -25,7 +25,7 @@ std::optional<struct stat> look(const std::filesystem::path& file) {
 }
 
 std::string digest_bytes(const std::filesystem::path& file) {
-  // Not to wait on a pipe that took the file's place.
+  // Does not block on a pipe that replaced the file.
   const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return kThere;
   Digest digest;

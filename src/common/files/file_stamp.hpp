@@ -8,8 +8,7 @@ namespace limber {
 
 class Wire;
 
-/// What a file was when it was looked at, so that a later look tells whether
-/// it is still the same.
+/// Identity of a file at one moment, to detect later whether it has changed.
 struct FileStamp {
   std::filesystem::path path;  ///< absolute
   /// "absent", "there", "content HEX" or "version SIZE TIME INODE".
@@ -18,18 +17,18 @@ struct FileStamp {
   bool operator==(const FileStamp&) const = default;
 };
 
-/// By its bytes; "there" for what is no regular file.
+/// By its bytes; "there" for anything but a regular file.
 [[nodiscard]] FileStamp stamp_content(const std::filesystem::path& file);
-/// By whether there is such a file at all.
+/// By whether the file exists.
 [[nodiscard]] FileStamp stamp_presence(const std::filesystem::path& file);
-/// By size, time of change and inode: for programs and libraries, which are
-/// large, and replaced as a whole.
+/// By size, modification time and inode: for programs and libraries, which are
+/// large and replaced as a whole.
 [[nodiscard]] FileStamp stamp_version(const std::filesystem::path& file);
 
-/// Whether the file still bears its stamp.
+/// Whether the file still matches its stamp.
 [[nodiscard]] bool is_unchanged(const FileStamp& stamp);
 
-/// As bytes, both ways (common/wire.hpp).
+/// Serialises or deserialises (common/records/wire.hpp).
 void exchange(Wire& wire, FileStamp& stamp);
 
 }  // namespace limber

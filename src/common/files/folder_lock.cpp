@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/folder_lock.hpp"
+#include "limber/common/files/folder_lock.hpp"
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -14,8 +14,8 @@
 #include <string>
 #include <system_error>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber {
 namespace {
@@ -38,7 +38,7 @@ std::string read_start(int descriptor) {
   return holder.empty() ? "another process" : echo(holder);
 }
 
-// The holder before may have removed the file that was opened here.
+// The previous holder may have removed the file that was opened here.
 bool is_file_at(const fs::path& path, int descriptor) {
   struct stat there = {};
   struct stat here = {};
@@ -75,7 +75,7 @@ FolderLock::FolderLock(const fs::path& folder)
     if (!is_held_) close(descriptor_);
   }
   const std::string text = describe_this_process();
-  // Only who is told depends on it.
+  // Affects only the name in the other process's message.
   if (ftruncate(descriptor_, 0) == 0) {
     static_cast<void>(!pwrite(descriptor_, text.data(), text.size(), 0));
   }

@@ -5,15 +5,15 @@
 
 namespace limber {
 
-/// A folder for one process at a time, by the lock (flock) of a file in it,
-/// `.limber-lock`, that names the process. The kernel lets go of it when the
+/// Reserves a folder for one process by a lock (flock) on its file
+/// `.limber-lock`, which names the process. The kernel releases it when the
 /// process ends, however it ends.
 ///
-/// Limits     Some network file systems have no such locks: then none is held.
+/// Limits     no lock is held on network file systems without flock
 class FolderLock {
  public:
-  /// @throws InputError if another process holds it, naming that, or if the
-  /// file cannot be made.
+  /// @throws InputError if another process holds it, naming that process, or if
+  /// the file cannot be created.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/hdf5_file.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/errors.hpp"
-#include "common/hdf5_exit.hpp"
-#include "common/hdf5_handle.hpp"
-#include "common/input_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_exit.hpp"
+#include "limber/common/files/hdf5_handle.hpp"
+#include "limber/common/files/input_file.hpp"
 
 namespace limber {
 namespace {
@@ -27,7 +27,7 @@ using hdf5::leave_out_times;
 using hdf5::Quiet;
 using hdf5::with_path;
 
-// Histories of many bodies are large; a device has no end.
+// Generous, since histories of many bodies are large.
 constexpr InputKind kHdf5 = {"HDF5 file", std::uint64_t{1} << 38};
 
 using RowMajor =
@@ -35,7 +35,7 @@ using RowMajor =
 
 Handle make_text_type() { return {H5Tcopy(H5T_C_S1), H5Tclose}; }
 
-// One more than its letters: texts end in a zero.
+// One more than the characters, for the terminating zero.
 void set_length(const Handle& type, const std::string& text) {
   checked(H5Tset_size(type.get(), text.size() + 1));
 }
@@ -52,7 +52,7 @@ void add_text_attribute(hid_t object, const char* name,
   attribute.close();
 }
 
-// A checksum needs chunks: one for the whole, up to HDF5's size limit.
+// A checksum needs chunks: a single one, up to HDF5's size limit.
 void add_checksum(hid_t creation, std::vector<hsize_t> shape) {
   const hsize_t most = hsize_t{1} << 26;
   const hsize_t row = std::accumulate(shape.begin() + 1, shape.end(),
@@ -68,7 +68,7 @@ hid_t make_space(const std::vector<hsize_t>& shape) {
                           nullptr);
 }
 
-// Values and what they mean, as HDF5 wants them.
+// Values with unit and meaning, as HDF5 stores them.
 struct Dataset {
   const std::string& name;
   hid_t type;
@@ -130,7 +130,7 @@ std::vector<hsize_t> shape_of(hid_t set, const std::string& name) {
   if (rank > 0) {
     checked(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr));
   }
-  // Beside an extent of 0 any other fits the file, but not a matrix's index.
+  // With one extent 0 the others may be too large for a matrix index.
   for (const hsize_t n : shape) {
     if (n > hsize_t{std::numeric_limits<Eigen::Index>::max()}) {
       throw Failure(
@@ -142,7 +142,7 @@ std::vector<hsize_t> shape_of(hid_t set, const std::string& name) {
   return shape;
 }
 
-// Bytes of a shape's elements, or the largest number where it overflows.
+// Bytes of a shape's elements; the largest value on overflow.
 hsize_t bytes_of(const std::vector<hsize_t>& shape, hsize_t element) {
   const hsize_t limit = std::numeric_limits<hsize_t>::max();
   if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) {
@@ -156,8 +156,8 @@ hsize_t bytes_of(const std::vector<hsize_t>& shape, hsize_t element) {
   return bytes;
 }
 
-// Memory is taken only for what the file can hold: a damaged shape may ask for
-// any amount. (Filters that compress would need another bound; we use none.)
+// Allocates only what the file can contain: a damaged shape may have any size.
+// (Compression filters would need another bound; we use none.)
 void check_fits(hid_t set, const std::vector<hsize_t>& shape,
                 const std::string& name) {
   const Handle type(H5Dget_type(set), H5Tclose);
@@ -224,7 +224,7 @@ std::string read_text_of(hid_t file, const std::string& name) {
   check_fits(set.get(), shape, name);
   std::string text(H5Tget_size(type.get()), '\0');
   read_dataset(set.get(), type.get(), text.data(), name);
-  // `write` ends a text with one zero, and it may hold others.
+  // `write` appends one zero to a text, which may contain others.
   if (!text.empty() && text.back() == '\0') text.pop_back();
   return text;
 }
@@ -354,7 +354,7 @@ void Hdf5File::write_array(const std::string& name,
 }
 
 bool Hdf5File::has(const std::string& name) const {
-  // An error says here that a group on the way does not exist.
+  // An error here means that a parent group does not exist.
   const Quiet quiet;
   return H5Lexists(handle_, name.c_str(), H5P_DEFAULT) > 0;
 }

@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber {
 
-/// A thin, throwing face of one HDF5 file. Every dataset carries the
-/// attributes "unit" and "meaning". Matrices are stored row by row as they
-/// print; all failures become InputError with the file's path.
+/// Thin wrapper of one HDF5 file. Every dataset has the attributes "unit" and
+/// "meaning". Matrices are stored row-major; every failure throws InputError
+/// with the file's path.
 ///
-/// Limits     HDF5 checks its data, but not its own structure: who must not
-///            trust a file verifies a digest of its bytes before opening it.
-///            Threads may use files at once where HDF5 is built thread-safe.
+/// Limits     HDF5 checks its data, but not its own structure: verify a
+///            digest of an untrusted file before opening it. Concurrent use by
+///            threads needs a thread-safe build of HDF5.
 class Hdf5File {
  public:
-  /// Makes a new file, replacing an old one. Its first `user_block` bytes (0,
-  /// or a power of two from 512) are left to the caller, after `close`.
+  /// Creates a file, replacing an old one. Its first `user_block` bytes (0, or
+  /// a power of two >= 512) are for the caller to write after `close`.
   [[nodiscard]] static Hdf5File create(const std::filesystem::path& file,
                                        std::uint64_t user_block = 0);
   /// Opens an existing file for reading.
@@ -32,7 +32,8 @@ class Hdf5File {
   Hdf5File& operator=(const Hdf5File&) = delete;
   ~Hdf5File();
 
-  /// Names may hold slashes: groups in between are made.
+  /// Names may contain slashes: intermediate groups are created. Values have
+  /// the given unit.
   void write(const std::string& name, const MatrixX& values,
              const std::string& unit, const std::string& meaning);
   void write(const std::string& name, const std::vector<std::int64_t>& values,
@@ -56,7 +57,7 @@ class Hdf5File {
   /// Names directly inside a group, sorted.
   [[nodiscard]] std::vector<std::string> list(const std::string& group) const;
 
-  /// Flushes and closes; the destructor does so without a word on failure.
+  /// Flushes and closes; the destructor does the same but ignores failures.
   void close();
 
  private:

@@ -8,19 +8,19 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
-/// What calls of HDF5's own functions need. For hdf5_file.cpp alone.
+/// Helpers for calls of the HDF5 C API. Internal to hdf5_file.cpp.
 namespace limber::hdf5 {
 
-/// What went wrong inside a file; `with_path` adds which file.
+/// A failure inside a file; `with_path` adds the file's name.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// While it lives, HDF5 does not print its own stack of errors: ours is the one
-/// clear text. What others have asked of HDF5 holds again after it.
+/// During its lifetime HDF5 does not print its error stack; our exception
+/// carries the message. Restores the previous error handler at the end.
 class Quiet {
  public:
   Quiet() {
@@ -46,7 +46,7 @@ auto with_path(const std::filesystem::path& file, const Work& work) {
   }
 }
 
-/// Passes on what an HDF5 call answers, unless it is the sign of failure.
+/// Returns the result of an HDF5 call; throws Failure if it signals an error.
 template <typename Answer>
 Answer checked(Answer answer) {
   if (answer < 0) throw Failure("HDF5 reports an error; the file is damaged");
@@ -64,7 +64,7 @@ class Handle {
     if (id_ >= 0) closer_(id_);
   }
   [[nodiscard]] hid_t get() const { return id_; }
-  /// For what was written: closing may be what fills the disk.
+  /// For written objects: closing flushes, and may fail on a full disk.
   void close() { checked(closer_(std::exchange(id_, -1))); }
 
  private:
@@ -72,8 +72,7 @@ class Handle {
   Closer closer_;
 };
 
-/// A file is what was written into it, not when: the same values give the same
-/// bytes.
+/// Stores no time stamps, so that the same values give the same bytes.
 inline void leave_out_times(hid_t creation) {
   checked(H5Pset_obj_track_times(creation, false));
 }

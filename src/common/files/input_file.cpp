@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/input_file.hpp"
+#include "limber/common/files/input_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber {
 namespace {
@@ -35,7 +35,7 @@ std::string describe_size(std::uint64_t bytes) {
 
 InputFile::InputFile(std::filesystem::path file, const InputKind& kind)
     : file_(std::move(file)), kind_(kind) {
-  // A pipe that nobody writes to would be waited for.
+  // Does not block on a pipe without a writer.
   descriptor_ = open(file_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) refuse(describe_errno());
   try {

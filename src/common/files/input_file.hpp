@@ -8,7 +8,7 @@
 
 namespace limber {
 
-/// What a reader takes: its name in messages, and the most bytes it may have.
+/// A kind of input: its name in messages and its largest size in bytes.
 struct InputKind {
   std::string_view name;
   std::uint64_t most_bytes;
@@ -17,8 +17,8 @@ struct InputKind {
 inline constexpr InputKind kMeshInput = {"mesh or geometry",
                                          std::uint64_t{1} << 32};
 
-/// A file of a user's, open for reading: a regular one of bounded size. A pipe
-/// would be waited for, a device has no end, and a folder no content.
+/// A user's file opened for reading: a regular file of bounded size. A pipe
+/// would block, a device has no end, and a folder no content.
 class InputFile {
  public:
   /// @throws InputError naming the file, what it is and what is expected.
@@ -27,9 +27,9 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
 
-  /// Fills `out`, but for the end of the file. @returns the bytes read
-  /// @throws InputError if reading fails, or past the most bytes of its kind:
-  /// a file may grow.
+  /// Fills `out`, or less at the end of the file. @returns the bytes read
+  /// @throws InputError if reading fails, or beyond the largest size of its
+  /// kind (a file may grow).
   std::size_t read(char* out, std::size_t size);
 
  private:
@@ -42,11 +42,12 @@ class InputFile {
   std::uint64_t read_ = 0;
 };
 
-/// All of it. @throws InputError as InputFile.
+/// The whole content. @throws InputError as InputFile.
 [[nodiscard]] std::string read_input(const std::filesystem::path& file,
                                      const InputKind& kind);
 
-/// For a library that opens a file by its name. @throws InputError likewise.
+/// The checks alone, for a library that opens the file itself. @throws
+/// InputError likewise.
 void check_input(const std::filesystem::path& file, const InputKind& kind);
 
 }  // namespace limber

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/sealed_file.hpp"
+#include "limber/common/files/sealed_file.hpp"
 
 #include <fmt/format.h>
 
 #include <fstream>
 
-#include "common/digest.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "common/whole_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/common/records/digest.hpp"
 
 namespace limber {
 namespace {
@@ -53,7 +53,7 @@ std::string read_sealed(const std::filesystem::path& file, const Seal& seal) {
     throw InputError(
         fmt::format("'{}' {} '{}'", file.string(), what, seal.kind));
   };
-  // Before gigabytes of another kind are read.
+  // Checked first, before gigabytes of another kind are read.
   if (!has_seal(file, seal.kind)) {
     check_input(file, kSealed);
     refuse("is no");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/unfinished_files.hpp"
+#include "limber/common/files/unfinished_files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): POSIX
 #include <unistd.h>
 
 #include <array>
@@ -19,7 +19,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber {
 namespace {
@@ -30,8 +30,8 @@ constexpr std::string_view kMark = ".part-";
 constexpr std::size_t kRandomLetters = 6;
 constexpr std::chrono::hours kStale(1);
 
-// Signal handlers may read fixed memory alone. A file that finds no slot free
-// stays behind after a signal, until the next run.
+// Signal handlers may only use static memory. A file without a free slot stays
+// behind after a signal, until the next run.
 struct Slot {
   std::atomic<bool> is_taken = false;
   std::atomic<bool> is_set = false;
@@ -94,7 +94,7 @@ fs::path make_part(const fs::path& file) {
   }
 }
 
-// The process that a name "FILE.part-PID-XXXXXX" tells of.
+// The process in a name "FILE.part-PID-XXXXXX".
 std::optional<pid_t> find_writer(std::string_view name) {
   const std::size_t mark = name.rfind(kMark);
   if (mark == std::string_view::npos) return std::nullopt;
@@ -127,7 +127,7 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// An hour, too: elsewhere a process of that number may be at work.
+// Only after an hour: the process may run on another machine.
 void remove_stale_parts_of(const fs::path& file) {
   const std::string start = file.filename().string() + std::string(kMark);
   const auto now = fs::file_time_type::clock::now();
@@ -140,7 +140,7 @@ void remove_stale_parts_of(const fs::path& file) {
   });
 }
 
-// Some file systems know no fsync of this kind; they say so by EINVAL.
+// Some file systems do not support this fsync and return EINVAL.
 void sync(const fs::path& path, int flags, const fs::path& file) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (descriptor < 0) refuse(file, describe_errno());

@@ -5,14 +5,15 @@
 
 namespace limber {
 
-/// A new file that is being written: while it lives, it is known to
-/// `remove_unfinished_files`, and it goes with its object unless it is kept.
+/// A new file that is being written. It is registered with
+/// `remove_unfinished_files`, and the destructor removes it unless `move_to`
+/// was called.
 class UnfinishedFile {
  public:
-  /// Makes an empty file beside `file`, with a name that nobody can foresee:
-  /// FILE.part-PID-XXXXXX. Of `file`, what processes that are gone left behind
-  /// an hour ago or earlier is removed.
-  /// @throws InputError if it cannot be made.
+  /// Creates an empty file beside `file` with an unpredictable name,
+  /// FILE.part-PID-XXXXXX. Removes such files of `file` that are at least an
+  /// hour old and whose process no longer exists.
+  /// @throws InputError if it cannot be created.
   explicit UnfinishedFile(const std::filesystem::path& file);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
@@ -20,16 +21,16 @@ class UnfinishedFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Puts it on the disk and in the place of `file`, folder entry included.
+  /// Syncs it to disk and renames it to `file`; syncs the folder entry too.
   /// @throws InputError if that fails.
   void move_to(const std::filesystem::path& file);
 
  private:
   std::filesystem::path path_;
-  int slot_ = -1;  // where signal handlers find its name
+  int slot_ = -1;  // of its name, for signal handlers
 };
 
-/// Removes the unfinished files of this process. For signal handlers.
+/// Removes the unfinished files of this process. Async-signal-safe.
 void remove_unfinished_files() noexcept;
 
 /// Removes all unfinished files in a folder that nobody else writes to.

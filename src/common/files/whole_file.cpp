@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/whole_file.hpp"
+#include "limber/common/files/whole_file.hpp"
 
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/unfinished_files.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/unfinished_files.hpp"
 
 namespace limber {
 namespace {
 
-// The place is what a user knows, not the name on the way to it.
+// Users know the destination, not the temporary name.
 InputError rename(const InputError& error, const std::string& part,
                   const std::string& file) {
   std::vector<std::string> problems = error.problems();

@@ -6,9 +6,9 @@
 
 namespace limber {
 
-/// A file is there whole or not at all: `write` makes it beside its place, to
-/// where it is moved when it is done. What stood there stays until then. A
-/// device or pipe is written to as it is.
+/// Writes a file atomically: `write` creates it beside its destination, and it
+/// is renamed when complete. An old file stays until then. A device or pipe is
+/// written to directly.
 /// @param write gets the path to write to, and throws on failure
 /// @throws what `write` throws; InputError if it cannot be moved
 void write_whole(

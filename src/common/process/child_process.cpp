@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/child_process.hpp"
+#include "limber/common/process/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,16 +19,8 @@
 #include <cstring>
 #include <utility>
 
-#include "common/errors.hpp"
-#include "common/landlock.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LIMBER_IS_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define LIMBER_IS_SANITIZED 1
-#endif
-#endif
+#include "limber/common/errors.hpp"
+#include "limber/common/process/landlock.hpp"
 
 namespace limber {
 namespace {
@@ -71,7 +63,7 @@ struct Pipe {
   Descriptor in;
 
  private:
-  // Above the descriptors that the child puts in their place.
+  // Above the descriptors that the child redirects.
   static int move_up(int fd) {
     const int high = fcntl(fd, F_DUPFD_CLOEXEC, kReplyDescriptor + 1);
     ::close(fd);
@@ -87,22 +79,22 @@ std::vector<char*> to_pointers(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// All that a child needs between fork and exec, made before: there it may
-/// call little, and must not take memory.
+/// All that a child needs between fork and exec, prepared before: there it may
+/// call few functions and must not allocate.
 struct Launch {
   const char* program = nullptr;
   char* const* arguments = nullptr;
   char* const* environment = nullptr;
-  int words = -1;
+  int output = -1;
   int reply = -1;
   int landlock = -1;
   int null = -1;
   pid_t parent = 0;
-  rlim_t memory = 0;
+  rlim_t address_space = 0;
   rlim_t seconds = 0;
 };
 
-/// Not above what this process has itself.
+/// At most the limit of this process.
 void limit(__rlimit_resource_t resource, rlim_t value) {
   rlimit bounds{value, value};
   if (getrlimit(resource, &bounds) != 0) return;
@@ -114,9 +106,7 @@ void limit(__rlimit_resource_t resource, rlim_t value) {
 void set_limits(const Launch& launch) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, launch.seconds);
-#ifndef LIMBER_IS_SANITIZED  // those reserve more than there is
-  limit(RLIMIT_AS, launch.memory);
-#endif
+  limit(RLIMIT_AS, launch.address_space);
 }
 
 void reset_signals() {
@@ -131,14 +121,14 @@ void reset_signals() {
 [[noreturn]] void become(const Launch& launch) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != launch.parent) _exit(kCannotRun);  // it died before
+  if (getppid() != launch.parent) _exit(kCannotRun);  // the parent died first
   reset_signals();
   dup2(launch.null, STDIN_FILENO);
-  dup2(launch.words, STDOUT_FILENO);
-  dup2(launch.words, STDERR_FILENO);
+  dup2(launch.output, STDOUT_FILENO);
+  dup2(launch.output, STDERR_FILENO);
   dup2(launch.reply, kReplyDescriptor);
   apply_landlock(launch.landlock);
-  // Where this is unknown, ours are closed by exec, as far as they ask for it.
+  // Where this call is missing, exec closes those with O_CLOEXEC.
   syscall(SYS_close_range, kReplyDescriptor + 1, ~0U, 0);
   set_limits(launch);
   execve(launch.program, launch.arguments, launch.environment);
@@ -147,7 +137,7 @@ void reset_signals() {
   _exit(kCannotRun);
 }
 
-pid_t start(const ChildTask& task, const Pipe& words, const Pipe& reply) {
+pid_t start(const ChildTask& task, const Pipe& output, const Pipe& reply) {
   std::vector<std::string> arguments = task.arguments;
   arguments.insert(arguments.begin(), task.program.string());
   std::vector<std::string> environment = task.environment;
@@ -159,12 +149,12 @@ pid_t start(const ChildTask& task, const Pipe& words, const Pipe& reply) {
       arguments.front().c_str(),
       argument_list.data(),
       environment_list.data(),
-      words.in.get(),
+      output.in.get(),
       reply.in.get(),
       landlock.get(),
       null.get(),
       getpid(),
-      static_cast<rlim_t>(task.memory),
+      task.is_address_space_limited ? rlim_t{task.memory} : RLIM_INFINITY,
       static_cast<rlim_t>(std::min(std::ceil(task.seconds) + 1.0, 1e9))};
   const pid_t child = fork();
   if (child == 0) become(launch);
@@ -173,13 +163,12 @@ pid_t start(const ChildTask& task, const Pipe& words, const Pipe& reply) {
                                task.program.string(), std::strerror(errno)));
 }
 
-/// Listens to a child until it has said everything, or too much, or for too
-/// long.
+/// Reads a child's output until its end, a size limit or a timeout.
 class Listener {
  public:
-  Listener(const ChildTask& task, Pipe& words, Pipe& reply, ChildEnd& end)
+  Listener(const ChildTask& task, Pipe& output, Pipe& reply, ChildEnd& end)
       : task_(task),
-        pipes_{&words, &reply},
+        pipes_{&output, &reply},
         end_(end),
         deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                      std::chrono::duration<double>(
@@ -200,11 +189,11 @@ class Listener {
     std::array<pollfd, 2> polls{
         {{pipes_[0]->out.get(), POLLIN, 0}, {pipes_[1]->out.get(), POLLIN, 0}}};
     if (poll(polls.data(), polls.size(), milliseconds) <= 0) return;
-    if (polls[0].revents != 0) take(pipes_[0]->out, end_.words);
+    if (polls[0].revents != 0) take(pipes_[0]->out, end_.output);
     if (polls[1].revents != 0) take(pipes_[1]->out, end_.reply);
-    constexpr std::size_t kWords = 4000;
-    if (end_.words.size() > 2 * kWords) {
-      end_.words.erase(0, end_.words.size() - kWords);
+    constexpr std::size_t kKept = 4000;
+    if (end_.output.size() > 2 * kKept) {
+      end_.output.erase(0, end_.output.size() - kKept);
     }
     end_.is_reply_too_long = end_.reply.size() > task_.memory;
   }
@@ -222,7 +211,7 @@ class Listener {
   std::array<char, 1 << 16> buffer_{};
 };
 
-/// Ends the child's group, and learns how the child itself ended.
+/// Kills the child's process group and collects the child's exit status.
 class Reaper {
  public:
   explicit Reaper(pid_t child) : child_(child) {}
@@ -234,7 +223,7 @@ class Reaper {
   int end(bool by_force) {
     const pid_t child = std::exchange(child_, 0);
     if (by_force || !ends_itself(child)) kill(child, SIGKILL);
-    // Its number and its group's are not free before it was waited for.
+    // Its PID and group are not reused before it is waited for.
     kill(-child, SIGKILL);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -243,7 +232,7 @@ class Reaper {
   }
 
  private:
-  // It closed its descriptors: it is at its end, unless it plays a trick.
+  // It closed its descriptors: it is about to exit, unless it is hostile.
   static bool ends_itself(pid_t child) {
     constexpr int kPatience = 10000;  // ms
     for (int i = 0; i < kPatience; ++i) {
@@ -263,20 +252,20 @@ class Reaper {
 }  // namespace
 
 ChildEnd run_child(const ChildTask& task) {
-  Pipe words;
+  Pipe output;
   Pipe reply;
-  Reaper reaper(start(task, words, reply));
-  words.in.close();
+  Reaper reaper(start(task, output, reply));
+  output.in.close();
   reply.in.close();
   ChildEnd end;
-  Listener(task, words, reply, end).run();
+  Listener(task, output, reply, end).run();
   const int status = reaper.end(end.is_out_of_time || end.is_reply_too_long);
   end.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (end.signal == SIGXCPU) end.is_out_of_time = true;
   if (end.exit_status == kCannotRun && end.reply.empty()) {
     throw InputError(
-        fmt::format("{} cannot be run: {}", task.program.string(), end.words));
+        fmt::format("{} cannot be run: {}", task.program.string(), end.output));
   }
   return end;
 }

@@ -8,21 +8,25 @@
 
 namespace limber {
 
-/// A program that is to do something for us, under limits.
+/// A program to run, and its limits.
 struct ChildTask {
   std::filesystem::path program;
   std::vector<std::string> arguments;
   std::vector<std::string> environment;  ///< NAME=value, nothing else
-  double seconds = 0.0;                  ///< of wall time, then it is ended [s]
-  std::uint64_t memory = 0;  ///< bytes of address space and of its reply
+  double seconds = 0.0;                  ///< wall time after which it is killed
+                                         ///< [s]
+  std::uint64_t memory = 0;  ///< of address space, and of its reply [bytes]
+  /// False for a program under a sanitizer, which reserves a huge address
+  /// space.
+  bool is_address_space_limited = true;
 };
 
 /// How a child ended.
 struct ChildEnd {
-  std::string reply;    ///< what it wrote to its descriptor kReplyDescriptor
-  std::string words;    ///< the end of what it wrote to its output and error
-  int exit_status = 0;  ///< if `signal` is 0
-  int signal = 0;       ///< that ended it
+  std::string reply;    ///< what it wrote to descriptor kReplyDescriptor
+  std::string output;   ///< end of its standard output and error
+  int exit_status = 0;  ///< valid if `signal` is 0 [-]
+  int signal = 0;       ///< number of the signal that ended it, or 0
   bool is_out_of_time = false;     ///< we ended it
   bool is_reply_too_long = false;  ///< we ended it
 };
@@ -30,10 +34,10 @@ struct ChildEnd {
 /// Where a child writes its reply.
 inline constexpr int kReplyDescriptor = 3;
 
-/// Runs the program to its end. It gets nothing to read, no descriptor of
-/// ours, a process group of its own, and cannot write any file where the
-/// kernel has Landlock. It dies when the calling thread does, however that
-/// ends, and none of its group is left when this returns.
+/// Runs the program to its end. It has no input, none of our descriptors, its
+/// own process group, and cannot write files where the kernel has Landlock. It
+/// is killed when the calling thread ends, and no process of its group is left
+/// when this returns.
 /// @throws InputError if the program cannot be run
 [[nodiscard]] ChildEnd run_child(const ChildTask& task);
 

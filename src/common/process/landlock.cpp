@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/landlock.hpp"
+#include "limber/common/process/landlock.hpp"
 
 #include <linux/landlock.h>
 #include <sys/prctl.h>

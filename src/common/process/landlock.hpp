@@ -3,20 +3,19 @@
 
 namespace limber {
 
-/// Linux's Landlock: rules that a process lays on itself, and cannot take
-/// off again.
+/// Linux Landlock: restrictions that a process puts on itself for good.
 /// Source     Linux, Documentation/userspace-api/landlock.rst
 enum class LandlockRule {
-  no_writing,    ///< no file or folder is made, changed or taken away
+  no_writing,    ///< no file or folder is created, changed or removed
   no_execution,  ///< no program is run
 };
 
 /// A descriptor of the rule, to be closed; -1 where the kernel has none.
-/// With `no_writing` there is no network either, where the kernel can.
+/// `no_writing` also denies network access, where the kernel supports it.
 [[nodiscard]] int make_landlock(LandlockRule rule);
 
-/// Lays the rule on the calling thread. Safe between fork and exec.
-/// @return whether it holds
+/// Applies the rule to the calling thread. Safe between fork and exec.
+/// @return whether it is in force
 bool apply_landlock(int descriptor);
 
 }  // namespace limber

@@ -8,38 +8,38 @@
 #include <type_traits>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/fields.hpp"
-#include "common/types.hpp"
-#include "common/whole_number.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/records/fields.hpp"
+#include "limber/common/records/whole_number.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber {
 
-/// Values in a row as numbers, to the bit: written, and read again by the same
-/// list of them. What a checkpoint is made of. An aggregate goes in by all
-/// fields that fields_of() lists (common/fields.hpp), other things by an
-/// `exchange` of their own:
+/// Serialises values as a sequence of numbers, bit for bit; the same list of
+/// values writes and reads. Used for checkpoints. An aggregate is serialised by
+/// all fields that fields_of() lists (common/records/fields.hpp), other types
+/// by their own `exchange`:
 ///
 ///     void exchange(Archive& archive, Thing& thing) {
 ///       archive(thing.size, thing.names);
 ///     }
 ///
-/// Limits     whole numbers up to 2^53
+/// Limits     integers up to 2^53
 class Archive {
  public:
-  /// To write.
+  /// For writing.
   Archive() = default;
-  /// To read `numbers`, as an archive wrote them.
+  /// For reading `numbers` that an archive has written.
   explicit Archive(std::vector<double> numbers)
       : numbers_(std::move(numbers)), reads_(true) {}
 
   [[nodiscard]] bool reads() const { return reads_; }
-  /// When reading: whether there are numbers that were not read yet.
+  /// When reading: whether unread numbers remain.
   [[nodiscard]] bool has_more() const { return next_ < numbers_.size(); }
   [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
 
   /// Writes the values, or reads them.
-  /// @throws InputError when reading what is not there.
+  /// @throws InputError when reading past the end.
   template <typename... Values>
   void operator()(Values&... values) {
     (exchange(*this, values), ...);
@@ -63,7 +63,7 @@ class Archive {
     size = static_cast<std::size_t>(number);
   }
 
-  /// A whole number; read, one that `Number` can hold.
+  /// An integer; reading checks that `Number` can hold it.
   template <typename Number>
   void pass_whole(Number& value) {
     auto number = static_cast<double>(value);
@@ -118,7 +118,7 @@ void exchange(Archive& archive, std::array<Value, n>& values) {
   for (Value& value : values) exchange(archive, value);
 }
 
-/// Vectors and matrices; of those of fixed size the entries alone.
+/// Vectors and matrices; those of fixed size without their dimensions.
 template <typename Derived>
 void exchange(Archive& archive, Eigen::PlainObjectBase<Derived>& values) {
   if constexpr (Derived::SizeAtCompileTime == Eigen::Dynamic) {

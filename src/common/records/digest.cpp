@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/digest.hpp"
+#include "limber/common/records/digest.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>

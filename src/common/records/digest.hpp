@@ -6,12 +6,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber {
 
-/// A 128-bit digest (XXH3) of values in a row. Texts and lists are preceded by
-/// their length, so that no two rows look alike.
+/// A 128-bit digest (XXH3) of a sequence of values. Texts and lists are
+/// preceded by their length, so that different sequences never coincide.
 class Digest {
  public:
   Digest();

@@ -7,15 +7,15 @@
 #include <tuple>
 #include <type_traits>
 
-#include "common/pose.hpp"
+#include "limber/common/instant.hpp"
+#include "limber/common/pose.hpp"
 
 namespace limber {
 
-/// What an aggregate is called and the names of its fields: all of them, in
-/// order, with their units in brackets. Checkpoints and manifests read things
-/// by these lists alone, and a list that is too short or too long does not
-/// compile: a new field cannot be forgotten. It stands in the namespace of its
-/// type:
+/// Name of an aggregate and of all its fields, in order, with units in
+/// brackets. Checkpoints and manifests are written from these lists only. A
+/// list of the wrong length does not compile, so a new field cannot be
+/// forgotten. Declared in the namespace of its type:
 ///
 ///     constexpr auto fields_of(const Spring*) {
 ///       return list_fields("spring", "stiffness [N/m]", "rest [m]");
@@ -134,6 +134,11 @@ constexpr void for_each_field(T& thing, const Visit& visit) {
         (visit(list.names[i++], fields), ...);
       },
       tie_fields(thing));
+}
+
+constexpr auto fields_of(const InputState*) {
+  return list_fields("input", "since [s]", "value", "rate [1/s]",
+                     "value before", "rate before [1/s]");
 }
 
 constexpr auto fields_of(const Pose*) {

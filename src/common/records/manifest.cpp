@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/manifest.hpp"
+#include "limber/common/records/manifest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,15 +7,15 @@
 #include <set>
 #include <utility>
 
-#include "common/digest.hpp"
+#include "limber/common/records/digest.hpp"
 
 namespace limber {
 namespace {
 
-// Numbers that are written out.
+// Longest list that is written out.
 constexpr std::size_t kFew = 9;
 
-// So that tabs and line breaks are those of the manifest alone.
+// So that tabs and line breaks are only separators.
 std::string escape(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -41,7 +41,7 @@ std::string describe_shape(const std::vector<double>& values,
 
 using Values = std::map<std::string, std::string, std::less<>>;
 
-// The values by their paths; those of one path, if names are shared, in a row.
+// The values by path; several in a row where names are shared.
 struct Lines {
   Values values;
   std::vector<std::string> paths;  // in order
@@ -68,14 +68,14 @@ Lines read_lines(const std::string& text) {
   return lines;
 }
 
-// Whether any path is this place or within it.
+// Whether any path equals this place or lies within it.
 bool has_place(const Values& values, const std::string& place) {
   if (values.contains(place)) return true;
   const auto next = values.lower_bound(place + '\t');
   return next != values.end() && next->first.starts_with(place + '\t');
 }
 
-// The outermost place of a path that is not there.
+// The outermost missing place of a path.
 std::string find_missing(const Values& values, const std::string& path) {
   std::size_t end = path.find('\t');
   while (end != std::string::npos && has_place(values, path.substr(0, end))) {
@@ -84,7 +84,7 @@ std::string find_missing(const Values& values, const std::string& path) {
   return path.substr(0, end);
 }
 
-// A path as one reads it, and the unit in brackets that it may end with.
+// A path in readable form, and the unit in brackets at its end, if any.
 std::pair<std::string, std::string> split_unit(const std::string& path) {
   std::string text;
   for (const char c : path) {
@@ -146,11 +146,11 @@ std::vector<std::string> find_differences(const Manifest& before,
   const Lines old_lines = read_lines(before.text());
   const Lines new_lines = read_lines(now.text());
   std::vector<std::string> texts;
-  std::set<std::string> told;
+  std::set<std::string> reported;
   const auto tell_missing = [&](const Values& values, const std::string& path,
                                 const char* what) {
     const std::string place = find_missing(values, path);
-    if (!told.insert(place).second) return;
+    if (!reported.insert(place).second) return;
     texts.push_back(split_unit(place).first + what);
   };
   for (const std::string& path : new_lines.paths) {

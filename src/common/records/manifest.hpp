@@ -13,22 +13,23 @@
 #include <variant>
 #include <vector>
 
-#include "common/fields.hpp"
-#include "common/types.hpp"
+#include "limber/common/records/fields.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber {
 
-/// What something is made of, as text: a line for each value, the places that
-/// lead to it and the value itself between tabs. A list of more than a few
-/// numbers is its size and its digest (XXH3).
+/// Text description of an object: a line for each value, its path and the value
+/// separated by tabs. A list of more than a few numbers is stored as its size
+/// and digest (XXH3).
 ///
 ///     describe(manifest, "settings", settings);
 ///
-/// enters every field that fields_of() lists (common/fields.hpp), and theirs.
+/// adds every field that fields_of() lists (common/records/fields.hpp),
+/// recursively.
 class Manifest {
  public:
   Manifest() = default;
-  /// Of a text() that was kept.
+  /// From a stored text().
   explicit Manifest(std::string text) : text_(std::move(text)) {}
 
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -39,7 +40,7 @@ class Manifest {
   void add(std::string_view name, const std::vector<double>& values,
            const std::string& shape = {});
 
-  /// What `work` adds is at a place of its own, unless it is empty.
+  /// `work` adds its values below `place`; nothing is added if it adds none.
   template <typename Work>
   void within(std::string_view place, const Work& work) {
     const std::size_t before = path_.size();
@@ -52,15 +53,15 @@ class Manifest {
   void enter(std::string_view place);
 
   std::string text_;
-  std::string path_;  // each place with a tab after it
+  std::string path_;  // each place followed by a tab
 };
 
-/// What is not the same in two manifests, a text for each, in the order of
-/// `now`: "coupler 'elbow', spring, stiffness: 10 -> 100 N/m".
+/// Differences between two manifests, one text each, in the order of `now`:
+/// "coupler 'elbow', spring, stiffness: 10 -> 100 N/m".
 [[nodiscard]] std::vector<std::string> find_differences(const Manifest& before,
                                                         const Manifest& now);
 
-/// A class that is made of its parameters.
+/// A class defined by its parameters().
 template <typename T>
 concept HasParameters = !HasFields<T> && requires(const T& thing) {
   thing.parameters();
@@ -80,13 +81,18 @@ std::string_view kind_of(const T& thing) {
   }
 }
 
+/// A number or an index.
 template <typename T>
-requires std::is_arithmetic_v<T>
+concept IsNumber = std::is_arithmetic_v<T> || requires(const T& value) {
+  { value.operator int() } -> std::same_as<int>;
+};
+
+template <IsNumber T>
 void describe(Manifest& out, std::string_view name, const T& value) {
   out.add(name, static_cast<double>(value));
 }
 
-/// By its name where `to_string` knows one.
+/// An enumerator by its name if `to_string` has one.
 template <typename T>
 requires std::is_enum_v<T>
 void describe(Manifest& out, std::string_view name, const T& value) {
@@ -168,10 +174,10 @@ void describe(Manifest& out, std::string_view name,
 
 namespace detail {
 
-/// Numbers in a row, of numbers and of matrices and arrays of one size.
+/// Appends the entries of a number, or of a fixed-size matrix or array.
 template <typename T>
 void flatten(const T& value, std::vector<double>& numbers) {
-  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+  if constexpr (IsNumber<T> || std::is_enum_v<T>) {
     numbers.push_back(static_cast<double>(value));
   } else if constexpr (requires { value.derived(); }) {
     numbers.insert(numbers.end(), value.data(), value.data() + value.size());
@@ -189,7 +195,7 @@ inline constexpr bool is_named_in_a_list<std::string> = true;
 
 }  // namespace detail
 
-/// Things in a list stand by their kinds and names, or by their numbers from 1.
+/// List entries are identified by kind and name, or numbered from 1.
 template <typename T>
 void describe(Manifest& out, std::string_view name,
               const std::vector<T>& things) {

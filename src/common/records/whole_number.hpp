@@ -7,8 +7,8 @@
 
 namespace limber {
 
-/// Whether `x`, cut to a whole number, is one that `Integer` holds. A cast of
-/// any other is not defined in C++, and gives any number.
+/// Whether `x`, truncated, is representable as `Integer`. The cast of any other
+/// value is undefined behaviour in C++.
 template <std::integral Integer>
 [[nodiscard]] bool fits(double x) {
   const double limit = std::ldexp(1.0, std::numeric_limits<Integer>::digits);
@@ -16,7 +16,7 @@ template <std::integral Integer>
   return x > lowest - 1.0 && x < limit;
 }
 
-/// The same of `x` without a fraction.
+/// Whether `x` is an integer that `Integer` can represent.
 template <std::integral Integer>
 [[nodiscard]] bool is_whole(double x) {
   return fits<Integer>(x) && x == std::trunc(x);

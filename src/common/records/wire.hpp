@@ -9,31 +9,31 @@
 #include <utility>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/types.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber {
 
-/// Values in a row as bytes, from one process of this machine to another: the
-/// same list of values writes and reads.
+/// Serialises values as bytes between processes of one machine; the same list
+/// of values writes and reads.
 ///
 ///     void exchange(Wire& wire, Thing& thing) { wire(thing.size, thing.names);
 ///     }
 ///
-/// What is read need not come from a friend: nothing is taken that is not
-/// there, and no more memory than a small multiple of the bytes received.
+/// Input may be hostile: reads are bounds-checked, and memory use is a small
+/// multiple of the bytes received.
 class Wire {
  public:
-  /// To write.
+  /// For writing.
   Wire() = default;
-  /// To read `bytes`, as a wire wrote them.
+  /// For reading `bytes` that a wire has written.
   explicit Wire(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
 
   [[nodiscard]] bool reads() const { return reads_; }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
   /// Writes the values, or reads them.
-  /// @throws InputError when reading what is not there.
+  /// @throws InputError when reading past the end.
   template <typename... Values>
   void operator()(Values&... values) {
     (exchange(*this, values), ...);
@@ -57,7 +57,7 @@ class Wire {
     size = static_cast<std::size_t>(count);
   }
 
-  /// @throws InputError if a reader left something over.
+  /// @throws InputError if unread bytes remain.
   void finish() const {
     if (reads_ && left() > 0) fail();
   }
@@ -97,7 +97,7 @@ void exchange(Wire& wire, std::vector<Value>& values) {
   constexpr bool kIsPlain =
       std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
   std::size_t size = values.size();
-  // An entry that is no number begins with a length of its own.
+  // An entry that is not a number begins with its own length.
   wire.pass_size(size, kIsPlain ? sizeof(Value) : sizeof(std::uint64_t));
   values.resize(size);
   if constexpr (kIsPlain) {

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/equilibrium.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/generalized_alpha.hpp"
-#include "dynamics/static_newton.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/analysis/static_newton.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-/// Joints' angles count on from where they are.
+/// Stores joint angles with full turns in the couplers' memory, and what pairs
+/// remember.
 void remember_angles(const SystemModel& model, SystemState& state) {
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
@@ -27,6 +30,7 @@ void remember_angles(const SystemModel& model, SystemState& state) {
       near = joints::find_position(coordinates[i], motion, near);
     }
   }
+  PairCommit{model}(state);
 }
 
 bool try_solve(StaticNewton& newton, const VectorX& target,
@@ -34,11 +38,11 @@ bool try_solve(StaticNewton& newton, const VectorX& target,
   try {
     return newton.solve(target, settings, state);
   } catch (const NumericalError&) {
-    return false;  // turned inside out on the way
+    return false;  // an element was inverted
   }
 }
 
-/// Puts the load on by and by.
+/// Load stepping.
 class Continuation {
  public:
   Continuation(const SystemModel& model, StaticNewton& newton,
@@ -48,7 +52,7 @@ class Continuation {
   int run(const VectorX& unbalanced, SystemState& state,
           const Progress& progress) {
     constexpr double kOnTheWay = 1e-6;
-    constexpr int kEasy = 6;  // iterations of a step that may grow
+    constexpr int kEasy = 6;  // most iterations after which the load step grows
     double reached = 0.0;
     double step = 1.0;
     int steps = 0;
@@ -77,9 +81,9 @@ class Continuation {
   [[noreturn]] void fail(double reached) const {
     const auto b = static_cast<std::size_t>(newton_.most_moved());
     throw NumericalError(fmt::format(
-        "body '{}': no equilibrium beyond {:.4g} of what is not balanced at "
-        "the start. There is a limit point, or motion that nothing holds; "
-        "relaxation may find an equilibrium that is farther away",
+        "body '{}': no equilibrium beyond {:.4g} of the unbalanced forces at "
+        "the start. There is a limit point, or unconstrained motion; "
+        "relaxation may find a more distant equilibrium",
         model_.bodies[b].name, reached));
   }
 
@@ -88,7 +92,7 @@ class Continuation {
   const EquilibriumSettings& settings_;
 };
 
-/// Falls towards an equilibrium, with the loads of the start's time.
+/// Dynamic relaxation to an equilibrium, with the loads of the start's time.
 class Fall {
  public:
   Fall(const SystemModel& model, double step)
@@ -96,7 +100,7 @@ class Fall {
         scheme_(model, {.tolerance = kTolerance, .implicit_euler = true}),
         step_(step) {}
 
-  /// Until `near` holds of the state at a peak of kinetic energy.
+  /// Runs until `near` is true for a state at a peak of kinetic energy.
   template <typename Near>
   int run(SystemState& state, int most, const Near& near) {
     scheme_.start(state, step_);
@@ -136,12 +140,12 @@ class Fall {
   double step_;
 };
 
-/// Without loads, couplers that rest leave round-off of their wrenches.
+/// Without loads, unstressed couplers have only round-off of their wrenches.
 bool is_balanced(const SystemModel& model, StaticNewton& newton,
                  const SystemState& state) {
   constexpr double kNothing = 1e-9;  // of the extent
   for (const Load& load : model.loads) {
-    if (evaluate(load.function, state.t, Side::right) != 0.0) return false;
+    if (evaluate(load.function, now_of(state)) != 0.0) return false;
   }
   if (!model.body_loads.empty() || !model.gravity_W.isZero(0.0)) return false;
   return newton.measure_slow_step(state) <= kNothing * newton.extent();
@@ -151,12 +155,12 @@ int relax(const SystemModel& model, StaticNewton& newton,
           const EquilibriumSettings& settings, SystemState& state) {
   constexpr double kNear = 0.1;  // of the extent, to a peak's equilibrium
   constexpr double kSteps = 0.1;
-  const VectorX balanced = VectorX::Zero(NewtonMatrix::size(model));
+  const VectorX balanced = VectorX::Zero(count_unknowns(model));
   const double acceleration =
       newton.measure_acceleration(newton.calc_forces_left(state));
   const double time = std::sqrt(newton.extent() / acceleration);
   const double t = state.t;
-  // The scheme sees a load from before its edges.
+  // The scheme evaluates loads before their edges.
   state.t += 1e-9 * (std::abs(t) + time);
   Fall fall(model, kSteps * time);
   const int steps =
@@ -192,6 +196,12 @@ EquilibriumMethod parse_equilibrium_method(std::string_view name) {
 Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
                              const EquilibriumSettings& settings,
                              const Progress& progress) {
+  if (!model.pairs.empty()) {
+    throw InputError(fmt::format(
+        "pair '{}': equilibria are not found with pairs yet; use couplers, or "
+        "simulate with damping until the motion ends",
+        model.pairs[0].name));
+  }
   Equilibrium found;
   found.state = stop(start);
   StaticNewton newton(model, found.state);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/level_advice.hpp"
+#include "limber/dynamics/analysis/level_advice.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/body_model.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-/// A force that comes at once swings a mode to twice its static answer.
+/// A sudden force drives a mode to twice its static response.
 constexpr double kSudden = 2.0;
 
 void check_setting(const std::optional<double>& value, const char* what,
@@ -23,12 +23,12 @@ void check_setting(const std::optional<double>& value, const char* what,
                   *value, unit));
 }
 
-/// How far a pair of modes moves its upper frequency under the Coriolis force
-/// 2 b of one on the other: s^4 - (a + c + 4 b^2) s^2 + a c = 0.
+/// Shift of the upper frequency of a pair of modes by their Coriolis coupling 2
+/// b: s^4 - (a + c + 4 b^2) s^2 + a c = 0.
 double shift_pair(double lambda_k, double lambda_l, double b) {
   const double spread = std::abs(lambda_k - lambda_l);
   const double coupling = 4.0 * b * b;
-  // (p^2 - 4 a c), p = a + c + 4 b^2, written so that nothing cancels.
+  // (p^2 - 4 a c), p = a + c + 4 b^2, written without cancellation.
   const double root = std::sqrt(
       spread * spread + coupling * (2.0 * (lambda_k + lambda_l) + coupling));
   const double upper = std::max(lambda_k, lambda_l);
@@ -43,11 +43,12 @@ double bound_coriolis(const BodyModel& body, const BodyPeaks& peaks, int k,
       Vector3(body.inertia->beta.block<3, 1>(3 * l, k)).cwiseAbs());
 }
 
-/// What rotation makes of the modes' oscillation in `time` [s]: it takes what
-/// mode l does to mode k, as far as their frequencies let it, and shifts the
-/// frequencies.
+/// Effect of rotation on the modes' oscillation in `time` [s]: excitation of
+/// mode k by mode l, limited by the difference of their frequencies, and
+/// frequency shifts.
 VectorX find_drift(const BodyModel& body, const BodyPeaks& peaks, double time) {
-  const VectorX omega = body.lambda.cwiseSqrt();
+  const VectorX& lambda = require_eigenvalues(body, "advice on levels");
+  const VectorX omega = lambda.cwiseSqrt();
   const double Omega = peaks.Omega.value;
   const auto bound = [](double share) { return std::min(share, 2.0); };
   VectorX drift(body.modes);
@@ -56,22 +57,24 @@ VectorX find_drift(const BodyModel& body, const BodyPeaks& peaks, double time) {
     for (int l = 0; l < body.modes; ++l) {
       if (l == k) continue;
       const double b = bound_coriolis(body, peaks, k, l);
-      const double apart = std::abs(body.lambda[k] - body.lambda[l]);
+      const double apart = std::abs(lambda[k] - lambda[l]);
       const double exchanged = std::min(b * time, 4.0 * b * omega[l] / apart);
       drift[k] += bound(exchanged) * peaks.oscillation[l];
       if (2.0 * b > std::abs(omega[k] - omega[l])) continue;  // the same again
-      const double shift = shift_pair(body.lambda[k], body.lambda[l], b);
+      const double shift = shift_pair(lambda[k], lambda[l], b);
       drift[k] += bound(time * shift) * peaks.oscillation[k];
     }
   }
   return drift;
 }
 
-/// Largest forces on the modes that one-way leaves out: Coriolis and the
-/// centrifugal force of the deformation itself.
+/// Largest forces on the modes that one-way neglects: Coriolis forces and the
+/// centrifugal force of the deformation.
 VectorX bound_forces(const BodyModel& body, const BodyPeaks& peaks) {
   const Vector6 w_squared = half_square(peaks.Omega_B);
-  const VectorX rates = body.lambda.cwiseSqrt().cwiseProduct(peaks.oscillation);
+  const VectorX rates = require_eigenvalues(body, "advice on levels")
+                            .cwiseSqrt()
+                            .cwiseProduct(peaks.oscillation);
   VectorX forces = VectorX::Zero(body.modes);
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
@@ -83,12 +86,14 @@ VectorX bound_forces(const BodyModel& body, const BodyPeaks& peaks) {
   return forces;
 }
 
-/// What one-way leaves out of the modes' own motion [m].
+/// Error of one-way in the modes' motion [m].
 double find_modal_error(const BodyModel& body, const BodyPeaks& peaks) {
   if (peaks.Omega.value == 0.0) return 0.0;
   const VectorX drift =
       find_drift(body, peaks, peaks.angle / peaks.Omega.value);
-  const VectorX answer = bound_forces(body, peaks).cwiseQuotient(body.lambda);
+  const VectorX answer =
+      bound_forces(body, peaks)
+          .cwiseQuotient(require_eigenvalues(body, "advice on levels"));
   return peaks.mode_sizes.dot(answer + drift);
 }
 
@@ -116,13 +121,13 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
       if (e.uncoupled <= limits.displacement) {
         return fmt::format(
             "nodal inertial forces reach {:.2g} N, more than {:.2g} N; what "
-            "one-way leaves out moves it by {}, within {}",
+            "one-way neglects moves it by {}, within {}",
             peaks.force.value, limits.force.value_or(0.0), metres(e.one_way),
             limit);
       }
       return fmt::format(
-          "inertial forces move it by {}, more than {}; what one-way leaves "
-          "out, by {}",
+          "inertial forces move it by {}, more than {}; what one-way neglects, "
+          "by {}",
           metres(e.uncoupled), limit, metres(e.one_way));
     case Fidelity::coupled:
     case Fidelity::full:
@@ -152,6 +157,7 @@ LevelLimits find_limits(const AdviceSettings& settings,
 }
 
 LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {
+  (void)require_eigenvalues(body, "advice on levels");
   LevelErrors errors;
   errors.rigid = peaks.total.value;
   if (body.modes == 0 || body.clamped) return errors;

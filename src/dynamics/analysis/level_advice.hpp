@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "dynamics/level_survey.hpp"
+#include "limber/dynamics/analysis/level_survey.hpp"
 
 namespace limber::dynamics {
 
-/// What a user is willing to neglect. Whatever is not set follows from the
-/// body: the report's 1 um and 5 cm for a beam of 5 m.
+/// What a user is willing to neglect. Defaults scale with the body: the
+/// report's 1 um and 5 cm for a beam of 5 m.
 struct AdviceSettings {
   std::optional<double> displacement;  ///< > 0 [m]
   std::optional<double> linear_limit;  ///< > 0 [m]
@@ -17,7 +17,7 @@ struct AdviceSettings {
 };
 /// @throws InputError if one that is set is not positive and finite.
 void check(const AdviceSettings& settings);
-/// Shares of the longest edge of the body's bounding box.
+/// Fractions of the longest edge of the body's bounding box [-].
 inline constexpr double kNeglectedShare = 2e-7;
 inline constexpr double kLinearShare = 0.01;
 
@@ -31,11 +31,11 @@ struct LevelLimits {
 [[nodiscard]] LevelLimits find_limits(const AdviceSettings& settings,
                                       const flexbody::ReducedBody& body);
 
-/// Displacement that each level leaves out, by estimate [m].
+/// Estimated displacement that each level neglects [m].
 struct LevelErrors {
-  double rigid = 0.0;
-  double uncoupled = 0.0;
-  double one_way = 0.0;
+  double rigid = 0.0;      ///< [m]
+  double uncoupled = 0.0;  ///< [m]
+  double one_way = 0.0;    ///< [m]
 };
 
 /// Equation   rigid      u + s
@@ -43,18 +43,19 @@ struct LevelErrors {
 ///            one-way    e = s + sum_k |phi_k| (f_k / lambda_k + d_k)
 /// Source     docs/theory/choosing.md, "Which level"; u, u_i and s are
 ///            BodyPeaks' total, inertial and turned_aside; f_k bounds the
-///            forces on mode k that one-way leaves out, d_k what rotation makes
-///            of oscillation
-/// Limits     estimates, with factors that err to the safe side
+///            forces on mode k that one-way neglects, d_k the effect of
+///            rotation on oscillation
+/// Limits     estimates, with conservative factors
+/// @throws InputError naming a body whose elasticity couples its modes.
 [[nodiscard]] LevelErrors estimate_errors(const BodyModel& body,
                                           const BodyPeaks& peaks);
 
-/// The least level for one body, and why.
+/// The lowest adequate level for one body, and why.
 struct LevelAdvice {
   Fidelity level = Fidelity::coupled;
   std::string reason;  ///< one sentence with its numbers
   LevelErrors errors;
-  /// Linear elasticity may not hold: then only level `full` is right.
+  /// Linear elasticity may not be valid: then only level `full` is.
   bool is_beyond_linear = false;
 };
 /// @param body with its modes, at Fidelity::uncoupled

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/level_survey.hpp"
+#include "limber/dynamics/analysis/level_survey.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/body_model.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-/// A load that comes at once swings a mode to twice its static answer.
+/// A sudden load drives a mode to twice its static response.
 constexpr double kSudden = 2.0;
 constexpr std::size_t kMostPoints = 4096;  // of a track
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<double> find_jumps(const SystemModel& model) {
   std::vector<double> times;
@@ -48,8 +47,11 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
                           const std::vector<double>& reaches)
     : body(index_of_body),
       J0_inverse(model.bodies[index(body)].J0.inverse()),
-      flexibility(model.bodies[index(body)].lambda.cwiseInverse()),
-      omega(model.bodies[index(body)].lambda.cwiseSqrt()),
+      flexibility(
+          require_eigenvalues(model.bodies[index(body)], "advice on levels")
+              .cwiseInverse()),
+      omega(flexbody::rest_stiffness(model.bodies[index(body)].elasticity)
+                .cwiseSqrt()),
       own(std::make_shared<DisplacementMeasure>(model.bodies[index(body)])),
       anywhere(std::make_shared<DisplacementMeasure>(model, body, reaches)),
       force_bound(model.bodies[index(body)].reduced->levers),
@@ -68,7 +70,7 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
   for (std::size_t i = 0; i < reaches.size(); ++i) {
     if (model.attachments[i].body == body) reach = std::max(reach, reaches[i]);
   }
-  // What couplers hold does not turn alone about its slenderest axis.
+  // A body held by couplers does not rotate alone about its slenderest axis.
   compliance = J0_inverse;
   if (is_held(model, body)) {
     compliance = Matrix3::Identity() /
@@ -94,7 +96,7 @@ void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
   LIMBER_EXPECT(state.memory.size() == state_.memory.size());
   state_.t = state.t;
   state_.bodies = state.bodies;
-  state_.memory = state.memory;
+  copy_step_constants(state, state_);
   for (Watch& watch : watches_) {
     const BodyModel& from = source.bodies[index(watch.body)];
     const BodyModel& to = model_.bodies[index(watch.body)];
@@ -130,7 +132,7 @@ void LevelSurvey::include(const SystemState& state, Side side) {
   thin_tracks();
 }
 
-// Every second point goes when there are too many.
+// Removes every second point when there are too many.
 void LevelSurvey::thin_tracks() {
   bool is_full = false;
   for (const Watch& watch : watches_) {
@@ -167,8 +169,8 @@ void LevelSurvey::include_rotation(const SystemState& state,
   if (count_ % stride_ == 0) watch.track.push_back({alpha, Omega});
 }
 
-// What a change of the static answer leaves swinging: all of it if it comes at
-// once, its rate over the frequency if it comes as a ramp.
+// Oscillation after a change of the static response: the whole change if
+// sudden, its rate over the frequency if a ramp.
 void LevelSurvey::add_oscillation(const Watch& watch, const VectorX& eta,
                                   double t, VectorX& swings) {
   const double time = watch.has_begun ? t - watch.last_time : 0.0;
@@ -180,7 +182,7 @@ void LevelSurvey::add_oscillation(const Watch& watch, const VectorX& eta,
 void LevelSurvey::include_deformation(const SystemState& state,
                                       const BodyTerms& terms, Watch& watch) {
   const BodyModel& body = model_.bodies[index(watch.body)];
-  VectorX& inertial = watch.eta_inertial;  // stays zero of a clamped body
+  VectorX& inertial = watch.eta_inertial;  // remains zero for a clamped body
   VectorX& eta = watch.eta;
   if (!body.clamped) {
     inertial.noalias() = body.inertia->J1.transpose() *
@@ -213,8 +215,8 @@ void LevelSurvey::include_deformation(const SystemState& state,
   if (!body.clamped) include_slip(body, eta, state, watch);
 }
 
-// A body of inertia J0 + dJ keeps J0 w0 = (J0 + dJ) w: it turns more slowly by
-// J0^-1 dJ w.
+// A body of inertia J0 + dJ conserves J0 w0 = (J0 + dJ) w: it rotates more
+// slowly by J0^-1 dJ w.
 void LevelSurvey::include_slip(const BodyModel& body, const VectorX& eta,
                                const SystemState& state, Watch& watch) {
   const Vector3 slip = watch.compliance *
@@ -252,7 +254,7 @@ std::vector<BodyPeaks> LevelSurvey::find_peaks() const {
     peaks.modes *= factor;
     peaks.oscillation *= factor;
     if (watch.is_observed && watch.misses_inertial) {
-      // The static answer is in; it may swing as far again.
+      // The static response is included; oscillation may add as much again.
       const double again = (kSudden - 1.0) * peaks.inertial.value;
       peaks.total.value += again;
       peaks.deformation.value += again;

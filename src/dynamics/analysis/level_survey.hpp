@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/displacement_measure.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/refined_peak.hpp"
-#include "dynamics/system_state.hpp"
-#include "flexbody/decision_boundary.hpp"
+#include "limber/dynamics/equations/displacement_measure.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/refined_peak.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
 
 namespace limber::dynamics {
 
@@ -18,24 +18,23 @@ struct RotationPoint {
   double Omega = 0.0;  ///< [rad/s]
 };
 
-/// What one flexible body went through. Displacements are the largest ones
-/// anywhere, DisplacementMeasure's, unless they say otherwise. All are
-/// magnitudes, without a sign.
+/// Peaks of one flexible body's motion. Displacements are the largest anywhere
+/// by DisplacementMeasure, unless stated otherwise. All are magnitudes.
 struct BodyPeaks {
-  BodyIndex body = 0;
+  BodyIndex body;
   Peak alpha;          ///< [rad/s^2]
   Peak Omega;          ///< [rad/s]
   Peak report;         ///< |alpha| + |Omega|^2 [1/s^2], [@morrison2023, eq. 31]
   Peak force;          ///< bound on nodal inertial forces [N]
-  double angle = 0.0;  ///< turned, integral of |Omega| [rad]
-  /// Largest size of each component of Omega, axes of the body [rad/s].
+  double angle = 0.0;  ///< integral of |Omega| [rad]
+  /// Largest magnitude of each component of Omega, body frame [rad/s].
   Vector3 Omega_B = Vector3::Zero();
   Peak inertial;     ///< of inertial forces, static [m]
   Peak loads;        ///< of loads, couplers and gravity, static [m]
-  Peak total;        ///< of all, with what oscillation adds [m]
+  Peak total;        ///< of all, including oscillation [m]
   Peak deformation;  ///< of the body's own nodes, as `total` [m]
-  /// Where rotation gets the body and what it carries beside where it would
-  /// get them with the undeformed inertia [m].
+  /// Displacement of the body and all it carries relative to the rotation with
+  /// the undeformed inertia [m].
   double turned_aside = 0.0;
   /// Amplitudes of oscillation at the modes' own frequencies, largest
   /// |etadot_k| / omega_k [kg^1/2 m].
@@ -44,30 +43,32 @@ struct BodyPeaks {
   VectorX mode_sizes;  ///< of the measure [kg^-1/2]
 };
 
-/// Watches a motion and tells, for each flexible body, what its modes would do
-/// and what each level of fidelity would leave out. docs/theory/choosing.md.
+/// Observes a motion and estimates, for each flexible body, the response of its
+/// modes and what each level of fidelity would neglect.
+/// docs/theory/choosing.md.
 ///
-/// Limits     Static answers, doubled where an oscillation is to be expected:
-///            right for loads that grow from zero and stay or end, too small
-///            near resonance. Peaks are those of a parabola where states
-///            follow one another closely; displacements at most 0.1 % low.
+/// Limits     Static responses, doubled where an oscillation is expected:
+///            valid for loads that grow from zero and stay or end, too small
+///            near resonance. Peaks are refined by a parabola where states are
+///            close in time; displacements are at most 0.1 % low.
 class LevelSurvey {
  public:
-  /// @param model every flexible body at Fidelity::uncoupled. Kept by
+  /// @param model every flexible body at Fidelity::uncoupled. Stored by
   /// reference.
+  /// @throws InputError naming a body whose elasticity couples its modes.
   explicit LevelSurvey(const SystemModel& model);
 
-  /// A state of a run of the same bodies, couplers and loads, in the order of
-  /// time: of `source`, whose bodies may be at any level. What source's body
-  /// knows of its own deformation is used in place of the static estimate.
+  /// A state of a run of `source`, in order of time: the same bodies, couplers
+  /// and loads, the bodies at any level. A deformation that source computes is
+  /// used in place of the static estimate.
   void include(const SystemModel& source, const SystemState& state);
 
-  /// One entry a flexible body, in the model's order.
+  /// One entry per flexible body, in the model's order.
   [[nodiscard]] std::vector<BodyPeaks> find_peaks() const;
-  /// The way through the plane, evenly thinned, one entry a flexible body.
+  /// The trajectory in the plane, evenly thinned, one entry per flexible body.
   [[nodiscard]] std::vector<std::vector<RotationPoint>> tracks() const;
 
-  /// What it knows between states.
+  /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
@@ -75,12 +76,13 @@ class LevelSurvey {
     Watch(const SystemModel& model, BodyIndex body,
           const std::vector<double>& reaches);
     BodyIndex body;
-    Matrix3 J0_inverse;
-    Matrix3 compliance = Matrix3::Zero();  ///< what resists slip, inverted
-    Vector3 half_size = Vector3::Zero();   ///< of the bounding box [m]
-    double reach = 0.0;                    ///< of what it carries [m]
-    VectorX flexibility;                   ///< 1 / lambda
-    VectorX omega;                         ///< sqrt(lambda) [rad/s]
+    Matrix3 J0_inverse;  ///< [1/(kg m^2)]
+    /// Inverse of the inertia that resists slip [1/(kg m^2)].
+    Matrix3 compliance = Matrix3::Zero();
+    Vector3 half_size = Vector3::Zero();  ///< of the bounding box [m]
+    double reach = 0.0;                   ///< of the bodies that it carries [m]
+    VectorX flexibility;                  ///< 1 / lambda [s^2/rad^2]
+    VectorX omega;                        ///< sqrt(lambda) [rad/s]
     std::shared_ptr<const DisplacementMeasure> own;
     std::shared_ptr<const DisplacementMeasure> anywhere;
     flexbody::InertialForceBound force_bound;
@@ -89,21 +91,22 @@ class LevelSurvey {
     PeakDisplacement total;
     PeakDisplacement deformation;
     bool is_observed = false;      ///< source computes its modes
-    bool misses_inertial = false;  ///< but not the inertial forces on them
+    bool misses_inertial = false;  ///< but without inertial forces on them
     RefinedPeak alpha;
     RefinedPeak Omega;
     RefinedPeak report;
     RefinedPeak force;
     bool has_begun = false;
-    double last_time = 0.0;  ///< [s]
-    double last_Omega = 0.0;
-    VectorX last_eta;                     ///< static answer
+    double last_time = 0.0;               ///< [s]
+    double last_Omega = 0.0;              ///< [rad/s]
+    VectorX last_eta;                     ///< static response [kg^1/2 m]
     Vector3 last_slip = Vector3::Zero();  ///< J0^-1 (J1 eta) w [rad/s]
     Vector3 slipped = Vector3::Zero();    ///< its integral [rad]
-    VectorX eta_inertial;                 ///< static answers, working memory
-    VectorX eta_loads;
-    VectorX eta;
-    VectorX swings;
+    // Static responses, workspace.
+    VectorX eta_inertial;  ///< [kg^1/2 m]
+    VectorX eta_loads;     ///< [kg^1/2 m]
+    VectorX eta;           ///< [kg^1/2 m]
+    VectorX swings;        ///< amplitudes of oscillation [kg^1/2 m]
     BodyPeaks peaks;
     std::vector<RotationPoint> track;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/natural_frequencies.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/rest.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -28,7 +28,7 @@ MatrixX find_complement(const MatrixX& Q) {
   return all.rightCols(Q.rows() - Q.cols());
 }
 
-/// Null space of rows of length one, whatever their sizes were.
+/// Null space of the rows, normalised to unit length.
 MatrixX find_null_space(MatrixX rows) {
   constexpr double kDependent = 1e-10;
   rows.rowwise().normalize();
@@ -40,11 +40,11 @@ MatrixX find_null_space(MatrixX rows) {
   return all.rightCols(n - qr.rank());
 }
 
-/// Small motion in coordinates in which M is 1, what is free first.
+/// Small motion in coordinates with M = 1, free ones first.
 struct Basis {
   MatrixX Q;
   Index free = 0;
-  Index drift = 0;  ///< of them: of a whole system that nothing ties
+  Index drift = 0;  ///< of these, translations of an untied system
 };
 
 /// Translations of all bodies together, if nothing ties them to the world.
@@ -60,8 +60,8 @@ MatrixX find_drift(const SystemModel& model, const SmallMotion& motion) {
   return drift;
 }
 
-/// Splits off what S does not resist, and makes S's symmetric part diagonal in
-/// all else.
+/// Separates the null space of S, and diagonalises the symmetric part of S in
+/// the rest.
 Basis find_basis(const SystemModel& model, const SmallMotion& motion) {
   constexpr double kNothing = 1e-9;
   constexpr double kSafety = 10.0;  // of round-off
@@ -71,7 +71,7 @@ Basis find_basis(const SystemModel& model, const SmallMotion& motion) {
   const MatrixX to_x =
       mass.matrixU().solve(MatrixX::Identity(n, n));  // M = U' U
   MatrixX drift = find_drift(model, motion);
-  if (drift.cols() > 0) {  // apart from all else: momentum is kept
+  if (drift.cols() > 0) {  // separate: momentum is conserved
     const Eigen::HouseholderQR<MatrixX> qr(mass.matrixU() * drift);
     drift = qr.householderQ() * MatrixX::Identity(n, drift.cols());
   }
@@ -100,8 +100,8 @@ Basis find_basis(const SystemModel& model, const SmallMotion& motion) {
   return basis;
 }
 
-/// x' = u, u' = -S x - D u without drift; positions of what is free do not
-/// matter, the others are scaled by their frequencies.
+/// x' = u, u' = -S x - D u without drift; positions of free coordinates are
+/// irrelevant, the others are scaled by their frequencies.
 struct FirstOrder {
   FirstOrder(const SmallMotion& motion, const Basis& basis) {
     const Index n = motion.size() - basis.drift;
@@ -128,8 +128,8 @@ struct Candidate {
   double change = 0.0;
 };
 
-/// Of velocities u in the basis: (u* i around u) / (u* all u) is how they go
-/// around an axis, -1 to 1.
+/// For velocities u in the basis: (u* i around u) / (u* all u) measures their
+/// rotation around an axis, -1 to 1.
 struct Orbit {
   MatrixX around;
   MatrixX all;
@@ -165,8 +165,8 @@ Orbit make_orbit(const SystemModel& model, const SystemState& state,
   return {Q.transpose() * around * Q, Q.transpose() * all * Q};
 }
 
-/// Of modes of one value, which any mixture of them has, too: the orbits
-/// between which all others are, the largest first.
+/// Extreme orbits of modes of one eigenvalue over all their combinations, the
+/// largest first.
 VectorX find_orbits(const Orbit& orbit, const Eigen::MatrixXcd& u) {
   const std::complex<double> i(0.0, 1.0);
   const Eigen::MatrixXcd around = u.adjoint() * (i * (orbit.around * u));
@@ -181,8 +181,8 @@ VectorX find_orbits(const Orbit& orbit, const Eigen::MatrixXcd& u) {
       .reverse();
 }
 
-/// Largest change of one small motion to another, each term beside what the
-/// first has of that kind at its frequencies and at `spin` [rad/s].
+/// Largest change from one small motion to another, each term relative to those
+/// of its kind in the first at its frequencies and at `spin` [rad/s].
 double measure_change(const SmallMotion& a, const SmallMotion& b,
                       const Basis& basis, double spin) {
   const MatrixX& Q = basis.Q;
@@ -223,7 +223,7 @@ Candidate choose(const SystemModel& model, const SystemState& state) {
   return turning.change < still.change ? turning : still;
 }
 
-/// Modes of one value, as far as round-off tells, share their orbits.
+/// Modes of one eigenvalue, within round-off, share their orbits.
 void add_orbits(const Orbit& orbit, const Eigen::MatrixXcd& u,
                 std::vector<NaturalMode>& modes) {
   constexpr double kSame = 1e-7;
@@ -250,7 +250,7 @@ void add_orbits(const Orbit& orbit, const Eigen::MatrixXcd& u,
 void add_oscillations(const SystemModel& model, const SystemState& state,
                       const Candidate& c, NaturalModes& found) {
   constexpr double kNothing = 1e-11;   // of the fastest
-  constexpr double kOfTheSpin = 1e-7;  // where zeros are double
+  constexpr double kOfTheSpin = 1e-7;  // for double zeros
   const FirstOrder first(c.motion, c.basis);
   if (first.A.rows() == 0) return;
   const Vector3 spin = find_fastest_spin(state);
@@ -259,7 +259,7 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
   const auto& values = eigen.eigenvalues();
   const double least = std::max(kNothing * values.cwiseAbs().maxCoeff(),
                                 kOfTheSpin * spin.norm());
-  Index coasting = c.basis.free - c.basis.drift;  // velocities of what is free
+  Index coasting = c.basis.free - c.basis.drift;  // free velocities
   std::vector<NaturalMode> around;
   std::vector<Index> columns;
   for (Index i = 0; i < values.size(); ++i) {
@@ -279,7 +279,7 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
   found.modes.insert(found.modes.end(), around.begin(), around.end());
 }
 
-/// At rest and undamped: of the diagonal, which the basis has made.
+/// At rest and undamped: from the diagonal of the basis.
 void add_frequencies(const Candidate& c, NaturalModes& found) {
   const VectorX squares = c.motion.project_stiffness(c.basis.Q).diagonal().tail(
       c.motion.size() - c.basis.free);

@@ -5,17 +5,18 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/steady_motion.hpp"
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/analysis/steady_motion.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// One way in which small motion goes: as exp(value t).
+/// One mode of small motion, proportional to exp(value t).
 struct NaturalMode {
   std::complex<double> value;  ///< imaginary part >= 0; 0: free [1/s]
-  /// How it goes around the spin, of a system that moves: 1 a circle with it,
-  /// -1 one against it, 0 a line; seen from the axes. By the masses' orbits.
+  /// Whirl relative to the spin of a moving system, seen from the axes [-]: 1 a
+  /// forward circle, -1 a backward circle, 0 a line. From the orbits of the
+  /// masses.
   double orbit = 0.0;
 
   [[nodiscard]] bool is_free() const { return value == 0.0; }
@@ -25,37 +26,36 @@ struct NaturalMode {
   [[nodiscard]] double damping_ratio() const;
 };
 
-/// Small motion about a start.
+/// Modes of small motion about a start.
 struct NaturalModes {
   std::vector<NaturalMode> modes;  ///< free ones, then by |value|
   bool is_moving = false;
-  TurningAxes axes;     ///< the values are seen from these; at rest: world
+  TurningAxes axes;     ///< in which values are expressed; at rest: world
   Imbalance imbalance;  ///< of the start
-  /// How far M, D and S change while the system turns by 1 rad, of themselves:
-  /// 0 where frequencies are meant exactly [-].
+  /// Relative change of M, D and S while the system rotates by 1 rad: 0 if the
+  /// frequencies are exact [-].
   double change = 0.0;
 };
 
-/// Eigenvalues of small motion about what a state goes on with, dampers,
-/// gyroscopic and centrifugal terms included. About a motion in axes that
-/// rest, or that turn with the body that spins fastest, whichever sees the
-/// same system all the time: a round rotor in any bearings, or any rotor in
-/// round bearings.
+/// Eigenvalues of small motion about the steady motion of a state, with
+/// dampers, gyroscopic and centrifugal terms. A moving system is described in
+/// fixed axes, or in axes that rotate with the fastest spinning body, whichever
+/// give constant coefficients: an axisymmetric rotor in any bearings, or any
+/// rotor in isotropic bearings.
 ///
-/// Equation   det(M s^2 + D s + S) = 0 of SmallMotion. What S leaves free is
-///            its null space: that of what holds, whatever its stiffness, in
-///            which the rest of S is round-off. It is split off.
+/// Equation   det(M s^2 + D s + S) = 0 of SmallMotion. Free motion is
+///            the null space of S: of all couplers, whatever their stiffness,
+///            where the rest of S is round-off. It is separated first.
 /// Source     Genta, "Dynamics of Rotating Systems", 2005, ch. 3 [@genta2005]
 /// Limits     dense: (12 bodies + 2 modes)^3
 /// @throws InputError for a body at level `full`.
 [[nodiscard]] NaturalModes find_natural_modes(const SystemModel& model,
                                               const SystemState& state);
 
-/// Natural frequencies at rest and without dampers: drives hold what they
-/// command at state.t. Ascending; what moves freely has 0, what would fall away
-/// from an unstable configuration a negative one [Hz].
+/// Natural frequencies at rest and without dampers, drives at their commands of
+/// state.t. Ascending; 0 for free motion, negative for unstable motion [Hz].
 ///
-/// Equation   S x = lambda M x, S made symmetric;
+/// Equation   S x = lambda M x, S symmetrised;
 ///            sign(lambda) sqrt(|lambda|) / (2 pi)
 /// @throws InputError for a body at level `full`.
 [[nodiscard]] VectorX find_natural_frequencies(const SystemModel& model,

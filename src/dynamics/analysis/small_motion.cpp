@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/small_motion.hpp"
+#include "limber/dynamics/analysis/small_motion.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/newton_matrix.hpp"
-#include "dynamics/newton_measures.hpp"
-#include "dynamics/residual_derivative.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/newton/newton_measures.hpp"
+#include "limber/dynamics/newton/residual_derivative.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 using Index = Eigen::Index;
 
-// Loads that jump at the state's time have jumped.
+// Just after loads that jump at the state's time.
 SystemState just_after(const SystemState& state) {
   SystemState after = state;
   after.t += 1e-12 * (1.0 + std::abs(state.t));
   return after;
 }
 
-/// Derivatives of the equations of motion by coordinates as the state has
-/// them: places in world axes, turns in a body's own.
+/// Derivatives of the equations of motion by the coordinates of the state:
+/// positions in the world frame, rotations in the body frame.
 class Derivatives {
  public:
   Derivatives(const SystemModel& model, const SystemState& state,
@@ -45,7 +47,7 @@ class Derivatives {
     acceleration_ = {a.a_WB_W, a.dw_WB_B, a.etaddot, a.uddot_H};
   }
 
-  /// D as C, rest as that of K_q.
+  /// Fills C into D, and the rest of K_q.
   void fill() {
     const Index n = std::ssize(rows_);
     out_.M = out_.D = MatrixX::Zero(n, n);
@@ -65,7 +67,7 @@ class Derivatives {
   void list_coordinates() {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyModel& body = model_.bodies[b];
-      const Index row = 6 * static_cast<Index>(b) + body.offset;
+      const Index row = first_row(body, b);
       out_.places.push_back(body.has_rigid_motion() ? std::ssize(rows_) : -1);
       for (Index i = body.has_rigid_motion() ? 0 : 6; i < 6 + body.modes; ++i) {
         if (i == 6) break;
@@ -83,8 +85,8 @@ class Derivatives {
     for (Index k = 0; k < body.modes; ++k) {
       out_.M(m + k, m + k) = 1.0;
       out_.D(m + k, m + k) = body.damping[k];
-      out_.lambda[m + k] = body.lambda[k];
     }
+    fill_elasticity(body, m);
     const Index p = out_.places[b];
     if (p < 0) return;
     const Vector3& w = state_.bodies[b].w_WB_B;
@@ -95,6 +97,17 @@ class Derivatives {
     out_.D.block<3, 3>(p + 3, p + 3) = skew(w) * t.J - skew(t.J * w);
   }
 
+  void fill_elasticity(const BodyModel& body, Index m) {
+    if (const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity)) {
+      out_.lambda.segment(m, body.modes) = *lambda;
+      return;
+    }
+    MatrixX K(body.modes, body.modes);
+    flexbody::calc_elastic_tangent(
+        body.elasticity, state_.eta.segment(body.offset, body.modes), K);
+    out_.coupled.push_back({m, std::move(K)});
+  }
+
   // Laws of unit stiffness change by minus the motions.
   void fill_links() {
     for (CouplerTerms& c : terms_.couplers) {
@@ -102,13 +115,15 @@ class Derivatives {
       c.response.stiffness.setIdentity();
     }
     for (TransmissionTerms& t : terms_.transmissions) {
-      out_.K.push_back(Matrix6::Zero());
+      out_.K.emplace_back(Matrix6::Zero());
       out_.K.back()(0, 0) = t.response.stiffness;
       t.response.stiffness = 1.0;
     }
     NewtonMatrix matrix(model_);
     matrix.factor(model_, state_, terms_, no_turn_, {1.0, 0.0});
     const Index couplers = std::ssize(terms_.couplers);
+    const auto links = std::ssize(out_.K);
+    add_pair_stiffness();
     out_.G = MatrixX::Zero(6 * std::ssize(out_.K), std::ssize(rows_));
     VectorX changes;
     for (Index j = 0; j < out_.G.cols(); ++j) {
@@ -118,7 +133,8 @@ class Derivatives {
         out_.G(6 * (couplers + i), j) = -changes[6 * couplers + i];
       }
     }
-    for (std::size_t i = 0; i < out_.K.size(); ++i) {
+    fill_pair_motions(6 * links);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(links); ++i) {
       const auto t = static_cast<Index>(i) - couplers;
       if (t < 0) {
         terms_.couplers[i].response.stiffness = out_.K[i];
@@ -127,6 +143,36 @@ class Derivatives {
             out_.K[i](0, 0);
       }
     }
+  }
+
+  // A point of a pair is a link of three rows, over zeros.
+  template <typename Visit>
+  void for_each_point(const Visit& visit) const {
+    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
+      for (const auto& point : terms_.pairs.responses[i].points()) {
+        visit(model_.pairs[i], point);
+      }
+    }
+  }
+
+  void add_pair_stiffness() {
+    for_each_point([&](const Pair& /*pair*/, const joints::PairPoint& point) {
+      out_.K.emplace_back(Matrix6::Zero());
+      out_.K.back().topLeftCorner<3, 3>() = point.stiffness;
+    });
+  }
+
+  // The motion of a point by x is what a unit force there does on x.
+  void fill_pair_motions(Index row) {
+    VectorX forces(count_unknowns(model_));
+    for_each_point([&](const Pair& pair, const joints::PairPoint& point) {
+      for (int i = 0; i < 3; ++i) {
+        forces.setZero();
+        add_residual(model_, pair, point, -Vector3::Unit(i), terms_, forces);
+        out_.G.row(row + i) = forces(rows_).transpose();
+      }
+      row += 6;
+    });
   }
 
   MatrixX damp(const MatrixX& motions) const {
@@ -142,15 +188,20 @@ class Derivatives {
           t.response.damping * motions.middleRows<6>(row);
       row += 6;
     }
+    for_each_point([&](const Pair& /*pair*/, const joints::PairPoint& point) {
+      forces.middleRows<3>(row) = point.damping * motions.middleRows<3>(row);
+      forces.middleRows<3>(row + 3).setZero();
+      row += 6;
+    });
     return forces;
   }
 
-  // Of what is neither stiff nor in M and D already, velocities changing by
-  // `velocity` times the positions.
+  // Derivative of all terms without stiffness that are not yet in M and D, with
+  // velocities changing by `velocity` times the positions.
   MatrixX differentiate(double velocity, MatrixX& laws) {
     const Index n = std::ssize(rows_);
     MatrixX rest(n, n);
-    laws.resize(out_.G.rows(), n);
+    laws.setZero(out_.G.rows(), n);
     derivative_.set_point(state_, terms_, acceleration_, no_turn_,
                           {0.0, velocity});
     VectorX residual;
@@ -165,7 +216,7 @@ class Derivatives {
     return rest;
   }
 
-  // Forces that turn are linear in the wrenches.
+  // Rotating forces are linear in the wrenches.
   void fill_noise() {
     std::vector<Vector6> gaps;
     find_roundoff_gaps(model_, terms_, 0.0, gaps);
@@ -187,7 +238,7 @@ class Derivatives {
   }
 
   [[nodiscard]] VectorX unit(Index j) const {
-    return VectorX::Unit(NewtonMatrix::size(model_),
+    return VectorX::Unit(count_unknowns(model_),
                          rows_[static_cast<std::size_t>(j)]);
   }
 
@@ -198,10 +249,10 @@ class Derivatives {
   Rates acceleration_;
   std::vector<Vector3> no_turn_;
   ResidualDerivative derivative_;
-  std::vector<Index> rows_;  // of NewtonMatrix, one a coordinate
+  std::vector<Index> rows_;  // of NewtonMatrix, one per coordinate
 };
 
-// From the axes to those of the state.
+// Rotation from the axes to the frames of the state.
 MatrixX make_turn(const SmallMotion& motion, const SystemState& state,
                   const Matrix3& R) {
   MatrixX P = MatrixX::Identity(motion.size(), motion.size());
@@ -246,23 +297,36 @@ void check_levels(const SystemModel& model) {
   }
 }
 
-// Directions in which a coupler's stiffness is not round-off, as columns.
-MatrixX find_held(const Matrix6& K) {
+// Directions in which a stiffness is not round-off, as columns.
+// @param scale makes it independent of units and of soft directions
+template <typename Square>
+MatrixX find_held(const Square& K, const VectorX& scale) {
   constexpr double kRoundoff = 1e-13;
-  Vector6 scale;  // so that units, and soft directions along axes, do not count
-  for (Index i = 0; i < 6; ++i) scale[i] = std::sqrt(std::abs(K(i, i)));
-  const Vector6 inverse =
+  const Index n = K.rows();
+  const VectorX inverse =
       (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
-  const Matrix6 scaled =
+  const Square scaled =
       inverse.asDiagonal() * (0.5 * (K + K.transpose())) * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
-  MatrixX held(6, 0);
-  for (Index i = 0; i < 6; ++i) {
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(scaled);
+  MatrixX held(n, 0);
+  for (Index i = 0; i < n; ++i) {
     if (std::abs(eigen.eigenvalues()[i]) <= kRoundoff) continue;
-    held.conservativeResize(6, held.cols() + 1);
+    held.conservativeResize(n, held.cols() + 1);
     held.rightCols<1>() = scale.asDiagonal() * eigen.eigenvectors().col(i);
   }
   return held;
+}
+
+template <typename Square>
+VectorX root_of_diagonal(const Square& K) {
+  return K.diagonal().cwiseAbs().cwiseSqrt();
+}
+
+// A tangent that is not positive may have zeros on its diagonal alone.
+MatrixX find_held_modes(const MatrixX& K) {
+  const VectorX scale = root_of_diagonal(K);
+  const VectorX largest = K.cwiseAbs().rowwise().maxCoeff().cwiseSqrt();
+  return find_held(K, (scale.array() > 0.0).select(scale, largest));
 }
 
 }  // namespace
@@ -274,8 +338,13 @@ MatrixX SmallMotion::project_stiffness(const MatrixX& Q) const {
     const Index row = 6 * static_cast<Index>(i);
     forces.middleRows<6>(row) = K[i] * motions.middleRows<6>(row);
   }
-  return Q.transpose() * (lambda.asDiagonal() * Q) +
-         motions.transpose() * forces + Q.transpose() * (rest * Q);
+  MatrixX S = Q.transpose() * (lambda.asDiagonal() * Q) +
+              motions.transpose() * forces + Q.transpose() * (rest * Q);
+  for (const ModalBlock& block : coupled) {
+    const auto rows = Q.middleRows(block.first, block.K.rows());
+    S += rows.transpose() * (block.K * rows);
+  }
+  return S;
 }
 
 MatrixX SmallMotion::find_holds() const {
@@ -283,8 +352,15 @@ MatrixX SmallMotion::find_holds() const {
   for (Index i = 0; i < size(); ++i) {
     if (lambda[i] != 0.0) rows.emplace_back(VectorX::Unit(size(), i));
   }
+  for (const ModalBlock& block : coupled) {
+    const MatrixX held = find_held_modes(block.K);
+    for (Index k = 0; k < held.cols(); ++k) {
+      rows.emplace_back(VectorX::Zero(size()));
+      rows.back().segment(block.first, held.rows()) = held.col(k);
+    }
+  }
   for (std::size_t i = 0; i < K.size(); ++i) {
-    const MatrixX held = find_held(K[i]).transpose() *
+    const MatrixX held = find_held(K[i], root_of_diagonal(K[i])).transpose() *
                          G.middleRows<6>(6 * static_cast<Index>(i));
     for (Index k = 0; k < held.rows(); ++k) {
       if (!held.row(k).isZero(0.0)) rows.emplace_back(held.row(k));

@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/static_newton.hpp"
+#include "limber/dynamics/analysis/static_newton.hpp"
 
 #include <cmath>
 #include <unsupported/Eigen/IterativeSolvers>
 
-#include "common/errors.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/matrix_free.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/newton/applied_wrenches.hpp"
+#include "limber/dynamics/newton/matrix_free.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Differences of forces over a motion of this share of the extent.
+// Step of force differences relative to the extent.
 constexpr double kProbe = 1e-7;
-// No correction moves the system by more than this share of its extent.
+// Largest correction relative to the extent.
 constexpr double kLongest = 0.2;
-// A correction leaves this share of the error to the next one.
+// Tolerance of the linear solution of a correction.
 constexpr double kLinear = 1e-4;
-// One that leaves more is none: the matrix is singular.
+// Above this residual the matrix is singular.
 constexpr double kSolved = 0.1;
 constexpr int kKrylovVectors = 60;
 constexpr int kKrylovIterations = 240;
@@ -36,19 +39,7 @@ VectorX collect_laws(const SystemTerms& terms) {
   return all;
 }
 
-void set_applied(const VectorX& wrenches, SystemTerms& terms) {
-  const auto couplers = std::ssize(terms.couplers);
-  for (Eigen::Index c = 0; c < couplers; ++c) {
-    terms.couplers[static_cast<std::size_t>(c)].applied =
-        wrenches.segment<6>(6 * c);
-  }
-  for (std::size_t i = 0; i < terms.transmissions.size(); ++i) {
-    terms.transmissions[i].applied =
-        wrenches[6 * couplers + static_cast<Eigen::Index>(i)];
-  }
-}
-
-/// The NewtonMatrix of a slow step, as Eigen's solvers take it.
+/// The NewtonMatrix of a slow step, as a preconditioner for Eigen.
 class SlowStep {
  public:
   using Solve = std::function<VectorX(const VectorX&)>;
@@ -85,7 +76,7 @@ StaticNewton::StaticNewton(const SystemModel& model, const SystemState& start)
       probed_(make_terms(model)),
       matrix_(model),
       no_turn_(model.bodies.size(), Vector3::Zero()),
-      residual_(VectorX::Zero(NewtonMatrix::size(model))),
+      residual_(VectorX::Zero(count_unknowns(model))),
       base_(residual_),
       correction_(residual_) {
   const double acceleration = measure_acceleration(calc_forces_left(start));
@@ -106,8 +97,8 @@ const VectorX& StaticNewton::calc_forces_left(const SystemState& state) {
 }
 
 double StaticNewton::measure_acceleration(const VectorX& residual) const {
-  // r / m of translations, r / (m r^2) of rotations, r of modes; each times
-  // its weight: all that is r over weight over the mass.
+  // r / m for translations, r / (m r^2) for rotations, r for modes, each times
+  // its weight: equal to r over weight over the mass.
   double mass = 0.0;
   for (const BodyModel& body : model_.bodies) mass += body.mass;
   double squared = 0.0;
@@ -120,19 +111,17 @@ double StaticNewton::measure_acceleration(const VectorX& residual) const {
 }
 
 BodyIndex StaticNewton::most_moved() const {
-  BodyIndex most = 0;
+  BodyIndex most(0);
   double largest = -1.0;
-  for (int b = 0; b < std::ssize(model_.bodies); ++b) {
+  for (BodyIndex b(0); b < std::ssize(model_.bodies); ++b) {
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
-    const Eigen::Index row = 6 * b + body.offset;
+    const Eigen::Index row = first_row(body, index(b));
     const VectorX moved = correction_.cwiseProduct(weights_);
     double squared = moved.segment(row, 6 + body.modes).squaredNorm();
     if (body.full >= 0) {
       const auto& full =
           model_.full_bodies[static_cast<std::size_t>(body.full)];
-      squared += moved
-                     .segment(NewtonMatrix::first_node_row(model_) + full.first,
-                              full.dofs())
+      squared += moved.segment(first_node_row(model_) + full.first, full.dofs())
                      .squaredNorm();
     }
     if (squared / body.mass > largest) {
@@ -143,8 +132,8 @@ BodyIndex StaticNewton::most_moved() const {
   return most;
 }
 
-/// What a motion changes of the residual, the couplers' wrenches by what their
-/// laws change, per unit of the motion.
+/// Change of the residual, with that of the laws' wrenches, per unit of a
+/// motion.
 VectorX StaticNewton::apply(const SystemState& state,
                             const VectorX& direction) {
   const double length = measure(direction);
@@ -165,7 +154,7 @@ void StaticNewton::factor(const SystemState& state) {
   calc_forces(model_, state, Side::right, terms_, WrenchSource::iterate);
   calc_residual(model_, no_acceleration_, terms_, base_);
   matrix_.factor(model_, state, terms_, no_turn_, {slowness_, 0.0}, true);
-  set_applied(laws_, terms_);  // so that it solves for forces alone
+  set_applied(laws_, terms_);  // so that it solves for forces only
 }
 
 double StaticNewton::measure_slow_step(const SystemState& state) {
@@ -213,7 +202,7 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
     displace(model_, correction_, share, state);
     const double left = length / extent_;
     if (share == 1.0 && left <= settings.tolerance) return true;
-    // Round-off: no correction is smaller than the one before.
+    // Round-off: corrections no longer decrease.
     constexpr double kFine = 1e-9;
     if (i > 0 && left < kFine && length > 0.5 * last) return true;
     last = length;

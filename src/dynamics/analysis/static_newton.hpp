@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/newton_matrix.hpp"
-#include "dynamics/residual.hpp"
-#include "dynamics/rest.hpp"
+#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
 
 namespace limber::dynamics {
 
-/// Newton's method for a system at rest; the engine of find_equilibrium. Costs
-/// about a force evaluation a Krylov vector: O(bodies).
+/// Newton's method for a system at rest, used by find_equilibrium. Costs about
+/// one force evaluation per Krylov vector: O(bodies).
 class StaticNewton {
  public:
   struct Settings {
     double tolerance = 1e-12;  ///< last correction over the extent [-]
-    int max_iterations = 20;
+    int max_iterations = 20;   ///< count
   };
 
   /// @param start at rest
   StaticNewton(const SystemModel& model, const SystemState& start);
 
-  /// Forces that are left at `state`, couplers as their laws have them; rows as
-  /// increments of NewtonMatrix, their signs changed. At rest.
+  /// Unbalanced forces at `state`, at rest, with the wrenches of the couplers'
+  /// laws; rows as increments of NewtonMatrix, opposite sign.
   [[nodiscard]] const VectorX& calc_forces_left(const SystemState& state);
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }
 
   /// Root mean square acceleration that such forces cause [m/s^2].
   [[nodiscard]] double measure_acceleration(const VectorX& residual) const;
 
-  /// Length of what the preconditioner alone would correct at `state`: of the
-  /// size of round-off if nothing pushes there [m].
+  /// Length of the preconditioner's correction at `state`: round-off if forces
+  /// balance [m].
   [[nodiscard]] double measure_slow_step(const SystemState& state);
 
   /// Moves `state` to where calc_forces_left is `target`.
-  /// @returns whether it converged; if not, `state` is of no use.
+  /// @returns whether it converged; if not, `state` is invalid.
   bool solve(const VectorX& target, const Settings& settings,
              SystemState& state);
 
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] double extent() const { return extent_; }
-  /// That the last correction moved most.
+  /// Body that the last correction moved most.
   [[nodiscard]] BodyIndex most_moved() const;
   /// Mass-weighted length of increments [m].
   [[nodiscard]] double measure(const VectorX& increments) const {
@@ -61,9 +61,9 @@ class StaticNewton {
   SystemTerms probed_;  ///< near it
   NewtonMatrix matrix_;
   std::vector<Vector3> no_turn_;
-  VectorX wrenches_;  ///< that act: six a coupler, one a transmission
+  VectorX wrenches_;  ///< acting: six per coupler, one per transmission
   VectorX changes_;   ///< of the laws along a motion
-  VectorX laws_;      ///< the same as the laws have them
+  VectorX laws_;      ///< the same by the laws
   VectorX residual_;  ///< of the laws
   VectorX base_;      ///< of the wrenches
   VectorX correction_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/steady_motion.hpp"
+#include "limber/dynamics/analysis/steady_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/rotation.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/newton_measures.hpp"
-#include "dynamics/rest.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/newton_measures.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -32,7 +32,7 @@ double sum_forces(const SystemModel& model, const SystemState& state,
     sum += body.mass * model.gravity_W.norm();
   }
   for (const Load& load : model.loads) {
-    const double factor = evaluate(load.function, state.t, Side::right);
+    const double factor = evaluate(load.function, now_of(state));
     sum += std::abs(factor) * load.force.norm();
   }
   for (const CouplerTerms& c : terms.couplers) {
@@ -42,7 +42,7 @@ double sum_forces(const SystemModel& model, const SystemState& state,
   return sum;
 }
 
-// Force that couplers may exert by round-off of positions alone.
+// Force of couplers due to round-off of positions.
 double find_noise(const SystemModel& model, const SystemTerms& terms) {
   std::vector<Vector6> gaps;
   find_roundoff_gaps(model, terms, 0.0, gaps);
@@ -70,7 +70,7 @@ bool moves(const SystemState& state) {
 
 Imbalance find_imbalance(const SystemModel& model, const SystemState& state,
                          const TurningAxes& axes) {
-  constexpr double kBalanced = 1e-6;  // of what acts
+  constexpr double kBalanced = 1e-6;  // of the acting forces
   constexpr double kSafety = 100.0;   // of round-off
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);

@@ -3,40 +3,41 @@
 
 #include <string>
 
-#include "dynamics/small_motion.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/dynamics/analysis/small_motion.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
-/// Whether a system goes on as it starts: at rest, or turning steadily.
+/// Whether a system is in steady state at its start: at rest, or in steady
+/// rotation.
 namespace limber::dynamics {
 
-/// What would have to act besides for a start to be steady: to rest, or to turn
-/// on with the axes.
+/// Additional load that would make a start steady: at rest, or rotating with
+/// the axes.
 struct Imbalance {
   double force = 0.0;   ///< the largest on a body [N]
   double moment = 0.0;  ///< the largest on a body [N m]
-  double acting = 0.0;  ///< sum of forces, those that turn it on too [N]
+  double acting = 0.0;  ///< sum of forces, including centripetal ones [N]
   std::string force_body;
   std::string moment_body;
-  /// Whether it is more than round-off of what acts.
+  /// Whether it exceeds round-off of the acting forces.
   bool matters = false;
 };
 
 [[nodiscard]] bool moves(const SystemState& state);
 
 /// Equation   left = m (a - w x (v - v_0)),  J (w_b' - w x w_b) of each body,
-///            w the axes', v_0 that of the mass centre if nothing ties the
-///            system to the world, else 0; of modes sqrt(m) |eta''|
+///            w that of the axes, v_0 that of the mass centre if nothing ties
+///            the system to the world, else 0; for modes sqrt(m) |eta''|
 [[nodiscard]] Imbalance find_imbalance(const SystemModel& model,
                                        const SystemState& state,
                                        const TurningAxes& axes);
 
-/// The state after a time [s] if it is steady in axes that turn so.
+/// The state after a time [s], if it is steady in the rotating axes.
 [[nodiscard]] SystemState advance_steadily(const SystemModel& model,
                                            const SystemState& state,
                                            const TurningAxes& axes,
                                            double time);
 
-/// The largest angular velocity of a body, world axes [rad/s].
+/// The largest angular velocity of a body, world frame [rad/s].
 [[nodiscard]] Vector3 find_fastest_spin(const SystemState& state);
 
 }  // namespace limber::dynamics

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/coupler_forces.hpp"
+#include "limber/dynamics/equations/coupler_forces.hpp"
 
 #include <fmt/format.h>
 
-#include "dynamics/full_terms.hpp"
-#include "dynamics/transmission.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 void add_reduced_wrench(const BodyModel& body, const Attachment& attachment,
                         const AttachmentMotion& motion, const Vector3& force_W,
@@ -30,8 +29,8 @@ FrameMotion frame_motion(const AttachmentMotion& motion) {
   return {{motion.R_WF, motion.p_WF}, motion.v_WF_W, motion.w_WF_W};
 }
 
-// Adds a wrench on M at Mo, axes of F, and its reaction on F along the same
-// line: shifted from Mo to Fo.
+// Adds a wrench on M at Mo, expressed in F, and its reaction on F, shifted from
+// Mo to Fo.
 void add_pair(const SystemModel& model, const Coupler& coupler,
               const Vector6& wrench_F, const Vector3& p_FM_F,
               SystemTerms& terms) {

@@ -3,25 +3,26 @@
 
 #include <string>
 
-#include "common/errors.hpp"
-#include "common/instant.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/instant.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
-/// What couplers and transmissions put into the equations of motion; called by
-/// dynamics/equations.
+/// Contributions of couplers and transmissions to the equations of motion;
+/// called by dynamics/equations.
 namespace limber::dynamics {
 
-/// Adds a force [N] and a moment [N m] at an attachment, world axes. Needs the
-/// attachment's motion; does nothing to the world.
+/// Adds a force [N] and a moment [N m] at an attachment, world frame. Needs the
+/// attachment's motion; ignored on the world.
 void add_wrench(const SystemModel& model, AttachmentIndex attachment,
                 const Vector3& force_W, const Vector3& moment_W,
                 SystemTerms& terms);
 
+/// @param t time [s]
 /// @throws NumericalError with the coupler's name and the time before the text.
 [[noreturn]] void throw_named(const std::string& name, double t,
                               const NumericalError& error);
 
-/// Runs `work`; a NumericalError is told with the coupler's name and the time.
+/// Runs `work`; adds the coupler's name and the time t [s] to a NumericalError.
 template <typename Work>
 void name_coupler(const std::string& name, double t, const Work& work) {
   try {
@@ -32,7 +33,7 @@ void name_coupler(const std::string& name, double t, const Work& work) {
 }
 
 /// Evaluates all couplers and transmissions at the attachments' motion and
-/// adds what they exert and their powers.
+/// adds their wrenches and powers.
 /// @throws NumericalError naming the coupler and the time.
 void apply_couplers(const SystemModel& model, const SystemState& state,
                     const Instant& now, WrenchSource source,

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/coupler_motion.hpp"
+#include "limber/dynamics/equations/coupler_motion.hpp"
 
-#include "common/errors.hpp"
-#include "dynamics/kinematics.hpp"
-#include "dynamics/transmission.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
 
 namespace limber::dynamics {
-namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-Instant now_of(const SystemState& state) { return {state.t, Side::right}; }
-
-}  // namespace
 
 CouplerReading evaluate_coupler(const SystemModel& model,
                                 const SystemState& state,
@@ -30,26 +23,9 @@ CouplerReading evaluate_coupler(const SystemModel& model,
 CoordinateReading evaluate_coordinate(const SystemModel& model,
                                       const SystemState& state,
                                       CouplerIndex coupler, int coordinate) {
-  const auto& joint =
-      std::get<joints::Joint>(model.couplers.at(index(coupler)).law);
-  LIMBER_EXPECT(coordinate >= 0 &&
-                coordinate < std::ssize(joint.coordinates()));
-  const joints::CouplerMemory& memory = state.memory[index(coupler)];
-  const joints::CoordinateValue value =
-      joints::evaluate(joint.coordinates()[index(coordinate)],
-                       find_relative_motion(model, state, coupler),
-                       memory.near[index(coordinate)]);
-  CoordinateReading reading{{value.z, value.rate}, {}};
-  std::size_t first = 0;  // of an element's switches
-  for (const joints::JointElement& element : joint.elements()) {
-    if (element.coordinate == coordinate) {
-      reading.response += joints::evaluate(
-          element.law, reading.motion, now_of(state),
-          {memory.switches[first], memory.switches[first + 1]});
-    }
-    first += index(joints::switch_count(element.law));
-  }
-  return reading;
+  return joints::read(model.couplers.at(index(coupler)).law, coordinate,
+                      find_relative_motion(model, state, coupler),
+                      state.memory[index(coupler)], now_of(state));
 }
 
 CoordinateReading evaluate_transmission(const SystemModel& model,
@@ -59,7 +35,10 @@ CoordinateReading evaluate_transmission(const SystemModel& model,
   const joints::CouplerMemory& memory =
       state.memory[model.couplers.size() + index(transmission)];
   const joints::ScalarMotion motion = find_motion(model, state, t);
-  return {motion, evaluate_laws(t, motion, memory, now_of(state))};
+  const joints::ScalarResponse response =
+      evaluate_laws(t, motion, memory, now_of(state));
+  const bool pulls = std::holds_alternative<PathCoordinate>(t.coordinate);
+  return {motion, response, pulls ? -response.force : response.force};
 }
 
 }  // namespace limber::dynamics

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
-#include "joints/scalar_motion.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/joints/scalar_motion.hpp"
 
-/// What couplers see and answer at a state, for those who look on. A time at
-/// which a command jumps counts as after the jump.
+/// Motion and response of couplers at a state, for observers. Commands that
+/// jump at its time are evaluated after the jump.
 namespace limber::dynamics {
 
-/// A coupler's motion and the answer of its own law: what tendons and gears do
-/// to a joint is not in it.
+/// A coupler's motion and the response of its own law, without tendons and
+/// gears that act on a joint.
 struct CouplerReading {
-  Matrix3 R_WF = Matrix3::Identity();
+  Matrix3 R_WF = Matrix3::Identity();  ///< [-]
   joints::RelativeMotion motion;
   joints::CouplerResponse response;
 };
@@ -21,20 +21,18 @@ struct CouplerReading {
                                               const SystemState& state,
                                               CouplerIndex coupler);
 
-/// A coordinate, with the whole turns of the state's memory, and the sum of
-/// what acts along it.
-struct CoordinateReading {
-  joints::ScalarMotion motion;
-  joints::ScalarResponse response;
-};
-/// @param coordinate of a joint, from 0
+using joints::CoordinateReading;
+
+/// A coordinate that its law shows, with the whole turns of the state's memory.
+/// @param coordinate from 0
+/// @throws ContractError for one that is not there.
 /// @throws NumericalError where the coordinate has no meaning.
 [[nodiscard]] CoordinateReading evaluate_coordinate(const SystemModel& model,
                                                     const SystemState& state,
                                                     CouplerIndex coupler,
                                                     int coordinate);
 
-/// @throws NumericalError where two points of a path meet.
+/// @throws NumericalError if two points of a path coincide.
 [[nodiscard]] CoordinateReading evaluate_transmission(
     const SystemModel& model, const SystemState& state,
     TransmissionIndex transmission);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/displacement_measure.hpp"
+#include "limber/dynamics/equations/displacement_measure.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Longest displacement of a node, u = 3n.
 double find_largest(const VectorX& u) {
@@ -65,8 +64,8 @@ class CouplerGraph {
   }
 
   const SystemModel& model_;
-  std::vector<double> diameters_;                   ///< one a body [m]
-  std::vector<std::vector<AttachmentIndex>> ends_;  ///< far ends, one a body
+  std::vector<double> diameters_;                   ///< one per body [m]
+  std::vector<std::vector<AttachmentIndex>> ends_;  ///< far ends, one per body
 };
 
 }  // namespace
@@ -89,6 +88,7 @@ std::vector<double> find_reaches(const SystemModel& model) {
 DisplacementMeasure::DisplacementMeasure(const BodyModel& body)
     : reduced_(body.reduced) {
   LIMBER_EXPECT(reduced_ != nullptr);
+  nodes_ = DisplacementTree(reduced_->rows.x_B, reduced_->rows.Phi_B);
   find_mode_sizes();
 }
 
@@ -97,6 +97,7 @@ DisplacementMeasure::DisplacementMeasure(const SystemModel& model,
                                          const std::vector<double>& reaches)
     : reduced_(model.bodies[index(body)].reduced) {
   LIMBER_EXPECT(reduced_ != nullptr);
+  nodes_ = DisplacementTree(reduced_->rows.x_B, reduced_->rows.Phi_B);
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
     const Attachment& a = model.attachments[i];
     if (a.body != body || reaches[i] == 0.0) continue;
@@ -128,9 +129,9 @@ double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
     largest = std::max(largest, (end.Phi_B * eta).norm() +
                                     end.reach * (end.Psi_B * eta).norm());
   }
-  // Own nodes are many: not looked at where they cannot be the largest.
+  // Skips the many own nodes if they cannot be the largest.
   if (node_sizes_.dot(eta.cwiseAbs()) <= largest) return largest;
-  return std::max(largest, find_largest(reduced_->rows.Phi_B * eta));
+  return nodes_.find_largest(eta, largest);
 }
 
 PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)

@@ -4,31 +4,34 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/refined_peak.hpp"
-#include "dynamics/system_model.hpp"
+#include "limber/dynamics/equations/displacement_tree.hpp"
+#include "limber/dynamics/equations/refined_peak.hpp"
+#include "limber/dynamics/system/system_model.hpp"
 
-/// How far modal coordinates move things: the yardstick of level_advice.hpp.
+/// Displacement due to modal coordinates: the measure of level_advice.hpp.
 namespace limber::dynamics {
 
-/// How far what hangs on each coupler's end reaches: the sum of the diameters
-/// of the bodies along the longest path that starts with that coupler. Holds in
-/// every posture. A flexible body's diameter is that of its bounding box, a
-/// rigid body's twice its farthest attachment from the centre of mass.
-/// @returns one entry an attachment [m]; zero where no coupler ends, or where
-/// it leads to the world.
+/// Reach of the bodies carried at each coupler's end: the sum of their
+/// diameters along the longest path that starts with that coupler. Independent
+/// of the configuration. A flexible body's diameter is that of its bounding
+/// box, a rigid body's is twice the distance of its farthest attachment from
+/// the centre of mass.
+/// @returns one entry an attachment [m]; zero without a coupler, or if it leads
+/// to the world.
 [[nodiscard]] std::vector<double> find_reaches(const SystemModel& model);
 
 /// Largest displacement that modal coordinates of one body cause.
 ///
-/// Equation   max over kept nodes |Phi_n eta|, and over the ends of couplers
+/// Equation   max over stored nodes |Phi_n eta|, and over the ends of couplers
 ///            |Phi_F eta| + reach |Psi_F eta|
-/// Limits     the second is what a bent body does to those that it carries: a
-///            bound, as if every joint passed on every rotation
+/// Limits     the second is the displacement of the bodies that it carries: a
+///            bound, as if every joint transmitted every rotation
 class DisplacementMeasure {
  public:
   /// Of the body's own nodes.
   explicit DisplacementMeasure(const BodyModel& body);
   /// Of its own nodes and of all that its couplers carry.
+  /// @param reaches of all bodies, by find_reach [m]
   DisplacementMeasure(const SystemModel& model, BodyIndex body,
                       const std::vector<double>& reaches);
 
@@ -39,9 +42,9 @@ class DisplacementMeasure {
 
  private:
   struct Carried {
-    Matrix3X Phi_B;
-    Matrix3X Psi_B;
-    double reach = 0.0;
+    Matrix3X Phi_B;      ///< [kg^-1/2]
+    Matrix3X Psi_B;      ///< [kg^-1/2 m^-1]
+    double reach = 0.0;  ///< [m]
   };
   void find_mode_sizes();
 
@@ -49,11 +52,12 @@ class DisplacementMeasure {
   std::vector<Carried> carried_;
   VectorX mode_sizes_;
   VectorX node_sizes_;  ///< the same of own nodes
+  DisplacementTree nodes_;
 };
 
-/// Peak of a DisplacementMeasure over many modal coordinates. Most are passed
-/// over after m operations: |u(eta)| <= |u(eta_0)| + sum_k size_k |eta -
-/// eta_0|. Between them it is that of a parabola (RefinedPeak).
+/// Peak of a DisplacementMeasure over many modal coordinates. Most are rejected
+/// after m operations: |u(eta)| <= |u(eta_0)| + sum_k size_k |eta - eta_0|.
+/// Between samples it is that of a parabola (RefinedPeak).
 ///
 /// Limits     low by at most 0.1 %, where steps resolve the motion
 class PeakDisplacement {
@@ -70,7 +74,7 @@ class PeakDisplacement {
   [[nodiscard]] bool is_record(const VectorX& eta, double t);
 
   const DisplacementMeasure* measure_;
-  VectorX eta_0_;     ///< the last one that was measured
+  VectorX eta_0_;     ///< the last one measured
   double u_0_ = 0.0;  ///< its displacement [m]
   Peak peak_;
   // The last two, and whether the last one is the largest.

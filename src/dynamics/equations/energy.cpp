@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/energy.hpp"
+#include "limber/dynamics/equations/energy.hpp"
 
-#include "dynamics/equations.hpp"
-#include "dynamics/full_energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/full_energy.hpp"
 
 namespace limber::dynamics {
 
@@ -22,7 +22,7 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
     const auto eta = state.eta.segment(body.offset, body.modes);
     const auto etadot = state.etadot.segment(body.offset, body.modes);
 
-    balance.elastic += 0.5 * (body.lambda.array() * eta.array().square()).sum();
+    balance.elastic += flexbody::calc_elastic_energy(body.elasticity, eta);
     balance.kinetic_modal += 0.5 * etadot.squaredNorm();
     if (!body.has_rigid_motion()) continue;
     const Vector3 h = t.H * etadot;
@@ -40,6 +40,9 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
   }
   for (const TransmissionTerms& transmission : terms.transmissions) {
     balance.coupler += transmission.response.energy;
+  }
+  for (const joints::PairResponse& pair : terms.pairs.responses) {
+    balance.coupler += pair.energy;
   }
   return balance;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/equations.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
-#include "dynamics/body_model.hpp"
-#include "dynamics/coupler_forces.hpp"
-#include "dynamics/full_terms.hpp"
-#include "dynamics/transmission.hpp"
+#include "limber/dynamics/equations/coupler_forces.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -15,12 +16,18 @@ ConstModes modes_of(const BodyModel& body, const VectorX& all) {
   return {all.data() + body.offset, body.modes};
 }
 
-// Elastic and damping forces, which every flexible level has.
+// Elastic and damping forces, at every flexible level.
 void set_oscillator_bias(const BodyModel& body, const SystemState& state,
                          BodyTerms& terms) {
-  terms.bias_e.array() =
-      body.lambda.array() * modes_of(body, state.eta).array() +
-      body.damping.array() * modes_of(body, state.etadot).array();
+  const ConstModes eta = modes_of(body, state.eta);
+  const ConstModes etadot = modes_of(body, state.etadot);
+  if (const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity)) {
+    terms.bias_e.array() =
+        lambda->array() * eta.array() + body.damping.array() * etadot.array();
+    return;
+  }
+  flexbody::calc_elastic_force(body.elasticity, eta, terms.bias_e);
+  terms.bias_e.array() += body.damping.array() * etadot.array();
 }
 
 // Level one-way: centrifugal force of the undeformed body. (Its Euler force
@@ -59,8 +66,8 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
   terms.bias_r = unpack_symmetric(Jdot) * w + w.cross(terms.J * w + h);
 }
 
-// A load on the undeformed body: what a level without feedback sees. Linear
-// in the modes, so that it can also be answered in closed form.
+// A load on the undeformed body, for levels without feedback. Linear in the
+// modes, so that a closed-form response exists.
 void apply_to_undeformed(const BodyModel& body, const Attachment& attachment,
                          const SystemState& state, const BodyState& rigid,
                          const Vector3& force_B, const Vector3& moment_B,
@@ -82,7 +89,7 @@ void apply_to_undeformed(const BodyModel& body, const Attachment& attachment,
 
 void apply_load(const SystemModel& model, const SystemState& state,
                 const Load& load, Side side, SystemTerms& terms) {
-  const double factor = evaluate(load.function, state.t, side);
+  const double factor = evaluate(load.function, now_of(state, side));
   if (factor == 0.0) return;
   const auto i = static_cast<std::size_t>(load.where);
   const Attachment& attachment = model.attachments[i];
@@ -136,7 +143,7 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
   terms.load_power += force_W.dot(rigid.v_WB_W) + moment_B.dot(rigid.w_WB_B);
 }
 
-// Gravity bends a body that is held; a free one it only accelerates.
+// Gravity deforms a clamped body; it only accelerates a free one.
 void add_gravity_on_modes(const SystemModel& model, const BodyModel& body,
                           const SystemState& state, BodyTerms& t,
                           SystemTerms& terms) {
@@ -191,6 +198,9 @@ SystemTerms make_terms(const SystemModel& model) {
     t.force_W.setZero();
     t.moment_B.setZero();
     t.modal_force = VectorX::Zero(m);
+    if (!flexbody::is_diagonal(body.elasticity)) {
+      t.stiffness = MatrixX::Zero(m, m);
+    }
     t.scratch_J2 = VectorX::Zero(coupled ? 6 * m : 0);
     t.scratch_b1 = VectorX::Zero(coupled ? 3 * m : 0);
     t.scratch_b2 = VectorX::Zero(coupled ? 3 * m : 0);
@@ -207,6 +217,7 @@ SystemTerms make_terms(const SystemModel& model) {
   terms.attachments.resize(model.attachments.size());
   terms.couplers.resize(model.couplers.size());
   terms.transmissions = make_transmission_terms(model);
+  terms.pairs = make_pair_terms(model);
   return terms;
 }
 
@@ -252,7 +263,8 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
       calc_attachment_motion(model, a, state, R_WB, motion);
     }
   }
-  apply_couplers(model, state, {state.t, side}, source, terms);
+  apply_couplers(model, state, now_of(state, side), source, terms);
+  apply_pairs(model, state, now_of(state, side), terms);
   for (const Load& load : model.loads) {
     apply_load(model, state, load, side, terms);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/workspace.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
 /// The equations of motion of docs/theory/equations.md, at each fidelity.
 namespace limber::dynamics {
@@ -10,10 +10,10 @@ namespace limber::dynamics {
 void calc_inertia_terms(const SystemModel& model, const SystemState& state,
                         SystemTerms& terms);
 
-/// Fills forces of couplers, loads and gravity, and their powers; needs
-/// R_WB from calc_inertia_terms. `side` says which limit a load that jumps at
-/// state.t has. With WrenchSource::iterate, couplers exert the `applied` wrench
-/// that is there; their laws are evaluated all the same.
+/// Fills forces of couplers, pairs, loads and gravity, and their powers; needs
+/// R_WB from calc_inertia_terms. `side` selects the limit of a load that jumps
+/// at state.t. With WrenchSource::iterate, couplers exert the given `applied`
+/// wrench; their laws are evaluated too.
 void calc_forces(const SystemModel& model, const SystemState& state, Side side,
                  SystemTerms& terms, WrenchSource source = WrenchSource::law);
 

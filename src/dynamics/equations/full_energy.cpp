@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/full_energy.hpp"
+#include "limber/dynamics/equations/full_energy.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/energy.hpp"
+#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 

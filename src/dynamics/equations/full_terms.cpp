@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/full_terms.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
+
+#include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // Damping of the deformation's share in the reduced modes: the rate of that
 // share is (M Phi)^T R^T (v less the rigid motion), linear in v, and C times it
-// goes back through the transpose. So nothing pushes or turns the whole body,
-// whatever its deformation, and the power is the rate's.
+// is mapped back by the transpose. So there is no net force or moment at any
+// deformation, and the power is that of the rate.
 void add_damping(const SystemModel& model, const FullModel& full,
                  const SystemState& state, FullTerms& t, SystemTerms& terms) {
   const ConstNodes u = nodes_of(full, state.u_H);

@@ -3,15 +3,15 @@
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
-/// What bodies at level `full` put into the equations of motion; called by
-/// dynamics/equations.
+/// Contributions of bodies at level `full` to the equations of motion; called
+/// by dynamics/equations.
 namespace limber::dynamics {
 
-/// Runs `work`; a NumericalError of the mesh is told with the body's name and
-/// the time [s] in front.
+/// Runs `work`; prefixes a NumericalError of the mesh with the body's name and
+/// the time [s].
 template <typename Work>
 auto name_failures(const SystemModel& model, const FullModel& full, double t,
                    const Work& work) {
@@ -27,7 +27,7 @@ auto name_failures(const SystemModel& model, const FullModel& full, double t,
 
 /// Fills `internal`, the strain energy and, if needed, the mean-axis frame.
 /// @throws NumericalError naming the element, body and time if an element is
-/// turned inside out.
+/// inverted.
 void calc_full_terms(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms);
 
@@ -35,12 +35,12 @@ void calc_full_terms(const SystemModel& model, const SystemState& state,
 void reset_full_forces(const SystemModel& model, const SystemState& state,
                        SystemTerms& terms);
 
-/// Adds a force [N] and a moment [N m] at an attachment, world axes.
+/// Adds a force [N] and a moment [N m] at an attachment, world frame.
 void add_full_wrench(const SystemModel& model, const Attachment& attachment,
                      const AttachmentMotion& motion, const Vector3& force_W,
                      const Vector3& moment_W, SystemTerms& terms);
 
-/// Adds column i of nodal forces that turn with the body, and their power.
+/// Adds column i of nodal forces that rotate with the body, and their power.
 void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
                          Eigen::Index i, const SystemState& state,
                          SystemTerms& terms);
@@ -49,7 +49,7 @@ void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
 void solve_full_accelerations(const SystemModel& model,
                               const SystemTerms& terms, VectorX& uddot_H);
 
-/// M u'' + internal - force, zero at nodes that are held.
+/// M u'' + internal - force, zero at clamped nodes.
 /// @param residual the rows of full body f
 void calc_full_residual(const SystemModel& model, std::size_t f,
                         const VectorX& uddot_H, SystemTerms& terms,

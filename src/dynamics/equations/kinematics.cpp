@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/kinematics.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -80,6 +80,27 @@ joints::RelativeMotion relate(const FrameMotion& F, const FrameMotion& M) {
   return relative;
 }
 
+FrameMotion follow(const FrameMotion& F,
+                   const joints::RelativeMotion& relative) {
+  FrameMotion M;
+  M.X_WF = F.X_WF * Pose{relative.R_FM, relative.p_FM_F};
+  M.v_WF_W = F.v_WF_W + F.w_WF_W.cross(M.X_WF.p - F.X_WF.p) +
+             F.X_WF.R * relative.v_FM_F;
+  M.w_WF_W = F.w_WF_W + F.X_WF.R * relative.w_FM_F;
+  return M;
+}
+
+joints::RelativeMotion invert(const joints::RelativeMotion& relative) {
+  const Matrix3 R_MF = relative.R_FM.transpose();
+  joints::RelativeMotion inverse;
+  inverse.R_FM = R_MF;
+  inverse.p_FM_F = -(R_MF * relative.p_FM_F);
+  inverse.v_FM_F =
+      R_MF * (relative.w_FM_F.cross(relative.p_FM_F) - relative.v_FM_F);
+  inverse.w_FM_F = -(R_MF * relative.w_FM_F);
+  return inverse;
+}
+
 SystemState make_state(const SystemModel& model) {
   SystemState state;
   state.bodies.resize(model.bodies.size());
@@ -89,6 +110,14 @@ SystemState make_state(const SystemModel& model) {
   state.u_H = VectorX::Zero(model.nodal_count);
   state.udot_H = VectorX::Zero(model.nodal_count);
   state.memory.resize(model.couplers.size() + model.transmissions.size());
+  for (const Input& input : model.inputs) {
+    state.inputs.push_back(
+        {.value = input.initial, .value_before = input.initial});
+  }
+  for (const ControllerModel& controller : model.controllers) {
+    state.controllers.push_back({0, controller.memory});
+  }
+  state.pair_memory.assign(model.pair_memory_size, 0.0);
   return state;
 }
 

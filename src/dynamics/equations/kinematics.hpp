@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/mean_frame.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
@@ -16,19 +16,19 @@ namespace limber::dynamics {
   return sum;
 }
 
-/// An attachment's motion with what forces need to come back through it.
+/// An attachment's motion, with the data to map forces back to the body.
 ///
 /// Equation   p_WF = p_WB + R_WB (p_BF + Phi eta),
 ///            R_WF = R_WB exp(Psi eta) R_BF,
 ///            w_WF = R_WB (w_WB_B + J_l(Psi eta) Psi etadot).
 struct AttachmentMotion {
-  Matrix3 R_WB;
-  Matrix3 R_WF;
-  Vector3 arm_B;  ///< p_BF + Phi eta, from Bo [m]
-  Matrix3 J_psi;  ///< left Jacobian at Psi eta
-  Vector3 p_WF;
-  Vector3 v_WF_W;
-  Vector3 w_WF_W;
+  Matrix3 R_WB;            ///< [-]
+  Matrix3 R_WF;            ///< [-]
+  Vector3 arm_B;           ///< p_BF + Phi eta, from Bo [m]
+  Matrix3 J_psi;           ///< left Jacobian at Psi eta [-]
+  Vector3 p_WF;            ///< [m]
+  Vector3 v_WF_W;          ///< [m/s]
+  Vector3 w_WF_W;          ///< [rad/s]
   NodalFrameMotion nodal;  ///< on an unreduced body
 };
 
@@ -38,13 +38,21 @@ void calc_attachment_motion(const SystemModel& model,
                             const SystemState& state, const Matrix3& R_WB,
                             AttachmentMotion& motion);
 
-/// The same of an attachment on an unreduced body.
+/// The same for an attachment on an unreduced body.
 void calc_nodal_attachment(const SystemModel& model,
                            const Attachment& attachment,
                            const SystemState& state, AttachmentMotion& motion);
 
-/// Motion of frame M in frame F, from that of both in the world.
+/// Motion of frame M in frame F, from their motions in the world.
 [[nodiscard]] joints::RelativeMotion relate(const FrameMotion& F,
                                             const FrameMotion& M);
+
+/// The reverse: motion of M in the world, from that of F and of M in F.
+[[nodiscard]] FrameMotion follow(const FrameMotion& F,
+                                 const joints::RelativeMotion& relative);
+
+/// Motion of frame F in frame M, from that of M in F.
+[[nodiscard]] joints::RelativeMotion invert(
+    const joints::RelativeMotion& relative);
 
 }  // namespace limber::dynamics

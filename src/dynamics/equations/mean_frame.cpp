@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/mean_frame.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 
-#include "common/errors.hpp"
-#include "dynamics/nodal_frame.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/nodal_frame.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -62,7 +62,7 @@ void add_mean_wrench(const flexbody::FullBody& mesh, const MeanFrame& frame,
 void calc_deformation(const FullModel& full, const MeanFrame& frame,
                       const ConstNodes& u_H, Eigen::Ref<Matrix3X> u_B) {
   const Matrix3X& x = full.mesh->x_B;
-  // R^T (x + u - p) - x = R^T (u - p - (R - I) x), which keeps digits.
+  // R^T (x + u - p) - x = R^T (u - p - (R - I) x), without cancellation.
   const Matrix3 turn = frame.R_HB - Matrix3::Identity();
   const Matrix3 R_BH = frame.R_HB.transpose();
   for (Eigen::Index i = 0; i < x.cols(); ++i) {

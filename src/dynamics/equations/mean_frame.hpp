@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// The mean-axis frame B of an unreduced body, in its home frame H: the frame
-/// that a reduced body moves with.
+/// The mean-axis frame B of an unreduced body, in its home frame H: the same
+/// frame as that of a reduced body.
 ///
 /// Equation   sum_ij M_ij x_i x R^T (p_j - p) = 0, and its rate
 /// Source     Tisserand frame, docs/theory/equations.md
 struct MeanFrame {
-  Matrix3 R_HB = Matrix3::Identity();
+  Matrix3 R_HB = Matrix3::Identity();  ///< [-]
   Vector3 p_HB = Vector3::Zero();      ///< [m]
   Vector3 v_H = Vector3::Zero();       ///< [m/s]
   Vector3 w_H = Vector3::Zero();       ///< [rad/s]
   Vector3 center_H = Vector3::Zero();  ///< mean of the nodes' masses [m]
   /// w_H = spread sum_i R y_i x u'_i, y_i the first moments; zero if the frame
-  /// does not turn [1/(kg m^2)].
+  /// does not rotate [1/(kg m^2)].
   Matrix3 spread = Matrix3::Zero();
 };
 
@@ -34,8 +34,8 @@ struct MeanFrame {
 void calc_mean_frame(const SystemModel& model, const FullModel& full,
                      const SystemState& state, MeanFrame& frame);
 
-/// Adds the nodal forces of a force [N] at center_H and a moment [N m], as
-/// rigid motion takes them: their power is that of both in the frame's motion.
+/// Distributes a force [N] at center_H and a moment [N m] to the nodes so that
+/// their power is that of both in the frame's motion.
 ///
 /// Equation   f_i = m_i / m force + (spread moment) x R y_i
 /// @param nodal 3 x N, H

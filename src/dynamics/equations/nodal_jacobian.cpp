@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/nodal_jacobian.hpp"
+#include "limber/dynamics/equations/nodal_jacobian.hpp"
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/kinematics.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
 
-/// How an attachment's frame moves per unit of its body's unknowns, as
-/// dynamics/newton_matrix.hpp orders them: rows translation over rotation, in
-/// the axes that `R_AW` or `R_AH` turns into.
+/// Jacobian of an attachment's frame by its body's unknowns, ordered as in
+/// dynamics/newton/newton_matrix.hpp: rows translation over rotation, expressed
+/// in frame A of `R_AW` or `R_AH`.
 namespace limber::dynamics {
 
 /// @param G 6 x (6 + m)
@@ -13,7 +13,7 @@ void calc_modal_jacobian(const Attachment& attachment,
                          const AttachmentMotion& motion, const Matrix3& R_AW,
                          Matrix6X& G);
 
-/// Of weighted nodes.
+/// For a frame on weighted nodes.
 ///
 /// Equation   d theta = spread sum_i R y_i x du_i
 ///                    + line_spread sum_i lever_i du_i,

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/node_motion.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "dynamics/mean_frame.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// States to a block: few enough that what the product leaves is still in the
-// cache when it is turned into the world.
+// States per block: few enough that the product stays in cache for the
+// transformation to the world frame.
 constexpr Eigen::Index kBlock = 16;
 
 const BodyModel& find_body(const SystemModel& model, BodyIndex body,
@@ -25,7 +25,7 @@ const BodyModel& find_body(const SystemModel& model, BodyIndex body,
 }
 
 // basis times [eta; rest] block by block, and `finish(j)` on every column while
-// it is near.
+// it is in cache.
 template <typename Finish>
 void multiply(const BodyModel& body, const MatrixX& basis,
               std::span<const SystemState> states, Eigen::Ref<MatrixX> out,

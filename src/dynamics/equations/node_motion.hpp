@@ -3,12 +3,11 @@
 
 #include <span>
 
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
-/// Where the kept nodes of a body are, for many states at once: a dense
-/// product over blocks of states, near the speed at which the answer can be
-/// written. Column j belongs to states[j], row 3 i + c to component c of node
-/// i of ReducedBody::rows.
+/// Motion of a body's stored nodes for many states at once: a dense product
+/// over blocks of states, near memory bandwidth. Column j belongs to states[j],
+/// row 3 i + c to component c of node i of ReducedBody::rows.
 namespace limber::dynamics {
 
 /// Deformations in the body frame, 3n x K [m].
@@ -27,8 +26,8 @@ void calc_node_positions(const SystemModel& model, BodyIndex body,
                          std::span<const SystemState> states,
                          Eigen::Ref<MatrixX> p_WP);
 
-/// Displacements in the world from where the undeformed nodes are when the
-/// body's frame is at X_WB0, 3n x K [m].
+/// Displacements in the world relative to the undeformed nodes with the body's
+/// frame at X_WB0, 3n x K [m].
 ///
 /// Equation   u_W = p_WP - (p_WB0 + R_WB0 x_B)
 /// @throws as calc_node_deformations.

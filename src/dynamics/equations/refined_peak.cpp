@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/refined_peak.hpp"
+#include "limber/dynamics/equations/refined_peak.hpp"
 
 #include <algorithm>
 

@@ -3,14 +3,14 @@
 
 #include <array>
 
-#include "common/archive.hpp"
+#include "limber/common/records/archive.hpp"
 
 namespace limber::dynamics {
 
-/// A largest value and when it was.
+/// A largest value and its time.
 struct Peak {
-  double value = 0.0;
-  double time = 0.0;  ///< [s]
+  double value = 0.0;  ///< [unit of the scalar]
+  double time = 0.0;   ///< [s]
   void include(double v, double t) {
     if (v > value) *this = {v, t};
   }
@@ -18,18 +18,20 @@ struct Peak {
 
 void exchange(Archive& archive, Peak& peak);
 
-/// Top of the parabola through three values at increasing times. @returns the
-/// second where two times agree, or the top is not among them
+/// Maximum of the parabola through three values at increasing times. @returns
+/// the second value if two times agree, or the maximum is outside
 [[nodiscard]] Peak find_top(const Peak& a, const Peak& b, const Peak& c);
 
-/// Peak of a magnitude that is seen at the ends of steps, or closer: of the
-/// parabola through a largest value and those beside it.
+/// Peak of a magnitude sampled at the ends of steps, or closer: of the parabola
+/// through the largest value and its neighbours.
 ///
-/// Limits     misses what the steps do not resolve. No more is added than a
-///            quarter of what the three values span, where their times are
-///            even.
+/// Limits     misses what the steps do not resolve. The refinement adds at
+///            most a quarter of the range of the three values, if their times
+///            are equidistant.
 class RefinedPeak {
  public:
+  /// @param value [unit of the scalar]
+  /// @param t time, increasing [s]
   void include(double value, double t);
   [[nodiscard]] const Peak& peak() const { return peak_; }
 

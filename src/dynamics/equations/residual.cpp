@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/residual.hpp"
+#include "limber/dynamics/equations/residual.hpp"
 
-#include "dynamics/full_terms.hpp"
-#include "dynamics/newton_matrix.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 
@@ -18,7 +18,7 @@ void calc_residual(const SystemModel& model, const Rates& acceleration,
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const BodyTerms& t = terms.bodies[b];
-    double* r = residual.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    double* r = residual.data() + first_row(body, b);
     Eigen::Map<Vector3> translation(r);
     Eigen::Map<Vector3> rotation(r + 3);
     translation.setZero();
@@ -38,8 +38,7 @@ void calc_residual(const SystemModel& model, const Rates& acceleration,
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullModel& full = model.full_bodies[f];
-    double* rows =
-        residual.data() + NewtonMatrix::first_node_row(model) + full.first;
+    double* rows = residual.data() + first_node_row(model) + full.first;
     calc_full_residual(model, f, acceleration.nodes, terms,
                        Nodes(rows, 3, full.mesh->node_count()));
   }

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/workspace.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
 namespace limber::dynamics {
 
-/// A value for each velocity component, in axes of the state's: one a body,
-/// then modal coordinates and nodes of unreduced bodies.
+/// A value for each velocity component, in the frames of the state: one per
+/// body, then modal coordinates and nodes of unreduced bodies.
 struct Rates {
-  std::vector<Vector3> translation;  ///< world axes
-  std::vector<Vector3> rotation;     ///< body axes
-  VectorX modes;
-  VectorX nodes;  ///< home axes
+  std::vector<Vector3> translation;  ///< world frame [m, m/s or m/s^2]
+  std::vector<Vector3> rotation;     ///< body frame [rad, rad/s or rad/s^2]
+  VectorX modes;                     ///< [kg^1/2 m, .../s or .../s^2]
+  VectorX nodes;                     ///< home frame [m, m/s or m/s^2]
 };
 [[nodiscard]] Rates make_rates(const SystemModel& model);
 
-/// What the equations of motion leave at evaluated `terms`.
+/// Residual of the equations of motion at evaluated `terms`.
 ///
-/// Equation   r = M a + bias - forces; zero where nothing moves
+/// Equation   r = M a + bias - forces; zero for fixed coordinates
 /// @param residual rows as increments of NewtonMatrix [N, N m, N/kg^1/2]
 void calc_residual(const SystemModel& model, const Rates& acceleration,
                    SystemTerms& terms, VectorX& residual);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/transmission.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
 
-#include "common/errors.hpp"
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-// A stretch of a path from one point to the next.
+// A segment of a path from one point to the next.
 struct Stretch {
   Vector3 direction;
   double length;

@@ -3,29 +3,28 @@
 
 #include <vector>
 
-#include "dynamics/workspace.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
 /// The coordinate of a transmission, a path's length or a sum of joints'
-/// coordinates, and what acts along it.
+/// coordinates, and the forces along it.
 namespace limber::dynamics {
 
 [[nodiscard]] std::vector<TransmissionTerms> make_transmission_terms(
     const SystemModel& model);
 
-/// Fills the motion and the gradients; needs the attachments' motion, and that
-/// of the couplers.
-/// @throws NumericalError where two points of a path meet.
+/// Fills the motion and the gradients; needs the motion of attachments and
+/// couplers.
+/// @throws NumericalError if two points of a path coincide.
 void calc_coordinate(const SystemModel& model, const SystemState& state,
                      const Transmission& transmission, const SystemTerms& terms,
                      TransmissionTerms& out);
 
-/// The sum of what all its laws answer, with their switches where `memory` has
-/// them.
+/// Total response of all its laws, with the switches of `memory`.
 [[nodiscard]] joints::ScalarResponse evaluate_laws(
     const Transmission& transmission, const joints::ScalarMotion& motion,
     const joints::CouplerMemory& memory, const Instant& now);
 
-/// The motion alone, at a state.
+/// Only the motion, at a state.
 [[nodiscard]] joints::ScalarMotion find_motion(
     const SystemModel& model, const SystemState& state,
     const Transmission& transmission);

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/kinematics.hpp"
-#include "dynamics/mean_frame.hpp"
-#include "dynamics/system_model.hpp"
-#include "joints/motion.hpp"
-#include "joints/scalar_motion.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/joints/motion.hpp"
+#include "limber/joints/scalar_motion.hpp"
 
 namespace limber::dynamics {
 
@@ -18,20 +18,24 @@ namespace limber::dynamics {
 ///            J w' + H eta''         = t_B - bias_r
 ///            H' w' + eta''          = q - bias_e
 struct BodyTerms {
-  Matrix3 R_WB;
+  Matrix3 R_WB;         ///< [-]
   Matrix3 J;            ///< inertia at the level's fidelity [kg m^2]
-  Matrix3X H;           ///< 3 x m, sum_k eta_k beta_kl
+  Matrix3X H;           ///< 3 x m, sum_k eta_k beta_kl [kg^1/2 m]
   Vector3 bias_r;       ///< Jdot w + w x (J w + H etadot) [N m]
-  VectorX bias_e;       ///< inertial, damping and elastic terms
+  VectorX bias_e;       ///< inertial, damping and elastic terms [kg^-1/2 N]
   Vector3 force_W;      ///< resultant of loads and couplers [N]
   Vector3 moment_B;     ///< about Bo [N m]
-  VectorX modal_force;  ///< m
-  VectorX scratch_J2;   ///< 6m: J2 eta
-  VectorX scratch_b1;   ///< 3m: beta eta
-  VectorX scratch_b2;   ///< 3m: beta etadot
+  VectorX modal_force;  ///< m [kg^-1/2 N]
+  /// m x m derivative of the elastic force by the modes, for NewtonMatrix,
+  /// which fills it but over a step; empty if elasticity is diagonal
+  /// [rad^2/s^2].
+  MatrixX stiffness;
+  VectorX scratch_J2;  ///< 6m: J2 eta [kg^1/2 m]
+  VectorX scratch_b1;  ///< 3m: beta eta [kg^1/2 m]
+  VectorX scratch_b2;  ///< 3m: beta etadot [kg^1/2 m/s]
 };
 
-/// An unreduced body at a state, home axes.
+/// An unreduced body at a state, home frame.
 ///
 /// Equation   M u'' = force - internal
 struct FullTerms {
@@ -40,16 +44,17 @@ struct FullTerms {
   Matrix3X force;              ///< 3 x N of loads, couplers and damping [N]
   double strain_energy = 0.0;  ///< [J]
   MeanFrame frame;             ///< if the model needs it
-  VectorX modal_rate;          ///< m, of the damped modes
-  Matrix3X scratch;            ///< 3 x N
+  /// m, of the damped modes [kg^1/2 m/s], then their damping [kg^-1/2 N].
+  VectorX modal_rate;
+  Matrix3X scratch;  ///< 3 x N [m/s, kg m/s, kg m or N]
 };
 
 /// One coupler at a state.
 struct CouplerTerms {
   joints::RelativeMotion motion;
   joints::CouplerResponse response;
-  /// The wrench that acts, like response.wrench: the law's own, or Newton's
-  /// iterate of it.
+  /// The acting wrench, like response.wrench: the law's, or Newton's iterate
+  /// [N, N m].
   Vector6 applied = Vector6::Zero();
 };
 
@@ -57,33 +62,43 @@ struct CouplerTerms {
 struct TransmissionTerms {
   joints::ScalarMotion motion;
   joints::ScalarResponse response;  ///< of all its laws
-  double applied = 0.0;             ///< the force that acts, like response's
-  /// Derivatives of the coordinate: of a path by each point, world axes over
-  /// zeros; of a sum by the increments of CouplerResponse of each coupler.
+  /// The acting force, like response's [N or N m].
+  double applied = 0.0;
+  /// Derivatives of the coordinate: of a path, with respect to each point in
+  /// the world frame, over zeros [-]; of a sum, with respect to the increments
+  /// of CouplerResponse of each coupler [unit of z / m, unit of z / rad].
   std::vector<Vector6> gradients;
+};
+
+/// Pair interactions at a state.
+struct PairTerms {
+  std::vector<std::size_t> members;      ///< bodies that have pairs
+  std::vector<joints::PairBody> bodies;  ///< of all, members filled; the world
+  std::vector<joints::PairResponse> responses;  ///< one a pair
 };
 
 /// Which wrench couplers exert on their bodies.
 enum class WrenchSource { law, iterate };
 
-/// Everything that is computed at one state. Sized once, by make_terms;
-/// refilled without allocation.
+/// Everything computed at one state. Sized once by make_terms, refilled without
+/// allocation.
 struct SystemTerms {
   std::vector<BodyTerms> bodies;                 ///< by calc_inertia_terms
   std::vector<FullTerms> full;                   ///< by both
   std::vector<AttachmentMotion> attachments;     ///< by calc_forces
   std::vector<CouplerTerms> couplers;            ///< by calc_forces
   std::vector<TransmissionTerms> transmissions;  ///< by calc_forces
+  PairTerms pairs;                               ///< by calc_forces
   double load_power = 0.0;  ///< of loads, gravity, drives [W], calc_forces
-  double dissipated_power = 0.0;  ///< couplers and modes [W], calc_forces
+  double dissipated_power = 0.0;  ///< couplers, pairs, modes [W], calc_forces
 };
 
 /// Accelerations of all bodies.
 struct Accelerations {
   std::vector<Vector3> a_WB_W;   ///< [m/s^2]
   std::vector<Vector3> dw_WB_B;  ///< [rad/s^2]
-  VectorX etaddot;
-  VectorX uddot_H;  ///< [m/s^2]
+  VectorX etaddot;               ///< [kg^1/2 m/s^2]
+  VectorX uddot_H;               ///< [m/s^2]
 };
 
 [[nodiscard]] SystemTerms make_terms(const SystemModel& model);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/central_differences.hpp"
+#include "limber/dynamics/integrators/central_differences.hpp"
 
 #include <utility>
 
-#include "common/rotation.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/finite_check.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/finite_check.hpp"
 
 namespace limber::dynamics {
 
@@ -16,7 +16,7 @@ CentralDifferences::CentralDifferences(const SystemModel& model)
       a_next_(make_accelerations(model)),
       next_(make_state(model)) {}
 
-void CentralDifferences::start(const SystemState& state) {
+void CentralDifferences::start(const SystemState& state, double /*h*/) {
   next_ = state;
   calc_terms(model_, state, Side::right, terms_);
   solve_accelerations(model_, terms_, a_);
@@ -30,8 +30,8 @@ void CentralDifferences::exchange_memory(Archive& archive,
   if (archive.reads()) next_ = state;
 }
 
-// Motion to the end, and velocities there as unchanged accelerations have
-// them.
+// Positions at the step's end, and velocities there predicted with unchanged
+// accelerations.
 void CentralDifferences::displace(const SystemState& from, double h,
                                   double end) {
   const double half = 0.5 * h * h;
@@ -55,7 +55,7 @@ void CentralDifferences::displace(const SystemState& from, double h,
 }
 
 StepResult CentralDifferences::step(SystemState& state, double h, double end) {
-  next_.memory = state.memory;
+  copy_step_constants(state, next_);
   displace(state, h, end);
   require_finite(model_, next_, h);
   calc_terms(model_, next_, Side::left, terms_);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/archive.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/step_result.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/integrator.hpp"
 
 namespace limber::dynamics {
 
@@ -15,26 +14,22 @@ namespace limber::dynamics {
 ///            forces a step. Without velocity-dependent forces, as for the
 ///            nodes of an unreduced body, symplectic: it keeps momenta to
 ///            round-off.
-/// Limits     stable below find_stable_step (dynamics/stable_step.hpp)
-class CentralDifferences {
+/// Limits     stable below find_stable_step
+/// (dynamics/integrators/stable_step.hpp)
+class CentralDifferences final : public Integrator {
  public:
   explicit CentralDifferences(const SystemModel& model);
 
-  /// Takes the accelerations from `state`: before the first step, and after a
-  /// jump of the loads.
-  void start(const SystemState& state);
-
-  /// Advances `state` by h, to the time `end` (given, so that no round-off of
-  /// a sum puts a step's end beyond a load's edge). @throws NumericalError if
-  /// the motion is no longer finite or an element is inside out; `state` is
-  /// then unchanged.
-  StepResult step(SystemState& state, double h, double end);
-
-  /// What it knows between steps, of which the last left `state`.
-  void exchange_memory(Archive& archive, const SystemState& state);
-
-  /// At the last evaluation of the last step.
-  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+  /// Evaluates the accelerations at `state`.
+  void start(const SystemState& state, double h) override;
+  void cross_jump(const SystemState& state, double h) override {
+    start(state, h);
+  }
+  void undo(const SystemState& before) override { start(before, 0.0); }
+  /// @throws NumericalError also where an element is inverted.
+  StepResult step(SystemState& state, double h, double end) override;
+  void exchange_memory(Archive& archive, const SystemState& state) override;
+  [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
   void displace(const SystemState& from, double h, double end);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/damper_work.hpp"
+#include "limber/dynamics/integrators/damper_work.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Of what the trapezoidal rule has: more is not of the path.
+// Largest dissipation relative to the trapezoidal rule's: more is round-off
+// [-].
 constexpr double kMostByPath = 1.1;
 
 }  // namespace

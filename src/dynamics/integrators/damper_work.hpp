@@ -3,51 +3,52 @@
 
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/system_state.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// What dampers take over a step, from the path that they go: the trapezoidal
-/// rule on powers does not know how far a stiff damper moves.
+/// Energy dissipated by dampers over a step, from their displacement: the
+/// trapezoidal rule applied to powers ignores how far a stiff damper moves.
 ///
 /// Equation   of a damper with the force D v: mean(D v) . dz in place of
 ///            h mean(v . D v), means of both ends, dz the change of the
 ///            coupler's relative position and angle, of a transmission's
-///            coordinate, of eta. Their difference is of third order in h, and
-///            nothing where v is constant. Where it is not resolved, v is wrong
-///            by what the scheme leaves of velocities, O(h^2) on the group; a
-///            stiff spring holds the position all the same, and D v . v may be
-///            1e6 times the energy there is.
-///            No link or mode gives energy back: less than nothing is nothing,
-///            so that what a scheme puts into springs is not taken for losses;
-///            nor does it take over 1.1 of what the trapezoidal rule has, which
-///            round-off of positions may do to stiff ones.
+///            coordinate, of eta. The two differ at third order in h, and not
+///            at all where v is constant. Where the step does not resolve the
+///            motion, v has the scheme's error, O(h^2) on the group, while a
+///            stiff spring keeps the position; D v . v may then be 1e6 times
+///            the energy of the system.
+///            The dissipation of each link and mode is limited to between 0, so
+///            that energy which a scheme adds to springs does not count as a
+///            negative loss, and 1.1 times that of the trapezoidal rule, which
+///            round-off of positions may exceed for stiff dampers.
 /// Source     work as mean(f) . dz: [@belytschko2000, sec. 6.2]; by it
 ///            Newmark's average acceleration changes the kinetic energy exactly
-/// Limits     D is the law's derivative by velocities. A link whose power is
-///            not v . D v to a thousandth, of friction or a drive, goes by the
-///            trapezoidal rule, and so does a coupler that turns more than a
-///            right angle in a step.
+/// Limits     D is the law's derivative with respect to velocity. Links whose
+///            power differs from v . D v by more than a thousandth (friction,
+///            drives) use the trapezoidal rule, as do couplers that rotate more
+///            than a right angle in a step.
 class DamperWork {
  public:
   explicit DamperWork(const SystemModel& model);
 
-  /// The step that follows begins at `terms`.
+  /// Sets the terms at the beginning of the next step.
   void start(const SystemTerms& terms);
-  /// A step of `h` [s] from `from` to `to`, with `terms`; the next begins
-  /// there. @returns what to add to the trapezoidal rule [J]
+  /// Accounts for a step of `h` [s] from `from` to `to`, where `terms` apply;
+  /// the next step begins there. @returns the correction to add to the
+  /// trapezoidal rule [J]
   double advance(const SystemState& from, const SystemState& to,
                  const SystemTerms& terms, double h);
-  /// Takes the last advance() back.
+  /// Reverts the last advance().
   void undo() { now_.swap(before_); }
 
-  /// What it knows between steps.
+  /// Saves or restores the history.
   void exchange_memory(Archive& archive) { archive(now_); }
 
  private:
-  // Of a coupler or a transmission, in its first entries.
+  // Motion and force of a coupler; of a transmission, in the first entries.
   struct Link {
     Matrix3 R = Matrix3::Identity();
     Vector3 p = Vector3::Zero();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/energy_conserving.hpp"
+#include "limber/dynamics/integrators/energy_conserving.hpp"
 
 #include <fmt/format.h>
 
@@ -7,23 +7,29 @@
 #include <cmath>
 #include <limits>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/cayley.hpp"
-#include "dynamics/equations.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/newton/applied_wrenches.hpp"
+#include "limber/dynamics/newton/cayley.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Round-off of a position, relative to its distance from the world origin.
+// Round-off of a position, relative to its distance from the world origin [-].
 constexpr double kRoundoff = 4.0 * kEpsilon;
-// Small inertias and nearly still coordinates make this much more of it.
+// Small inertias and nearly constant coordinates amplify it by up to this [-].
 constexpr double kNoise = 100.0;
-// Factor anew when an iteration leaves more than this of a correction: it takes
-// many to come to round-off. Fresh factors, only if they leave yet more.
+// Contraction above which to factor again, since many iterations are needed to
+// reach round-off; the second one applies to fresh factors [-].
 constexpr double kPoorContraction = 0.05;
 constexpr double kPoorFreshContraction = 0.1;
+
+Eigen::Map<const VectorX> modes_of(const BodyModel& body, const VectorX& all) {
+  return {all.data() + body.offset, body.modes};
+}
 
 double radius_of_gyration_squared(const BodyModel& body) {
   return 0.5 * body.J0.trace() / body.mass;
@@ -48,25 +54,36 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       end_(make_terms(model)),
       mean_(make_terms(model)),
       motion_(make_step_motion(model)),
+      elastic_(VectorX::Zero(model.modal_count)),
       middle_(make_state(model)),
       next_(make_state(model)),
       turns_(model.bodies.size(), Vector3::Zero()),
-      residual_(VectorX::Zero(NewtonMatrix::size(model))),
-      x_(VectorX::Zero(NewtonMatrix::size(model))) {
+      residual_(VectorX::Zero(count_unknowns(model))),
+      x_(VectorX::Zero(count_unknowns(model))) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
-// Bodies go on as they do, modes swing freely, couplers exert what they did.
+// Predicts unchanged velocities of bodies, free vibration of modes and
+// unchanged wrenches of couplers.
 void EnergyConserving::predict(const SystemState& from, double h) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     middle_.bodies[b].v_WB_W = from.bodies[b].v_WB_W;
     middle_.bodies[b].w_WB_B = from.bodies[b].w_WB_B;
+    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
+    const bool is_diagonal = flexbody::is_diagonal(body.elasticity);
+    if (!is_diagonal) {
+      flexbody::calc_elastic_force(body.elasticity, modes_of(body, from.eta),
+                                   elastic_.segment(body.offset, body.modes));
+    }
     for (int k = 0; k < body.modes; ++k) {
       const Eigen::Index i = body.offset + k;
+      const double half_impulse = is_diagonal
+                                      ? 0.5 * h * lambda[k] * from.eta[i]
+                                      : 0.5 * h * elastic_[i];
       middle_.etadot[i] =
-          (from.etadot[i] - 0.5 * h * body.lambda[k] * from.eta[i]) /
-          (1.0 + 0.5 * h * body.damping[k] + 0.25 * h * h * body.lambda[k]);
+          (from.etadot[i] - half_impulse) /
+          (1.0 + 0.5 * h * body.damping[k] + 0.25 * h * h * lambda[k]);
     }
   }
   if (has_wrenches_) return;
@@ -102,8 +119,9 @@ void EnergyConserving::advance(const SystemState& from, double h, double end) {
   next_.t = end;
 }
 
-// Twice the equations: rows as the sums of both ends' forces, for which an
-// increment of the end has the derivatives of NewtonMatrix.
+// Twice the equations: the rows are sums of the forces at both ends, whose
+// derivatives with respect to an increment of the end are those of
+// NewtonMatrix.
 void EnergyConserving::calc_body_residual(const SystemState& from, double h,
                                           std::size_t b) {
   const BodyModel& body = model_.bodies[b];
@@ -112,7 +130,7 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   const BodyTerms& t = mean_.bodies[b];
   const Vector3& w0 = from.bodies[b].w_WB_B;
   const Vector3& w1 = next_.bodies[b].w_WB_B;
-  const auto row = static_cast<Eigen::Index>(6 * b) + body.offset;
+  const Eigen::Index row = first_row(body, b);
   Vector3 pi0 = first.J * w0;
   Vector3 pi1 = last.J * w1;
   const bool is_coupled =
@@ -120,6 +138,12 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   const bool is_spun = body.has_rigid_motion() && body.modes > 0 &&
                        body.fidelity >= Fidelity::one_way;
   const Vector6 ww = is_spun ? half_product(w0, w1) : Vector6::Zero().eval();
+  const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);
+  if (lambda == nullptr) {
+    flexbody::calc_elastic_force_over_step(
+        body.elasticity, modes_of(body, from.eta), modes_of(body, next_.eta),
+        elastic_.segment(body.offset, body.modes));
+  }
   for (int k = 0; k < body.modes; ++k) {
     const Eigen::Index i = body.offset + k;
     double change = next_.etadot[i] - from.etadot[i];
@@ -133,8 +157,10 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
                          w0.dot(last.scratch_b2.segment<3>(3 * k)) -
                          w1.dot(first.scratch_b2.segment<3>(3 * k)));
     }
+    const double elastic =
+        lambda != nullptr ? (*lambda)[k] * middle_.eta[i] : elastic_[i];
     residual_[row + 6 + k] =
-        2.0 * (change / h - inertial + body.lambda[k] * middle_.eta[i] +
+        2.0 * (change / h - inertial + elastic +
                body.damping[k] * middle_.etadot[i] - t.modal_force[k]);
   }
   residual_.segment<6>(row).setZero();
@@ -150,33 +176,34 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
 void EnergyConserving::calc_residual(const SystemState& from, double h) {
   calc_terms(model_, next_, Side::left, end_);
   calc_step_motion(model_, from, middle_, next_, begin_, end_, h, motion_);
-  calc_step_forces(model_, from, middle_, begin_, end_, {from.t, next_.t, h},
-                   motion_, mean_);
+  calc_step_forces(model_, from, middle_, begin_, end_,
+                   {from.t, next_.t, h, from.inputs}, motion_, mean_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     calc_body_residual(from, h, b);
   }
 }
 
-void EnergyConserving::factor() {
+void EnergyConserving::factor(const SystemState& from) {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    if (flexbody::is_diagonal(body.elasticity)) continue;
+    flexbody::calc_elastic_tangent_over_step(
+        body.elasticity, modes_of(body, from.eta), modes_of(body, next_.eta),
+        mean_.bodies[b].stiffness);
+  }
   matrix_.factor(model_, middle_, mean_, turns_, coefficients_, false, &end_);
 }
 
-// Increments are of R exp(x); Cayley's turn changes by this.
+// Change of the vector of Cayley's transform for an increment R exp(x).
 Vector3 EnergyConserving::change_turn(std::size_t b, const Vector3& x) const {
   return cayley_jacobian_inverse(turns_[b]) * x;
 }
 
 void EnergyConserving::apply_increments(double h) {
-  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
-    mean_.couplers[c].applied += matrix_.wrench_increments()[c];
-  }
-  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
-    mean_.transmissions[i].applied +=
-        matrix_.wrench_increments()[model_.couplers.size() + i][0];
-  }
+  add_to_applied(matrix_.wrench_increments(), mean_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
-    const auto row = static_cast<Eigen::Index>(6 * b) + body.offset;
+    const Eigen::Index row = first_row(body, b);
     middle_.etadot.segment(body.offset, body.modes) +=
         x_.segment(row + 6, body.modes) / h;
     if (!body.has_rigid_motion()) continue;
@@ -185,13 +212,14 @@ void EnergyConserving::apply_increments(double h) {
   }
 }
 
-// Length [m] of the increments, of turns as the motion has them (a runaway turn
-// is almost none of the rotation), mass-weighted within a body; largest body.
+// Length of the increments [m], mass-weighted within a body, and the body with
+// the largest. Rotations are measured by Cayley's vector, since the rotation
+// itself is almost constant when that vector diverges.
 EnergyConserving::Size EnergyConserving::measure_increments() const {
   Size largest;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
-    const auto row = static_cast<Eigen::Index>(6 * b) + body.offset;
+    const Eigen::Index row = first_row(body, b);
     const double squared =
         x_.segment<3>(row).squaredNorm() +
         radius_of_gyration_squared(body) *
@@ -222,7 +250,7 @@ double EnergyConserving::measure_motion(double h) const {
   return h * std::sqrt(largest);
 }
 
-// Below this [m] corrections may be made of round-off alone.
+// Below this length corrections may consist of round-off alone [m].
 double EnergyConserving::measure_roundoff() const {
   double reach = 0.0;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -234,7 +262,7 @@ double EnergyConserving::measure_roundoff() const {
 
 StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   coefficients_ = {4.0 / (h * h), 2.0 / h};
-  next_.memory = state.memory;
+  copy_step_constants(state, next_);
   calc_terms(model_, state, Side::right, begin_);
   predict(state, h);
   advance(state, h, end);
@@ -254,9 +282,9 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   };
   while (true) {
     calc_residual(state, h);
-    if (needs_factors) {
+    if (needs_factors || !matrix_.knows_pairs(mean_)) {
       try {
-        factor();
+        factor(state);
       } catch (const NumericalError&) {
         fail(correction, "Newton's method diverged");
       }
@@ -276,7 +304,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     const double contraction =
         result.iterations > 1 ? correction.value / last : 1.0;
     last = correction.value;
-    // What is left after this correction, if the contraction goes on.
+    // Error left after this correction at the same rate of contraction.
     const double left =
         contraction < 0.5 ? correction.value * contraction / (1.0 - contraction)
                           : correction.value;

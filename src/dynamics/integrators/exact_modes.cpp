@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/exact_modes.hpp"
+#include "limber/dynamics/integrators/exact_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/modal_loads.hpp"
+#include "limber/dynamics/integrators/modal_loads.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Times at which it is looked which modes move.
+// Number of times at which energies are sampled to find the modes that move.
 constexpr int kEnergyLooks = 256;
 constexpr double kExcited = 1e-6;  // of the largest energy of a mode
 constexpr double kLooksAPeriod = 10.0;
 
 void drop_modes(BodyModel& body) {
   body.modes = 0;
-  body.lambda.resize(0);
+  body.elasticity = {};
   body.damping.resize(0);
   body.inertia = std::make_shared<const ModalInertia>();
   body.P.resize(3, 0);
@@ -48,9 +49,10 @@ ExactModes::ExactModes(const SystemModel& model, const SystemState& start)
           start.t, start.eta.segment(body.offset, body.modes),
           start.etadot.segment(body.offset, body.modes)};
       const flexbody::ModalLoads loads = find_modal_loads(model, index, start);
+      const VectorX& lambda = require_eigenvalues(body, "their closed form");
       parts_.push_back({body.offset,
-                        body.lambda,
-                        {body.lambda, body.damping, loads, state},
+                        lambda,
+                        {lambda, body.damping, loads, state},
                         {},
                         find_fastest(loads),
                         {},
@@ -108,6 +110,7 @@ void ExactModes::join_rest(const SystemState& rest, SystemState& whole) const {
   whole.u_H = rest.u_H;
   whole.udot_H = rest.udot_H;
   whole.memory = rest.memory;
+  whole.pair_memory = rest.pair_memory;
   for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
     const BodyModel& left = rest_.bodies[b];
     const int to = model_.bodies[b].offset;

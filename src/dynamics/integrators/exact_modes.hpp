@@ -3,45 +3,44 @@
 
 #include <vector>
 
-#include "dynamics/system_state.hpp"
-#include "flexbody/modal_response.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 
 namespace limber::dynamics {
 
-/// Splits a system in two: modes that only known loads drive, answered in
-/// closed form at any time, and the rest, which needs time steps.
+/// Splits a system in two: modes driven by known loads only, solved in closed
+/// form at any time, and the rest, which is integrated in steps.
 ///
-/// Source     the report's SimpleRB [@morrison2023, section 3.4.3]; which
-///            bodies qualify is has_closed_modal_loads (dynamics/modal_loads)
+/// Source     SimpleRB of the WOBBLE report [@morrison2023, section 3.4.3];
+///            has_closed_modal_loads (modal_loads.hpp) selects the bodies
 class ExactModes {
  public:
   /// @param start state of the whole system at the start
   ExactModes(const SystemModel& model, const SystemState& start);
 
-  /// Modes answered in closed form.
+  /// Number of modes solved in closed form.
   [[nodiscard]] int count() const { return count_; }
 
   /// The same system without them; its bodies have the same indices.
   [[nodiscard]] const SystemModel& rest() const { return rest_; }
-  /// Whether anything in the rest moves.
+  /// Whether the rest has any degree of freedom.
   [[nodiscard]] bool has_motion_left() const;
   [[nodiscard]] SystemState take_rest(const SystemState& whole) const;
 
-  /// Answers `times` [s], from the start on, at once.
+  /// Evaluates the modes at all `times` [s], not before the start.
   void prepare(const std::vector<double>& times);
-  /// Puts the rest's state and the modes at prepared time i into `whole`.
+  /// Writes the rest's state and the modes at prepared time i to `whole`.
   void join(const SystemState& rest, std::size_t i, SystemState& whole) const;
-  /// The same at rest.t, whatever was prepared.
+  /// The same at rest.t, which need not be prepared.
   void join(const SystemState& rest, SystemState& whole) const;
-  /// The rest's state alone: the modes stay as they were joined before.
+  /// Writes the rest's state alone; the modes keep their last values.
   void join_rest(const SystemState& rest, SystemState& whole) const;
-  /// Between two looks, at most, that miss no extreme of the modes until `end`:
-  /// a tenth of the shortest period of the modes that have a millionth of the
-  /// largest energy of one, and of the loads on them; infinite if none moves
-  /// [s].
+  /// Longest sampling interval that misses no extreme of the modes until `end`
+  /// [s]: a tenth of the shortest period of the loads and of the modes whose
+  /// energy is at least a millionth of the largest; infinite if none moves [s].
   [[nodiscard]] double find_longest_look(double end) const;
 
-  /// What the modes took from loads and lost by prepared time i.
+  /// Work of loads on the modes and energy dissipated until prepared time i.
   struct Losses {
     double work = 0.0;        ///< [J]
     double dissipated = 0.0;  ///< [J]

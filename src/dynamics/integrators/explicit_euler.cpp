@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/explicit_euler.hpp"
+#include "limber/dynamics/integrators/explicit_euler.hpp"
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/finite_check.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/integrators/finite_check.hpp"
 
 namespace limber::dynamics {
 
@@ -13,8 +13,9 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
       accelerations_(make_accelerations(model)),
       next_(make_state(model)) {
   for (const BodyModel& body : model.bodies) {
+    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
     for (int k = 0; k < body.modes; ++k) {
-      oscillators_.emplace_back(body.lambda[k], body.damping[k]);
+      oscillators_.emplace_back(lambda[k], body.damping[k]);
     }
   }
   responses_.resize(oscillators_.size());
@@ -36,7 +37,7 @@ void ExplicitEuler::move_modes(SystemState& state) const {
     const flexbody::FreeResponse& r = responses_[i];
     const double eta = state.eta[k];
     const double etadot = state.etadot[k];
-    // All that acts on the mode but its own spring and damper.
+    // Force on the mode without its own spring and damper.
     const double load = accelerations_.etaddot[k] +
                         oscillators_[i].damping() * etadot + lambda * eta;
     state.eta[k] = r.stay * eta + r.impulse * etadot + r.step * load;

@@ -3,31 +3,31 @@
 
 #include <vector>
 
-#include "dynamics/equations.hpp"
-#include "dynamics/step_result.hpp"
-#include "flexbody/modal_response_oscillator.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/integrator.hpp"
+#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 namespace limber::dynamics {
 
-/// The WOBBLE package's scheme: rigid motion by the accelerations at the
-/// step's start, modes exactly under the load at the step's start.
+/// The WOBBLE package's scheme: rigid motion by the accelerations at the step's
+/// start, modes by their exact response to the load at the step's start.
 ///
 /// Equation   p += h v + h^2 a / 2, v += h a,
 ///            R <- R exp(h w + h^2 dw / 2), w += h dw,
 ///            each mode as an oscillator under f(t_n), by its closed form
 /// Source     WOBBLE report (EPFL LSMS, 2023), Eqs. 12, 26-28
-/// Limits     first order; energy grows with rotation. To compare with, and
-///            cheap; not for stiff couplers.
-class ExplicitEuler {
+/// Limits     first order; energy grows with rotation. For comparison and for
+///            cheap runs; not for stiff couplers.
+class ExplicitEuler final : public Integrator {
  public:
   explicit ExplicitEuler(const SystemModel& model);
 
-  /// Advances `state` by h, to the time `end`.
-  /// @throws NumericalError if the motion is no longer finite.
-  StepResult step(SystemState& state, double h, double end);
+  StepResult step(SystemState& state, double h, double end) override;
+  /// Does nothing: the scheme has no history.
+  void exchange_memory(Archive& /*archive*/,
+                       const SystemState& /*state*/) override {}
 
-  /// At the last evaluation of the last step.
-  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+  [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
   void set_step(double h);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/finite_check.hpp"
+#include "limber/dynamics/integrators/finite_check.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/full_turn.hpp"
+#include "limber/dynamics/integrators/full_turn.hpp"
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Displacements at the end; nothing, and false, of a body that hardly turns.
+// Displacements at the end; returns false and writes nothing for a body that
+// hardly rotates.
 bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
                           const SystemState& from, const VectorX& uddot_H,
                           double h, double s, Nodes u_H) {
@@ -43,7 +44,7 @@ bool predict_turned_nodes(const SystemModel& model, const FullModel& full,
 
 void turn_correction(const SystemModel& model, const FullModel& full,
                      const SystemState& state, Nodes d_H) {
-  constexpr double kLeastTurn = 1e-8;  // [rad], whose square is round-off
+  constexpr double kLeastTurn = 1e-8;  // its square is round-off [rad]
   MeanFrame frame;
   calc_mean_frame(model, full, state, frame);
   Vector3 spin = Vector3::Zero();

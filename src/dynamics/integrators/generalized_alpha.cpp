@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/generalized_alpha.hpp"
+#include "limber/dynamics/integrators/generalized_alpha.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/full_turn.hpp"
-#include "dynamics/newton_failure.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/full_turn.hpp"
+#include "limber/dynamics/newton/applied_wrenches.hpp"
+#include "limber/dynamics/newton/convergence.hpp"
+#include "limber/dynamics/newton/newton_failure.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Factors of an earlier step are kept while they contract at least this fast;
-// a step for which they do not is followed by steps with factors of their own,
-// more of them each time that keeping them fails again.
-constexpr double kGoodContraction = 1e-3;
-constexpr int kFewestFreshSteps = 8;
-constexpr int kMostFreshSteps = 512;
-// Factor anew within a step when it is slower than this.
+// Largest growth of a step over which accelerations are extrapolated [-].
+constexpr double kMostStretch = 2.0;
+// Contraction above which factors are renewed within a step [-].
 constexpr double kPoorContraction = 0.3;
-// So many corrections that are slower with fresh factors call for the exact
-// derivative.
+// Forces evaluated within this fraction of a step's motion from its end count
+// as those of the end [-].
+constexpr double kSamePlace = 1e-9;
+// Number of slow corrections with fresh factors after which the exact
+// derivative is used.
 constexpr int kSlowCorrections = 2;
-// Exact corrections in a row that grow: there is no convergence.
+// Number of successive growing exact corrections that counts as divergence.
 constexpr int kMostGrowing = 4;
 
 }  // namespace
@@ -35,50 +37,45 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
                                    const Settings& settings)
     : model_(model),
       settings_(settings),
-      am_(settings.implicit_euler
-              ? 0.0
-              : (2.0 * settings.rho_inf - 1.0) / (settings.rho_inf + 1.0)),
-      af_(settings.implicit_euler
-              ? 0.0
-              : settings.rho_inf / (settings.rho_inf + 1.0)),
-      gamma_(settings.implicit_euler ? 1.0 : 0.5 + af_ - am_),
-      beta_(settings.implicit_euler ? 1.0
-                                    : 0.25 * (0.5 + gamma_) * (0.5 + gamma_)),
-      lag_(settings.implicit_euler ? 0.0 : 0.5 - beta_),
+      p_(settings.implicit_euler ? AlphaParameters{}
+                                 : find_alpha_parameters(settings.rho_inf)),
       matrix_(model),
       exact_(model),
       damper_work_(model),
       next_(make_state(model)),
       terms_(make_terms(model)),
-      residual_(VectorX::Zero(NewtonMatrix::size(model))),
-      x_(VectorX::Zero(NewtonMatrix::size(model))),
-      kept_wrenches_(model.couplers.size() + model.transmissions.size(),
-                     Vector6::Zero()),
-      gaps_(kept_wrenches_) {
-  next_fresh_steps_ = kFewestFreshSteps;
+      residual_(VectorX::Zero(count_unknowns(model))),
+      x_(VectorX::Zero(count_unknowns(model))),
+      kept_wrenches_(VectorX::Zero(count_wrench_rows(terms_))),
+      gaps_(model.couplers.size() + model.transmissions.size(),
+            Vector6::Zero()) {
   a_ = a_next_ = vdot_ = vdot_next_ = inc_ = make_rates(model);
   if (settings.estimates_error) scale_.emplace(model);
+  const bool conserves = !settings.implicit_euler && settings.rho_inf == 1.0;
+  if (conserves && settings.tolerance == 0.0) settings_.tolerance = kLeastShare;
 }
 
 void GeneralizedAlpha::refresh() {
   factored_step_ = 0.0;
   renews_full_ = true;
+  trend_step_ = 0.0;
+  plan_.refresh();
 }
 
 void GeneralizedAlpha::exchange_memory(Archive& archive,
                                        const SystemState& state) {
-  archive(a_, vdot_, memory_step_, power_load_, power_loss_, fresh_steps_,
-          next_fresh_steps_);
+  archive(a_, vdot_, memory_step_, power_load_, power_loss_);
+  plan_.exchange_memory(archive);
   damper_work_.exchange_memory(archive);
   for (CouplerTerms& coupler : terms_.couplers) archive(coupler.applied);
   for (TransmissionTerms& t : terms_.transmissions) archive(t.applied);
   if (archive.reads()) next_ = state;
 }
 
-// a_n as steps of `h` have it.
+// Scales a_n - vdot_n to steps of `h` [s].
 void GeneralizedAlpha::fit_memory(double h) {
   constexpr double kSame = 1e-9;
-  // More than this would multiply round-off more than it mends.
+  // A larger factor would amplify round-off more than it corrects.
   constexpr double kMostGrowth = 4.0;
   const double ratio = memory_step_ > 0.0 ? h / memory_step_ : 1.0;
   memory_step_ = h;
@@ -95,16 +92,26 @@ void GeneralizedAlpha::fit_memory(double h) {
 }
 
 void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
-  const double constant = 1.0 / 6.0 - beta_ - 0.5 * (am_ - af_);
+  const double constant = 1.0 / 6.0 - p_.beta - 0.5 * (p_.am - p_.af);
   const MotionScale::Largest largest =
       scale_->measure_change(a_, a_next_, constant * h * h);
   result.error = largest.displacement;
   result.error_body = largest.body;
 }
 
+CorrectionSize GeneralizedAlpha::find_limit(
+    const CorrectionSize& predictor_errors, double motion) const {
+  if (settings_.tolerance == 0.0) {
+    return dynamics::find_limit(predictor_errors, p_.gamma, motion);
+  }
+  const double limit = settings_.tolerance * motion;
+  return {.value = limit, .rigid = limit, .modal = limit};
+}
+
 void GeneralizedAlpha::set_coefficients(double h) {
-  coefficients_.acceleration = (1.0 - am_) / ((1.0 - af_) * beta_ * h * h);
-  coefficients_.velocity = gamma_ / (beta_ * h);
+  coefficients_.acceleration =
+      (1.0 - p_.am) / ((1.0 - p_.af) * p_.beta * h * h);
+  coefficients_.velocity = p_.gamma / (p_.beta * h);
 }
 
 void GeneralizedAlpha::refactor(bool renews_full) {
@@ -113,8 +120,22 @@ void GeneralizedAlpha::refactor(bool renews_full) {
   renews_full_ = false;
 }
 
-// Accelerations that the residual calls for: M^-1 of it for motion that the
-// step resolves, the quasi-static share for what is too stiff.
+// Factors for the current iterate. Unreduced bodies keep their stiffness and
+// renew only its frame, unless `renews_full`.
+void GeneralizedAlpha::renew_factors(double h, double end, StepResult& result) {
+  try {
+    refactor(result.factorizations > 0);
+  } catch (const NumericalError& error) {
+    // The error already names the body or coupler.
+    throw NumericalError(fmt::format("{} (a step of {:.3g} s to t = {:.9g} s)",
+                                     error.what(), h, end));
+  }
+  ++result.factorizations;
+  factored_step_ = h;
+}
+
+// Adds accelerations for the residual: M^-1 times it for motion that the step
+// resolves, quasi-static ones for stiffer motion.
 void GeneralizedAlpha::add_quasi_static_accelerations() {
   for (Vector3& rotation : inc_.rotation) rotation.setZero();
   refactor();
@@ -122,7 +143,7 @@ void GeneralizedAlpha::add_quasi_static_accelerations() {
   matrix_.solve(model_, terms_, residual_, x_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
-    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    const double* x = x_.data() + first_row(body, b);
     const double c = coefficients_.acceleration;
     const Vector3 translation = c * Eigen::Map<const Vector3>(x);
     const Vector3 rotation = c * Eigen::Map<const Vector3>(x + 3);
@@ -147,7 +168,7 @@ void GeneralizedAlpha::start(const SystemState& state, double h) {
   a_.modes.setZero();
   a_.nodes.setZero();
   vdot_ = vdot_next_ = a_;
-  memory_step_ = 0.0;
+  memory_step_ = trend_step_ = 0.0;
   next_ = state;
   set_coefficients(h);
   calc_terms(model_, next_, Side::right, terms_);
@@ -162,6 +183,7 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
   next_ = state;
   set_coefficients(h);
   vdot_next_ = vdot_;
+  trend_step_ = 0.0;
   calc_terms(model_, next_, Side::left, terms_);
   calc_residual(model_, vdot_next_, terms_, residual_);
   const VectorX before = residual_;
@@ -176,13 +198,13 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
 
 // The step's end that a_next_ implies.
 void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
-  const double inc_n = h * h * lag_;
-  const double inc_next = h * h * beta_;
-  const double v_n = h * (1.0 - gamma_);
-  const double v_next = h * gamma_;
-  const double d_next = (1.0 - am_) / (1.0 - af_);
-  const double d_n = am_ / (1.0 - af_);
-  const double d_old = af_ / (1.0 - af_);
+  const double inc_n = h * h * p_.lag;
+  const double inc_next = h * h * p_.beta;
+  const double v_n = h * (1.0 - p_.gamma);
+  const double v_next = h * p_.gamma;
+  const double d_next = (1.0 - p_.am) / (1.0 - p_.af);
+  const double d_n = p_.am / (1.0 - p_.af);
+  const double d_old = p_.af / (1.0 - p_.af);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyState& old = from.bodies[b];
     BodyState& body = next_.bodies[b];
@@ -220,25 +242,18 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
 }
 
 void GeneralizedAlpha::apply_increments(double h) {
-  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
-    terms_.couplers[c].applied += matrix_.wrench_increments()[c];
-  }
-  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
-    terms_.transmissions[i].applied +=
-        matrix_.wrench_increments()[model_.couplers.size() + i][0];
-  }
-  const double share = 1.0 / (beta_ * h * h);
+  add_to_applied(matrix_.wrench_increments(), terms_);
+  const double share = 1.0 / (p_.beta * h * h);
   turn_corrections(model_, next_, x_.tail(model_.nodal_count));
   a_next_.nodes += share * x_.tail(model_.nodal_count);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     if (body.modes > 0) {
       a_next_.modes.segment(body.offset, body.modes) +=
-          share * x_.segment(6 * static_cast<Eigen::Index>(b) + body.offset + 6,
-                             body.modes);
+          share * x_.segment(first_row(body, b) + 6, body.modes);
     }
     if (!body.has_rigid_motion()) continue;
-    const double* x = x_.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    const double* x = x_.data() + first_row(body, b);
     a_next_.translation[b] += share * Eigen::Map<const Vector3>(x);
     a_next_.rotation[b] += share * (right_jacobian_inverse(inc_.rotation[b]) *
                                     Eigen::Map<const Vector3>(x + 3));
@@ -246,72 +261,55 @@ void GeneralizedAlpha::apply_increments(double h) {
 }
 
 void GeneralizedAlpha::fail(const SystemState& from, double h,
+                            const CorrectionSize& limit,
                             const CorrectionSize& correction,
                             const char* what) const {
   throw NumericalError(describe(
-      {model_, from, terms_, x_, correction, h, next_.t, settings_.tolerance},
-      what));
+      {model_, from, terms_, x_, correction, h, next_.t, limit.value}, what));
 }
 
-void GeneralizedAlpha::plan_factors(bool kept, double slowest) {
-  if (!kept) {
-    fresh_steps_ = std::max(0, fresh_steps_ - 1);
-  } else if (slowest > kGoodContraction) {
-    fresh_steps_ = next_fresh_steps_;
-    next_fresh_steps_ = std::min(2 * next_fresh_steps_, kMostFreshSteps);
-  } else {
-    next_fresh_steps_ = kFewestFreshSteps;
-  }
-}
-
-// Unchanged accelerations, or those that turn unreduced bodies without changing
-// their shape, and the step's end that they imply. @returns whether one turns.
+// Predicts the step's end by accelerations that change as over the last step;
+// for rotating unreduced bodies by those of rigid motion. @returns whether such
+// a body rotates.
 bool GeneralizedAlpha::predict(const SystemState& from, double h, double end) {
-  const double p_v = 1.0 / (1.0 - am_);
-  const double p_a = am_ / (1.0 - am_);
+  const double ratio = trend_step_ > 0.0 ? h / trend_step_ : 0.0;
+  const double trend = ratio <= kMostStretch ? ratio : 0.0;
+  trend_step_ = 0.0;
+  const double p_last = trend * (1.0 - p_.af) / (1.0 - p_.am);
+  const double p_v = 1.0 / (1.0 - p_.am) + p_last;
+  const double p_a = p_.am / (1.0 - p_.am);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    a_next_.translation[b] =
-        p_v * vdot_.translation[b] - p_a * a_.translation[b];
-    a_next_.rotation[b] = p_v * vdot_.rotation[b] - p_a * a_.rotation[b];
+    a_next_.translation[b] = p_v * vdot_.translation[b] -
+                             p_a * a_.translation[b] -
+                             p_last * vdot_next_.translation[b];
+    a_next_.rotation[b] = p_v * vdot_.rotation[b] - p_a * a_.rotation[b] -
+                          p_last * vdot_next_.rotation[b];
   }
-  a_next_.modes = p_v * vdot_.modes - p_a * a_.modes;
-  a_next_.nodes = p_v * vdot_.nodes - p_a * a_.nodes;
+  a_next_.modes =
+      p_v * vdot_.modes - p_a * a_.modes - p_last * vdot_next_.modes;
+  a_next_.nodes = (vdot_.nodes - p_.am * a_.nodes) / (1.0 - p_.am);
   const bool turns = predict_turns(model_, from, vdot_.nodes, a_.nodes,
-                                   {h, lag_, beta_}, a_next_.nodes);
-  next_.memory = from.memory;
+                                   {h, p_.lag, p_.beta}, a_next_.nodes);
+  copy_step_constants(from, next_);
   advance(from, h, end);
   return turns;
 }
 
-// The wrenches that act at the last state, to begin with once more.
-void GeneralizedAlpha::keep_wrenches() {
-  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
-    kept_wrenches_[c] = terms_.couplers[c].applied;
-  }
-  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
-    kept_wrenches_[model_.couplers.size() + i][0] =
-        terms_.transmissions[i].applied;
-  }
-}
-
+// Restores the wrenches at the last state as the initial guess.
 void GeneralizedAlpha::restore_wrenches() {
-  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
-    terms_.couplers[c].applied = kept_wrenches_[c];
-  }
-  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
-    terms_.transmissions[i].applied =
-        kept_wrenches_[model_.couplers.size() + i][0];
-  }
+  set_applied(kept_wrenches_, terms_);
   factored_step_ = 0.0;
 }
 
-// What round-off of stiff wrenches does to the motion, with the factors held.
-Roundoff GeneralizedAlpha::measure_wrench_noise() {
+// Adds the effect on the motion of round-off in stiff wrenches, by the current
+// factors.
+void GeneralizedAlpha::add_wrench_noise(Roundoff& roundoff) {
   find_roundoff_gaps(model_, terms_, coefficients_.velocity, gaps_);
-  residual_.setZero();
+  calc_pair_roundoff(model_, next_, terms_, coefficients_.velocity, residual_);
   matrix_.solve(model_, terms_, residual_, gaps_, x_);
   const CorrectionSize noise = measure_correction(model_, x_);
-  return {noise.rigid, noise.modal};
+  roundoff.rigid = std::max(roundoff.rigid, noise.rigid);
+  roundoff.modal = std::max(roundoff.modal, noise.modal);
 }
 
 void GeneralizedAlpha::correct(bool exactly) {
@@ -323,79 +321,74 @@ void GeneralizedAlpha::correct(bool exactly) {
   }
 }
 
-// Newton's method, from the prediction on. @returns its slowest contraction.
-double GeneralizedAlpha::converge(const SystemState& from, double h, double end,
-                                  bool keeps, bool exactly,
-                                  StepResult& result) {
+// Newton's method from the prediction.
+FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
+                                              double end, bool keeps,
+                                              bool exactly,
+                                              StepResult& result) {
+  const bool has_trend = trend_step_ > 0.0 && model_.full_bodies.empty();
   const bool turns = predict(from, h, end);
   Roundoff roundoff = measure_roundoff(model_, next_);
   bool knows_noise = false;
-  // Those of an unreduced body are in its axes, and cheap to turn.
+  // Factors of an unreduced body are in its axes, and cheap to rotate.
   bool needs_factors = !keeps || turns;
   CorrectionSize correction;
-  double slowest = 0.0;
-  int slow_corrections = 0;  // with factors of their own
+  CorrectionSize limit;
+  FactorPlan::Course course;
+  int slow_corrections = 0;  // with fresh factors
   int growing = 0;           // corrections in a row
   for (int iteration = 1;; ++iteration) {
     calc_terms(model_, next_, Side::left, terms_, WrenchSource::iterate);
     calc_residual(model_, vdot_next_, terms_, residual_);
+    needs_factors = needs_factors || !matrix_.knows_pairs(terms_);
     const bool is_fresh = needs_factors;
-    if (needs_factors) {
-      // What new frames do not mend, new stiffnesses may.
-      try {
-        refactor(result.factorizations > 0);
-      } catch (const NumericalError& error) {
-        // It names its own body or coupler; no correction tells of it.
-        throw NumericalError(fmt::format(
-            "{} (a step of {:.3g} s to t = {:.9g} s)", error.what(), h, end));
-      }
-      ++result.factorizations;
-      factored_step_ = h;
-    }
+    if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
     const CorrectionSize last = correction;
     correction = measure_correction(model_, x_);
     ++result.iterations;
     if (!std::isfinite(correction.value)) {
-      fail(from, h, correction, "the motion is no longer finite");
+      fail(from, h, limit, correction, "the motion is no longer finite");
     }
     apply_increments(h);
     advance(from, h, end);
-    const double limit = settings_.tolerance * measure_motion(model_, inc_);
-    const double contraction =
-        iteration > 1 ? correction.value / last.value : 1.0;
-    // What a correction leaves, if its own contraction goes on.
-    const auto find_rest = [&](double size, double before) {
-      const double c = iteration > 1 && before > 0.0 ? size / before : 1.0;
-      return c < 0.5 ? size * c / (1.0 - c) : size;
+    course.add(correction);
+    const double motion = measure_motion(model_, inc_);
+    limit = find_limit(has_trend ? course.corrections[0] : CorrectionSize{},
+                       motion);
+    const bool is_foreseen = keeps && result.factorizations == 0 &&
+                             correction.value <= kSamePlace * motion;
+    const FactorPlan::Rest expected =
+        is_foreseen ? plan_.expect_rest(course.count - 1, correction)
+                    : FactorPlan::Rest{correction.rigid, correction.modal};
+    if (expected.rigid <= limit.rigid && expected.modal <= limit.modal) {
+      return course;
+    }
+    needs_factors = exactly;
+    if (iteration == 1 && settings_.max_iterations > 1) continue;
+    const double contraction = correction.value / last.value;
+    const auto is_done = [&] {
+      return has_converged(correction, last, limit, roundoff);
     };
-    const auto is_done = [&](double size, double before, double noise) {
-      return find_rest(size, before) <= limit || size <= noise;
-    };
-    const auto has_converged = [&] {
-      return is_done(correction.rigid, last.rigid, roundoff.rigid) &&
-             is_done(correction.modal, last.modal, roundoff.modal);
-    };
-    const bool is_slow = iteration > 1 && contraction > kPoorContraction;
-    if (!has_converged() && !knows_noise &&
+    const bool is_slow = contraction > kPoorContraction;
+    if (!is_done() && !knows_noise &&
         (is_slow || correction.rigid <= roundoff.rigid)) {
-      const Roundoff noise = measure_wrench_noise();
-      roundoff.rigid = std::max(roundoff.rigid, noise.rigid);
-      roundoff.modal = std::max(roundoff.modal, noise.modal);
+      add_wrench_noise(roundoff);
       knows_noise = true;
     }
-    const bool is_above_noise =
-        correction.rigid > roundoff.rigid || correction.modal > roundoff.modal;
-    if (iteration > 1 && is_above_noise) {
-      slowest = std::max(slowest, contraction);
+    // The contraction of round-off is meaningless.
+    if (!is_slow || correction.rigid > roundoff.rigid ||
+        correction.modal > roundoff.modal) {
+      course.slowest = std::max(course.slowest, contraction);
+      course.is_measured = true;
     }
-    if (has_converged()) return slowest;
+    if (is_done()) return course;
     if (iteration >= settings_.max_iterations) {
-      fail(from, h, correction, "Newton's method did not converge");
+      fail(from, h, limit, correction, "Newton's method did not converge");
     }
     growing = contraction > 1.0 ? growing + 1 : 0;
     if (exactly && growing >= kMostGrowing) {
-      fail(from, h, correction, "Newton's method diverged");
+      fail(from, h, limit, correction, "Newton's method diverged");
     }
     if (is_slow && is_fresh) ++slow_corrections;
     exactly = exactly || slow_corrections >= kSlowCorrections;
@@ -407,14 +400,15 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   set_coefficients(h);
   fit_memory(h);
   StepResult result;
-  const bool keeps = fresh_steps_ == 0 && factored_step_ > 0.0 &&
+  const bool keeps = plan_.keeps() && factored_step_ > 0.0 &&
                      std::abs(h - factored_step_) <= 1e-9 * h;
-  double slowest = 1.0;  // contraction with the factors held
-  keep_wrenches();
+  FactorPlan::Course course;
+  get_applied(terms_, kept_wrenches_);
   try {
-    slowest = converge(state, h, end, keeps, false, result);
+    course = converge(state, h, end, keeps, false, result);
   } catch (const NumericalError&) {
-    // The factors alone have thrown it off; their complement may not.
+    course.slowest = 1.0;
+    // The factors caused the divergence; exact corrections may converge.
     restore_wrenches();
     try {
       converge(state, h, end, false, true, result);
@@ -423,7 +417,7 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
       throw;
     }
   }
-  plan_factors(keeps, slowest);
+  plan_.finish_step(keeps, course);
   result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
   const double path = damper_work_.advance(state, next_, terms_, h);
   result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power) + path;
@@ -436,13 +430,15 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   power_loss_ = terms_.dissipated_power;
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
+  trend_step_ = h;
   std::swap(state, next_);
   return result;
 }
 
-void GeneralizedAlpha::undo() {
+void GeneralizedAlpha::undo(const SystemState& /*before*/) {
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
+  trend_step_ = 0.0;
   damper_work_.undo();
   power_load_ = last_power_load_;
   power_loss_ = last_power_loss_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/interpolation.hpp"
+#include "limber/dynamics/integrators/interpolation.hpp"
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -62,6 +62,10 @@ void interpolate(const SystemModel& model, const SystemState& begin,
                       state.u_H, state.udot_H);
   state.X_WH = end.X_WH;
   state.memory = begin.memory;
+  // An input's line before its last jump is that of the step, too.
+  state.inputs = end.inputs;
+  state.controllers = end.controllers;
+  state.pair_memory = begin.pair_memory;
 }
 
 }  // namespace limber::dynamics

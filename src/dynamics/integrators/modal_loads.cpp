@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/modal_loads.hpp"
+#include "limber/dynamics/integrators/modal_loads.hpp"
 
 #include <algorithm>
 #include <numbers>
 #include <utility>
 
-#include "common/overloaded.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -23,7 +23,10 @@ const Attachment& get_attachment(const SystemModel& model, AttachmentIndex i) {
 }
 
 bool has_closed_form(const TimeFunction& function) {
-  if (std::holds_alternative<Table>(function)) return false;
+  if (std::holds_alternative<Table>(function) ||
+      std::holds_alternative<InputFunction>(function)) {
+    return false;
+  }
   const auto* pulse = std::get_if<Pulse>(&function);
   return pulse == nullptr || pulse->shape != PulseShape::triangular;
 }
@@ -67,6 +70,7 @@ class Collector {
               }
             },
             [](const Table&) {},
+            [](const InputFunction&) {},
         },
         function);
   }
@@ -103,7 +107,7 @@ class Collector {
                           .until = end});
   }
 
-  // The sum of all parts, on the union of their times.
+  // The sum of all parts, at the union of their times.
   [[nodiscard]] StepLoad join_steps() const {
     StepLoad sum;
     for (const StepLoad& part : parts_) {
@@ -137,6 +141,7 @@ class Collector {
 bool has_closed_modal_loads(const SystemModel& model, BodyIndex index) {
   const BodyModel& body = get_body(model, index);
   if (body.modes == 0 || body.fidelity != Fidelity::uncoupled) return false;
+  if (!flexbody::is_diagonal(body.elasticity)) return false;
   const auto is_here = [&](AttachmentIndex i) {
     return get_attachment(model, i).body == index;
   };
@@ -152,13 +157,18 @@ bool has_closed_modal_loads(const SystemModel& model, BodyIndex index) {
             return path != nullptr && std::any_of(path->points.begin(),
                                                   path->points.end(), is_here);
           });
-  // Components fixed in the world turn through a body that turns.
-  return !is_coupled && std::all_of(model.loads.begin(), model.loads.end(),
-                                    [&](const Load& load) {
-                                      return !is_here(load.where) ||
-                                             (has_closed_form(load.function) &&
-                                              (body.clamped || !load.in_world));
-                                    });
+  const bool is_paired = std::any_of(
+      model.pairs.begin(), model.pairs.end(), [&](const Pair& pair) {
+        return pair.body_A == index || pair.body_B == index;
+      });
+  // Loads fixed in the world vary in the axes of a rotating body.
+  return !is_coupled && !is_paired &&
+         std::all_of(model.loads.begin(), model.loads.end(),
+                     [&](const Load& load) {
+                       return !is_here(load.where) ||
+                              (has_closed_form(load.function) &&
+                               (body.clamped || !load.in_world));
+                     });
 }
 
 ModalLoads find_modal_loads(const SystemModel& model, BodyIndex index,

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/motion_scale.hpp"
+#include "limber/dynamics/integrators/motion_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/rotation.hpp"
-#include "dynamics/displacement_measure.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/displacement_measure.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 void include(double squared, std::size_t body, MotionScale::Largest& largest) {
-  // So that what is not a number is the largest.
+  // Written so that NaN counts as the largest.
   if (!(squared <= largest.displacement)) largest = {squared, body};
 }
 

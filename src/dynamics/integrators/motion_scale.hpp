@@ -3,19 +3,19 @@
 
 #include <vector>
 
-#include "dynamics/residual.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// How far small motions of all kinds move points of the bodies.
+/// Displacement of points of the bodies by small motions of all coordinates.
 ///
 /// Equation   d^2 = |translation|^2 + (reach |rotation|)^2
 ///                  + sum_k (size_k eta_k)^2,
-///            reach that of the body's farthest point from Bo, size_k the
-///            largest displacement that mode k makes of a point; of an
-///            unreduced body its largest nodal displacement
-/// Limits     a measure, not a bound: independent motions are taken to be
+///            with the distance `reach` of the body's farthest point from Bo,
+///            and size_k the largest displacement of a point by mode k; for an
+///            unreduced body the largest nodal displacement
+/// Limits     a measure, not a bound: different motions are assumed
 ///            perpendicular
 class MotionScale {
  public:
@@ -23,12 +23,13 @@ class MotionScale {
 
   struct Largest {
     double displacement = 0.0;  ///< [m]
-    std::size_t body = 0;
+    std::size_t body = 0;       ///< its index
   };
-  /// Of `factor` times (b - a).
+  /// Of the increments `factor` (b - a), which have the units of positions.
+  /// @param factor [s] for velocities, [s^2] for accelerations
   [[nodiscard]] Largest measure_change(const Rates& a, const Rates& b,
                                        double factor) const;
-  /// Between two states of the same time.
+  /// Of the difference of two states at the same time.
   [[nodiscard]] Largest measure_distance(const SystemState& a,
                                          const SystemState& b) const;
 
@@ -36,8 +37,8 @@ class MotionScale {
   struct Body {
     bool moves = false;  // a frame of its own
     int offset = 0;      // of its modes
-    double reach = 0.0;
-    VectorX sizes;  // m [kg^-1/2]
+    double reach = 0.0;  // [m]
+    VectorX sizes;       // of modes [kg^-1/2]
   };
   struct Nodes {
     std::size_t body = 0;
@@ -48,8 +49,8 @@ class MotionScale {
   std::vector<Nodes> full_;
 };
 
-/// Distance of the farthest point of a body from its frame's origin that is
-/// known: kept nodes and attachments, at least its radius of gyration [m].
+/// Largest distance of a known point of a body (kept nodes and attachments)
+/// from its frame's origin, at least the radius of gyration [m].
 [[nodiscard]] double find_reach(const SystemModel& model, BodyIndex body);
 
 }  // namespace limber::dynamics

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/runge_kutta.hpp"
+#include "limber/dynamics/integrators/runge_kutta.hpp"
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/finite_check.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/finite_check.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-/// to = from + increment; what the sum loses goes to `carry`, what the last one
-/// lost is added, if `from` still is what it `left`. Exact whichever is larger.
+/// to = from + increment with compensation: round-off of the sum goes to
+/// `carry`, and that of the last sum is added if `from` is still its result
+/// `left`. Exact whichever summand is larger.
 template <typename From, typename Left, typename Increment, typename Carry,
           typename To>
 void add(const From& from, const Left& left, const Increment& increment,
@@ -25,14 +26,14 @@ void add(const From& from, const Left& left, const Increment& increment,
   }
 }
 
-/// q exp(theta) - q, and what brings q back to the unit sphere.
+/// q exp(theta) - q, including the correction of |q| to 1.
 Eigen::Vector4d find_turn(const Quaternion& q, const Vector3& theta) {
   Quaternion less_one = exp_quaternion(theta);
   less_one.w() = -less_one.vec().squaredNorm() / (1.0 + less_one.w());
   return (q * less_one).coeffs() + (1.0 / q.norm() - 1.0) * q.coeffs();
 }
 
-/// All numbers zero: nothing lost yet.
+/// A state of zeros: no round-off yet.
 void clear(SystemState& carry) {
   for (BodyState& body : carry.bodies) {
     body = BodyState{};
@@ -130,7 +131,7 @@ void RungeKutta4::advance(const SystemState& from, const Slope& slope, double h,
 
 StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   for (Vector3& theta : theta_) theta.setZero();
-  stage_.memory = state.memory;
+  copy_step_constants(state, stage_);
   calc_slope(state, theta_, Side::right, slopes_[0]);
   StepResult result;
   double work = terms_.load_power;

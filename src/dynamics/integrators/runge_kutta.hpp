@@ -4,35 +4,26 @@
 #include <array>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/step_result.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/integrator.hpp"
 
 namespace limber::dynamics {
 
 /// Explicit fourth-order Runge-Kutta on the group (Munthe-Kaas): the classic
-/// tableau in the rotation vector of each step. Steps are added with their
-/// round-off carried on to the next, so that short steps are as good as their
-/// order says.
+/// tableau in the rotation vector of each step. Sums over steps are
+/// compensated, so that round-off does not limit the accuracy of short steps.
 ///
 /// Source     Munthe-Kaas, "Runge-Kutta methods on Lie groups", BIT 38, 1998;
 ///            compensated summation: Knuth's two-sum.
 /// Limits     stable only for h below about 2.8 / the highest frequency
-///            (dynamics/explicit_limit.hpp).
-class RungeKutta4 {
+///            (dynamics/simulation/explicit_limit.hpp).
+class RungeKutta4 final : public Integrator {
  public:
   explicit RungeKutta4(const SystemModel& model);
 
-  /// Advances `state` by h, to the time `end` (given, so that no round-off of
-  /// a sum puts a step's end beyond a load's edge).
-  /// @throws NumericalError if the motion is no longer finite.
-  StepResult step(SystemState& state, double h, double end);
-
-  /// What it knows between steps, of which the last left `state`.
-  void exchange_memory(Archive& archive, const SystemState& state);
-
-  /// At the last evaluation of the last step.
-  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+  StepResult step(SystemState& state, double h, double end) override;
+  void exchange_memory(Archive& archive, const SystemState& state) override;
+  [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
   struct Slope {
@@ -52,8 +43,8 @@ class RungeKutta4 {
   std::array<Slope, 4> slopes_;
   std::vector<Vector3> theta_;  // rotation since the step's start
   SystemState stage_;
-  // The state that the last step left, and what was lost in its sums. The
-  // carry of a number that the caller has changed since is dropped.
+  // The state after the last step, and the round-off of its sums. The carry of
+  // a value that the caller has changed since is discarded.
   SystemState left_;
   SystemState carry_;
 };

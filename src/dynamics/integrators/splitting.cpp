@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/splitting.hpp"
+#include "limber/dynamics/integrators/splitting.hpp"
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/finite_check.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/integrators/finite_check.hpp"
 
 namespace limber::dynamics {
 
@@ -14,8 +14,9 @@ Splitting::Splitting(const SystemModel& model)
       next_(make_state(model)),
       middle_(make_state(model)) {
   for (const BodyModel& body : model.bodies) {
+    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
     for (int k = 0; k < body.modes; ++k) {
-      oscillators_.emplace_back(body.lambda[k], body.damping[k]);
+      oscillators_.emplace_back(lambda[k], body.damping[k]);
     }
   }
   responses_.resize(oscillators_.size());

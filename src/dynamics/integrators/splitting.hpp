@@ -3,41 +3,43 @@
 
 #include <vector>
 
-#include "dynamics/equations.hpp"
-#include "dynamics/step_result.hpp"
-#include "flexbody/modal_response_oscillator.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/integrator.hpp"
+#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 namespace limber::dynamics {
 
-/// Explicit scheme in which modes swing exactly and all else kicks.
+/// Explicit splitting scheme: exact vibration of modes, impulses of all other
+/// forces.
 ///
 /// Equation   drift(h/2), kick(h), drift(h/2). Drift: p += h v / 2,
 ///            R <- R exp(h w / 2), each mode as a free damped oscillator by
-///            its closed form. Kick: velocities change by what else acts, at
-///            positions and a time that rest, by the midpoint rule: a change
-///            over h/2 with the velocities before, then over h with those
-///            midway.
-/// Source     [@strang1968]; of oscillators and impulses: [@garciaarchilla1998]
-/// Limits     second order. Modes never limit the step by themselves: the
-///            stiffness and damping of couplers do (h below about 2 / their
-///            highest frequency on the bodies), and turns (well below a radian
-///            a step). Steps near a multiple of half a mode's period resonate
-///            with its kicks: its amplitude may grow there. Energy of fast
-///            turns grows by (w h)^4 / 8 a step. Not for level `full`.
-class Splitting {
+///            its closed form. Kick: velocities change by all other forces at
+///            fixed positions and time, by the midpoint rule: a change over h/2
+///            with the velocities before, then over h with those midway.
+/// Source     [@strang1968]; with oscillators and impulses:
+///            [@garciaarchilla1998]
+/// Limits     second order. Modes do not limit the step; the stiffness and
+///            damping of couplers do (h below about 2 / their highest frequency
+///            on the bodies), and rotation (well below a radian a step). Steps
+///            near a multiple of half a mode's period resonate with its kicks:
+///            its amplitude may grow. Energy of fast rotation grows by
+///            (w h)^4 / 8 a step. Not for level `full`.
+class Splitting final : public Integrator {
  public:
   explicit Splitting(const SystemModel& model);
 
-  /// Advances `state` by h, to the time `end`.
-  /// @throws NumericalError if the motion is no longer finite.
-  StepResult step(SystemState& state, double h, double end);
+  StepResult step(SystemState& state, double h, double end) override;
+  /// Does nothing: the scheme has no history.
+  void exchange_memory(Archive& /*archive*/,
+                       const SystemState& /*state*/) override {}
 
-  /// At the middle of the last step; couplers' motion at its end.
-  [[nodiscard]] const SystemTerms& terms() const { return terms_; }
+  /// Terms at the middle of the last step; motion of couplers at its end.
+  [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
   void set_half(double half);
-  // Adds what modal dampers take to `dissipated`.
+  // Adds the energy dissipated by modal damping to `dissipated` [J].
   void drift(SystemState& state, double& dissipated) const;
   void calc_kick();
   void kick(const SystemState& from, double h, SystemState& to) const;

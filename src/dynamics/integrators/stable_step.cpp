@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/stable_step.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/equations.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// A change of positions or of velocities, or the accelerations it causes.
+// A change of positions or of velocities, or of the accelerations by it.
 using Change = Accelerations;
 
 template <typename Visit>
@@ -32,7 +32,7 @@ void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
   }
 }
 
-// Root of the sum of squares, weighted by masses as the motion is.
+// Mass-weighted Euclidean norm.
 double measure(const SystemModel& model, Change& x) {
   double sum = 0.0;
   for_each_vector(model, x, [&](double* at, Eigen::Index n, double weight) {
@@ -98,7 +98,7 @@ class Iteration {
     return eigenvalue;
   }
 
-  // Of the last eigenvector: who has most of it.
+  // The body with the largest part of the last eigenvector.
   std::size_t find_largest_body() {
     double most = -1.0;
     std::size_t largest = 0;
@@ -131,7 +131,7 @@ class Iteration {
         return x.segment(body.offset, body.modes).array();
       };
       accelerations.etaddot.segment(body.offset, body.modes).array() +=
-          body.lambda.array() * of_body(at.eta) +
+          flexbody::rest_stiffness(body.elasticity).array() * of_body(at.eta) +
           body.damping.array() * of_body(at.etadot);
     }
   }

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/step_forces.hpp"
+#include "limber/dynamics/integrators/step_forces.hpp"
 
-#include "dynamics/coupler_forces.hpp"
-#include "dynamics/transmission.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/coupler_forces.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
+#include "limber/dynamics/integrators/step_pairs.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+using joints::CoordinateStep;
+using joints::MotionStep;
+using joints::StepTimes;
 
-// All that the functions below look at.
+// Arguments of the functions below.
 struct Step {
   const SystemModel& model;
   const SystemState& begin;
@@ -20,7 +24,7 @@ struct Step {
   const StepMotion& motion;
 };
 
-// Moments are gathered in world axes, and turned at the end.
+// Moments are summed in world axes, and transformed at the end.
 void add_wrench(const Step& step, AttachmentIndex attachment,
                 const Vector3& force_W, const Vector3& moment_W,
                 SystemTerms& terms) {
@@ -39,7 +43,7 @@ void add_wrench(const Step& step, AttachmentIndex attachment,
   }
 }
 
-// On M, and its reaction on F.
+// A force and moment on M, and the reaction on F.
 void add_pair(const Step& step, CouplerIndex coupler, const Vector6& wrench_F,
               SystemTerms& terms) {
   const Coupler& c = step.model.couplers[index(coupler)];
@@ -67,8 +71,8 @@ void apply_coupler(const Step& step, std::size_t c, SystemTerms& terms) {
   CouplerTerms& out = terms.couplers[c];
   const MotionStep motion = motion_of(step, c);
   out.motion = motion.mean;
-  out.response = evaluate_over_step(step.model.couplers[c].law, motion,
-                                    step.begin.memory[c], step.times);
+  out.response = joints::evaluate_over_step(step.model.couplers[c].law, motion,
+                                            step.begin.memory[c], step.times);
   add_powers(out.response, terms);
   out.response.wrench *= 2.0;
   add_pair(step, static_cast<CouplerIndex>(c), 0.5 * out.applied, terms);
@@ -107,7 +111,7 @@ CoordinateStep find_sum_step(const Step& step, const JointSum& sum,
     const JointSum::Term& term = sum.terms[i];
     const auto c = index(term.coupler);
     const auto j = index(term.coordinate);
-    const CoordinateStep own = find_coordinate_step(
+    const CoordinateStep own = joints::find_coordinate_step(
         joints::coordinates_of(step.model.couplers[c].law)[j],
         motion_of(step, c), step.begin.memory[c].near[j], step.times.h);
     coordinate.z0 += term.factor * own.z0;
@@ -130,9 +134,9 @@ void apply_transmission(const Step& step, std::size_t i, SystemTerms& terms) {
            : find_sum_step(step, *sum, out.gradients);
   out.motion = {0.5 * (coordinate.z0 + coordinate.z1), coordinate.rate};
   out.response = {};
-  std::size_t first = 0;  // of a law's switches
+  std::size_t first = 0;  // index of a law's first switch
   for (const joints::ScalarLaw& law : transmission.laws) {
-    out.response += evaluate_over_step(
+    out.response += joints::evaluate_over_step(
         law, coordinate, step.times,
         {memory.switches[first], memory.switches[first + 1]});
     first += index(joints::switch_count(law));
@@ -168,8 +172,8 @@ void add_to_mode(const Step& step, std::size_t b, int k, double force,
 }
 
 void apply_load(const Step& step, const Load& load, SystemTerms& terms) {
-  const double factor =
-      evaluate(load.function, step.times.middle(), Side::right);
+  const double factor = evaluate(
+      load.function, {step.times.middle(), Side::right, step.times.inputs});
   const Attachment& a = step.model.attachments[index(load.where)];
   if (factor == 0.0 || a.body == kWorld) return;
   const auto b = index(a.body);
@@ -184,7 +188,7 @@ void apply_load(const Step& step, const Load& load, SystemTerms& terms) {
     terms.load_power += force_W.dot(frame.v_W) + moment_W.dot(frame.w_W);
     return;
   }
-  // What a level without feedback sees: the undeformed body.
+  // Levels without feedback use the undeformed body.
   const Vector3 force_B = R_WB.transpose() * force_W;
   const Vector3 moment_B = R_WB.transpose() * moment_W;
   for (int k = 0; k < body.modes; ++k) {
@@ -236,7 +240,7 @@ void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
   add_to_body(step, b, body.mass * gravity_W, Vector3::Zero(), terms);
 }
 
-// As NewtonMatrix wants them.
+// In the form that NewtonMatrix expects.
 void set_attachment(const Step& step, std::size_t i, SystemTerms& terms) {
   const Attachment& a = step.model.attachments[i];
   AttachmentMotion& out = terms.attachments[i];
@@ -252,8 +256,9 @@ void set_attachment(const Step& step, std::size_t i, SystemTerms& terms) {
 
 void calc_step_forces(const SystemModel& model, const SystemState& begin,
                       const SystemState& middle, const SystemTerms& begin_terms,
-                      const SystemTerms& end_terms, const StepTimes& times,
-                      const StepMotion& motion, SystemTerms& terms) {
+                      const SystemTerms& end_terms,
+                      const joints::StepTimes& times, const StepMotion& motion,
+                      SystemTerms& terms) {
   const Step step{model, begin, middle, begin_terms, end_terms, times, motion};
   terms.load_power = 0.0;
   terms.dissipated_power = 0.0;
@@ -271,6 +276,8 @@ void calc_step_forces(const SystemModel& model, const SystemState& begin,
     name_coupler(model.transmissions[i].name, times.end,
                  [&] { apply_transmission(step, i, terms); });
   }
+  apply_pairs_over_step(model, begin, middle, begin_terms, end_terms, times,
+                        motion, terms);
   for (const Load& load : model.loads) apply_load(step, load, terms);
   for (const BodyLoad& load : model.body_loads) {
     apply_body_load(step, load, terms);

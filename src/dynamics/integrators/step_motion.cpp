@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/step_motion.hpp"
+#include "limber/dynamics/integrators/step_motion.hpp"
 
 #include <cmath>
 
-#include "common/rotation.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 void calc_body(const BodyState& begin, const BodyState& middle,
                const BodyState& end, double h, BodyStep& step) {
@@ -30,7 +29,7 @@ struct Stretch {
   double slope;
 };
 Stretch find_stretch(double q) {
-  constexpr double kSmall = 0.01;  // the series' first term left out: 1e-16
+  constexpr double kSmall = 0.01;  // first neglected term of the series: 1e-16
   if (q < kSmall) {
     return {
         1.0 + q * (1.0 / 12.0 +
@@ -80,7 +79,7 @@ void calc_flexibility(const BodyModel& body, const Attachment& attachment,
       find_secant_jacobian(combine(attachment.Psi_B, at(begin.eta)),
                            combine(attachment.Psi_B, at(end.eta)));
   const Vector3 psidot = combine(attachment.Psi_B, at(middle.etadot));
-  // Its own turn, h A psidot, before the body's.
+  // The frame's rotation in the body, h A psidot, before the body's.
   const double both = 0.25 * h * rigid.turn.dot(A * psidot);
   const double stretch = 1.0 + 0.25 * rigid.turn.squaredNorm();
   frame.twist = (stretch / (1.0 - both)) * (rigid.R_WB * A);
@@ -95,7 +94,7 @@ void rest_in_world(const Attachment& attachment, FrameStep& frame) {
   frame.w_W.setZero();
 }
 
-// A coupler's frames, seen from F.
+// Relative motion of a coupler's frames, expressed in F.
 void calc_coupler(const FrameStep& F, const FrameStep& M, const Matrix3& R0_WF,
                   const joints::RelativeMotion& begin,
                   const joints::RelativeMotion& end, double h,

@@ -5,24 +5,24 @@
 
 namespace limber::dynamics {
 
-/// Work per time at one end of a step.
+/// Powers at one end of a step.
 struct StepPower {
   double loads = 0.0;       ///< of loads, gravity and drives [W]
   double dissipated = 0.0;  ///< by couplers and modes [W]
 };
 
-/// What one step cost and did.
+/// Cost, work and error of one step.
 struct StepResult {
-  int iterations = 0;  ///< Newton's, 0 for explicit schemes
-  int factorizations = 0;
+  int iterations = 0;       ///< count, of Newton's method; 0 if explicit
+  int factorizations = 0;   ///< count
   double load_work = 0.0;   ///< of loads, gravity and drives [J]
   double dissipated = 0.0;  ///< by couplers and modes over the step [J]
-  /// Of schemes that estimate their error, if they are asked to: how far the
-  /// step put a point wrong, at most, and on which body [m].
+  /// Estimated largest error of a point's position by the step [m]; of adaptive
+  /// schemes with a tolerance.
   double error = 0.0;
-  std::size_t error_body = 0;
-  StepPower begin;  ///< of the same schemes
-  StepPower end;
+  std::size_t error_body = 0;  ///< index of the body of that point
+  StepPower begin;             ///< of the same schemes
+  StepPower end;               ///< of the same schemes
 };
 
 }  // namespace limber::dynamics

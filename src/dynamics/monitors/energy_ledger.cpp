@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/energy_ledger.hpp"
+#include "limber/dynamics/monitors/energy_ledger.hpp"
 
 #include <fmt/format.h>
 
@@ -7,24 +7,27 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/full_terms.hpp"
-#include "dynamics/peak_watch.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/monitors/peak_watch.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Of what passes through parts: round-off, and where Newton's method ends.
+// Error relative to the energy through parts: round-off, and the tolerance of
+// Newton's method.
 constexpr double kPassedError = 1e-11;
-// Of the noise of couplers at one state; it adds up as a random walk.
+// Factor on the noise of couplers at one state, which accumulates as a random
+// walk.
 constexpr double kNoiseFactor = 10.0;
 
-// An extreme grows by this at least before it is looked at more closely, and a
-// drift is a share of the throughput.
+// Least relative growth of an extreme before it is evaluated exactly; a drift
+// is relative to the throughput.
 constexpr double kGrowth = 1.01;
 constexpr double kNoteworthy = 1e-3;
 
-// Wrench and stiffness times what round-off makes of a frame's motion.
+// Wrench and stiffness times the round-off of a frame's motion.
 double find_noise(const CouplerTerms& coupler, double reach) {
   const double d = kEpsilon * reach;
   const auto& response = coupler.response;
@@ -33,6 +36,15 @@ double find_noise(const CouplerTerms& coupler, double reach) {
   const double force = response.wrench.head<3>().norm();
   const double moment = response.wrench.tail<3>().norm();
   return (force + k * d) * d + (moment + k_turn * kEpsilon) * kEpsilon;
+}
+
+// Of a pair's forces on what moves.
+double find_power(const joints::PairResponse& pair) {
+  double power = 0.0;
+  for (const joints::PairPoint& point : pair.points()) {
+    power += point.force_W.dot(point.velocity_W);
+  }
+  return power;
 }
 
 }  // namespace
@@ -44,7 +56,7 @@ void exchange(Archive& archive, EnergyLedger::Part& part) {
 EnergyLedger::EnergyLedger(const SystemModel& model)
     : model_(model),
       parts_(model.bodies.size() + model.couplers.size() +
-             model.transmissions.size()),
+             model.transmissions.size() + model.pairs.size()),
       now_(parts_) {
   for (const FullModel& full : model.full_bodies) {
     scratch_.emplace_back(Matrix3X::Zero(3, full.mesh->node_count()));
@@ -76,12 +88,17 @@ void EnergyLedger::evaluate_body(std::size_t b, const SystemState& state,
   double kinetic = 0.0;
   double elastic = 0.0;
   double power = 0.0;
+  const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);
+  if (lambda == nullptr) {
+    elastic = flexbody::calc_elastic_energy(
+        body.elasticity, state.eta.segment(body.offset, body.modes));
+  }
   Vector3 h = Vector3::Zero();
   for (int k = 0; k < body.modes; ++k) {
     const double eta = state.eta[body.offset + k];
     const double etadot = state.etadot[body.offset + k];
     kinetic += 0.5 * etadot * etadot;
-    elastic += 0.5 * body.lambda[k] * eta * eta;
+    if (lambda != nullptr) elastic += 0.5 * (*lambda)[k] * eta * eta;
     power += (t.modal_force[k] - body.damping[k] * etadot) * etadot;
     h += t.H.col(k) * etadot;
   }
@@ -119,6 +136,11 @@ EnergyLedger::Sums EnergyLedger::evaluate(const SystemState& state,
                        transmission.applied * transmission.motion.rate;
     sums.coupler += now_[part++].energy;
   }
+  for (const joints::PairResponse& response : terms.pairs.responses) {
+    now_[part].energy = response.energy;
+    now_[part].power = -response.dissipation - find_power(response);
+    sums.coupler += now_[part++].energy;
+  }
   return sums;
 }
 
@@ -128,6 +150,13 @@ double EnergyLedger::find_noise(const SystemTerms& terms) const {
     const auto frame = static_cast<std::size_t>(model_.couplers[c].frame_M);
     noise += dynamics::find_noise(terms.couplers[c],
                                   terms.attachments[frame].p_WF.norm());
+  }
+  for (std::size_t i = 0; i < terms.pairs.responses.size(); ++i) {
+    const joints::PairBodies bodies = find_bodies(model_.pairs[i], terms.pairs);
+    const double d = kEpsilon * (bodies.A.p_WB.norm() + bodies.B.p_WB.norm());
+    for (const auto& point : terms.pairs.responses[i].points()) {
+      noise += (point.force_W.norm() + point.stiffness.norm() * d) * d;
+    }
   }
   return noise;
 }
@@ -224,9 +253,12 @@ EnergyRecord EnergyLedger::find_record() const {
   } else if (worst_ < bodies + couplers) {
     record.place =
         fmt::format("coupler '{}'", model_.couplers[worst_ - bodies].name);
-  } else {
+  } else if (worst_ < bodies + couplers + model_.transmissions.size()) {
     record.place = fmt::format(
         "coupler '{}'", model_.transmissions[worst_ - bodies - couplers].name);
+  } else {
+    const std::size_t pairs = parts_.size() - model_.pairs.size();
+    record.place = fmt::format("pair '{}'", model_.pairs[worst_ - pairs].name);
   }
   return record;
 }

@@ -4,49 +4,49 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/energy_record.hpp"
-#include "dynamics/step_result.hpp"
-#include "dynamics/system_state.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/integrators/step_result.hpp"
+#include "limber/dynamics/monitors/energy_record.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// Keeps the energy of every body, coupler and transmission over all steps, and
-/// what of their changes nothing accounts for.
+/// Energy of every body, coupler, transmission and pair over all steps, and the
+/// unexplained part of its changes.
 ///
 /// Equation   of a part: open = sum over steps of (E_1 - E_0 - h (P_0 + P_1) /
-///            2), P the power that it is given: of a body by all forces but
-///            inertial ones, less its damping; of a coupler -wrench . v -
-///            dissipation + supplied. Of all together: EnergyRecord.
-///            Round-off: that of the energy that passes through parts, and of
-///            positions, which stiff couplers answer: (|f| + k d) d, d = eps L
+///            2), P the power supplied: to a body by all forces but inertial
+///            ones, less its damping; to a coupler -wrench . v - dissipation +
+///            supplied. Of all together: EnergyRecord. Round-off: that of the
+///            energy that passes through parts, and of positions through stiff
+///            couplers: (|f| + k d) d, d = eps L
 /// Limits     a part's share has the error of the trapezoidal rule, which
 ///            cancels in the sum.
 class EnergyLedger {
  public:
-  /// @param model kept by reference
+  /// @param model stored by reference
   explicit EnergyLedger(const SystemModel& model);
 
   /// @param terms at `state`, here and below
-  /// @param totals of what happened before the first step, an impulse
+  /// @param totals of an impulse before the first step
   void start(const SystemState& state, const SystemTerms& terms,
              const StepResult& totals);
   /// The end of a step. @param totals work and dissipation since the start
   void add(const SystemState& state, const SystemTerms& terms,
            const StepResult& totals);
-  /// Whether what was evaluated in passing would make a new extreme, which is
-  /// to be had from `terms` of the very state: a stiff coupler makes much of
-  /// where Newton's method had not quite ended. Arguments as add().
+  /// Whether approximate `terms` would give a new extreme, which must then be
+  /// evaluated with exact terms of the state: stiff couplers amplify the
+  /// remaining error of Newton's method. Arguments as add().
   [[nodiscard]] bool is_remarkable(const SystemState& state,
                                    const SystemTerms& terms,
                                    const StepResult& totals);
-  /// Forces jump at `state`: the next step begins with others.
+  /// Forces jump at `state`: the next step begins with new ones.
   void restart(const SystemState& state, const SystemTerms& terms);
 
   [[nodiscard]] EnergyRecord find_record() const;
 
-  /// What it knows between steps.
+  /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
@@ -73,7 +73,7 @@ class EnergyLedger {
   [[nodiscard]] double find_noise(const SystemTerms& terms) const;
 
   const SystemModel& model_;
-  std::vector<Part> parts_;  // bodies, couplers, transmissions
+  std::vector<Part> parts_;  // bodies, couplers, transmissions, pairs
   std::vector<Part> now_;
   std::vector<Matrix3X> scratch_;  // of unreduced bodies
   double time_ = 0.0;              // of parts_ [s]

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/energy_verdict.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -26,8 +26,7 @@ std::string describe(const EnergyRecord& energy) {
 }
 
 bool is_forgiven(IntegratorKind integrator, const EnergyRecord& energy) {
-  return integrator == IntegratorKind::implicit_euler ||
-         integrator == IntegratorKind::explicit_euler || energy.is_one_way;
+  return traits_of(integrator).order == 1 || energy.is_one_way;
 }
 
 std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
@@ -35,13 +34,16 @@ std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
     return "level one-way drives modes by rotation and takes nothing back from "
            "it; level coupled does";
   }
-  if (integrator == IntegratorKind::implicit_euler) {
-    return "implicit-euler damps whatever its steps do not resolve; take "
-           "shorter steps or generalized-alpha";
+  const IntegratorTraits& traits = traits_of(integrator);
+  if (traits.order == 1 && traits.is_implicit) {
+    return traits.name +
+           " damps whatever its steps do not resolve; take shorter steps or "
+           "generalized-alpha";
   }
-  if (integrator == IntegratorKind::explicit_euler) {
-    return "explicit-euler is of first order, and takes work from the start of "
-           "a step; take shorter steps or another integrator";
+  if (traits.order == 1) {
+    return traits.name +
+           " is of first order, and takes work from the start of a step; take "
+           "shorter steps or another integrator";
   }
   return "take shorter steps, steps to a tolerance, or energy-conserving";
 }

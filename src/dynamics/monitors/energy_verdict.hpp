@@ -4,27 +4,28 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/energy_record.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+#include "limber/dynamics/monitors/energy_record.hpp"
 
-/// What is said of energy that a run made or lost.
+/// Warnings and errors for energy that a run gained or lost.
 namespace limber::dynamics {
 
-/// Of the throughput: a drift beyond it is told, one beyond the other ends a
-/// run, unless its integrator is known to damp (implicit Euler) or has no work
-/// of its own (explicit Euler), or a level takes nothing back (one-way).
-inline constexpr double kToldDrift = 0.01;
-inline constexpr double kMostDrift = 0.5;
+/// Drifts relative to the throughput above which a run gets a warning, and is
+/// rejected. Exempt from rejection are integrators that damp (implicit Euler)
+/// or have no consistent work (explicit Euler), and level one-way, which has no
+/// feedback.
+inline constexpr double kToldDrift = 0.01;  ///< gives a warning [-]
+inline constexpr double kMostDrift = 0.5;   ///< is rejected [-]
 
 /// Drift over throughput [-]; 0 if it may be round-off.
 [[nodiscard]] double find_open_share(const EnergyRecord& energy);
 
-/// Adds a warning if energy was made or lost: size, time, place.
+/// Adds a warning if energy was gained or lost: size, time, place.
 void warn_of_energy(IntegratorKind integrator, const EnergyRecord& energy,
                     std::vector<std::string>& warnings);
 
-/// @throws NumericalError for a run that has ended and is no result: with
-/// size, time and place.
+/// @throws NumericalError for a finished run with an invalid result: with size,
+/// time and place.
 void check_energy(IntegratorKind integrator, const EnergyRecord& energy);
 
 }  // namespace limber::dynamics

@@ -1,49 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/archive.hpp"
-#include "dynamics/energy.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/energy.hpp"
 
 namespace limber::dynamics {
 
-/// Tells a run that blows up, long before its numbers overflow.
+/// Detects a run that blows up, long before it overflows.
 ///
 /// Equation   stored energy > 10 (energy at the start + sum |work of a step|)
-///            at two looks in a row, and growing or at the end of the run; or
-///            > 1000 times at one.
-///            (A scheme that takes its work from a step's start has none in its
-///            first step from rest.)
-/// Limits     An integrator that gains less is not stopped on the way: what it
-///            left open is judged at the end (dynamics/energy_verdict).
+///            at two successive checks, and growing or at the end of the run;
+///            or > 1000 times at one check, unless work lags: a scheme that
+///            evaluates it at a step's start has none in the first step from
+///            rest, at the start or at the onset of a load. The energy before
+///            is then round-off, and the work of any load much larger.
+/// Limits     smaller gains of energy do not stop a run; they are judged at its
+///            end (dynamics/monitors/energy_verdict.hpp).
 class EnergyWatch {
  public:
   EnergyWatch() = default;
   /// @param initial energy at the start [J]
-  explicit EnergyWatch(double initial) : supplied_(initial) {}
+  /// @param lags whether a step's work uses the velocities at its start
+  EnergyWatch(double initial, bool lags) : supplied_(initial), lags_(lags) {}
 
-  /// After every step. @param work of loads, gravity and drives [J]
+  /// Adds a step.
+  /// @param work of loads, gravity and drives [J]
   void add(double work) { supplied_ += work < 0.0 ? -work : work; }
-  /// @param stored energy now [J] @param is_end whether the run ends here
-  /// @returns whether it can only be an artefact
+  /// @param stored current energy [J]
+  /// @param is_end whether the run ends here
+  /// @returns whether it can only be a numerical artefact
   [[nodiscard]] bool is_blown_up(double stored, bool is_end = false) {
     const bool is_too_much = !(stored <= kFactor * supplied_ + kLeast);
-    const bool is_far_off = supplied_ > 0.0 && stored > kFarFactor * supplied_;
+    const bool is_far_off =
+        !lags_ && supplied_ > 0.0 && stored > kFarFactor * supplied_;
     const bool was_too_much = last_ < kNone;
     const bool is_blown = is_too_much && (is_far_off || !(stored <= last_) ||
                                           (is_end && was_too_much));
     last_ = is_too_much ? stored : kNone;
     return is_blown;
   }
+  /// Whether the last check found too much energy, but the lag of work may
+  /// explain it until the next step.
+  [[nodiscard]] bool has_doubt() const { return lags_ && last_ < kNone; }
   [[nodiscard]] double supplied() const { return supplied_; }  ///< [J]
 
-  void exchange_memory(Archive& archive) { archive(supplied_, last_); }
+  void exchange_memory(Archive& archive) { archive(supplied_, lags_, last_); }
 
  private:
-  static constexpr double kFactor = 10.0;
-  static constexpr double kFarFactor = 1000.0;
-  static constexpr double kLeast = 1e-9;  // of a system at rest [J]
-  static constexpr double kNone = 1e300;
+  static constexpr double kFactor = 10.0;       // [-]
+  static constexpr double kFarFactor = 1000.0;  // [-]
+  static constexpr double kLeast = 1e-9;        // of a system at rest [J]
+  static constexpr double kNone = 1e300;        // [J]
   double supplied_ = 0.0;
+  bool lags_ = false;
   double last_ = kNone;
 };
 

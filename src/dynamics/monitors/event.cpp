@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/event.hpp"
+#include "limber/dynamics/monitors/event.hpp"
 
 #include <algorithm>
 
 namespace limber::dynamics {
 namespace {
 
-// More than these are a history, not edges.
+// With more edges only the first and the last are events.
 constexpr std::size_t kFewEdges = 4;
 
 void add_edges(const std::string& name, std::vector<double> times, double start,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
+#include "limber/dynamics/system/system_model.hpp"
 
 namespace limber::dynamics {
 
@@ -13,15 +13,16 @@ struct Event {
   double time = 0.0;   ///< [s]
   std::string source;  ///< name of the coupler, transmission or load
   std::string what;    ///< "stop reached", "latched", "load edge", ...
-  /// How fast what it depends on changed: at a stop the speed of the joint
-  /// [m/s or rad/s], at a latch that of the distance [m/s]; of a load 0.
+  /// Rate of the triggering quantity: at a stop the speed of the joint [m/s or
+  /// rad/s], at a latch that of the distance [m/s]; of a load 0.
   double rate = 0.0;
 
   bool operator==(const Event&) const = default;
 };
 
-/// Adds the times at which loads start, jump or end, within (start, end), of a
-/// long history only the first and the last; and sorts all by time.
+/// Adds the times within (start, end) [s] at which loads start, jump or end,
+/// for a long history only the first and the last; and sorts all events by
+/// time.
 void add_load_edges(const SystemModel& model, double start, double end,
                     std::vector<Event>& events);
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/event_watch.hpp"
+#include "limber/dynamics/monitors/event_watch.hpp"
 
-#include "dynamics/transmission.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-// Where the cubic through two values and rates (per step) has the sign of its
-// end, first; in [0, 1].
+// First point in [0, 1] where the cubic through two values and rates (per step)
+// has the sign of its end.
 double find_root(const joints::SwitchValue& a, const joints::SwitchValue& b,
                  double h, bool rises) {
   const auto value = [&](double s) {
@@ -34,7 +33,7 @@ EventWatch::EventWatch(const SystemModel& model) : model_(model) {
     const int count = joints::switch_count(model.couplers[c].law);
     for (int i = 0; i < count; ++i) {
       Switch s;
-      s.coupler = static_cast<int>(c);
+      s.coupler = CouplerIndex(c);
       s.index = i;
       s.memory = c;
       s.place = index(i);
@@ -47,7 +46,7 @@ EventWatch::EventWatch(const SystemModel& model) : model_(model) {
     for (std::size_t law = 0; law < laws.size(); ++law) {
       for (int i = 0; i < joints::switch_count(laws[law]); ++i) {
         Switch s;
-        s.transmission = static_cast<int>(t);
+        s.transmission = TransmissionIndex(t);
         s.law = law;
         s.index = i;
         s.memory = model.couplers.size() + t;
@@ -75,7 +74,7 @@ void EventWatch::start(SystemState& state, std::vector<Event>& events) {
   for (std::size_t i = 0; i < switches_.size(); ++i) {
     Switch& s = switches_[i];
     set(s, evaluate(s, state).value >= 0.0, state);
-    if (!s.is_up || !is_latch(s)) continue;
+    if (!s.is_up || !is_trigger(s)) continue;
     s.is_up = false;
     pass(i, state, events);
   }
@@ -98,14 +97,14 @@ std::optional<EventWatch::Crossing> EventWatch::find_first(
 
 void EventWatch::set(Switch& s, bool is_up, SystemState& state) const {
   s.is_up = is_up;
-  if (is_latch(s)) return;  // remembers its status instead
+  if (is_trigger(s)) return;  // the memory stores its effect instead
   state.memory[s.memory].switches[s.place] =
       is_up ? joints::SwitchMode::on : joints::SwitchMode::off;
 }
 
-bool EventWatch::is_latch(const Switch& s) const {
-  return s.coupler >= 0 && std::holds_alternative<joints::Latch>(
-                               model_.couplers[index(s.coupler)].law);
+bool EventWatch::is_trigger(const Switch& s) const {
+  return s.coupler >= 0 &&
+         joints::has_triggers(model_.couplers[index(s.coupler)].law);
 }
 
 EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
@@ -122,8 +121,7 @@ EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
         joints::find_event(transmission.laws[s.law], rises);
     events.push_back({state.t, transmission.name,
                       std::string(joints::to_string(kind)), rate});
-    change.has_jump =
-        kind == joints::EventKind::taut || kind == joints::EventKind::slack;
+    change.has_jump = joints::may_jump(kind);
     return change;
   }
   const Coupler& coupler = model_.couplers[index(s.coupler)];
@@ -132,11 +130,10 @@ EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
   if (!kind) return change;
   events.push_back(
       {state.t, coupler.name, std::string(joints::to_string(*kind)), rate});
-  change.has_jump = *kind != joints::EventKind::stop_reached &&
-                    *kind != joints::EventKind::stop_left;
+  change.has_jump = joints::may_jump(*kind);
   const joints::RelativeMotion motion =
       find_relative_motion(model_, state, s.coupler);
-  const Instant now{state.t, Side::right};
+  const Instant now = now_of(state);
   change.energy_lost =
       joints::evaluate(coupler.law, motion, memory, now).energy;
   joints::update_memory(coupler.law, s.index, motion, memory);
@@ -158,8 +155,8 @@ void EventWatch::accept() {
 void EventWatch::accept(const SystemState& state) {
   for (Switch& s : switches_) {
     s.last = evaluate(s, state);
-    // What a latch does next is another switch in the same place.
-    if (is_latch(s)) s.is_up = s.last.value >= 0.0;
+    // The next event of a latch, for example, uses the same switch.
+    if (is_trigger(s)) s.is_up = s.last.value >= 0.0;
   }
 }
 

@@ -7,15 +7,15 @@
 #include <optional>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// A scalar's value of largest magnitude, with its sign, and when it was.
+/// A scalar's value of largest magnitude, signed, and its time.
 struct Extreme {
-  double value = 0.0;
-  double time = 0.0;  ///< [s]
+  double value = 0.0;  ///< [unit of the scalar]
+  double time = 0.0;   ///< [s]
 
   void include(double v, double t) {
     if (std::abs(v) > std::abs(value)) *this = {v, t};
@@ -23,31 +23,32 @@ struct Extreme {
   bool operator==(const Extreme&) const = default;
 };
 
-/// How a followed scalar is known between the ends of steps.
+/// How a recorded scalar is evaluated within steps.
 enum class Course {
-  motion,  ///< from the state, which the integrator's interpolation has
-  values,  ///< from its own values: a stiff coupler makes large forces of the
-           ///< small error of an interpolated state
+  motion,  ///< from the integrator's interpolated state
+  values,  ///< from its values at steps: a stiff coupler amplifies the small
+           ///< error of an interpolated state
 };
 
-/// Whoever sees a run's states in the order of time: the start, the ends of all
-/// steps, twice where a coupler switches (before and after), and looks within
-/// steps that are long for what moves.
+/// Observer of a run's states in order of time: the start, the ends of all
+/// steps (before and after an event of a coupler), and states within steps that
+/// are long for the motion.
 struct Spectator {
-  std::function<void()> begin;  ///< a run begins, or begins anew
+  std::function<void()> begin;  ///< a run begins or restarts
   std::function<void(const SystemState&)> include;
   std::function<void(Archive&)> exchange_memory;  ///< for checkpoints
 };
 
-/// Scalars that a run follows at every step, as the columns of its probes.
+/// Scalars that a run evaluates at every step, such as the columns of its
+/// probes.
 struct Followed {
-  /// Writes a value for each scalar, NaN where it has none. Allocates nothing
-  /// once it was called.
+  /// Writes a value for each scalar, NaN if undefined. Allocates only in the
+  /// first call.
   using Evaluate =
       std::function<void(const SystemState&, std::vector<double>&)>;
-  std::vector<Course> courses = {};  ///< one a scalar
+  std::vector<Course> courses = {};  ///< one per scalar
   Evaluate evaluate = {};
-  /// Between two looks, at most: of what is faster than the steps [s].
+  /// Largest time between evaluations, for motion faster than the steps [s].
   double longest = std::numeric_limits<double>::infinity();
   std::optional<Spectator> spectator = {};
 

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/joints/motion.hpp"
 
 namespace limber::dynamics {
 
-/// Watches how far joints give way in directions that they hold.
+/// Monitors the displacement of joints in their constrained directions.
 ///
 /// Equation   d = |Kt p| / kt, theta = sqrt(2 V_r / kr), V_r the energy of the
 ///            rotation alone; both against the size l of the smaller of the
@@ -23,24 +24,24 @@ class HoldWatch {
 
   /// @param terms of the end of a step at t [s]
   void include(const SystemTerms& terms, double t);
-  /// One for each joint that gave way by more than kLargest.
+  /// One for each joint displaced by more than kLargest.
   [[nodiscard]] std::vector<std::string> find_warnings() const;
-  static constexpr double kLargest = 1e-3;  ///< of a body's size
+  /// Of a body's size, and in rotation [-, rad].
+  static constexpr double kLargest = 1e-3;
 
-  /// What it knows between steps.
+  /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
   struct Hold {
     std::size_t coupler = 0;
-    std::size_t body = 0;            // the smaller of those joined
-    double size = 0.0;               // [m]
-    double stiffness = 0.0;          // kt [N/m]
-    double turning_stiffness = 0.0;  // kr [N m/rad]
-    double give = 0.0;               // d at its largest [m]
-    double turn = 0.0;               // theta at its largest [rad]
-    double give_time = 0.0;          // [s]
-    double turn_time = 0.0;          // [s]
+    std::size_t body = 0;  // the smaller of those joined
+    double size = 0.0;     // [m]
+    joints::HoldStiffness stiffness;
+    double give = 0.0;       // d at its largest [m]
+    double turn = 0.0;       // theta at its largest [rad]
+    double give_time = 0.0;  // [s]
+    double turn_time = 0.0;  // [s]
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/limit_watch.hpp"
+#include "limber/dynamics/monitors/limit_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -11,45 +11,22 @@ namespace {
 
 constexpr long kMostEvents = 1000;
 
-const joints::Drive* find_limited(const joints::ScalarLaw& law) {
-  const auto* drive = std::get_if<joints::Drive>(&law);
-  const bool is_limited =
-      drive != nullptr && std::isfinite(drive->parameters().max_effort);
-  return is_limited ? drive : nullptr;
-}
-
-// The effort that a drive would give without its limit, over the limit. That of
-// an effort drive is as it was asked for.
-double find_load(const joints::Drive& drive, const joints::ScalarMotion& motion,
-                 const Instant& now) {
-  const joints::Drive::Parameters& p = drive.parameters();
-  if (p.mode == joints::DriveMode::effort) return 0.0;
-  const joints::SignalValue asked = joints::evaluate(p.signal, now);
-  const double pull = p.mode == joints::DriveMode::velocity
-                          ? p.damping * (motion.rate - asked.value)
-                          : p.stiffness * (motion.z - asked.value) +
-                                p.damping * (motion.rate - asked.rate);
-  return (p.pulls_only ? std::max(pull, 0.0) : std::abs(pull)) / p.max_effort;
-}
-
 }  // namespace
 
 LimitWatch::LimitWatch(const SystemModel& model) : model_(model) {
   const auto add = [&](bool is_transmission, std::size_t index,
                        std::size_t coordinate, const joints::ScalarLaw& law) {
-    const joints::Drive* drive = find_limited(law);
-    if (drive == nullptr) return;
+    if (!std::isfinite(joints::max_effort(law))) return;
     Limited limited;
     limited.is_transmission = is_transmission;
     limited.index = index;
     limited.coordinate = coordinate;
-    limited.drive = drive;
+    limited.law = &law;
     drives_.push_back(limited);
   };
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    const auto* joint = std::get_if<joints::Joint>(&model.couplers[c].law);
-    if (joint == nullptr) continue;
-    for (const joints::JointElement& element : joint->elements()) {
+    for (const joints::JointElement& element :
+         joints::elements_of(model.couplers[c].law)) {
       add(false, c, static_cast<std::size_t>(element.coordinate), element.law);
     }
   }
@@ -103,7 +80,7 @@ void LimitWatch::include(const SystemState& state, const SystemTerms& terms,
   for (Limited& limited : drives_) {
     const joints::ScalarMotion motion = find_motion(limited, state, terms);
     const double load =
-        find_load(*limited.drive, motion, {state.t, Side::left});
+        joints::find_load(*limited.law, motion, now_of(state, Side::left));
     const bool was_at = limited.has_begun && limited.load >= 1.0;
     const bool is_at = load >= 1.0;
     if (was_at != is_at) {
@@ -123,10 +100,10 @@ std::vector<std::string> LimitWatch::find_warnings() const {
     if (limited.events == 0) continue;
     warnings.push_back(fmt::format(
         "the drive of '{}' reaches its largest effort of {:g} at t = {:.6g} s, "
-        "where its coordinate is {:.6g}; it gives no more for {:.3g} s in all "
-        "and does not follow its signal as it was asked to",
-        name_of(limited), limited.drive->parameters().max_effort,
-        limited.first_time, limited.first_z, limited.time_at));
+        "where its coordinate is {:.6g}; it is at this limit for {:.3g} s in "
+        "total and does not follow its signal",
+        name_of(limited), joints::max_effort(*limited.law), limited.first_time,
+        limited.first_z, limited.time_at));
   }
   return warnings;
 }

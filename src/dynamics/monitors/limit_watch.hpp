@@ -5,29 +5,30 @@
 #include <string>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/event.hpp"
-#include "dynamics/system_state.hpp"
-#include "dynamics/workspace.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/monitors/event.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/joints/scalar_law.hpp"
 
 namespace limber::dynamics {
 
-/// Watches when drives ask for more effort than their limit lets them give.
+/// Monitors when drives request more effort than their limit.
 ///
-/// Limits     looks at the ends of steps; in between the ratio of both is taken
-///            to change evenly.
+/// Limits     evaluated at the ends of steps; in between the ratio is assumed
+///            to vary linearly.
 class LimitWatch {
  public:
   explicit LimitWatch(const SystemModel& model);
 
-  /// The end of a step. Adds an event where a drive reaches or leaves its
-  /// limit, of each drive a thousand at most. @param terms at `state`
+  /// The end of a step. Adds an event when a drive reaches or leaves its limit,
+  /// at most a thousand per drive. @param terms at `state`
   void include(const SystemState& state, const SystemTerms& terms,
                std::vector<Event>& events);
   /// One for each drive that reached its limit.
   [[nodiscard]] std::vector<std::string> find_warnings() const;
 
-  /// What it knows between steps.
+  /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
@@ -35,13 +36,13 @@ class LimitWatch {
     bool is_transmission = false;
     std::size_t index = 0;       // of the coupler or the transmission
     std::size_t coordinate = 0;  // of a joint
-    const joints::Drive* drive = nullptr;
+    const joints::ScalarLaw* law = nullptr;
     bool has_begun = false;
-    double load = 0.0;        // asked effort over the limit, last [-]
+    double load = 0.0;        // last requested effort over the limit [-]
     double time = 0.0;        // [s]
-    double first_time = 0.0;  // at which it reached the limit [s]
+    double first_time = 0.0;  // at which it first reached the limit [s]
     double first_z = 0.0;     // coordinate then [rad or m]
-    double time_at = 0.0;     // in all [s]
+    double time_at = 0.0;     // total time at the limit [s]
     long events = 0;
   };
   [[nodiscard]] joints::ScalarMotion find_motion(

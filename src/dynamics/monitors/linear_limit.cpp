@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/linear_limit.hpp"
+#include "limber/dynamics/monitors/linear_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "dynamics/body_model.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-constexpr double kLarge = 0.1;     // of the body's size: worth a warning
-constexpr double kAbsurd = 1.0;    // of it: no result
+constexpr double kLarge = 0.1;     // of the body's size: gives a warning
+constexpr double kAbsurd = 1.0;    // of it: gives an error
 constexpr double kHarmless = 0.5;  // of the lowest frequency
 
 // The mode that moves points most.
@@ -25,26 +25,59 @@ Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
   return k;
 }
 
+// Largest eigenvalue of B against the stiffness of the undeformed body.
+double find_largest_share(const flexbody::ModalElasticity& elasticity,
+                          const MatrixX& B) {
+  MatrixX scaled;
+  if (flexbody::is_diagonal_at_rest(elasticity)) {
+    const VectorX scale =
+        flexbody::rest_stiffness(elasticity).cwiseSqrt().cwiseInverse();
+    scaled = scale.asDiagonal() * B * scale.asDiagonal();
+  } else {
+    MatrixX K(B.rows(), B.cols());
+    flexbody::calc_elastic_tangent(elasticity, VectorX::Zero(B.rows()), K);
+    const Eigen::SelfAdjointEigenSolver<MatrixX> own(K);
+    const MatrixX to_unit =
+        own.eigenvectors() *
+        own.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+    scaled = to_unit.transpose() * B * to_unit;
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(scaled,
+                                                      Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().maxCoeff();
+}
+
+// What holds for small deformations only.
+std::string name_limit(const flexbody::ModalElasticity& elasticity) {
+  return flexbody::is_linear(elasticity)
+             ? "linear elasticity"
+             : "motion that is linear in a body's modes";
+}
+
+// What a body does beyond the critical speed of its undeformed shape.
+const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
+  return flexbody::is_linear(elasticity)
+             ? "its deformation grows without bound; level full includes the "
+               "stiffening of a real body"
+             : "it leaves its undeformed shape; level full tells how far";
+}
+
 }  // namespace
 
 double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
   if (body.modes == 0 || body.clamped || body.fidelity != Fidelity::coupled) {
     return 0.0;
   }
-  const double lowest = body.lambda.minCoeff();
+  const double lowest = flexbody::lowest_rest_stiffness(body.elasticity);
   if (!(w_WB_B.squaredNorm() > kHarmless * kHarmless * lowest)) return 0.0;
   const Vector6 half_w_squared = half_square(w_WB_B);
-  const VectorX scale = body.lambda.cwiseSqrt().cwiseInverse();
   MatrixX B(body.modes, body.modes);
   for (int k = 0; k < body.modes; ++k) {
     for (int l = 0; l < body.modes; ++l) {
-      B(k, l) = scale[k] * scale[l] *
-                half_w_squared.dot(body.inertia->J2.block<6, 1>(6 * k, l));
+      B(k, l) = half_w_squared.dot(body.inertia->J2.block<6, 1>(6 * k, l));
     }
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(B,
-                                                      Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
+  return find_largest_share(body.elasticity, B);
 }
 
 std::optional<std::string> describe_softening(const BodyModel& body,
@@ -55,9 +88,8 @@ std::optional<std::string> describe_softening(const BodyModel& body,
   return fmt::format(
       "body '{}' turns at {:.4g} rad/s, above its critical speed of {:.4g} "
       "rad/s in linear elasticity: its effective stiffness is below zero and "
-      "its deformation grows without bound; level full has the stiffening that "
-      "holds a real body",
-      body.name, speed, speed / std::sqrt(mu));
+      "{}",
+      body.name, speed, speed / std::sqrt(mu), tell_beyond(body.elasticity));
 }
 
 LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
@@ -83,20 +115,21 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
       "({:.3g} m), most in mode {} ({:.4g} Hz)",
       model.name, state.t, deformation, 100.0 * deformation / body.size,
       body.size, mode + 1,
-      std::sqrt(model.lambda[mode]) / (2.0 * std::numbers::pi));
+      std::sqrt(flexbody::rest_stiffness(model.elasticity)[mode]) /
+          (2.0 * std::numbers::pi));
   if (!(deformation <= kAbsurd * body.size)) {
     const auto soft =
         describe_softening(model, state.bodies[body.index].w_WB_B);
     throw NumericalError(
-        what + ": linear elasticity has no answer there" +
+        what + ": " + name_limit(model.elasticity) + " has no answer there" +
         (soft ? "; " + *soft
               : "; smaller loads, a stiffer body or level full may help"));
   }
   if (body.was_told_large) return;
   body.was_told_large = true;
-  warnings.push_back(what +
-                     ": beyond 10 % linear elasticity is not to be trusted; "
-                     "level full has large deformations");
+  warnings.push_back(what + ": beyond 10 % " + name_limit(model.elasticity) +
+                     " is not to be trusted; level full has large "
+                     "deformations");
 }
 
 void LinearLimit::check_speed(const SystemState& state, Body& body,

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/peak_watch.hpp"
+#include "limber/dynamics/monitors/peak_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "common/errors.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/interpolation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/interpolation.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr int kMostSearches = 6;
-// Of three samples' time: searches that move less have arrived.
+// Relative to the time of three samples: convergence of a search.
 constexpr double kClose = 1e-3;
-// A parabola is low by up to this share of what it adds.
+// A parabola may be low by this share of its addition.
 constexpr double kParabolaError = 0.5;
-// Of what three values span: more is not added to the largest.
+// Relative to the range of three values: most that is added to the largest.
 constexpr double kMostAdded = 0.5;
 
-// Of the largest value: a smaller change is none.
+// Relative to the largest value: smaller changes are ignored.
 constexpr double kSameValue = 1e-6;
 
 bool has_switched(const SystemState& a, const SystemState& b) {
@@ -96,7 +96,7 @@ void PeakWatch::show(const SystemState& state) const {
   if (followed_.spectator) followed_.spectator->include(state);
 }
 
-// What jumps at a time has its value before it at any time before.
+// Loads are evaluated before a jump at this time.
 void PeakWatch::add(const SystemState& state, double t) {
   newest_ = (newest_ + 1) % 3;
   count_ = std::min(count_ + 1, 4);
@@ -140,6 +140,7 @@ void PeakWatch::include(const SystemState& state) {
     if (switches) {
       between_ = state;
       between_.memory = begin.memory;
+      between_.pair_memory = begin.pair_memory;
       end = &between_;
     }
     show(*end);
@@ -150,7 +151,7 @@ void PeakWatch::include(const SystemState& state) {
   begin_anew(state);
 }
 
-// At equal parts of the step to `end`.
+// Samples at equal parts of the step to `end`.
 void PeakWatch::add_within(const SystemState& end, double parts) {
   begin_ = sample(0).state;
   for (double part = 1.0; part < parts; ++part) {
@@ -178,7 +179,7 @@ void PeakWatch::look(Edges edges) {
   }
 }
 
-// Each comparison is false of what is not a number.
+// Comparisons with NaN are false.
 void PeakWatch::look(std::size_t scalar, const PeakPoints& points,
                      Edges edges) {
   const Parabola parabola = fit(points);
@@ -190,7 +191,7 @@ void PeakWatch::look(std::size_t scalar, const PeakPoints& points,
   const bool is_first = edges.first && top.t > a.t && top.t < b.t;
   const bool is_last = edges.last && top.t > b.t && top.t < c.t;
   if (!is_middle && !is_first && !is_last) return;
-  if (edges.last && !is_last) return;  // has been looked for
+  if (edges.last && !is_last) return;  // already searched
   const double largest = std::max({sign * a.y, sign * b.y, sign * c.y});
   const double added = sign * top.y - largest;
   const double record = std::abs(peaks_[scalar].value);

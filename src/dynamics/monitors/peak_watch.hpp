@@ -5,48 +5,48 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/followed.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/monitors/followed.hpp"
 
 namespace limber::dynamics {
 
 /// A value at a time.
 struct PeakPoint {
   double t = 0.0;  ///< [s]
-  double y = 0.0;
+  double y = 0.0;  ///< [unit of the value]
 };
-using PeakPoints = std::array<PeakPoint, 3>;  ///< in the order of time
+using PeakPoints = std::array<PeakPoint, 3>;  ///< in order of time
 
 /// For checkpoints.
 void exchange(Archive& archive, Extreme& extreme);
 
-/// Extremes in time of scalars that a run follows, over all its steps; shows
-/// their spectator what it looks at.
+/// Extremes in time of a run's scalars, over all its steps; passes the states
+/// that it evaluates to their spectator.
 ///
 /// Equation   a local extreme of three values in a row, at the ends of steps,
-///            is looked for within the steps if the parabola through them
-///            beats the extreme so far: for Course::motion on the state between
-///            (dynamics/interpolation), by successive parabolas; for
-///            Course::values on the parabola itself.
+///            is searched for within the steps if the parabola through them
+///            exceeds the extreme so far: for Course::motion on the
+///            interpolated state (dynamics/interpolation), by successive
+///            parabolas; for Course::values on the parabola itself.
 /// Source     successive parabolic interpolation [@brent1973, ch. 5]
-/// Limits     of two extremes within a step the smaller may be found. No more
-///            than half of what three values span is added to them: beyond
-///            that the steps do not resolve the motion.
+/// Limits     of two extremes within a step the smaller may be found. At most
+///            half the range of the three values is added to them: beyond that
+///            the steps do not resolve the motion.
 class PeakWatch {
  public:
-  /// @param model of the states; kept by reference
+  /// @param model of the states; stored by reference
   PeakWatch(const SystemModel& model, Followed followed);
 
-  /// The state that a run begins with.
+  /// The initial state of a run.
   void start(const SystemState& state);
-  /// The end of a step. What couplers remember may have changed there.
+  /// The end of a step. Couplers' memory may have changed there.
   void include(const SystemState& state);
   /// A load or a command may jump at `state`, the end of the last step.
   void cross_jump(const SystemState& state);
-  /// No step follows. @returns one entry a scalar
+  /// Ends the monitoring. @returns one entry per scalar
   const std::vector<Extreme>& finish();
 
-  /// What it knows between steps.
+  /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
@@ -57,8 +57,8 @@ class PeakWatch {
   };
   friend void exchange(Archive& archive, Sample& sample);
 
-  // Of three samples in a row: which of the two spans a maximum is looked for
-  // in; that in the middle always.
+  // In which of the outer spans of consecutive samples a maximum is searched
+  // for; in the middle one always.
   struct Edges {
     bool first = false;
     bool last = false;

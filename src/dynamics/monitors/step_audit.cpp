@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/step_audit.hpp"
+#include "limber/dynamics/monitors/step_audit.hpp"
 
-#include "dynamics/equations.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr long kStride = 8;
 
-// Whose terms are those of a step's end; that of central differences needs
-// them for nothing else, where a product with the mass of a mesh counts.
+// Whether the integrator's terms at a step's end also serve the audit. Explicit
+// schemes do not need these terms, which cost a product with the mass matrix of
+// unreduced bodies.
 bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
-  switch (integrator) {
-    case IntegratorKind::generalized_alpha:
-    case IntegratorKind::implicit_euler:
-    case IntegratorKind::energy_conserving:
-      return true;
-    case IntegratorKind::central_differences:
-      return model.full_bodies.empty();
-    default:
-      return false;
-  }
+  const IntegratorTraits& traits = traits_of(integrator);
+  return traits.leaves_end_terms &&
+         (traits.is_implicit || model.full_bodies.empty());
 }
 
 }  // namespace

@@ -4,31 +4,32 @@
 #include <string>
 #include <vector>
 
-#include "common/archive.hpp"
-#include "dynamics/energy_ledger.hpp"
-#include "dynamics/hold_watch.hpp"
-#include "dynamics/limit_watch.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+#include "limber/dynamics/monitors/energy_ledger.hpp"
+#include "limber/dynamics/monitors/hold_watch.hpp"
+#include "limber/dynamics/monitors/limit_watch.hpp"
 
 namespace limber::dynamics {
 
-/// What is watched at every step of a run: its energy, joints that give way,
-/// drives at their limits.
+/// Monitors of every step of a run: energy, joint displacement, drives at their
+/// limits.
 ///
-/// Limits     Schemes whose last evaluation is not that of a step's end are
-///            looked at after every eighth step, since it costs one more; they
-///            resolve all motion.
+/// Limits     Schemes whose last evaluation is not at the step's end are
+///            checked after every eighth step, since it costs another
+///            evaluation; their steps resolve all motion.
 class StepAudit {
  public:
   StepAudit(const SystemModel& model, IntegratorKind integrator);
 
-  /// @param terms at `state` @param totals of what happened before it
+  /// @param terms at `state` @param totals of events before it
   void start(const SystemState& state, const SystemTerms& terms,
              const StepResult& totals, std::vector<Event>& events);
-  /// Forces jump at the end of the last step. @param terms of the integrator
+  /// Accounts for a jump of forces at the end of the last step.
+  /// @param terms of the integrator
   void cross_jump(const SystemState& state, const SystemTerms& terms);
-  /// The end of a step. @param terms of the integrator there; null where
-  /// something happened, after which they no longer hold
+  /// The end of a step. @param terms of the integrator there; null after an
+  /// event, which invalidates them
   void include(const SystemState& state, const SystemTerms* terms,
                const StepResult& totals, bool is_last,
                std::vector<Event>& events);
@@ -38,7 +39,7 @@ class StepAudit {
   }
   [[nodiscard]] std::vector<std::string> find_warnings() const;
 
-  /// What it knows between steps.
+  /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/block_lu.hpp"
+#include "limber/dynamics/newton/block_lu.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 using Graph = std::vector<std::set<int>>;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-// Removes the vertex of least degree, joins its neighbours, and so on.
+// Removes the vertex of least degree, early ones first, joins its neighbours,
+// and so on.
 // @returns for each pivot in order its row and its neighbours when removed.
-std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph) {
+std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph,
+                                                        int first_early) {
   std::set<std::pair<std::size_t, int>> by_degree;
-  for (std::size_t i = 0; i < graph.size(); ++i) {
-    by_degree.emplace(graph[i].size(), static_cast<int>(i));
+  const auto rank = [&](int i) {
+    const std::size_t degree = graph[index(i)].size();
+    return std::pair(i < first_early ? graph.size() + degree : degree, i);
+  };
+  for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
+    by_degree.insert(rank(i));
   }
   std::vector<std::pair<int, std::vector<int>>> order;
   while (!by_degree.empty()) {
@@ -29,11 +34,11 @@ std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph) {
                                       graph[index(row)].end());
     for (const int i : neighbours) {
       std::set<int>& links = graph[index(i)];
-      by_degree.erase({links.size(), i});
+      by_degree.erase(rank(i));
       links.erase(row);
       links.insert(neighbours.begin(), neighbours.end());
       links.erase(i);
-      by_degree.emplace(links.size(), i);
+      by_degree.insert(rank(i));
     }
     order.emplace_back(row, neighbours);
   }
@@ -42,7 +47,8 @@ std::vector<std::pair<int, std::vector<int>>> eliminate(Graph graph) {
 
 }  // namespace
 
-BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
+BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges,
+                 int first_early)
     : index_(index(size)) {
   std::vector<std::map<int, int>> found(index(size));
   int count = 0;
@@ -59,7 +65,7 @@ BlockLu::BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
   }
   // Diagonal blocks are the first, in the order of rows.
   for (int i = 0; i < size; ++i) find_or_add(i, i);
-  for (auto& [row, neighbours] : eliminate(graph)) {
+  for (auto& [row, neighbours] : eliminate(graph, first_early)) {
     Pivot pivot{.row = row,
                 .rows = neighbours,
                 .lower = {},

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::dynamics {
 
@@ -14,22 +14,26 @@ namespace limber::dynamics {
 /// are found once; factoring and solving then allocate nothing. On a chain or
 /// a tree there is no fill, so both cost O(blocks).
 ///
-/// Limits     no pivoting between blocks: meant for matrices like I + K A
+/// Limits     no pivoting between blocks: for matrices like I + K A
 ///            with K, A symmetric positive semi-definite, whose diagonal
-///            blocks stay regular. Rows of one block may differ in scale.
+///            blocks remain regular. Rows of one block may differ in scale.
 class BlockLu {
  public:
   BlockLu() = default;
   /// `edges` join different blocks, in any order, repeats allowed.
-  BlockLu(int size, const std::vector<std::pair<int, int>>& edges);
+  /// Rows from `first_early` on are eliminated before all others.
+  BlockLu(int size, const std::vector<std::pair<int, int>>& edges,
+          int first_early);
+  BlockLu(int size, const std::vector<std::pair<int, int>>& edges)
+      : BlockLu(size, edges, size) {}
 
   void set_zero();
   /// Entry block (row, column); it must be on the diagonal or an edge.
   Matrix6& block(int row, int column);
   /// Multiplies every block of a row from the left.
   void scale_row(int row, const Matrix6& factor);
-  /// Factors in place. @returns the row whose pivot block is singular, if one
-  /// is: there it shows; rows eliminated before share in it.
+  /// Factors in place. @returns the row whose pivot block is singular, if any;
+  /// the cause may include rows eliminated before.
   [[nodiscard]] std::optional<int> factor();
   /// Solves in place, `x` in blocks of six.
   void solve(std::vector<Vector6>& x) const;
@@ -49,7 +53,7 @@ class BlockLu {
     std::vector<int> upper;  // blocks (row, rows[i])
     std::vector<Update> updates;
   };
-  // Of the columns of a row, increasing, and which block is there.
+  // Columns of a row, increasing, with their blocks.
   using Row = std::vector<std::pair<int, int>>;
 
   std::vector<Matrix6> blocks_;

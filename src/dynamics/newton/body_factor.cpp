@@ -1,30 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/body_factor.hpp"
+#include "limber/dynamics/newton/body_factor.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 
-BodyFactor::BodyFactor(int modes)
-    : coupling_(Matrix3X::Zero(3, modes)),
-      back_coupling_(Matrix3X::Zero(3, modes)),
-      inverse_modes_(VectorX::Zero(modes)) {}
+void calc_stiffness(const SystemModel& model, const SystemState& state,
+                    SystemTerms& terms) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    if (flexbody::is_diagonal(body.elasticity)) continue;
+    flexbody::calc_elastic_tangent(body.elasticity,
+                                   state.eta.segment(body.offset, body.modes),
+                                   terms.bodies[b].stiffness);
+  }
+}
+
+BodyFactor::BodyFactor(const BodyModel& body)
+    : coupling_(Matrix3X::Zero(3, body.modes)),
+      back_coupling_(Matrix3X::Zero(3, body.modes)) {
+  if (flexbody::is_diagonal(body.elasticity)) {
+    inverse_modes_ = VectorX::Zero(body.modes);
+    return;
+  }
+  coupled_modes_.emplace(body.modes);
+  answer_ = MatrixX::Zero(body.modes, 3);
+  diagonal_ = VectorX::Zero(body.modes);
+}
+
+void BodyFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
+                              const Coefficients& c) {
+  if (!coupled_modes_) {
+    const VectorX& lambda = *flexbody::find_eigenvalues(body.elasticity);
+    inverse_modes_.array() =
+        (c.acceleration + c.velocity * body.damping.array() + lambda.array())
+            .inverse();
+    return;
+  }
+  diagonal_.array() = c.acceleration + c.velocity * body.damping.array();
+  if (coupled_modes_->factor(diagonal_, terms.stiffness)) return;
+  throw NumericalError(fmt::format(
+      "body '{}': the matrix of its modes' inertia and elasticity is singular",
+      body.name));
+}
 
 void BodyFactor::update(const BodyModel& body, const BodyTerms& terms,
                         const Vector3& w, const Matrix3& T,
                         const Coefficients& c) {
-  inverse_modes_.array() =
-      (c.acceleration + c.velocity * body.damping.array() + body.lambda.array())
-          .inverse();
-  if (!body.has_rigid_motion()) return;  // its rigid blocks stay zero
+  update_modes(body, terms, c);
+  if (!body.has_rigid_motion()) return;  // its rigid blocks remain zero
   inverse_mass_ = 1.0 / (c.acceleration * body.mass);
-  // The step's own rotation changes by T times the increments, which are of
-  // the end.
+  // The step's rotation changes by T times the increments at its end.
   const Matrix3 gyroscopic = skew(w) * terms.J - skew(terms.J * w);
   rotation_ = (c.acceleration * terms.J + c.velocity * gyroscopic) * T;
   Matrix3 schur = rotation_;
@@ -33,7 +64,14 @@ void BodyFactor::update(const BodyModel& body, const BodyTerms& terms,
     const Vector3 row = T.transpose() * column;
     coupling_.col(k) = column;
     back_coupling_.col(k) = row;
-    schur -= inverse_modes_[k] * column * row.transpose();
+    if (!coupled_modes_) schur -= inverse_modes_[k] * column * row.transpose();
+  }
+  if (coupled_modes_) {
+    answer_ = back_coupling_.transpose();
+    for (int i = 0; i < 3; ++i) coupled_modes_->solve(answer_.col(i));
+    for (int k = 0; k < body.modes; ++k) {
+      schur -= coupling_.col(k) * answer_.row(k);
+    }
   }
   inverse_rotation_ = schur.inverse();
   if (!inverse_rotation_.allFinite()) {
@@ -42,7 +80,23 @@ void BodyFactor::update(const BodyModel& body, const BodyTerms& terms,
   }
 }
 
-void BodyFactor::solve(double* x) const {
+void BodyFactor::solve_coupled(double* x) {
+  Eigen::Map<Vector3> translation(x);
+  Eigen::Map<Vector3> rotation(x + 3);
+  Eigen::Map<VectorX> modes(x + 6, coupling_.cols());
+  translation *= inverse_mass_;
+  coupled_modes_->solve(modes);
+  const Vector3 right = rotation - coupling_ * modes;
+  const Vector3 turned = inverse_rotation_ * right;
+  rotation = turned;
+  modes.noalias() -= answer_ * turned;
+}
+
+void BodyFactor::solve(double* x) {
+  if (coupled_modes_) {
+    solve_coupled(x);
+    return;
+  }
   Eigen::Map<Vector3> translation(x);
   Eigen::Map<Vector3> rotation(x + 3);
   double* modes = x + 6;
@@ -59,8 +113,28 @@ void BodyFactor::solve(double* x) const {
   }
 }
 
+void BodyFactor::solve_coupled_rows(const Matrix6X& G, Matrix6X& result) const {
+  const Eigen::Index m = coupling_.cols();
+  result.leftCols<3>() = inverse_mass_ * G.leftCols<3>();
+  coupled_modes_->solve_rows(G.rightCols(m), result.rightCols(m));
+  Eigen::Matrix<double, 6, 3> right = G.middleCols<3>(3);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    right.noalias() -= result.col(6 + k) * coupling_.col(k).transpose();
+  }
+  const Eigen::Matrix<double, 6, 3> turned =
+      right * inverse_rotation_.transpose();
+  result.middleCols<3>(3) = turned;
+  for (Eigen::Index k = 0; k < m; ++k) {
+    result.col(6 + k) -= turned * answer_.row(k).transpose();
+  }
+}
+
 // A row of G at a time, through D's arrow shape.
 void BodyFactor::solve_rows(const Matrix6X& G, Matrix6X& result) const {
+  if (coupled_modes_) {
+    solve_coupled_rows(G, result);
+    return;
+  }
   result.leftCols<3>() = inverse_mass_ * G.leftCols<3>();
   Eigen::Matrix<double, 6, 3> right = G.middleCols<3>(3);
   for (Eigen::Index k = 0; k < inverse_modes_.size(); ++k) {
@@ -75,8 +149,27 @@ void BodyFactor::solve_rows(const Matrix6X& G, Matrix6X& result) const {
   }
 }
 
+// Six modes by six, with the identity where there are none.
+Matrix6 BodyFactor::modal_block(int row, int column) const {
+  const Eigen::Index modes = coupling_.cols();
+  const Eigen::Index i = Eigen::Index{6} * row - 6;
+  const Eigen::Index j = Eigen::Index{6} * column - 6;
+  const Eigen::Index rows = std::min<Eigen::Index>(6, modes - i);
+  const Eigen::Index columns = std::min<Eigen::Index>(6, modes - j);
+  Matrix6 D = Matrix6::Zero();
+  if (row == column) D.setIdentity();
+  if (coupled_modes_) {
+    D.topLeftCorner(rows, columns) =
+        coupled_modes_->matrix().block(i, j, rows, columns);
+  } else if (row == column) {
+    D.diagonal().head(rows) = inverse_modes_.segment(i, rows).cwiseInverse();
+  }
+  return D;
+}
+
 Matrix6 BodyFactor::block(int row, int column) const {
-  const Eigen::Index modes = inverse_modes_.size();
+  if (row > 0 && column > 0) return modal_block(row, column);
+  const Eigen::Index modes = coupling_.cols();
   const auto first_mode = [](int i) { return Eigen::Index{6} * i - 6; };
   const auto count = [&](int i) {
     return std::min<Eigen::Index>(6, modes - first_mode(i));
@@ -84,10 +177,7 @@ Matrix6 BodyFactor::block(int row, int column) const {
   Matrix6 D = Matrix6::Zero();
   if (row == column) {
     D.setIdentity();
-    if (row > 0) {
-      D.diagonal().head(count(row)) =
-          inverse_modes_.segment(first_mode(row), count(row)).cwiseInverse();
-    } else if (inverse_mass_ > 0.0) {
+    if (inverse_mass_ > 0.0) {
       D.topLeftCorner<3, 3>() /= inverse_mass_;
       D.bottomRightCorner<3, 3>() = rotation_;
     }

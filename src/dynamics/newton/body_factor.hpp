@@ -1,48 +1,70 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/full_factor.hpp"
-#include "dynamics/workspace.hpp"
+#include <optional>
+
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/newton/coupled_modes.hpp"
+#include "limber/dynamics/newton/full_factor.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
+/// Fills BodyTerms::stiffness at a state, of bodies whose elasticity couples
+/// their modes.
+void calc_stiffness(const SystemModel& model, const SystemState& state,
+                    SystemTerms& terms);
+
 /// One reduced body's block D of NewtonMatrix, rows and columns translation
-/// (world axes), rotation (body axes), modes: its modal block is diagonal, so
-/// that D^-1 costs O(modes).
+/// (world frame), rotation (body frame), modes: where elasticity is diagonal so
+/// is its modal block, and D^-1 costs O(modes); else the block has a dense
+/// factor, O(modes^3), and D^-1 costs O(modes^2).
 ///
-/// Equation   D = [c m, 0, 0; 0, S, c H; 0, c H' T, c + v zeta + lambda],
-///            S = (c J + v (w x J - (J w) x)) T; c, v: derivatives of the end's
-///            acceleration and velocity, T: of the step's rotation
+/// Equation   D = [c m, 0, 0; 0, S, c H; 0, c H' T, c + v zeta + K],
+///            K = diag(lambda) or BodyTerms::stiffness,
+///            S = (c J + v (w x J - (J w) x)) T; c, v: derivatives of
+///            acceleration and velocity at the step's end, T: of the step's
+///            rotation
 class BodyFactor {
  public:
   using Coefficients = FullFactor::Coefficients;
 
-  explicit BodyFactor(int modes);
+  explicit BodyFactor(const BodyModel& body);
 
-  /// @param w angular velocity, body axes [rad/s]
+  /// @param terms with the stiffness of modes that elasticity couples
+  /// @param w angular velocity, body frame [rad/s]
   /// @throws NumericalError naming the body.
   void update(const BodyModel& body, const BodyTerms& terms, const Vector3& w,
               const Matrix3& T, const Coefficients& c);
 
-  /// x := D^-1 x, 6 + modes numbers; rigid motion that the body has not is 0.
-  void solve(double* x) const;
+  /// x := D^-1 x, 6 + modes numbers; 0 for rigid motion if the body has none.
+  void solve(double* x);
   /// Rows of the result: D^-1 times the rows of G, each 6 + modes long.
   void solve_rows(const Matrix6X& G, Matrix6X& result) const;
 
-  /// D itself, six rows and columns at a time, filled up with those of the
-  /// identity; of a body without rigid motion, they stand for that, too.
+  /// D itself, six rows and columns at a time, padded with the identity, which
+  /// also replaces missing rigid motion.
   [[nodiscard]] Matrix6 block(int row, int column) const;
   [[nodiscard]] int block_count() const {
-    return 1 + (static_cast<int>(inverse_modes_.size()) + 5) / 6;
+    return 1 + (static_cast<int>(coupling_.cols()) + 5) / 6;
   }
 
  private:
+  void update_modes(const BodyModel& body, const BodyTerms& terms,
+                    const Coefficients& c);
+  void solve_coupled(double* x);
+  void solve_coupled_rows(const Matrix6X& G, Matrix6X& result) const;
+  [[nodiscard]] Matrix6 modal_block(int row, int column) const;
+
   double inverse_mass_ = 0.0;  // of the translation block, 0 if clamped
   Matrix3 rotation_ = Matrix3::Identity();      // S
   Matrix3 inverse_rotation_ = Matrix3::Zero();  // of the Schur complement
   Matrix3X coupling_;                           // c H
   Matrix3X back_coupling_;                      // (c H' T)'
-  VectorX inverse_modes_;                       // of the modal block
+  VectorX inverse_modes_;  // of a diagonal modal block, else none
+  std::optional<CoupledModes> coupled_modes_;  // of a dense one
+  VectorX diagonal_;                           // c + v zeta of that
+  MatrixX answer_;  // dense block^-1 (c H' T): m x 3, else none
 };
 
 }  // namespace limber::dynamics

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/exact_correction.hpp"
+#include "limber/dynamics/newton/exact_correction.hpp"
 
 #include <algorithm>
 #include <unsupported/Eigen/IterativeSolvers>
 
-#include "dynamics/matrix_free.hpp"
-#include "dynamics/rest.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/matrix_free.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Share of the error that a correction may leave: the next is quadratic.
+// Relative tolerance of a correction; convergence is quadratic [-].
 constexpr double kLinear = 1e-6;
-// More would cost more than a shorter step.
+// More would cost more than shortening the step.
 constexpr Eigen::Index kKrylovVectors = 60;
 
 }  // namespace

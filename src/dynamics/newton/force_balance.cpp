@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/rest.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/newton_matrix.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -18,11 +19,7 @@ double radius_of_gyration(const BodyModel& body) {
   return std::sqrt(0.5 * body.J0.trace() / body.mass);
 }
 
-Eigen::Index first_row(const SystemModel& model, std::size_t b) {
-  return 6 * static_cast<Eigen::Index>(b) + model.bodies[b].offset;
-}
-
-/// Which bodies hang together; the world is the last entry.
+/// Connected groups of bodies; the world is the last entry.
 class Groups {
  public:
   explicit Groups(std::size_t bodies) : parent_(bodies + 1) {
@@ -48,11 +45,12 @@ Groups find_groups(const SystemModel& model) {
     return model.attachments[static_cast<std::size_t>(a)].body;
   };
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].clamped) groups.join(static_cast<int>(b), kWorld);
+    if (model.bodies[b].clamped) groups.join(BodyIndex(b), kWorld);
   }
   for (const Coupler& c : model.couplers) {
     groups.join(body_at(c.frame_F), body_at(c.frame_M));
   }
+  for (const Pair& pair : model.pairs) groups.join(pair.body_A, pair.body_B);
   for (const Transmission& t : model.transmissions) {
     const auto* path = std::get_if<PathCoordinate>(&t.coordinate);
     if (path == nullptr) continue;  // its joints are couplers
@@ -74,23 +72,28 @@ struct Wrench {
   }
 };
 
-/// Magnitudes of all that acts, whatever of it cancels.
+/// Sums of magnitudes, without cancellation.
 struct Magnitudes {
   double force = 0.0;   ///< [N]
-  double moment = 0.0;  ///< about anything within the system [N m]
+  double moment = 0.0;  ///< about any point within the system [N m]
 };
 
 Magnitudes find_magnitudes(const SystemModel& model, const SystemState& state,
                            const SystemTerms& terms) {
   Magnitudes sum;
   for (const Load& load : model.loads) {
-    const double c = std::abs(evaluate(load.function, state.t, Side::right));
+    const double c = std::abs(evaluate(load.function, now_of(state)));
     sum.force += c * load.force.norm();
     sum.moment += c * load.moment.norm();
   }
   for (const CouplerTerms& coupler : terms.couplers) {
     sum.force += coupler.applied.head<3>().norm();
     sum.moment += coupler.applied.tail<3>().norm();
+  }
+  for (const joints::PairResponse& pair : terms.pairs.responses) {
+    for (const joints::PairPoint& point : pair.points()) {
+      sum.force += point.force_W.norm();
+    }
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -138,11 +141,12 @@ std::string name_group(const SystemModel& model,
                          const Vector3& sum, const char* unit,
                          const char* direction) {
   const Vector3 e = sum.normalized();
-  throw InputError(fmt::format(
-      "{} not in equilibrium anywhere: nothing ties to the world what a {} of "
-      "{:.4g} {} {} ({:.3g}, {:.3g}, {:.3g}) drives; hold it, or balance it",
-      who, what, sum.norm(), unit, direction, e.x() + 0.0, e.y() + 0.0,
-      e.z() + 0.0));
+  throw InputError(
+      fmt::format("{} not in equilibrium anywhere: without connection to the "
+                  "world, and under a net {} of {:.4g} {} {} ({:.3g}, {:.3g}, "
+                  "{:.3g}); connect or balance it",
+                  who, what, sum.norm(), unit, direction, e.x() + 0.0,
+                  e.y() + 0.0, e.z() + 0.0));
 }
 
 }  // namespace
@@ -162,7 +166,7 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
               SystemState& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(model, b);
+    const Eigen::Index row = first_row(model.bodies[b], b);
     state.eta.segment(body.offset, body.modes) +=
         share * increments.segment(row + 6, body.modes);
     if (!body.has_rigid_motion()) continue;
@@ -176,10 +180,10 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
 
 VectorX find_increments(const SystemModel& model, const SystemState& from,
                         const SystemState& to) {
-  VectorX increments = VectorX::Zero(NewtonMatrix::size(model));
+  VectorX increments = VectorX::Zero(count_unknowns(model));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(model, b);
+    const Eigen::Index row = first_row(model.bodies[b], b);
     increments.segment(row + 6, body.modes) =
         to.eta.segment(body.offset, body.modes) -
         from.eta.segment(body.offset, body.modes);
@@ -195,12 +199,12 @@ VectorX find_increments(const SystemModel& model, const SystemState& from,
 }
 
 VectorX find_length_weights(const SystemModel& model) {
-  VectorX weights = VectorX::Zero(NewtonMatrix::size(model));
+  VectorX weights = VectorX::Zero(count_unknowns(model));
   double mass = 0.0;
   for (const BodyModel& body : model.bodies) mass += body.mass;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const Eigen::Index row = first_row(model, b);
+    const Eigen::Index row = first_row(model.bodies[b], b);
     weights.segment<3>(row).setConstant(std::sqrt(body.mass));
     weights.segment<3>(row + 3).setConstant(std::sqrt(body.mass) *
                                             radius_of_gyration(body));
@@ -208,8 +212,7 @@ VectorX find_length_weights(const SystemModel& model) {
     if (body.full < 0) continue;
     const FullModel& full =
         model.full_bodies[static_cast<std::size_t>(body.full)];
-    weights
-        .segment(NewtonMatrix::first_node_row(model) + full.first, full.dofs())
+    weights.segment(first_node_row(model) + full.first, full.dofs())
         .setConstant(
             std::sqrt(3.0 * body.mass / static_cast<double>(full.dofs())));
   }
@@ -230,7 +233,7 @@ double find_extent(const SystemModel& model, const SystemState& state) {
 std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
   const Groups groups = find_groups(model);
   std::vector<std::vector<BodyIndex>> by_root(model.bodies.size() + 1);
-  for (int b = 0; b < std::ssize(model.bodies); ++b) {
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
     if (groups.root(b) == groups.root(kWorld)) continue;
     by_root[groups.root(b)].push_back(b);
   }
@@ -240,7 +243,7 @@ std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
 
 void check_balance(const SystemModel& model, const SystemState& state,
                    const SystemTerms& terms) {
-  constexpr double kBalanced = 1e-10;  // of what acts: round-off
+  constexpr double kBalanced = 1e-10;  // of the magnitudes: round-off
   const Magnitudes all = find_magnitudes(model, state, terms);
   for (const std::vector<BodyIndex>& group : find_free_groups(model)) {
     Wrench sum;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/workspace.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
 
-/// A system at rest: its configuration, and the forces that would move it.
+/// A system at rest: its configuration and unbalanced forces.
 namespace limber::dynamics {
 
 /// The same configuration without velocities.
 [[nodiscard]] SystemState stop(const SystemState& state);
 
-/// Moves a configuration by `share` of increments as NewtonMatrix has them:
-/// translation in world axes, rotation in body axes, modes, nodes.
+/// Moves a configuration by the fraction `share` [-] of increments as in
+/// NewtonMatrix: translation in the world frame, rotation in the body frame,
+/// modes, nodes.
 void displace(const SystemModel& model, const VectorX& increments, double share,
               SystemState& state);
 
@@ -19,7 +20,7 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
                                       const SystemState& from,
                                       const SystemState& to);
 
-/// Factors of increments whose norm is their length, mass-weighted [m].
+/// Weights of increments, such that the weighted norm is their length [m].
 ///
 /// Equation   L^2 = sum_b (m |dp|^2 + m r^2 |dtheta|^2 + |deta|^2
 ///            + m |du|^2 / N) / sum_b m,   r the radius of gyration
@@ -30,15 +31,14 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
 [[nodiscard]] double find_extent(const SystemModel& model,
                                  const SystemState& state);
 
-/// Bodies that nothing ties to the world, not even through others, each group
-/// by itself.
+/// Groups of connected bodies without a connection to the world.
 [[nodiscard]] std::vector<std::vector<BodyIndex>> find_free_groups(
     const SystemModel& model);
 
-/// Checks that the forces on each free group balance: no configuration
-/// changes what internal forces leave of them.
+/// Checks that the forces on each free group balance, since internal forces
+/// cannot balance them in any configuration.
 /// @param terms at rest, evaluated by calc_terms
-/// @throws InputError naming the bodies and what pushes or turns them where.
+/// @throws InputError naming the bodies and the net force or moment.
 void check_balance(const SystemModel& model, const SystemState& state,
                    const SystemTerms& terms);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/free_rows.hpp"
+#include "limber/dynamics/newton/free_rows.hpp"
 
 #include <Eigen/QR>
 #include <limits>
@@ -7,11 +7,12 @@
 namespace limber::dynamics {
 namespace {
 
-// Of a block's largest row: a smaller one is round-off of the stiffness.
+// Relative to a block's largest row: smaller rows are round-off of the
+// stiffness.
 constexpr double kFree = 64.0 * std::numeric_limits<double>::epsilon();
 
 // Q of a QR decomposition, reflection by reflection: householderQ() would
-// compile a product by blocks, for seconds, that so small a matrix never takes.
+// compile a blocked product, for seconds, that small matrices never use.
 Matrix3 multiply_reflections(const Eigen::Matrix<double, 3, 6>& qr,
                              const Vector3& scale) {
   Matrix3 Q = Matrix3::Identity();

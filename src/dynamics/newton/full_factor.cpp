@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/full_factor.hpp"
+#include "limber/dynamics/newton/full_factor.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
-#include "common/rotation.hpp"
-#include "dynamics/full_terms.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/full_terms.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Turns three rows at a time.
+// Rotates three rows at a time.
 void turn_nodes(const Matrix3& R, Eigen::Ref<VectorX> x) {
   for (Eigen::Index i = 0; i < x.size(); i += 3) {
     const Vector3 turned = R * x.segment<3>(i);
@@ -19,8 +19,8 @@ void turn_nodes(const Matrix3& R, Eigen::Ref<VectorX> x) {
   }
 }
 
-// Of K to M, in the units of eigenvalues: what random displacements, small
-// against the body, store. About a third of the largest eigenvalue.
+// Ratio of K to M by the energy of random small displacements. About a third of
+// the largest eigenvalue.
 double measure_stiffness(const FullModel& full,
                          flexbody::FullBodySolver& solver) {
   constexpr double kSmall = 1e-7;
@@ -77,8 +77,8 @@ bool FullFactor::update(const SystemModel& model, std::size_t f,
   return true;
 }
 
-// A body that nothing of its own holds has a tangent with no stiffness against
-// rigid motion and, under stress, a negative one.
+// The tangent of an unclamped body has no stiffness against rigid motion, and a
+// negative one under stress.
 double FullFactor::factor_free(const FullModel& full,
                                flexbody::FullBodySolver& solver,
                                const Matrix3X& u_B, double shift) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/hubs.hpp"
+#include "limber/dynamics/newton/hubs.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace limber::dynamics {
 namespace {
 
-// Few links are left as they are: their block is the more accurate one.
+// Bodies with few links are eliminated, which is more accurate.
 constexpr double kMany = 8.0;
 constexpr double kWorthIt = 2.0;
 

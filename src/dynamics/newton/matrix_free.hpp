@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <functional>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::dynamics {
 class MatrixFree;
@@ -19,8 +19,8 @@ struct traits<limber::dynamics::MatrixFree>
 
 namespace limber::dynamics {
 
-/// A linear map that is known by what it does to a vector, as Eigen's
-/// iterative solvers take it.
+/// A linear map given by its product with a vector, for Eigen's iterative
+/// solvers.
 class MatrixFree : public Eigen::EigenBase<MatrixFree> {
  public:
   using Scalar = double;

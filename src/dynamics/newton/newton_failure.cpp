@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/newton_failure.hpp"
+#include "limber/dynamics/newton/newton_failure.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/newton_matrix.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// A body that turns by more in a step is not followed [rad].
+// Largest resolved rotation of a body in a step [rad].
 constexpr double kFastTurn = 0.5;
-// That a step may turn it by, to be safe [rad].
+// Recommended rotation in a step [rad].
 constexpr double kGoodTurn = 0.1;
 
 std::string describe_turn(const NewtonFailure& f) {
@@ -40,15 +42,15 @@ std::string describe_mode(const NewtonFailure& f) {
   if (body.modes == 0) return {};
   Eigen::Index mode = 0;
   f.increments
-      .segment(
-          6 * static_cast<Eigen::Index>(f.correction.body) + body.offset + 6,
-          body.modes)
+      .segment(first_row(body, index(f.correction.body)) + 6, body.modes)
       .cwiseAbs()
       .maxCoeff(&mode);
   return fmt::format(
       "mode {} of it, of {:.3g} Hz, moves most; a smaller step, or damping of "
       "that mode, may help",
-      mode + 1, std::sqrt(body.lambda[mode]) / (2.0 * std::numbers::pi));
+      mode + 1,
+      std::sqrt(flexbody::rest_stiffness(body.elasticity)[mode]) /
+          (2.0 * std::numbers::pi));
 }
 
 std::size_t count_links(const SystemModel& model) {
@@ -61,12 +63,12 @@ const std::string& name_link(const SystemModel& model, std::size_t link) {
                          : model.transmissions[link - couplers].name;
 }
 
-// A force that is not finite makes every correction NaN, those of bodies that
-// it does not act on too: it is told in place of a body.
+// A force that is not finite makes every correction NaN, also those of other
+// bodies, so it is reported in place of a body.
 std::string describe_broken_link(const NewtonFailure& f, const char* what) {
   if (std::isfinite(f.correction.value)) return {};
   for (std::size_t i = 0; i < count_links(f.model); ++i) {
-    // Squares of a number that is too large are infinite.
+    // The square of a large number may overflow.
     if (std::isfinite(NewtonMatrix::find_gap(f.terms, i).norm())) continue;
     return fmt::format(
         "coupler '{}' at t = {:.9g} s: its force is NaN or too large, and {}; "
@@ -105,10 +107,10 @@ std::string describe(const NewtonFailure& failure, const char* what) {
   if (cause.empty()) cause = describe_mode(failure);
   if (cause.empty()) cause = describe_coupler(failure);
   return fmt::format(
-      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
-      "{:.3g} of the step's motion): {}",
+      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, where {:.3g} m "
+      "may be left): {}",
       failure.model.bodies[failure.correction.body].name, failure.end, what,
-      failure.correction.value, failure.tolerance, cause);
+      failure.correction.value, failure.limit, cause);
 }
 
 }  // namespace limber::dynamics

@@ -1,92 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/newton_matrix.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/cayley.hpp"
-#include "dynamics/free_rows.hpp"
-#include "dynamics/hubs.hpp"
-#include "dynamics/nodal_jacobian.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/newton/cayley.hpp"
+#include "limber/dynamics/newton/free_rows.hpp"
+#include "limber/dynamics/newton/link_rows.hpp"
 
 namespace limber::dynamics {
-namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-Eigen::Index first_row(const BodyModel& body, int b) {
-  return 6 * b + body.offset;
-}
-
-// Rows of the motion of M in F, from those of the motion of F: p_FM seen from a
-// frame that moves itself is minus its motion, plus p x rotation.
-void reflect(const Vector3& p, Matrix6X& rows) {
-  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
-    const Vector3 turn = rows.col(k).tail<3>();
-    rows.col(k).head<3>() = p.cross(turn) - rows.col(k).head<3>();
-    rows.col(k).tail<3>() = -turn;
-  }
-}
-
-// The motion of a coordinate, in the first row, from that of a frame.
-void contract(const Vector6& gradient, Matrix6X& rows) {
-  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
-    const double along = gradient.dot(rows.col(k));
-    rows.col(k).setZero();
-    rows(0, k) = along;
-  }
-}
-
-// Stiffness and damping per increment of a coupler or, after them all, of a
-// transmission.
-Matrix6 find_stiffness(const SystemTerms& terms, std::size_t link,
-                       double velocity) {
-  if (link < terms.couplers.size()) {
-    const joints::CouplerResponse& r = terms.couplers[link].response;
-    return r.stiffness + velocity * r.damping;
-  }
-  const joints::ScalarResponse& r =
-      terms.transmissions[link - terms.couplers.size()].response;
-  Matrix6 K = Matrix6::Zero();
-  K(0, 0) = r.stiffness + velocity * r.damping;
-  return K;
-}
-
-// The motion of an end's frame per node, both in body axes: 3N x 6.
-MatrixX make_body_columns(const Attachment& attachment,
-                          const AttachmentMotion& motion, const Matrix3& R_HB,
-                          Eigen::Index dofs) {
-  Matrix6X G(6, dofs);
-  calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_HB.transpose(), G);
-  for (Eigen::Index i = 0; i < dofs; i += 3) {
-    G.middleCols<3>(i) = (G.middleCols<3>(i) * R_HB).eval();
-  }
-  return G.transpose();
-}
-
-}  // namespace
 
 NewtonMatrix::NewtonMatrix(const SystemModel& model)
     : full_(model.full_bodies.size()),
       ends_of_body_(model.bodies.size()),
-      couplers_(model.couplers.size()) {
+      couplers_(model.couplers.size()),
+      pairs_(model) {
   const std::size_t links = couplers_ + model.transmissions.size();
   scaled_stiffness_.resize(links);
   rows_.resize(links);
   wrenches_.resize(links);
   gaps_.resize(links);
   bodies_.reserve(model.bodies.size());
-  for (const BodyModel& body : model.bodies) bodies_.emplace_back(body.modes);
-  const auto add_pair = [&](int link, int coupler, int term) {
+  for (const BodyModel& body : model.bodies) bodies_.emplace_back(body);
+  const auto add_pair = [&](int link, CouplerIndex coupler, int term) {
     const Coupler& c = model.couplers[index(coupler)];
     add_end(model, link, coupler, term, c.frame_F, false);
     add_end(model, link, coupler, term, c.frame_M, true);
   };
-  int link = 0;
-  for (; link < static_cast<int>(couplers_); ++link) add_pair(link, link, -1);
+  int link = static_cast<int>(couplers_);
+  for (CouplerIndex c(0); c < link; ++c) add_pair(c, c, -1);
   for (const Transmission& transmission : model.transmissions) {
     int term = 0;
     if (const auto* sum = std::get_if<JointSum>(&transmission.coordinate)) {
@@ -96,57 +43,38 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
     } else {
       for (const AttachmentIndex point :
            std::get<PathCoordinate>(transmission.coordinate).points) {
-        add_end(model, link, -1, term++, point, true);
+        add_end(model, link, CouplerIndex(), term++, point, true);
       }
     }
     ++link;
   }
-  plan_lu(model, link);
+  graph_ = make_graph(model, link);
+  plan_ = plan_lu(graph_, {});
+  compliances_.resize(links, Matrix6::Zero());
+  unknowns_.resize(index(plan_.rows));
 }
 
-// Links that share a body that is eliminated, and hubs with the links that hold
-// them.
-void NewtonMatrix::plan_lu(const SystemModel& model, int links) {
-  std::vector<std::vector<int>> links_of_body(ends_of_body_.size());
+LinkGraph NewtonMatrix::make_graph(const SystemModel& model, int links) const {
+  LinkGraph graph{
+      .links = links,
+      .links_of_body = std::vector<std::vector<int>>(ends_of_body_.size()),
+      .blocks = {},
+      .sizes = {}};
   for (const End& end : ends_) {
-    links_of_body[index(end.body)].push_back(end.link);
+    graph.links_of_body[index(end.body)].push_back(end.link);
   }
-  std::vector<int> blocks;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    blocks.push_back(model.bodies[b].full < 0 ? bodies_[b].block_count() : 0);
+    const BodyModel& body = model.bodies[b];
+    graph.blocks.push_back(body.full < 0 ? bodies_[b].block_count() : 0);
+    graph.sizes.push_back(6 + body.modes);
   }
-  int row = links;
-  hub_of_body_.assign(model.bodies.size(), -1);
-  for (const int b : choose_hubs(links_of_body, blocks)) {
-    hub_of_body_[index(b)] = static_cast<int>(hubs_.size());
-    const int size = 6 + model.bodies[index(b)].modes;
-    hubs_.push_back({b, row, blocks[index(b)], size});
-    row += blocks[index(b)];
-  }
-  unknowns_.resize(index(row));
-  std::vector<std::pair<int, int>> edges;
-  for (std::size_t b = 0; b < ends_of_body_.size(); ++b) {
-    if (hub_of_body_[b] >= 0) continue;
-    for (const int i : links_of_body[b]) {
-      for (const int j : links_of_body[b]) {
-        if (i < j) edges.emplace_back(i, j);
-      }
-    }
-  }
-  for (const Hub& hub : hubs_) {
-    for (int i = hub.first; i < hub.first + hub.blocks; ++i) {
-      for (const int link : links_of_body[index(hub.body)]) {
-        edges.emplace_back(link, i);
-      }
-      for (int j = hub.first; j < i; ++j) edges.emplace_back(i, j);
-    }
-  }
-  lu_ = BlockLu(row, edges);
+  return graph;
 }
 
-void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
-                           int term, int attachment, bool is_M) {
-  const int b = model.attachments[index(attachment)].body;
+void NewtonMatrix::add_end(const SystemModel& model, int link,
+                           CouplerIndex coupler, int term,
+                           AttachmentIndex attachment, bool is_M) {
+  const BodyIndex b = model.attachments[index(attachment)].body;
   if (b == kWorld) return;
   const BodyModel& body = model.bodies[index(b)];
   End end{.link = link,
@@ -155,10 +83,8 @@ void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
           .attachment = attachment,
           .body = b,
           .is_M = is_M,
-          .row = first_row(body, b),
-          .G = Matrix6X::Zero(6, 6 + body.modes),
-          .Zt = {},
-          .Zt_B = {}};
+          .row = first_row(body, index(b)),
+          .G = Matrix6X::Zero(6, 6 + body.modes)};
   if (body.full >= 0) {
     const FullModel& full = model.full_bodies[index(body.full)];
     end.row = first_node_row(model) + full.first;
@@ -169,7 +95,7 @@ void NewtonMatrix::add_end(const SystemModel& model, int link, int coupler,
   ends_.push_back(std::move(end));
 }
 
-// The axes in which an end's motion is told: those of F, or the world's.
+// Rotation to the frame in which an end's motion is expressed: F, or the world.
 Matrix3 NewtonMatrix::find_R_FW(const SystemModel& model,
                                 const SystemTerms& terms,
                                 const End& end) const {
@@ -178,16 +104,15 @@ Matrix3 NewtonMatrix::find_R_FW(const SystemModel& model,
   return terms.attachments[index(coupler.frame_F)].R_WF.transpose();
 }
 
-// Makes of rows of this end's frame those of M in F; of a transmission one row
-// is left, in place of six.
+// Turns rows of this end's frame into those of M in F, or of a transmission.
 void NewtonMatrix::finish_rows(const SystemTerms& terms, const End& end,
                                Matrix6X& rows) const {
   if (!end.is_M) {
-    reflect(terms.couplers[index(end.coupler)].motion.p_FM_F, rows);
+    reflect_rows(terms.couplers[index(end.coupler)].motion.p_FM_F, rows);
   }
   if (end.term < 0) return;
   const auto& transmission = terms.transmissions[index(end.link) - couplers_];
-  contract(transmission.gradients[index(end.term)], rows);
+  contract_rows(transmission.gradients[index(end.term)], rows);
 }
 
 void NewtonMatrix::calc_modal_rows(const SystemModel& model,
@@ -205,7 +130,11 @@ void NewtonMatrix::factor_end(const SystemModel& model,
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
   if (!attachment.nodal) {
     calc_modal_rows(model, terms, end);
-    if (is_on_hub(end)) {
+    if (is_kept(end)) {
+      if (plan_.kept[index(plan_.kept_of_body[index(end.body)])].is_early) {
+        bodies_[index(end.body)].solve_rows(end.G, end.Zt);
+        end.compliance.noalias() = end.G.lazyProduct(end.Zt.transpose());
+      }
       end.Zt = end.G;
       if (!model.bodies[index(end.body)].has_rigid_motion()) {
         end.Zt.leftCols<6>().setZero();
@@ -231,26 +160,33 @@ void NewtonMatrix::factor_end(const SystemModel& model,
   finish_rows(terms, end, end.Zt);
 }
 
-void NewtonMatrix::assemble(const SystemTerms& terms, const Coefficients& c) {
-  lu_.set_zero();
+void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
+                            const SystemTerms& end_terms,
+                            const Coefficients& c) {
+  plan_.lu.set_zero();
   for (std::size_t b = 0; b < ends_of_body_.size(); ++b) {
-    if (hub_of_body_[b] >= 0) continue;
+    if (plan_.kept_of_body[b] >= 0) continue;
     const std::vector<int>& ends = ends_of_body_[b];
     for (const int i : ends) {
       for (const int j : ends) {
         const End& row = ends_[index(i)];
         const End& column = ends_[index(j)];
-        Matrix6& block = lu_.block(row.link, column.link);
+        Matrix6& block = plan_.lu.block(row.link, column.link);
         for (Eigen::Index k = 0; k < row.G.cols(); ++k) {
           block.noalias() += row.G.col(k) * column.Zt.col(k).transpose();
         }
       }
     }
   }
-  // Rows become T (I + K A), T a turn that is scaled to the size of each row.
+  for (const KeptBody& kept : plan_.kept) {
+    if (kept.is_early) add_compliances(kept);
+  }
+  // Rows become T (I + K A), T a rotation scaled to the size of each row.
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Matrix6& A = lu_.block(static_cast<int>(i), static_cast<int>(i));
-    Matrix6 K = find_stiffness(terms, i, c.velocity);
+    const Matrix6 A = compliances_[i] +
+                      plan_.lu.block(static_cast<int>(i), static_cast<int>(i));
+    compliances_[i].setZero();
+    Matrix6 K = find_link_stiffness(terms, i, c.velocity);
     const Matrix6 turn = separate_free_rows(K);
     const Vector6 scale =
         (Vector6::Ones() + (K * A).cwiseAbs().rowwise().maxCoeff())
@@ -258,35 +194,45 @@ void NewtonMatrix::assemble(const SystemTerms& terms, const Coefficients& c) {
     rows_[i] = scale.asDiagonal() * turn;
     scaled_stiffness_[i] = scale.asDiagonal() * K;
   }
-  for (const Hub& hub : hubs_) assemble_hub(hub);
+  for (const KeptBody& kept : plan_.kept) assemble_kept(kept);
+  pairs_.add(model, terms, end_terms, c.velocity, plan_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int row = static_cast<int>(i);
-    lu_.scale_row(row, scaled_stiffness_[i]);
-    lu_.block(row, row) += rows_[i];
+    plan_.lu.scale_row(row, scaled_stiffness_[i]);
+    plan_.lu.block(row, row) += rows_[i];
   }
 }
 
-// Its equation, and its columns in the links' rows, yet without K.
-void NewtonMatrix::assemble_hub(const Hub& hub) {
-  for (int i = 0; i < hub.blocks; ++i) {
-    for (int j = 0; j < hub.blocks; ++j) {
-      lu_.block(hub.first + i, hub.first + j) =
-          bodies_[index(hub.body)].block(i, j);
+// Its share of A, which is known only once it is eliminated.
+void NewtonMatrix::add_compliances(const KeptBody& kept) {
+  for (const int e : ends_of_body_[index(kept.body)]) {
+    const End& end = ends_[index(e)];
+    compliances_[index(end.link)] += end.compliance;
+  }
+}
+
+// Its equation, and its columns in the links' rows, without K yet.
+void NewtonMatrix::assemble_kept(const KeptBody& kept) {
+  for (int i = 0; i < kept.blocks; ++i) {
+    for (int j = 0; j < kept.blocks; ++j) {
+      plan_.lu.block(kept.first + i, kept.first + j) =
+          bodies_[index(kept.body)].block(i, j);
     }
-    for (const int e : ends_of_body_[index(hub.body)]) {
+    for (const int e : ends_of_body_[index(kept.body)]) {
       const End& end = ends_[index(e)];
       const Eigen::Index first = Eigen::Index{6} * i;
       const Eigen::Index count =
           std::min<Eigen::Index>(6, end.G.cols() - first);
-      lu_.block(end.link, hub.first + i).leftCols(count) +=
+      plan_.lu.block(end.link, kept.first + i).leftCols(count) +=
           end.G.middleCols(first, count);
-      lu_.block(hub.first + i, end.link).topRows(count) -=
+      plan_.lu.block(kept.first + i, end.link).topRows(count) -=
           end.Zt.middleCols(first, count).transpose();
     }
   }
 }
 
-// Sparse factors in body axes, and what they answer to each end's wrenches.
+// Sparse factors in the body frame, and their solutions for each end's
+// wrenches.
 void NewtonMatrix::factor_full(const SystemModel& model,
                                const SystemState& state, SystemTerms& terms,
                                const Coefficients& c, bool renews) {
@@ -305,7 +251,7 @@ void NewtonMatrix::factor_full(const SystemModel& model,
   }
 }
 
-// What is not finite is the cause, wherever the elimination meets it first.
+// A value that is not finite is the cause, wherever elimination fails first.
 std::string NewtonMatrix::describe_singular(const SystemModel& model,
                                             const SystemTerms& terms,
                                             int row) const {
@@ -316,18 +262,20 @@ std::string NewtonMatrix::describe_singular(const SystemModel& model,
                              model.transmissions[link - couplers_].name);
   };
   for (std::size_t link = 0; link < rows_.size(); ++link) {
-    if (find_stiffness(terms, link, 1.0).allFinite()) continue;
+    if (find_link_stiffness(terms, link, 1.0).allFinite()) continue;
     return name(link) + ": its stiffness or damping is no longer finite";
   }
   if (index(row) >= rows_.size()) {
-    const auto hub = std::find_if(
-        hubs_.rbegin(), hubs_.rend(),
-        [row](const Hub& candidate) { return candidate.first <= row; });
-    return fmt::format("body '{}': its inertia, and what holds it, is singular",
-                       model.bodies[index(hub->body)].name);
+    const auto kept = std::find_if(
+        plan_.kept.rbegin(), plan_.kept.rend(),
+        [row](const KeptBody& candidate) { return candidate.first <= row; });
+    return fmt::format(
+        "body '{}': the matrix of its inertia, couplers and pairs is singular",
+        model.bodies[index(kept->body)].name);
   }
   return name(index(row)) +
-         ": the matrix of what it holds, and bodies give way, is singular";
+         ": the matrix of its stiffness and of the bodies' compliance is "
+         "singular";
 }
 
 void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
@@ -335,6 +283,11 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
                           const std::vector<Vector3>& rotation_increments,
                           const Coefficients& coefficients, bool renews_full,
                           const SystemTerms* end_terms) {
+  if (end_terms == nullptr) calc_stiffness(model, state, terms);
+  if (pairs_.update(terms)) {
+    plan_ = plan_lu(graph_, pairs_.active(model));
+    unknowns_.resize(index(plan_.rows));
+  }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Vector3& turn = rotation_increments[b];
     bodies_[b].update(model.bodies[b], terms.bodies[b], state.bodies[b].w_WB_B,
@@ -347,8 +300,9 @@ void NewtonMatrix::factor(const SystemModel& model, const SystemState& state,
     factor_end(model, state, terms, end);
     if (end_terms != nullptr) calc_modal_rows(model, *end_terms, end);
   }
-  assemble(terms, coefficients);
-  if (const std::optional<int> row = lu_.factor()) {
+  assemble(model, terms, end_terms != nullptr ? *end_terms : terms,
+           coefficients);
+  if (const std::optional<int> row = plan_.lu.factor()) {
     throw NumericalError(describe_singular(model, terms, *row));
   }
 }
@@ -378,9 +332,8 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   ++solves_;
   increments = residual;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (hub_of_body_[b] >= 0) continue;
-    bodies_[b].solve(increments.data() +
-                     first_row(model.bodies[b], static_cast<int>(b)));
+    if (plan_.kept_of_body[b] >= 0) continue;
+    bodies_[b].solve(increments.data() + first_row(model.bodies[b], b));
   }
   for (std::size_t f = 0; f < model.full_bodies.size(); ++f) {
     const FullModel& full = model.full_bodies[f];
@@ -391,7 +344,7 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
   increments = -increments;
   for (Vector6& x : unknowns_) x.setZero();
   for (const End& end : ends_) {
-    if (is_on_hub(end)) continue;
+    if (is_kept(end)) continue;
     const double* x = increments.data() + end.row;
     Vector6& w = unknowns_[index(end.link)];
     for (Eigen::Index k = 0; k < end.G.cols(); ++k) w -= end.G.col(k) * x[k];
@@ -401,21 +354,21 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
         scaled_stiffness_[i] * unknowns_[i] + rows_[i] * gaps[i];
     unknowns_[i] = right;
   }
-  const auto for_hubs = [&](const auto& visit) {
-    for (const Hub& hub : hubs_) {
+  const auto for_kept = [&](const auto& visit) {
+    for (const KeptBody& kept : plan_.kept) {
       double* x = increments.data() +
-                  first_row(model.bodies[index(hub.body)], hub.body);
-      for (int k = 0; k < hub.size; ++k) {
-        visit(unknowns_[index(hub.first + k / 6)][k % 6], x[k]);
+                  first_row(model.bodies[index(kept.body)], index(kept.body));
+      for (int k = 0; k < kept.size; ++k) {
+        visit(unknowns_[index(kept.first + k / 6)][k % 6], x[k]);
       }
     }
   };
-  for_hubs([](double& unknown, double& x) { unknown = x; });
-  lu_.solve(unknowns_);
-  for_hubs([](double& unknown, double& x) { x = unknown; });
+  for_kept([](double& unknown, double& x) { unknown = x; });
+  plan_.lu.solve(unknowns_);
+  for_kept([](double& unknown, double& x) { x = unknown; });
   std::copy_n(unknowns_.begin(), wrenches_.size(), wrenches_.begin());
   for (const End& end : ends_) {
-    if (is_on_hub(end)) continue;
+    if (is_kept(end)) continue;
     double* x = increments.data() + end.row;
     const Vector6& w = wrenches_[index(end.link)];
     for (Eigen::Index k = 0; k < end.Zt.cols(); ++k) {
@@ -439,7 +392,7 @@ void NewtonMatrix::find_wrench_changes(const SystemTerms& terms,
   changes.resize(row(static_cast<int>(rows_.size())));
   for (int link = 0; link < static_cast<int>(rows_.size()); ++link) {
     const Vector6 change =
-        -find_stiffness(terms, index(link), 0.0) * motions[index(link)];
+        -find_link_stiffness(terms, index(link), 0.0) * motions[index(link)];
     const bool is_coupler = index(link) < couplers_;
     changes.segment(row(link), is_coupler ? 6 : 1) =
         change.head(is_coupler ? 6 : 1);

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/newton_measures.hpp"
+#include "limber/dynamics/newton/newton_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 // Round-off of a position, relative to its distance from the world origin.
 constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
-// Forces of a whole mesh are differences of large ones: what round-off makes of
-// them moves its soft modes by this factor more.
+// Forces of a whole mesh are differences of large ones: their round-off moves
+// soft modes by this factor more.
 constexpr double kNodalNoise = 100.0;
 
 double radius_of_gyration_squared(const BodyModel& body) {
   return 0.5 * body.J0.trace() / body.mass;
 }
 
-// Of a body's nodes; zero if it is reduced.
+// Mean square over a body's nodes; zero if it is reduced.
 double mean_square(const SystemModel& model, const BodyModel& body,
                    const Eigen::Ref<const VectorX>& nodes) {
   if (body.full < 0) return 0.0;
@@ -35,8 +38,7 @@ CorrectionSize measure_correction(const SystemModel& model,
   CorrectionSize largest;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const double* x =
-        increments.data() + 6 * b + static_cast<std::size_t>(body.offset);
+    const double* x = increments.data() + first_row(body, b);
     const double rigid =
         Eigen::Map<const Vector3>(x).squaredNorm() +
         radius_of_gyration_squared(body) *
@@ -103,7 +105,7 @@ void find_roundoff_gaps(const SystemModel& model, const SystemTerms& terms,
     const AttachmentMotion& F = motion_of(model.couplers[c].frame_F);
     const AttachmentMotion& M = motion_of(model.couplers[c].frame_M);
     const joints::CouplerResponse& response = terms.couplers[c].response;
-    // Signs as they may fall: alike for no two neighbours.
+    // Alternating signs, so that neighbours do not cancel.
     const double sign = c % 2 == 0 ? kRoundoff : -kRoundoff;
     const double p = sign * (F.p_WF.norm() + F.arm_B.norm() + M.arm_B.norm());
     const double v = sign * (F.v_WF_W.norm() + M.v_WF_W.norm());
@@ -121,6 +123,29 @@ void find_roundoff_gaps(const SystemModel& model, const SystemTerms& terms,
         << kRoundoff * (t.response.stiffness * t.motion.z +
                         t.response.damping * t.motion.rate),
         0.0, 0.0, 0.0, 0.0, 0.0;
+  }
+}
+
+void calc_pair_roundoff(const SystemModel& model, const SystemState& state,
+                        const SystemTerms& terms, double velocity,
+                        VectorX& residual) {
+  residual.setZero();
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    const Pair& pair = model.pairs[i];
+    double reach = 0.0;
+    for (const BodyIndex b : {pair.body_A, pair.body_B}) {
+      if (b == kWorld) continue;
+      reach += state.bodies[static_cast<std::size_t>(b)].p_WB.norm();
+    }
+    double sign = 1.0;  // alternating, so that points do not cancel
+    for (const joints::PairPoint& point : terms.pairs.responses[i].points()) {
+      const double p = sign * kRoundoff *
+                       (reach + point.acting.A.norm() + point.acting.B.norm());
+      const Vector3 force =
+          (point.stiffness + velocity * point.damping) * Vector3(p, -p, p);
+      add_residual(model, pair, point, force, terms, residual);
+      sign = -sign;
+    }
   }
 }
 

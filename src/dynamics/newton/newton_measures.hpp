@@ -4,22 +4,23 @@
 #include <cstddef>
 #include <vector>
 
-#include "dynamics/residual.hpp"
+#include "limber/dynamics/equations/residual.hpp"
 
-/// Lengths by which Newton's method in a time step judges its corrections:
-/// mass-weighted within a body, so that rotations and modes count by how far
-/// they move its mass; the largest body counts.
+/// Lengths for the convergence tests of Newton's method in a time step:
+/// mass-weighted within a body, so that rotations and modes count by the
+/// displacement of its mass; the maximum over bodies.
 namespace limber::dynamics {
 
-/// Length of a correction [m], and of its two kinds apart. Modal coordinates
-/// have digits of their own, however far from the world's origin a body is.
+/// Length of a correction [m], and of its two kinds separately. The precision
+/// of modal coordinates does not depend on the distance from the world's
+/// origin.
 struct CorrectionSize {
-  double value = 0.0;    ///< of both kinds
-  std::size_t body = 0;  ///< that it moves most
-  double rigid = 0.0;    ///< of frames, and of nodes of unreduced bodies
-  double modal = 0.0;
+  double value = 0.0;    ///< of both kinds [m]
+  std::size_t body = 0;  ///< index of the body that moves most
+  double rigid = 0.0;    ///< of frames, and of nodes of unreduced bodies [m]
+  double modal = 0.0;    ///< [m]
 };
-/// @param increments as NewtonMatrix has them
+/// @param increments as in NewtonMatrix
 [[nodiscard]] CorrectionSize measure_correction(const SystemModel& model,
                                                 const VectorX& increments);
 
@@ -27,20 +28,26 @@ struct CorrectionSize {
 [[nodiscard]] double measure_motion(const SystemModel& model,
                                     const Rates& motion);
 
-/// Below these [m] corrections are made of round-off alone.
+/// Below these [m] corrections are round-off.
 struct Roundoff {
-  double rigid = 0.0;
-  double modal = 0.0;
+  double rigid = 0.0;  ///< [m]
+  double modal = 0.0;  ///< [m]
 };
 /// Of the coordinates themselves.
 [[nodiscard]] Roundoff measure_roundoff(const SystemModel& model,
                                         const SystemState& state);
 
-/// What round-off of frames' motion may make of the laws' wrenches, as the gaps
-/// of NewtonMatrix, one a coupler, then one a transmission. Solved for, they
-/// are what stiff couplers cannot help doing to the motion.
+/// Effect of round-off of frames' motion on the laws' wrenches, as gaps of
+/// NewtonMatrix, one per coupler, then one per transmission. Their solution is
+/// the unavoidable effect of stiff couplers on the motion.
 /// @param velocity per increment, of NewtonMatrix::Coefficients [1/s]
 void find_roundoff_gaps(const SystemModel& model, const SystemTerms& terms,
                         double velocity, std::vector<Vector6>& gaps);
+
+/// The same of pairs' forces, as a residual.
+/// @param velocity as above
+void calc_pair_roundoff(const SystemModel& model, const SystemState& state,
+                        const SystemTerms& terms, double velocity,
+                        VectorX& residual);
 
 }  // namespace limber::dynamics

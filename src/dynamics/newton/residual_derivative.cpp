@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/residual_derivative.hpp"
+#include "limber/dynamics/newton/residual_derivative.hpp"
 
-#include "common/rotation.hpp"
-#include "dynamics/body_model.hpp"
-#include "dynamics/nodal_jacobian.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/newton/body_increment.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-Eigen::Index first_row(const BodyModel& body, std::size_t b) {
-  return 6 * static_cast<Eigen::Index>(b) + body.offset;
-}
-
-// A body's share of increments. Its frame rests if it is clamped.
-struct BodyIncrement {
-  BodyIncrement(const BodyModel& body, std::size_t b, const VectorX& x)
-      : eta(x.data() + first_row(body, b) + 6) {
-    if (!body.has_rigid_motion()) return;
-    p = x.segment<3>(first_row(body, b));
-    theta = x.segment<3>(first_row(body, b) + 3);
-  }
-  Vector3 p = Vector3::Zero();
-  Vector3 theta = Vector3::Zero();
-  const double* eta;
-};
 
 // Change of half_square along dw.
 Vector6 change_half_square(const Vector3& w, const Vector3& dw) {
@@ -35,7 +19,7 @@ Vector6 change_half_square(const Vector3& w, const Vector3& dw) {
   return q;
 }
 
-// A wrench's change where its axes turn.
+// Change of a wrench by rotation of its axes.
 Vector6 turn(const Vector3& phi, const Vector6& wrench) {
   Vector6 turned;
   turned << phi.cross(wrench.head<3>()), phi.cross(wrench.tail<3>());
@@ -60,7 +44,8 @@ void ResidualDerivative::set_point(
   c_ = coefficients;
 }
 
-// All but what NewtonMatrix has: M, gyroscopic terms of J, oscillators.
+// All except the terms of NewtonMatrix: M, gyroscopic terms of J, dampers and
+// elasticity of modes.
 void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
                                         VectorX& r) const {
   const BodyModel& body = model_.bodies[b];
@@ -165,8 +150,7 @@ ResidualDerivative::FrameChange ResidualDerivative::change_nodal_frame(
   Matrix6X G(6, full.dofs());
   calc_nodal_jacobian(*attachment.nodal, motion.nodal, R_WH, G);
   const Vector6 moved =
-      G *
-      x.segment(NewtonMatrix::first_node_row(model_) + full.first, full.dofs());
+      G * x.segment(first_node_row(model_) + full.first, full.dofs());
   return {moved.head<3>(), moved.tail<3>(), c_.velocity * moved.head<3>(),
           c_.velocity * moved.tail<3>()};
 }
@@ -180,7 +164,7 @@ void ResidualDerivative::change_frames(const VectorX& x) {
   }
 }
 
-// Of dynamics/kinematics' relate, all in F.
+// Derivative of relate in dynamics/kinematics, all in F.
 ResidualDerivative::MotionChange ResidualDerivative::relate(
     const Coupler& coupler, const CouplerTerms& terms) const {
   const AttachmentMotion& F = terms_->attachments[index(coupler.frame_F)];
@@ -236,7 +220,8 @@ void ResidualDerivative::change_wrench(AttachmentIndex attachment,
       d_arm.cross(force_B) + motion.arm_B.cross(d_force_B) + d_moment_B;
 }
 
-// Of coupler_forces' add_pair, where the wrench in F changes by d_wrench.
+// Derivative of add_pair in coupler_forces, with a change d_wrench of the
+// wrench in F.
 void ResidualDerivative::change_pair(const Coupler& coupler,
                                      const CouplerTerms& terms,
                                      const MotionChange& change,
@@ -291,7 +276,7 @@ void ResidualDerivative::change_path(const PathCoordinate& path,
                                      Vector6& law) const {
   double d_z = 0.0;
   double d_rate = 0.0;
-  Vector3 d_before = Vector3::Zero();  // of the direction of the last stretch
+  Vector3 d_before = Vector3::Zero();  // of the direction of the last segment
   const std::size_t count = path.points.size();
   for (std::size_t i = 0; i < count; ++i) {
     Vector3 d_after = Vector3::Zero();
@@ -347,7 +332,7 @@ void ResidualDerivative::change_load(const Load& load, const VectorX& x,
                                      VectorX& r) const {
   const Attachment& a = model_.attachments[index(load.where)];
   if (a.body == kWorld || a.nodal) return;
-  const double factor = evaluate(load.function, state_->t, Side::left);
+  const double factor = evaluate(load.function, now_of(*state_, Side::left));
   if (factor == 0.0) return;
   const auto b = index(a.body);
   const BodyModel& body = model_.bodies[b];
@@ -408,6 +393,7 @@ void ResidualDerivative::apply_rest(const VectorX& increments,
   }
   change_frames(increments);
   change_couplers(increments, residual, laws);
+  change_pairs(increments, residual);
   for (const Load& load : model_.loads) {
     change_load(load, increments, residual);
   }

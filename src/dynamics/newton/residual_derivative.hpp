@@ -3,52 +3,53 @@
 
 #include <vector>
 
-#include "dynamics/newton_matrix.hpp"
-#include "dynamics/residual.hpp"
+#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
 
 namespace limber::dynamics {
 
 /// The exact derivative of a step's residual, as a map on increments.
 ///
-/// Equation   for increments x of NewtonMatrix, with the wrenches held,
+/// Equation   for increments x of NewtonMatrix, at constant wrenches,
 ///            dq = x, dv = velocity T x, dvdot = acceleration T x, T the
 ///            inverse right Jacobian of a rotation increment, else 1:
 ///            residual = d r(q, v, vdot),   laws = d law(q, v)
-///            with all derivatives of the inertia terms, of frames and arms
-///            through which couplers, transmissions and loads act, and of
-///            their laws.
-/// Source     product rule on equations.cpp, kinematics.cpp, coupler_forces.cpp
-/// Limits     nodes of unreduced bodies keep their tangent in NewtonMatrix:
-///            their rows have what NewtonMatrix has, and frames on them are
-///            taken to move without change of their arms.
+///            with all derivatives of the inertia terms, of frames and arms of
+///            couplers, transmissions, pairs and loads, and of their laws; the
+///            points of pairs are treated as fixed in their bodies.
+/// Source     product rule applied to equations.cpp, kinematics.cpp,
+///            coupler_forces.cpp
+/// Limits     nodes of unreduced bodies have only the tangent of NewtonMatrix:
+///            arms of frames on them are treated as constant.
 class ResidualDerivative {
  public:
   explicit ResidualDerivative(const SystemModel& model);
 
-  /// The point to differentiate at: all are kept by reference.
-  /// @param acceleration that the residual was made with
-  /// @param rotation_increments of the step, one a body [rad]
+  /// The point to differentiate at, stored by reference.
+  /// @param acceleration of the residual
+  /// @param rotation_increments of the step, one per body [rad]
   void set_point(const SystemState& state, const SystemTerms& terms,
                  const Rates& acceleration,
                  const std::vector<Vector3>& rotation_increments,
                  const NewtonMatrix::Coefficients& coefficients);
 
-  /// What `increments` change, beyond what the factors of NewtonMatrix have if
-  /// they are of the same point: small where Newton's method with them is
-  /// fast. No large stiffness is in it.
+  /// Change by `increments` beyond that of NewtonMatrix factored at the same
+  /// point: small where Newton's method with it converges fast. Contains no
+  /// large stiffness.
   /// @param residual sized as `increments`; zero for nodes
-  /// @param laws of wrenches, one a coupler, then one a transmission, whose
+  /// @param laws of wrenches, one per coupler, then one per transmission, whose
   /// force is the first entry
   void apply_rest(const VectorX& increments, VectorX& residual,
                   std::vector<Vector6>& laws);
 
  private:
-  // Change of an attachment's frame, world axes.
+  // Change of an attachment's frame, world frame.
   struct FrameChange {
-    Vector3 p = Vector3::Zero(), phi = Vector3::Zero();
-    Vector3 v = Vector3::Zero(), w = Vector3::Zero();
+    Vector3 p = Vector3::Zero(), phi = Vector3::Zero();  // [m], [rad]
+    Vector3 v = Vector3::Zero(), w = Vector3::Zero();    // [m/s], [rad/s]
   };
-  // Change of a coupler's relative motion: translation over rotation.
+  // Change of a coupler's relative motion: translation over rotation
+  // [m, rad] and their rates [m/s, rad/s].
   struct MotionChange {
     Vector6 position = Vector6::Zero(), velocity = Vector6::Zero();
   };
@@ -63,8 +64,8 @@ class ResidualDerivative {
                                                const VectorX& x) const;
   [[nodiscard]] MotionChange relate(const Coupler& coupler,
                                     const CouplerTerms& terms) const;
-  // Adds what a wrench on an attachment, world axes, changes of the forces on
-  // its body: by turning with the increments and by a change of its own.
+  // Adds the change of the forces on a body by a wrench on an attachment, world
+  // frame: by its rotation with the increments and by its own change.
   void change_wrench(AttachmentIndex attachment, const Vector3& force,
                      const Vector3& moment, const Vector3& d_force,
                      const Vector3& d_moment, const VectorX& x,
@@ -78,6 +79,20 @@ class ResidualDerivative {
                    const VectorX& x, VectorX& r, Vector6& law) const;
   void change_sum(const JointSum& sum, const TransmissionTerms& terms,
                   const VectorX& x, VectorX& r, Vector6& law) const;
+  // Motion of a place of a pair, world frame, and its change.
+  struct PlaceChange {
+    Vector3 arm_B = Vector3::Zero();
+    Vector3 p = Vector3::Zero(), v = Vector3::Zero();
+  };
+  [[nodiscard]] PlaceChange change_place(BodyIndex body,
+                                         const joints::PairPlace& place,
+                                         const Vector3& arm_B,
+                                         const VectorX& x) const;
+  void change_force(BodyIndex body, const joints::PairPlace& place,
+                    const Vector3& arm_B, const Vector3& d_arm_B,
+                    const Vector3& force, const Vector3& d_force,
+                    const VectorX& x, VectorX& r) const;
+  void change_pairs(const VectorX& x, VectorX& r) const;
   void change_load(const Load& load, const VectorX& x, VectorX& r) const;
   void change_body_load(const BodyLoad& load, const VectorX& x,
                         VectorX& r) const;

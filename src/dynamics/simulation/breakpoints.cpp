@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/landmarks.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Steps that see a half sine at their ends alone miss its impulse: none is left
-// of it in one step, 1.3 % of it is lost in 8 and 0.3 % in 16.
+// Steps per half sine. Forces sampled at the ends of steps miss part of its
+// impulse: all of it with one step, 1.3 % with 8 and 0.3 % with 16.
 constexpr int kLeastSteps = 16;
 
-// Steps that can be told apart and counted: shorter ones are lost in the
-// round-off of the time.
+// Largest number of steps: shorter ones are below the resolution of the time.
 constexpr double kMostSteps = 1e12;
+
+// Of one controller, each of which is a breakpoint; and how far they are apart,
+// in the shortest time that can be told.
+constexpr double kMostSamples = 1e7;
+constexpr double kFewestSame = 100.0;
 
 void check_step_count(const SimulationSettings& settings, double start) {
   const double count = count_steps(settings, start, settings.end_time);
@@ -41,8 +45,8 @@ bool has_longer_steps(const SimulationSettings& settings, double from,
                      });
 }
 
-// Those within a pulse that steps are too long for. Of steps to a tolerance it
-// is not known: an impulse that every pass misses alike is in no estimate.
+// Breakpoints within pulses that steps would not resolve. Steps to a tolerance
+// always get them: an impulse that all passes miss alike is in no estimate.
 std::vector<double> find_inner_times(const TimeFunction& function,
                                      const SimulationSettings& settings) {
   const auto* pulse = std::get_if<Pulse>(&function);
@@ -60,9 +64,31 @@ std::vector<double> find_inner_times(const TimeFunction& function,
   return times;
 }
 
-std::vector<Landmark> gather(const SystemModel& model, double start,
-                             const SimulationSettings& settings) {
-  std::vector<Landmark> marks;
+// Those after the start.
+void add_samples(const ControllerModel& controller, double start,
+                 const SimulationSettings& settings,
+                 std::vector<Breakpoint>& marks) {
+  const double end = settings.end_time;
+  const double same = find_same_time(start, settings);
+  const double count =
+      (end - std::max(start, controller.offset)) / controller.period;
+  if (count > kMostSamples || controller.period < kFewestSame * same) {
+    throw InputError(fmt::format(
+        "controller '{}': a sample every {:.3g} s takes {:.3g} samples from "
+        "{:g} s to {:g} s; at most {:g}, {:.2g} s apart, can be taken",
+        controller.name, controller.period, count, start, end, kMostSamples,
+        kFewestSame * same));
+  }
+  for (long k = controller.find_first(start + 2.0 * same, same);; ++k) {
+    const double t = controller.find_time(k);
+    if (t > end + same) return;
+    marks.push_back({.time = std::min(t, end), .is_sample = true});
+  }
+}
+
+std::vector<Breakpoint> gather(const SystemModel& model, double start,
+                               const SimulationSettings& settings) {
+  std::vector<Breakpoint> marks;
   const auto add = [&](double t, bool is_jump) {
     if (t > start && t < settings.end_time) marks.push_back({t, is_jump});
   };
@@ -89,33 +115,61 @@ std::vector<Landmark> gather(const SystemModel& model, double start,
   for (const BodyLoad& load : model.body_loads) {
     for (const double t : load.history.times) add(t, true);
   }
+  for (const ControllerModel& controller : model.controllers) {
+    add_samples(controller, start, settings, marks);
+  }
   marks.push_back({settings.end_time});
   return marks;
 }
 
 }  // namespace
 
-std::vector<Landmark> find_landmarks(const SystemModel& model, double start,
-                                     const SimulationSettings& settings) {
+std::vector<Breakpoint> find_breakpoints(const SystemModel& model, double start,
+                                         const SimulationSettings& settings) {
   check_step_count(settings, start);
-  std::vector<Landmark> marks = gather(model, start, settings);
+  std::vector<Breakpoint> marks = gather(model, start, settings);
   std::stable_sort(
       marks.begin(), marks.end(),
-      [](const Landmark& a, const Landmark& b) { return a.time < b.time; });
-  // A jump's time wins, so that the load's own comparison with it is exact.
-  const double same = 1e-12 * std::max(std::abs(start), settings.end_time);
-  std::vector<Landmark> merged;
-  for (const Landmark& mark : marks) {
+      [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
+  // The jump's time is kept, so that the load's comparison with it is exact.
+  const double same = find_same_time(start, settings);
+  std::vector<Breakpoint> merged;
+  for (const Breakpoint& mark : marks) {
     if (merged.empty() || mark.time - merged.back().time > same) {
       merged.push_back(mark);
       continue;
     }
-    Landmark& last = merged.back();
+    Breakpoint& last = merged.back();
     if (mark.is_jump) last.time = mark.time;
     last.is_jump |= mark.is_jump;
     last.is_output |= mark.is_output;
+    last.is_sample |= mark.is_sample;
   }
   return merged;
+}
+
+double find_same_time(double start, const SimulationSettings& settings) {
+  return 1e-12 * std::max(std::abs(start), settings.end_time);
+}
+
+std::vector<Breakpoint> find_step_breakpoints(
+    const SystemModel& model, double start,
+    const SimulationSettings& settings) {
+  if (settings.tolerance == 0.0) {
+    return find_breakpoints(model, start, settings);
+  }
+  SimulationSettings no_outputs = settings;
+  no_outputs.output_times.clear();
+  return find_breakpoints(model, start, no_outputs);
+}
+
+std::vector<double> find_outputs_after(double start,
+                                       const SimulationSettings& settings) {
+  std::vector<double> times;
+  for (const double t : settings.output_times) {
+    if (t > start) times.push_back(t);
+  }
+  return times;
 }
 
 double count_steps(const SimulationSettings& settings, double from,
@@ -146,6 +200,18 @@ double find_longest_step(const SimulationSettings& settings) {
     longest = std::max(longest, change.step);
   }
   return longest;
+}
+
+std::vector<double> find_visited_times(const SystemModel& model, double start,
+                                       const SimulationSettings& settings) {
+  if (settings.tolerance > 0.0) return settings.output_times;
+  std::vector<double> times;
+  const auto& outputs = settings.output_times;
+  if (!outputs.empty() && outputs.front() <= start) times.push_back(start);
+  for (const Breakpoint& mark : find_breakpoints(model, start, settings)) {
+    if (mark.is_output) times.push_back(mark.time);
+  }
+  return times;
 }
 
 }  // namespace limber::dynamics

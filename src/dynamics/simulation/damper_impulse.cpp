@@ -1,92 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/damper_impulse.hpp"
+#include "limber/dynamics/simulation/damper_impulse.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 #include <vector>
 
-#include "dynamics/energy.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/newton_matrix.hpp"
-#include "dynamics/residual.hpp"
-#include "dynamics/rest.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr int kPower = 8;
 constexpr int kPasses = 3;
-// Increments per velocity: so large that no stiffness counts beside inertia.
+// Velocities per increment, so that stiffness is negligible beside inertia
+// [1/s].
 constexpr double kScale = 1e30;
-// A damper whose power falls by less is resolved.
+// A damper whose power falls by less is resolved by the step [-].
 constexpr double kResolved = 0.9;
-// Of the kinetic energy: less over a step does no harm.
+// Energy relative to the kinetic energy below which no impulse is applied [-].
 constexpr double kHarmless = 1e-6;
 
-double find_target_rate(const joints::Drive& drive, const Instant& now) {
-  const joints::SignalValue command =
-      joints::evaluate(drive.parameters().signal, now);
-  switch (drive.parameters().mode) {
-    case joints::DriveMode::position:
-      return command.rate;
-    case joints::DriveMode::velocity:
-      return command.value;
-    case joints::DriveMode::effort:
-      break;
-  }
-  return 0.0;
-}
-
-// Of several laws along one coordinate: what their dampers ask for together.
-class TargetRate {
- public:
-  void add(const joints::ScalarLaw& law, const joints::ScalarMotion& motion,
-           const Instant& now, const joints::SwitchModes& modes) {
-    const double damping = joints::evaluate(law, motion, now, modes).damping;
-    damping_ += damping;
-    if (const auto* drive = std::get_if<joints::Drive>(&law)) {
-      push_ += damping * find_target_rate(*drive, now);
-    }
-  }
-  [[nodiscard]] double rate() const {
-    return damping_ > 0.0 ? push_ / damping_ : 0.0;
-  }
-
- private:
-  double damping_ = 0.0;
-  double push_ = 0.0;
-};
-
-Vector6 find_target(const joints::CouplerLaw& law,
-                    const joints::RelativeMotion& motion,
-                    const joints::CouplerMemory& memory, const Instant& now) {
-  Vector6 target = Vector6::Zero();
-  const auto* joint = std::get_if<joints::Joint>(&law);
-  if (joint == nullptr) return target;
-  for (std::size_t i = 0; i < joint->coordinates().size(); ++i) {
-    TargetRate sum;
-    joints::CoordinateValue value;
-    std::size_t first = 0;  // of an element's switches
-    for (const joints::JointElement& element : joint->elements()) {
-      if (element.coordinate == static_cast<int>(i)) {
-        value =
-            joints::evaluate(joint->coordinates()[i], motion, memory.near[i]);
-        sum.add(element.law, {value.z, value.rate}, now,
-                {memory.switches[first], memory.switches[first + 1]});
-      }
-      first += static_cast<std::size_t>(joints::switch_count(element.law));
-    }
-    if (sum.rate() == 0.0) continue;
-    target += sum.rate() / value.gradient.squaredNorm() * value.gradient;
-  }
-  return target;
-}
-
-double find_target(const Transmission& transmission,
-                   const joints::ScalarMotion& motion,
-                   const joints::CouplerMemory& memory, const Instant& now) {
-  TargetRate sum;
+double find_target_rate(const Transmission& transmission,
+                        const joints::ScalarMotion& motion,
+                        const joints::CouplerMemory& memory,
+                        const Instant& now) {
+  joints::TargetRate sum;
   std::size_t first = 0;
   for (const joints::ScalarLaw& law : transmission.laws) {
     sum.add(law, motion, now,
@@ -104,7 +49,7 @@ void add_velocities(const SystemModel& model, const VectorX& x,
                     SystemState& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    const auto row = static_cast<Eigen::Index>(6 * b) + body.offset;
+    const Eigen::Index row = first_row(body, b);
     state.etadot.segment(body.offset, body.modes) +=
         kScale * x.segment(row + 6, body.modes);
     if (!body.has_rigid_motion()) continue;
@@ -114,8 +59,8 @@ void add_velocities(const SystemModel& model, const VectorX& x,
   state.udot_H += kScale * x.tail(model.nodal_count);
 }
 
-/// Powers of X on velocities, by the factors of a Newton matrix whose
-/// increments are velocities / kScale and whose stiffness is the dampers'.
+/// Applies powers of X to velocities, by the factors of a Newton matrix whose
+/// increments are velocities / kScale and whose stiffness is the damping.
 class DamperFilter {
  public:
   DamperFilter(const SystemModel& model, double h, SystemTerms terms)
@@ -127,10 +72,11 @@ class DamperFilter {
         gaps_(targets_),
         still_(model.bodies.size(), Vector3::Zero()),
         rates_(make_rates(model)),
-        residual_(VectorX::Zero(NewtonMatrix::size(model))),
+        residual_(VectorX::Zero(count_unknowns(model))),
         x_(residual_) {}
 
-  // Powers of couplers' dampers, transmissions' and, last, of all modes [W].
+  // Powers dissipated by couplers, transmissions, pairs and, last, all modes
+  // [W].
   std::vector<double> find_powers(const SystemState& state) {
     calc_terms(model_, state, Side::right, terms_);
     std::vector<double> powers;
@@ -141,12 +87,13 @@ class DamperFilter {
     };
     for (const auto& c : terms_.couplers) add(c.response.dissipation);
     for (const auto& t : terms_.transmissions) add(t.response.dissipation);
+    for (const auto& pair : terms_.pairs.responses) add(pair.dissipation);
     powers.push_back(rest);
     return powers;
   }
 
-  // Changes the velocities that find_powers looked at. @returns the drives'
-  // work [J]
+  // Changes the velocities of the last find_powers. @returns the work of drives
+  // [J]
   double apply(SystemState& state) {
     push_by_velocities(state);
     leave_dampers_alone();
@@ -167,22 +114,22 @@ class DamperFilter {
     return model_.couplers.size() + model_.transmissions.size();
   }
 
-  // What dampers exert at the state's velocities.
+  // Forces of dampers at the state's velocities.
   void push_by_velocities(const SystemState& state) {
-    const Instant now{state.t, Side::right};
+    const Instant now = now_of(state);
     const std::size_t couplers = model_.couplers.size();
     for (std::size_t c = 0; c < couplers; ++c) {
       const CouplerTerms& t = terms_.couplers[c];
-      targets_[c] =
-          find_target(model_.couplers[c].law, t.motion, state.memory[c], now);
+      targets_[c] = joints::find_target_velocity(
+          model_.couplers[c].law, t.motion, state.memory[c], now);
       Vector6 velocity;
       velocity << t.motion.v_FM_F, t.motion.w_FM_F;
       gaps_[c] = t.response.damping * (targets_[c] - velocity);
     }
     for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
       const TransmissionTerms& t = terms_.transmissions[i];
-      targets_[couplers + i][0] = find_target(model_.transmissions[i], t.motion,
-                                              state.memory[couplers + i], now);
+      targets_[couplers + i][0] = find_target_rate(
+          model_.transmissions[i], t.motion, state.memory[couplers + i], now);
       gaps_[couplers + i].setZero();
       gaps_[couplers + i][0] =
           t.response.damping * (targets_[couplers + i][0] - t.motion.rate);
@@ -190,18 +137,24 @@ class DamperFilter {
     residual_.setZero();
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyModel& body = model_.bodies[b];
-      residual_.segment(first_row(b) + 6, body.modes) =
+      residual_.segment(first_row(body, b) + 6, body.modes) =
           body.damping.cwiseProduct(
               state.etadot.segment(body.offset, body.modes));
     }
+    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
+      for (const auto& point : terms_.pairs.responses[i].points()) {
+        add_residual(model_, model_.pairs[i], point,
+                     -(point.damping * point.velocity_W), terms_, residual_);
+      }
+    }
   }
 
-  // X x = x - (M + h C)^-1 M x: unlike h C x it has no round-off of large
-  // dampers in directions that they leave free.
+  // X x = x - (M + h C)^-1 M x: unlike h C x, without round-off of large
+  // damping in undamped directions.
   void filter_increments() {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const Eigen::Index row = first_row(b);
       const BodyModel& body = model_.bodies[b];
+      const Eigen::Index row = first_row(body, b);
       rates_.translation[b] = x_.segment<3>(row);
       rates_.rotation[b] = x_.segment<3>(row + 3);
       rates_.modes.segment(body.offset, body.modes) =
@@ -216,11 +169,7 @@ class DamperFilter {
     x_ = before - x_;
   }
 
-  [[nodiscard]] Eigen::Index first_row(std::size_t b) const {
-    return static_cast<Eigen::Index>(6 * b) + model_.bodies[b].offset;
-  }
-
-  // Their damping as stiffness, beside which nothing but inertia acts.
+  // Damping in place of stiffness; otherwise inertia only.
   void leave_dampers_alone() {
     for (CouplerTerms& coupler : terms_.couplers) {
       coupler.response.stiffness = kScale * coupler.response.damping;
@@ -229,6 +178,12 @@ class DamperFilter {
     for (TransmissionTerms& t : terms_.transmissions) {
       t.response.stiffness = kScale * t.response.damping;
       t.response.damping = 0.0;
+    }
+    for (joints::PairResponse& pair : terms_.pairs.responses) {
+      for (joints::PairPoint& point : pair.points()) {
+        point.stiffness = kScale * point.damping;
+        point.damping.setZero();
+      }
     }
     for (BodyTerms& body : terms_.bodies) {
       body.force_W.setZero();
@@ -247,7 +202,7 @@ class DamperFilter {
   double h_;
   NewtonMatrix matrix_;
   SystemTerms terms_;
-  std::vector<Vector6> targets_;  // one a coupler, then one a transmission
+  std::vector<Vector6> targets_;  // one per coupler, then one per transmission
   std::vector<Vector6> gaps_;
   std::vector<Vector3> still_;
   Rates rates_;
@@ -255,8 +210,8 @@ class DamperFilter {
   VectorX x_;
 };
 
-// How much the power of dampers fell that the step does not resolve, and at
-// which entry most.
+// Decrease of the power of dampers that the step does not resolve, and the
+// entry with the largest.
 struct Fall {
   double power = 0.0;  // [W]
   std::size_t most = 0;
@@ -280,8 +235,9 @@ Fall find_fall(const std::vector<double>& before,
 std::string name_link(const SystemModel& model, std::size_t link) {
   if (link < model.couplers.size()) return model.couplers[link].name;
   link -= model.couplers.size();
-  return link < model.transmissions.size() ? model.transmissions[link].name
-                                           : std::string();
+  if (link < model.transmissions.size()) return model.transmissions[link].name;
+  link -= model.transmissions.size();
+  return link < model.pairs.size() ? model.pairs[link].name : std::string();
 }
 
 }  // namespace

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/marcher.hpp"
+#include "limber/dynamics/simulation/event_stepper.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Steps in a row that end at events, at most.
+// Largest number of successive steps that end at events.
 constexpr int kMostCut = 32;
-// Of a step: nearer than this, an event is where the step begins or ends.
+// Fraction of a step within which an event is moved to its beginning or end
+// [-].
 constexpr double kSame = 1e-9;
 
 }  // namespace
 
-Marcher::Marcher(const SystemModel& model, const SimulationSettings& settings,
-                 std::vector<Event>& events)
-    : model_(model), stepper_(model, settings), watch_(model), events_(events) {
+EventStepper::EventStepper(const SystemModel& model,
+                           const SimulationSettings& settings,
+                           std::vector<Event>& events)
+    : model_(model),
+      integrator_(make_integrator(model, settings)),
+      watch_(model),
+      commit_pairs_(model),
+      events_(events) {
   using Kind = joints::AxisCoordinate::Kind;
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
@@ -22,12 +28,10 @@ Marcher::Marcher(const SystemModel& model, const SimulationSettings& settings,
     }
   }
   keeps_before_ = settings.tolerance > 0.0 || !watch_.is_empty();
-  is_implicit_ = settings.integrator == IntegratorKind::generalized_alpha ||
-                 settings.integrator == IntegratorKind::implicit_euler ||
-                 settings.integrator == IntegratorKind::energy_conserving;
+  is_implicit_ = traits_of(settings.integrator).is_implicit;
 }
 
-std::optional<DamperImpulse> Marcher::start(SystemState& state, double h) {
+std::optional<DamperImpulse> EventStepper::start(SystemState& state, double h) {
   watch_.start(state, events_);
   std::optional<DamperImpulse> impulse;
   if (is_implicit_) impulse = apply_damper_impulse(model_, h, state);
@@ -36,25 +40,25 @@ std::optional<DamperImpulse> Marcher::start(SystemState& state, double h) {
     totals_.load_work += impulse->work;
     watch_.accept(state);
   }
-  stepper_.start(state, h);
+  integrator_->start(state, h);
   if (keeps_before_) before_ = state;  // so that no step allocates
   return impulse;
 }
 
-void Marcher::cross_jump(const SystemState& state, double h) {
-  stepper_.cross_jump(state, h);
+void EventStepper::cross_jump(const SystemState& state, double h) {
+  integrator_->cross_jump(state, h);
 }
 
-void Marcher::add_last() {
+void EventStepper::add_last() {
   totals_.iterations += last_.iterations;
   totals_.factorizations += last_.factorizations;
   totals_.load_work += last_.load_work;
   totals_.dissipated += last_.dissipated;
 }
 
-// A step; the costs of one that was taken back stay in `last_`.
-void Marcher::advance(SystemState& state, double h, double end) {
-  StepResult next = stepper_.step(state, h, end);
+// Takes a step; costs of a reverted step remain in `last_`.
+void EventStepper::advance(SystemState& state, double h, double end) {
+  StepResult next = integrator_->step(state, h, end);
   next.iterations += last_.iterations;
   next.factorizations += last_.factorizations;
   last_ = next;
@@ -63,38 +67,39 @@ void Marcher::advance(SystemState& state, double h, double end) {
     const auto& law = model_.couplers[angle.coupler].law;
     near = joints::find_position(
         joints::coordinates_of(law)[angle.coordinate],
-        stepper_.terms().couplers[angle.coupler].motion, near);
+        integrator_->terms().couplers[angle.coupler].motion, near);
   }
+  commit_pairs_(state);
 }
 
-void Marcher::attempt(SystemState& state, double h, double end) {
+void EventStepper::attempt(SystemState& state, double h, double end) {
   if (keeps_before_) before_ = state;
   last_ = {};
   h_ = h;
   advance(state, h, end);
 }
 
-void Marcher::take_back(SystemState& state) {
+void EventStepper::take_back(SystemState& state) {
   state = before_;
-  stepper_.undo(state);
+  integrator_->undo(state);
 }
 
-void Marcher::pass(const EventWatch::Crossing& crossing, SystemState& state,
-                   double h) {
+void EventStepper::pass(const EventWatch::Crossing& crossing,
+                        SystemState& state, double h) {
   const EventWatch::Change change = watch_.pass(crossing.index, state, events_);
   totals_.dissipated += change.energy_lost;
-  if (change.has_jump) stepper_.start(state, h);
+  if (change.has_jump) integrator_->start(state, h);
   watch_.accept(state);
 }
 
-void Marcher::pass_all_at_end(SystemState& state, double h) {
+void EventStepper::pass_all_at_end(SystemState& state, double h) {
   while (const auto crossing = watch_.find_first(state, h)) {
     pass(*crossing, state, h);
   }
   watch_.accept();
 }
 
-void Marcher::settle(SystemState& state, double nominal_h) {
+void EventStepper::settle(SystemState& state, double nominal_h) {
   if (watch_.is_empty()) {
     add_last();
     return;
@@ -118,8 +123,8 @@ void Marcher::settle(SystemState& state, double nominal_h) {
   pass(*crossing, state, nominal_h);
 }
 
-void Marcher::exchange_memory(Archive& archive, const SystemState& state) {
-  stepper_.exchange_memory(archive, state);
+void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
+  integrator_->exchange_memory(archive, state);
   watch_.exchange_memory(archive);
   archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
           totals_.dissipated);

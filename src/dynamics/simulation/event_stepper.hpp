@@ -1,66 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "dynamics/damper_impulse.hpp"
-#include "dynamics/event_watch.hpp"
-#include "dynamics/stepper.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/integrators/make_integrator.hpp"
+#include "limber/dynamics/monitors/event_watch.hpp"
+#include "limber/dynamics/simulation/damper_impulse.hpp"
 
 namespace limber::dynamics {
 
-/// Takes steps, ends them where something happens at a coupler, and keeps what
-/// couplers remember. Without switches and angles it adds nothing to a step.
+/// Takes steps, ends them at events of couplers, and updates the couplers'
+/// memory. Without switches and angles it adds no cost to a step.
 ///
-/// Equation   what a switch does to a law is held through a step, so that the
-///            motion is smooth within one, and changes where the step is cut.
+/// Equation   a switch's effect on a law is constant within a step, so that the
+///            motion is smooth, and changes where the step is cut.
 /// Source     events by the cubic through the values and rates at both ends of
 ///            a step [@hairer1993, sec. II.6], whose error is smaller than that
 ///            of the integrators.
-/// Limits     a joint turns less than half a turn a step; of two changes of
-///            sign of one switch within a step neither is seen; after 32 steps
-///            that were cut in a row, what happens is noted at a step's end.
-class Marcher {
+/// Limits     a joint must turn less than half a turn a step; two sign changes
+///            of one switch within a step are not detected; after 32 successive
+///            steps cut by events, further events are moved to a step's end.
+class EventStepper {
  public:
-  /// @param events what happens is added here
-  Marcher(const SystemModel& model, const SimulationSettings& settings,
-          std::vector<Event>& events);
+  /// @param events new events are added here; stored by reference
+  EventStepper(const SystemModel& model, const SimulationSettings& settings,
+               std::vector<Event>& events);
 
-  /// Before the first step, which will be about `h` long [s]. Latches within
-  /// reach close; before implicit steps velocities are brought onto what
-  /// dampers allow. @returns what that took, if it was called for
+  /// Initialises before the first step, of about `h` [s]. Latches within reach
+  /// close; for implicit schemes apply_damper_impulse() changes velocities.
+  /// @returns its effect, if any
   std::optional<DamperImpulse> start(SystemState& state, double h);
-  /// After a step that ended where a load jumps.
+  /// Prepares for the next step, of about h [s], at a discontinuity of a load.
   void cross_jump(const SystemState& state, double h);
 
-  /// Advances `state` by h [s], to the time `end` [s], as if nothing happened
-  /// within. Then either `take_back` or `settle`.
+  /// Advances `state` by h [s], to the time `end` [s], ignoring events. Either
+  /// `take_back` or `settle` must follow.
   /// @throws NumericalError naming the body or coupler and the time; `state` is
   /// unchanged.
   void attempt(SystemState& state, double h, double end);
-  /// @throws NumericalError as above, with the step taken back.
+  /// Accepts the attempted step, cut at its events.
+  /// @param nominal_h length of the steps that follow [s]
+  /// @throws NumericalError as above, with the step reverted.
   void settle(SystemState& state, double nominal_h);
+  /// Reverts the attempted step.
   void take_back(SystemState& state);
+  /// What drives did between two steps [J].
+  void add_work(double work) { totals_.load_work += work; }
 
-  /// The step that was attempted last.
+  /// Result of the last attempted step.
   [[nodiscard]] const StepResult& last() const { return last_; }
-  /// Where it began; kept if there are switches or `settings.tolerance` asks
-  /// for steps that may be taken back.
+  /// State at its beginning; stored if there are switches or steps may be
+  /// reverted (`settings.tolerance` > 0).
   [[nodiscard]] const SystemState& before() const { return before_; }
-  /// Of all steps so far.
+  /// Sums over all steps so far.
   [[nodiscard]] const StepResult& totals() const { return totals_; }
 
-  /// At about the last step's end, before what happened there.
-  [[nodiscard]] const SystemTerms& terms() const { return stepper_.terms(); }
+  /// Approximately those of the last step's end, before its events.
+  [[nodiscard]] const SystemTerms& terms() const {
+    return integrator_->terms();
+  }
 
-  /// Linear solves since this was asked last, of failed steps, too.
-  [[nodiscard]] long take_solves() { return stepper_.take_solves(); }
+  /// Number of linear solves since the last call, including failed steps.
+  [[nodiscard]] long take_solves() { return integrator_->take_solves(); }
 
-  /// Drops what it could keep to be faster: what follows depends on the state
-  /// and on `exchange_memory` alone.
-  void refresh() { stepper_.refresh(); }
-  /// What it knows between steps, but for what refresh() drops.
+  /// Discards cached factors and predictions: later steps then depend only on
+  /// the state and on `exchange_memory`.
+  void refresh() { integrator_->refresh(); }
+  /// Saves or restores the history, without the data that refresh() discards.
   void exchange_memory(Archive& archive, const SystemState& state);
 
  private:
@@ -74,15 +83,16 @@ class Marcher {
   void add_last();
 
   const SystemModel& model_;
-  Stepper stepper_;
+  std::unique_ptr<Integrator> integrator_;
   EventWatch watch_;
   std::vector<Angle> angles_;
+  PairCommit commit_pairs_;
   std::vector<Event>& events_;
   bool is_implicit_ = false;
   bool keeps_before_ = false;
   SystemState before_;
-  double h_ = 0.0;  // of the step that was attempted
-  int cut_ = 0;     // steps in a row
+  double h_ = 0.0;  // of the attempted step [s]
+  int cut_ = 0;     // number of successive steps cut by events
   StepResult last_;
   StepResult totals_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/explicit_limit.hpp"
+#include "limber/dynamics/simulation/explicit_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -8,21 +8,22 @@
 #include <limits>
 #include <random>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/landmarks.hpp"
-#include "dynamics/stable_step.hpp"
-#include "dynamics/stepper.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/make_integrator.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// A run takes so many steps for one that was asked for, at most.
+// Largest number of parts of a given step.
 constexpr double kMostParts = 1e3;
-// Of the longest stable step: what they rather take. Runge-Kutta then takes
-// 4e-6 of the fastest motion's energy a step.
+// Preferred fraction of the longest stable step [-]. Runge-Kutta then
+// dissipates 4e-6 of the fastest motion's energy a step.
 constexpr double kAccurateShare = 0.1;
-// A step that magnifies by less, about, does not blow up.
+// Amplification per step below which a run does not blow up, approximately [-].
 constexpr double kMostGrowth = 1.05;
 
 // A small change of a state, velocities times the step.
@@ -53,7 +54,7 @@ void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
   }
 }
 
-// The derivative of one step about a state, by differences.
+// The derivative of one step about a state, by finite differences.
 class StepDerivative {
  public:
   StepDerivative(const SystemModel& model, const SystemState& state,
@@ -61,7 +62,7 @@ class StepDerivative {
       : model_(model),
         state_(state),
         h_(settings.step),
-        stepper_(model, settings),
+        integrator_(make_integrator(model, settings)),
         end_(take_step(state)) {
     const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
     const VectorX modes = VectorX::Zero(model.modal_count);
@@ -81,7 +82,7 @@ class StepDerivative {
     increment_ = 1e-7 * least;
   }
 
-  // Once more; by how much the change has grown.
+  // Another iteration. @returns the growth of the change [-]
   double apply() {
     const double size = measure();
     if (!(size > 0.0)) return 0.0;
@@ -94,8 +95,8 @@ class StepDerivative {
 
  private:
   [[nodiscard]] SystemState take_step(SystemState from) {
-    stepper_.start(from, h_);
-    stepper_.step(from, h_, from.t + h_);
+    integrator_->start(from, h_);
+    integrator_->step(from, h_, from.t + h_);
     return from;
   }
 
@@ -145,7 +146,7 @@ class StepDerivative {
   const SystemModel& model_;
   const SystemState& state_;
   double h_;
-  Stepper stepper_;
+  std::unique_ptr<Integrator> integrator_;
   SystemState end_;
   Change x_;
   double increment_ = 0.0;
@@ -164,8 +165,8 @@ std::string describe(const SystemModel& model, const SystemState& state,
   return fmt::format(
       "{} is stable up to {:.3g} s here, {:.3g} times less than the step of "
       "{:.3g} s, because of body '{}' and what holds it; ",
-      integrator_names()[static_cast<std::size_t>(scheme)], longest,
-      step / longest, step, model.bodies[find_fastest_body(model, state)].name);
+      to_string(scheme), longest, step / longest, step,
+      model.bodies[find_fastest_body(model, state)].name);
 }
 constexpr const char* kAdvice =
     "ask for a step near that, or take an implicit integrator";
@@ -206,10 +207,25 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
   statistics.warnings.push_back(fmt::format(
       "{} is stable up to {:.3g} s at the start, because of body '{}' and what "
       "holds it: steps of {:.3g} s are divided, into {:.0f} parts",
-      integrator_names()[static_cast<std::size_t>(asked.integrator)], longest,
+      to_string(asked.integrator), longest,
       model.bodies[find_fastest_body(model, state)].name, step,
       std::ceil(step / taken * (1.0 - 1e-12))));
   return divide(asked, taken);
+}
+
+// Steps are limited by the stiffness that acts at the start.
+void warn_of_pairs(const SystemModel& model, const SystemState& state,
+                   IntegratorKind scheme, SimulationStatistics& statistics) {
+  if (model.pairs.empty() || traits_of(scheme).is_implicit) return;
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    if (!terms.pairs.responses[i].points().empty()) continue;
+    statistics.warnings.push_back(fmt::format(
+        "pair '{}' has no points at the start: its stiffness is not known to "
+        "{}, whose steps may be too long where it gets some",
+        model.pairs[i].name, to_string(scheme)));
+  }
 }
 
 }  // namespace
@@ -217,7 +233,7 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
 double find_growth(const SystemModel& model, const SystemState& state,
                    const SimulationSettings& settings) {
   constexpr int kIterations = 100;
-  constexpr int kFirst = 50;  // that counts
+  constexpr int kFirst = 50;  // first iteration that counts
   try {
     StepDerivative derivative(model, state, settings);
     double sum = 0.0;
@@ -229,7 +245,7 @@ double find_growth(const SystemModel& model, const SystemState& state,
       if (i + 1 == kIterations) return std::exp(sum / (kIterations - kFirst));
     }
   } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
-    // Such a step goes too far.
+    // Such a step is too long.
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -238,15 +254,16 @@ SimulationSettings limit_step(const SystemModel& model,
                               const SystemState& state,
                               const SimulationSettings& asked,
                               SimulationStatistics& statistics) {
-  switch (asked.integrator) {
-    case IntegratorKind::central_differences:
+  warn_of_pairs(model, state, asked.integrator, statistics);
+  switch (traits_of(asked.integrator).limit) {
+    case StepLimit::stability:
       return limit_central(model, state, asked, statistics);
-    case IntegratorKind::runge_kutta_4:
-    case IntegratorKind::splitting:
+    case StepLimit::growth:
       return limit_where_it_grows(model, state, asked, statistics);
-    default:
-      return asked;
+    case StepLimit::none:
+      break;
   }
+  return asked;
 }
 
 }  // namespace limber::dynamics

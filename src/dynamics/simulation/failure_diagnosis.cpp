@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/trouble.hpp"
+#include "limber/dynamics/simulation/failure_diagnosis.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/linear_limit.hpp"
-#include "dynamics/stable_step.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/monitors/linear_limit.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr double kMostTurn = 1.0;  // of a body within a step [rad]
 
-bool is_explicit(IntegratorKind integrator) {
-  return integrator == IntegratorKind::runge_kutta_4 ||
-         integrator == IntegratorKind::explicit_euler ||
-         integrator == IntegratorKind::splitting;
+// Whether long steps are unstable and not always divided.
+bool may_be_unstable(IntegratorKind integrator) {
+  const IntegratorTraits& traits = traits_of(integrator);
+  return !traits.is_implicit && traits.limit != StepLimit::stability;
 }
 
 std::string describe_stability(const SystemModel& model,
@@ -60,12 +60,12 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
 
 std::string find_cause(const SystemModel& model, const SystemState& state,
                        IntegratorKind integrator, double h) {
-  if (is_explicit(integrator)) {
+  if (may_be_unstable(integrator)) {
     try {
       std::string text = describe_stability(model, state, integrator, h);
       if (!text.empty()) return text;
     } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
-      // The state is too far gone to be asked.
+      // The state is too corrupted to evaluate.
     }
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -112,12 +112,21 @@ std::string find_most_energy(const SystemModel& model,
     offer(0.5 * body.mass * rigid.v_WB_W.squaredNorm() +
               0.5 * rigid.w_WB_B.dot(terms.bodies[b].J * rigid.w_WB_B),
           [&] { return fmt::format("the motion of body '{}'", body.name); });
+    const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);
+    if (lambda == nullptr) {
+      const auto eta = state.eta.segment(body.offset, body.modes);
+      const auto etadot = state.etadot.segment(body.offset, body.modes);
+      offer(flexbody::calc_elastic_energy(body.elasticity, eta) +
+                0.5 * etadot.squaredNorm(),
+            [&] { return fmt::format("the modes of body '{}'", body.name); });
+      continue;
+    }
     for (int k = 0; k < body.modes; ++k) {
       const double eta = state.eta[body.offset + k];
       const double etadot = state.etadot[body.offset + k];
-      offer(0.5 * (body.lambda[k] * eta * eta + etadot * etadot), [&] {
+      offer(0.5 * ((*lambda)[k] * eta * eta + etadot * etadot), [&] {
         return fmt::format("mode {} ({:.4g} Hz) of body '{}'", k + 1,
-                           std::sqrt(body.lambda[k]) / (2.0 * std::numbers::pi),
+                           std::sqrt((*lambda)[k]) / (2.0 * std::numbers::pi),
                            body.name);
       });
     }
@@ -125,6 +134,10 @@ std::string find_most_energy(const SystemModel& model,
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     offer(terms.couplers[c].response.energy,
           [&] { return fmt::format("coupler '{}'", model.couplers[c].name); });
+  }
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    offer(terms.pairs.responses[i].energy,
+          [&] { return fmt::format("pair '{}'", model.pairs[i].name); });
   }
   return where;
 }

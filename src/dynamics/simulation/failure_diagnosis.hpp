@@ -3,30 +3,34 @@
 
 #include <string>
 
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
-/// What is said of a run that cannot go on.
+/// Diagnosis of simulations that fail.
 namespace limber::dynamics {
 
-/// The likely reason, in words, from the last good state: a body past its
-/// critical speed, a step beyond the stability of an explicit scheme, a body
-/// that turns far within a step. Empty if none is found.
+/// A message with the likely cause, from the last good state: a body above its
+/// critical speed, a step beyond the stability limit of an explicit scheme, a
+/// body that rotates too far within a step. Empty if none is found.
 /// @param h length of the step [s]
 [[nodiscard]] std::string find_cause(const SystemModel& model,
                                      const SystemState& state,
                                      IntegratorKind integrator, double h);
 
-/// Says which coupler's damper bodies start against, if in a step of h [s] it
-/// would take ten times the energy that is stored; else empty. Bodies that
-/// start with velocities that a stiff, damped coupler does not allow are
-/// stopped by it within far less than a step, which no step can follow.
-/// @param terms at the start @param stored energy [J]
+/// A message naming the coupler whose damper opposes the initial velocities, if
+/// it would dissipate ten times the stored energy within a step; else empty. A
+/// stiff, damped coupler stops incompatible initial velocities within much less
+/// than a step, which the step does not resolve.
+/// @param terms at the start
+/// @param stored energy [J]
+/// @param h length of the step [s]
 [[nodiscard]] std::string find_start_clash(const SystemModel& model,
                                            const SystemTerms& terms,
                                            double stored, double h);
 
-/// Where most of the stored energy is: a body's motion, a mode of it or a
-/// coupler, as "mode 3 (812 Hz) of body 'link'".
+/// Location of the largest part of the stored energy: the motion or a mode of a
+/// body, or a coupler, as in "mode 3 (812 Hz) of body 'link'".
 [[nodiscard]] std::string find_most_energy(const SystemModel& model,
                                            const SystemState& state);
 

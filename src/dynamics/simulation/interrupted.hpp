@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 
-/// Thrown by a Progress that wants the run that it watches to end. The run then
-/// keeps a checkpoint and passes it on, at once or within a second: after as
-/// many steps as make one that goes on from there the same to the bit. Like a
-/// run that cannot go on it leaves what was computed.
+/// Thrown by a Progress to end a run early. The run then saves a checkpoint,
+/// within a second, at a step from which a resumed run is identical to the bit,
+/// and throws the exception again. As for a run that fails, all results until
+/// then remain.
 class Interrupted : public NumericalError {
  public:
   using NumericalError::NumericalError;

@@ -3,22 +3,27 @@
 
 #include <vector>
 
-#include "dynamics/energy_record.hpp"
-#include "dynamics/followed.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/dynamics/integrators/simulation_settings.hpp"
+#include "limber/dynamics/monitors/energy_record.hpp"
+#include "limber/dynamics/monitors/followed.hpp"
+#include "limber/dynamics/simulation/checkpoint.hpp"
+#include "limber/dynamics/simulation/observer.hpp"
+#include "limber/dynamics/simulation/simulation_statistics.hpp"
+#include "limber/dynamics/system/system_model.hpp"
 
 namespace limber::dynamics {
 
-/// What was seen over all steps of a run, whatever its outputs.
+/// Results of monitoring all steps of a run, independent of its outputs.
 struct RunRecord {
-  std::vector<Extreme> peaks;  ///< of what was followed
+  std::vector<Extreme> peaks;  ///< of the followed scalars, in their order
   EnergyRecord energy;
 };
 
-/// simulate() that follows scalars at every step and tells of energy. Also of a
-/// run that ends in a NumericalError `record` holds what was seen.
-/// @throws NumericalError also for a run that ended with more than half of its
-/// throughput made or lost (dynamics/energy_verdict).
+/// simulate() that also monitors scalars and energy at every step; `record` is
+/// set also if a run ends in a NumericalError.
+/// @throws NumericalError also for a run that gained or lost more than half of
+/// its energy throughput (dynamics/monitors/energy_verdict.hpp).
 void simulate(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,

@@ -1,32 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/simulation/settings_check.hpp"
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
+#include <string>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "dynamics/energy_verdict.hpp"
-#include "dynamics/passes.hpp"
-#include "dynamics/run_record.hpp"
-#include "dynamics/single_run.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 
 namespace limber::dynamics {
+
 namespace {
 
-using Clock = std::chrono::steady_clock;
+void check_controllers(const SystemModel& model, const SystemState& state,
+                       const SimulationSettings& settings) {
+  LIMBER_EXPECT(state.inputs.size() == model.inputs.size());
+  LIMBER_EXPECT(state.controllers.size() == model.controllers.size());
+  const double same = find_same_time(state.t, settings);
+  for (std::size_t i = 0; i < model.controllers.size(); ++i) {
+    const ControllerModel& controller = model.controllers[i];
+    const ControllerState& own = state.controllers[i];
+    LIMBER_EXPECT(own.memory.size() == controller.memory.size());
+    LIMBER_EXPECT(own.next >= 0);
+    if (own.next > 0 && controller.find_time(own.next - 1) > state.t + same) {
+      throw InputError(fmt::format(
+          "controller '{}': its last sample was taken at {:g} s, after the "
+          "start at {:g} s; begin with a state in which it is new",
+          controller.name, controller.find_time(own.next - 1), state.t));
+    }
+  }
+}
 
-// Those that know no bodies at level `full`.
-bool needs_modes(IntegratorKind kind) {
-  return kind == IntegratorKind::explicit_euler ||
-         kind == IntegratorKind::energy_conserving ||
-         kind == IntegratorKind::splitting;
+}  // namespace
+
+void refuse_hidden_memory(const SystemModel& model, const std::string& why) {
+  for (const ControllerModel& controller : model.controllers) {
+    if (!controller.law->has_hidden_memory()) continue;
+    throw InputError(fmt::format(
+        "controller '{}' keeps something that is not in its memory, so that "
+        "its samples cannot be repeated, but {}",
+        controller.name, why));
+  }
 }
 
 void check_settings(const SystemModel& model, const SystemState& state,
                     const SimulationSettings& settings) {
+  LIMBER_EXPECT(state.bodies.size() == model.bodies.size());
+  LIMBER_EXPECT(state.eta.size() == model.modal_count);
+  LIMBER_EXPECT(state.etadot.size() == model.modal_count);
+  LIMBER_EXPECT(state.X_WH.size() == model.full_bodies.size());
+  LIMBER_EXPECT(state.u_H.size() == model.nodal_count);
+  LIMBER_EXPECT(state.udot_H.size() == model.nodal_count);
+  LIMBER_EXPECT(state.memory.size() ==
+                model.couplers.size() + model.transmissions.size());
+  check_controllers(model, state, settings);
+  LIMBER_EXPECT(state.pair_memory.size() == model.pair_memory_size);
   const auto refuse = [](const std::string& text) { throw InputError(text); };
   if (!(settings.end_time > state.t) || !std::isfinite(settings.end_time)) {
     refuse(fmt::format("duration: the end {:g} s is not after the start {:g} s",
@@ -52,8 +81,8 @@ void check_settings(const SystemModel& model, const SystemState& state,
     refuse(fmt::format("tolerance is {:g} m; expected >= 0, 0 for fixed steps",
                        settings.tolerance));
   }
-  if (settings.tolerance > 0.0 &&
-      settings.integrator != IntegratorKind::generalized_alpha) {
+  const IntegratorTraits& traits = traits_of(settings.integrator);
+  if (settings.tolerance > 0.0 && !traits.is_adaptive) {
     refuse(
         "only generalized-alpha takes steps to a tolerance; give a step "
         "instead, or no integrator");
@@ -64,98 +93,16 @@ void check_settings(const SystemModel& model, const SystemState& state,
   if (!(settings.rho_inf >= 0.0) || !(settings.rho_inf <= 1.0)) {
     refuse(fmt::format("rho_inf is {:g}; expected 0 to 1", settings.rho_inf));
   }
-  if (!(settings.newton_tolerance > 0.0) || settings.newton_iterations < 1) {
-    refuse("newton_tolerance and newton_iterations must be > 0");
+  if (!(settings.newton_tolerance >= 0.0) || settings.newton_iterations < 1) {
+    refuse("newton_tolerance must be >= 0, newton_iterations > 0");
   }
-  if (needs_modes(settings.integrator) && !model.full_bodies.empty()) {
+  if (!traits.takes_full_bodies && !model.full_bodies.empty()) {
     refuse(fmt::format(
         "body '{}' is at level full, which {} does not integrate; use "
         "generalized-alpha, implicit-euler or central-differences",
         model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)].name,
-        integrator_names()[static_cast<std::size_t>(settings.integrator)]));
+        traits.name));
   }
-}
-
-// Adds its own lifetime to `seconds`.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-
- private:
-  double& seconds_;
-  Clock::time_point begin_ = Clock::now();
-};
-
-}  // namespace
-
-const std::vector<std::string>& integrator_names() {
-  static const std::vector<std::string> names = {
-      "generalized-alpha", "runge-kutta-4",
-      "explicit-euler",    "central-differences",
-      "implicit-euler",    "energy-conserving",
-      "splitting"};
-  return names;
-}
-
-IntegratorKind parse_integrator(std::string_view name) {
-  return static_cast<IntegratorKind>(
-      find_name("integrator", name, integrator_names()));
-}
-
-SimulationStatistics simulate(const SystemModel& model, SystemState& state,
-                              const SimulationSettings& settings,
-                              const Observer& observer,
-                              const Progress& progress) {
-  SimulationStatistics statistics;
-  simulate(model, state, settings, observer, progress, statistics);
-  return statistics;
-}
-
-void simulate(const SystemModel& model, SystemState& state,
-              const SimulationSettings& settings, const Observer& observer,
-              const Progress& progress, SimulationStatistics& statistics,
-              const Continuation& continuation) {
-  RunRecord record;
-  simulate(model, state, settings, observer, progress, statistics, continuation,
-           {}, record);
-}
-
-void simulate(const SystemModel& model, SystemState& state,
-              const SimulationSettings& settings, const Observer& observer,
-              const Progress& progress, SimulationStatistics& statistics,
-              const Continuation& continuation, const Followed& followed,
-              RunRecord& record) {
-  LIMBER_EXPECT(state.bodies.size() == model.bodies.size());
-  LIMBER_EXPECT(state.eta.size() == model.modal_count);
-  LIMBER_EXPECT(state.etadot.size() == model.modal_count);
-  LIMBER_EXPECT(state.u_H.size() == model.nodal_count);
-  LIMBER_EXPECT(state.memory.size() ==
-                model.couplers.size() + model.transmissions.size());
-  check_settings(model, state, settings);
-  const Stopwatch stopwatch(statistics.seconds);
-  const auto warn = [&] {
-    warn_of_energy(settings.integrator, record.energy, statistics.warnings);
-  };
-  try {
-    if (settings.tolerance > 0.0) {
-      run_to_tolerance(model, state, settings, observer, progress, statistics,
-                       continuation, followed, record);
-    } else {
-      run_once(model, state, settings, observer, progress, statistics,
-               continuation, followed, record);
-    }
-  } catch (const NumericalError&) {
-    warn();
-    throw;
-  }
-  warn();
-  check_energy(settings.integrator, record.energy);
-  report(progress, "simulating", 1.0);
 }
 
 }  // namespace limber::dynamics

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/single_run.hpp"
+#include "limber/dynamics/simulation/single_run.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "common/errors.hpp"
-#include "dynamics/driver.hpp"
-#include "dynamics/exact_modes.hpp"
-#include "dynamics/explicit_limit.hpp"
-#include "dynamics/linear_limit.hpp"
-#include "dynamics/modal_loads.hpp"
-#include "dynamics/start_warnings.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/integrators/exact_modes.hpp"
+#include "limber/dynamics/integrators/modal_loads.hpp"
+#include "limber/dynamics/monitors/linear_limit.hpp"
+#include "limber/dynamics/simulation/explicit_limit.hpp"
+#include "limber/dynamics/simulation/start_warnings.hpp"
+#include "limber/dynamics/simulation/time_loop.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Everything that one run goes by.
+// Arguments of one run.
 struct Job {
   const SimulationSettings& settings;
   const Progress& progress;
@@ -24,33 +27,34 @@ struct Job {
   const Continuation& continuation;
   const Followed& followed;
   RunRecord& record;
-  double refinement;  // of the limits of steps to a tolerance
+  double refinement;  // see StepControl [-]
 };
 
 void integrate(const SystemModel& model, SystemState& state, const Job& job,
-               const Driver::Visit& visit) {
+               const TimeLoop::Visit& visit) {
   const SimulationSettings settings =
       limit_step(model, state, job.settings, job.statistics);
-  Driver driver(model, settings, state, job.statistics, job.refinement,
+  TimeLoop loop(model, settings, state, job.statistics, job.refinement,
                 job.followed);
-  if (job.continuation.from) driver.resume(*job.continuation.from, state);
+  if (job.continuation.from) loop.resume(*job.continuation.from, state);
   try {
-    driver.run(state, visit, job.progress, job.continuation.keeper);
+    loop.run(state, visit, job.progress, job.continuation.keeper);
   } catch (const NumericalError&) {
-    driver.tell(job.record);
+    loop.tell(job.record);
     throw;
   }
-  driver.tell(job.record);
+  loop.tell(job.record);
 }
 
-// Nothing is left that needs steps.
+// A run without steps: all motion is known in closed form.
 void pass_time(const SystemModel& model, SystemState& state,
                const std::vector<double>& times, const Job& job,
-               const Driver::Visit& visit) {
+               const TimeLoop::Visit& visit) {
   PeakWatch peaks(model, job.followed);
   SystemState now = state;
   peaks.start(now);
-  for (const Landmark& mark : find_landmarks(model, state.t, job.settings)) {
+  for (const Breakpoint& mark :
+       find_breakpoints(model, state.t, job.settings)) {
     now.t = mark.time;
     peaks.include(now);
     if (mark.is_jump) peaks.cross_jump(now);
@@ -66,16 +70,17 @@ void pass_time(const SystemModel& model, SystemState& state,
 bool has_exact_modes(const SystemModel& model,
                      const SimulationSettings& settings) {
   if (!settings.exact_modes ||
-      settings.integrator == IntegratorKind::explicit_euler) {
+      !traits_of(settings.integrator).takes_exact_modes ||
+      !model.controllers.empty()) {  // which see the whole state at each sample
     return false;
   }
-  for (BodyIndex b = 0; b < std::ssize(model.bodies); ++b) {
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
     if (has_closed_modal_loads(model, b)) return true;
   }
   return false;
 }
 
-// Between two looks at modes in closed form [s].
+// Sampling interval of modes in closed form [s].
 double choose_longest_look(const ExactModes& exact, double start, double end,
                            std::vector<std::string>& warnings) {
   constexpr double kMostLooks = 1e6;
@@ -90,16 +95,16 @@ double choose_longest_look(const ExactModes& exact, double start, double end,
   return least;
 }
 
-// Modes in closed form beside steps for the rest.
+// Modes in closed form, and steps for the rest.
 void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
                                 const std::vector<double>& times,
-                                const Job& job, const Driver::Visit& visit) {
+                                const Job& job, const TimeLoop::Visit& visit) {
   job.statistics.exact_modes = exact.count();
   exact.prepare(times);
   SystemState rest = exact.take_rest(state);
   SystemState whole = state;
-  const Driver::Visit visit_whole = [&](const SystemState& now,
-                                        const Losses& losses) {
+  const TimeLoop::Visit visit_whole = [&](const SystemState& now,
+                                          const Losses& losses) {
     const auto i = static_cast<std::size_t>(
         std::lower_bound(times.begin(), times.end(), now.t) - times.begin());
     exact.join(now, i, whole);
@@ -115,8 +120,8 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
     followed.longest = choose_longest_look(exact, rest.t, job.settings.end_time,
                                            job.statistics.warnings);
   }
-  // One instant is looked at twice in a row, as the end of a step and as the
-  // moment before it: its modes are the same.
+  // A time is evaluated twice in a row, as the end of a step and before its
+  // events: the modes are the same.
   SystemState seen = state;
   double joined = -std::numeric_limits<double>::infinity();
   const auto join = [&](const SystemState& now) {
@@ -153,7 +158,7 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
   leave();
 }
 
-// What of a run is outside of its Driver goes into its checkpoints.
+// Adds the data outside of the TimeLoop to checkpoints.
 Continuation add_memory(LinearLimit& limit, const Continuation& inner) {
   Continuation outer = inner;
   if (inner.keeper.keep) {
@@ -184,7 +189,8 @@ void run_once(const SystemModel& model, SystemState& state,
   SystemTerms terms = make_terms(model);
   SystemState framed;
   LinearLimit limit(model);
-  const Driver::Visit visit = [&](const SystemState& at, const Losses& losses) {
+  const TimeLoop::Visit visit = [&](const SystemState& at,
+                                    const Losses& losses) {
     limit.check(at, statistics.warnings);
     if (!observer) return;
     if (!model.full_bodies.empty()) {

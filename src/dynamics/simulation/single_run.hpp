@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/run_record.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
 
 namespace limber::dynamics {
 
-/// simulate() for settings that were checked, over the whole time once. Of
-/// steps to a tolerance, each may err by it, which does not tell the error at
-/// the end: run_to_tolerance (dynamics/passes.hpp), which also says by what
-/// `refinement` their other limits are shortened.
+/// simulate() for checked settings, with one pass over the whole time. A
+/// tolerance bounds the error of each step, not that of the outputs
+/// (run_to_tolerance, dynamics/simulation/tolerance_loop.hpp).
+/// @param refinement factor of the other limits of steps, see StepControl [-]
 void run_once(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
+#include "limber/dynamics/simulation/simulation_statistics.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// Adds an event and a warning for each stop beyond which a joint or a
-/// transmission is in `state`, the start of a run: how far, and what it stores.
+/// Adds an event and a warning, with the excess and its energy, for each stop
+/// that a joint or a transmission exceeds in `state`, the start of a run.
 void add_start_warnings(const SystemModel& model, const SystemState& state,
                         SimulationStatistics& statistics);
 

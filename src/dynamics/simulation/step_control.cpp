@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/step_control.hpp"
+#include "limber/dynamics/simulation/step_control.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kFirstShare = 1e-4;  // of the span: the first step
+constexpr double kFirstShare = 1e-4;  // first step relative to the span [-]
 constexpr double kSafety = 0.8;
 constexpr double kWorthGrowing = 1.5;
 constexpr double kMostGrowth = 4.0;
@@ -29,13 +29,13 @@ double StepControl::propose(const SystemState& state, double left) const {
     const double spin = body.w_WB_B.norm();
     if (spin * h > most_turn_) h = most_turn_ / spin;
   }
-  // Two equal steps rather than a whole one and a short one.
+  // Two equal steps instead of a full one and a short one.
   if (h >= left) return left;
   return 2.0 * h > left ? 0.5 * left : h;
 }
 
 bool StepControl::accepts(double h, double error) {
-  // The root of what is not a number is none either: clamped below.
+  // NaN propagates through the root and is clamped below.
   const double factor =
       error == 0.0 ? kMostGrowth : std::cbrt(kSafety * allowed_ / error);
   const bool accepted = error <= allowed_;

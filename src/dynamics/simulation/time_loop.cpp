@@ -1,65 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/driver.hpp"
+#include "limber/dynamics/simulation/time_loop.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/interpolation.hpp"
-#include "dynamics/interrupted.hpp"
-#include "dynamics/trouble.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/interpolation.hpp"
+#include "limber/dynamics/monitors/event_fields.hpp"
+#include "limber/dynamics/simulation/failure_diagnosis.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr int kMostHalvings = 10;
-constexpr double kSame = 1e-9;  // of a step: where it ends
-constexpr long kMostStepsBetweenProgress = 64;
-constexpr long kStepsBetweenLooks = 32;         // at the energy
+constexpr double kSame = 1e-9;  // fraction of a step that counts as its end [-]
+constexpr long kStepsBetweenLooks = 32;         // checks of the energy
 constexpr long kStepsBetweenCheckpoints = 256;  // at least
-constexpr std::chrono::milliseconds kShortSilence(2);
-constexpr std::chrono::milliseconds kLongSilence(20);
-constexpr std::chrono::seconds kLongestWait(1);  // of who asks for the end
-constexpr double kFewestStepsToAMark = 4.0;      // to a tolerance
-// Of the whole time: steps to a tolerance do not get shorter.
+constexpr double kFewestStepsToAMark = 4.0;     // with a tolerance
+// Shortest step to a tolerance, relative to the whole time [-].
 constexpr double kShortest = 1e-12;
-
-std::vector<double> find_outputs(const SimulationSettings& settings,
-                                 double start) {
-  std::vector<double> times;
-  for (const double t : settings.output_times) {
-    if (t > start) times.push_back(t);
-  }
-  return times;
-}
-
-// Steps to a tolerance end where something jumps, not on outputs.
-std::vector<Landmark> find_marks(const SystemModel& model, double start,
-                                 const SimulationSettings& settings) {
-  if (settings.tolerance == 0.0) return find_landmarks(model, start, settings);
-  SimulationSettings no_outputs = settings;
-  no_outputs.output_times.clear();
-  return find_landmarks(model, start, no_outputs);
-}
 
 }  // namespace
 
-Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
-               const SystemState& state, SimulationStatistics& statistics,
-               double refinement, const Followed& followed)
+TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
+                   const SystemState& state, SimulationStatistics& statistics,
+                   double refinement, const Followed& followed)
     : model_(model),
       settings_(settings),
       statistics_(statistics),
       start_(state.t),
       starts_with_output_(!settings.output_times.empty() &&
                           settings.output_times.front() <= state.t),
-      marks_(find_marks(model, state.t, settings)),
-      outputs_(find_outputs(settings, state.t)),
+      breakpoints_(find_step_breakpoints(model, state.t, settings)),
+      outputs_(find_outputs_after(state.t, settings)),
       refinement_(refinement),
-      marcher_(model, settings, statistics.events),
+      stepper_(model, settings, statistics.events),
+      sampling_(model, find_same_time(state.t, settings)),
       control_(settings.tolerance, settings.end_time - state.t, settings.step,
                refinement),
       peaks_(model, followed),
@@ -67,17 +47,16 @@ Driver::Driver(const SystemModel& model, const SimulationSettings& settings,
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
       within_(state),
-      kept_(Clock::now()),
-      told_(kept_) {}
+      kept_(Clock::now()) {}
 
-Losses Driver::losses() const {
-  return {marcher_.totals().load_work, marcher_.totals().dissipated};
+Losses TimeLoop::losses() const {
+  return {stepper_.totals().load_work, stepper_.totals().dissipated};
 }
 
-void Driver::exchange_memory(Archive& archive, SystemState& state) {
-  archive(state, has_started_, mark_, part_, parts_, origin_, h_, at_jump_,
-          depth_, shares_, trouble_, clash_, output_);
-  marcher_.exchange_memory(archive, state);
+void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
+  archive(state, has_started_, next_, part_, parts_, origin_, h_, at_jump_,
+          depth_, shares_, failure_, clash_, output_);
+  stepper_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   watch_.exchange_memory(archive);
   peaks_.exchange_memory(archive);
@@ -86,66 +65,49 @@ void Driver::exchange_memory(Archive& archive, SystemState& state) {
   archive(statistics_.events, statistics_.warnings);
 }
 
-void Driver::resume(const Checkpoint& checkpoint, SystemState& state) {
+void TimeLoop::resume(const Checkpoint& checkpoint, SystemState& state) {
   Archive archive(checkpoint.numbers);
   exchange_memory(archive, state);
 }
 
-void Driver::keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
-                             bool is_last) {
-  marcher_.refresh();
+Checkpoint TimeLoop::save(SystemState& state) {
+  stepper_.refresh();
+  Archive archive;
+  exchange_memory(archive, state);
+  return {state.t, archive.numbers()};
+}
+
+void TimeLoop::keep_checkpoint(SystemState& state,
+                               const CheckpointKeeper& keeper, bool is_last) {
+  stepper_.refresh();
   if (!keeper.keep) return;
   const std::chrono::duration<double> since = Clock::now() - kept_;
   if (since.count() < keeper.interval && !is_last) return;
-  Archive archive;
-  exchange_memory(archive, state);
-  keeper.keep({state.t, archive.numbers()});
+  keeper.keep(save(state));
   kept_ = Clock::now();
 }
 
-// Of the work that is done at a time. Steps to a tolerance are not known
-// before.
-double Driver::find_share(double t) const {
+// Fraction of the work that is done at a time; of the time, if the number of
+// steps depends on a tolerance.
+double TimeLoop::find_share(double t) const {
   const double end = settings_.end_time;
   if (settings_.tolerance > 0.0) return (t - start_) / (end - start_);
   return count_steps(settings_, start_, t) /
          count_steps(settings_, start_, end);
 }
 
-// Every few milliseconds, however long steps are.
-void Driver::tell_progress(const SystemState& state, const Progress& progress) {
-  const auto now = Clock::now();
-  if (now - told_ < kShortSilence) {
-    stride_ = std::min(2 * stride_, kMostStepsBetweenProgress);
-  } else if (now - told_ > kLongSilence) {
-    stride_ = std::max(stride_ / 2, 1L);
-  }
-  told_ = now;
-  told_step_ = statistics_.steps;
-  try {
-    report(progress, "simulating", find_share(state.t));
-  } catch (const Interrupted& asked) {
-    if (!asked_) asked_ = now;
-    words_ = asked.what();
-  }
-}
-
-// Where others may make a checkpoint, or a moment after it was asked for.
-bool Driver::ends_here(bool is_even) const {
-  return asked_ && (is_even || Clock::now() - *asked_ > kLongestWait);
-}
-
-void Driver::fail(const SystemState& state, double h,
-                  const std::string& what) const {
+void TimeLoop::fail(const SystemState& state, double h,
+                    const std::string& what) const {
   const std::string cause = find_cause(model_, state, settings_.integrator, h);
   throw NumericalError(cause.empty() ? what : what + "; " + cause);
 }
 
-void Driver::inspect(const SystemState& state) {
+void TimeLoop::inspect(const SystemState& state) {
   const double stored = calc_energy(model_, state, terms_).total();
   if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) return;
   const bool is_early = statistics_.steps <= kStepsBetweenLooks;
-  const char* advice = settings_.integrator == IntegratorKind::implicit_euler
+  const IntegratorTraits& traits = traits_of(settings_.integrator);
+  const char* advice = traits.is_implicit && traits.order == 1
                            ? "a smaller step may help"
                            : "a smaller step or implicit-euler may help";
   fail(state, h_,
@@ -157,23 +119,23 @@ void Driver::inspect(const SystemState& state) {
                    is_early && !clash_.empty() ? clash_ : advice));
 }
 
-void Driver::count_step(const StepResult& since) {
-  const StepResult& now = marcher_.totals();
+void TimeLoop::count_step(const StepResult& since) {
+  const StepResult& now = stepper_.totals();
   statistics_.newton_iterations += now.iterations - since.iterations;
   statistics_.factorizations += now.factorizations - since.factorizations;
   watch_.add(now.load_work - since.load_work);
 }
 
-// @param events that there were before the step
-void Driver::watch_step(const SystemState& state, std::size_t events) {
+// @param events number of events before the step
+void TimeLoop::watch_step(const SystemState& state, std::size_t events) {
   peaks_.include(state);
   const bool is_smooth = statistics_.events.size() == events;
-  audit_.include(state, is_smooth ? &marcher_.terms() : nullptr,
-                 marcher_.totals(), state.t == settings_.end_time,
+  audit_.include(state, is_smooth ? &stepper_.terms() : nullptr,
+                 stepper_.totals(), state.t == settings_.end_time,
                  statistics_.events);
 }
 
-void Driver::tell(RunRecord& record) {
+void TimeLoop::tell(RunRecord& record) {
   record.peaks = peaks_.finish();
   record.energy = audit_.find_energy();
   for (std::string& text : audit_.find_warnings()) {
@@ -181,7 +143,8 @@ void Driver::tell(RunRecord& record) {
   }
 }
 
-void Driver::halve(const SystemState& state, double h, const std::string& why) {
+void TimeLoop::halve(const SystemState& state, double h,
+                     const std::string& why) {
   ++statistics_.halved_steps;
   if (++depth_ <= kMostHalvings) return;
   fail(state, h,
@@ -190,13 +153,13 @@ void Driver::halve(const SystemState& state, double h, const std::string& why) {
                    why, state.t, h, kMostHalvings));
 }
 
-// What made steps hard: the last failure, or where the energy is.
-std::string Driver::describe_trouble(const SystemState& state) const {
-  if (!trouble_.empty()) return "the last that failed: " + trouble_;
+// Why steps failed: the last failure, or the location of the energy.
+std::string TimeLoop::describe_failure(const SystemState& state) const {
+  if (!failure_.empty()) return "the last that failed: " + failure_;
   return "most energy is in " + find_most_energy(model_, state);
 }
 
-void Driver::check_budget(const SystemState& state, double h) const {
+void TimeLoop::check_budget(const SystemState& state, double h) const {
   const long steps = statistics_.steps + statistics_.rejected_steps;
   if (budget_.allows_solves(statistics_.linear_solves, steps)) return;
   fail(state, h,
@@ -204,30 +167,30 @@ void Driver::check_budget(const SystemState& state, double h) const {
                    "where 2 or 3 each are usual, and {} halvings; ask for "
                    "shorter steps; {}",
                    state.t, steps, statistics_.linear_solves,
-                   statistics_.halved_steps, describe_trouble(state)));
+                   statistics_.halved_steps, describe_failure(state)));
 }
 
-// Does a step's work; if it fails, steps are halved.
+// Performs a step; if it fails, steps are halved.
 template <typename Work>
-bool Driver::goes_through(const SystemState& state, double h,
-                          const Work& work) {
+bool TimeLoop::goes_through(const SystemState& state, double h,
+                            const Work& work) {
   check_budget(state, h);
   bool fails = false;
   try {
     work();
   } catch (const NumericalError& error) {
     fails = true;
-    trouble_ = error.what();
+    failure_ = error.what();
   }
-  statistics_.linear_solves += marcher_.take_solves();
-  if (fails) halve(state, h, trouble_);
+  statistics_.linear_solves += stepper_.take_solves();
+  if (fails) halve(state, h, failure_);
   return !fails;
 }
 
-// The steps to the next landmark.
-void Driver::enter_mark(SystemState& state) {
+// Plans the steps to the next breakpoint.
+void TimeLoop::enter_breakpoint(SystemState& state) {
   origin_ = state.t;
-  const double span = marks_[mark_].time - origin_;
+  const double span = breakpoints_[next_].time - origin_;
   const double longest = find_longest_step(settings_, origin_);
   parts_ = std::max(
       static_cast<long>(std::ceil(span / longest * (1.0 - 1e-12))), 1L);
@@ -236,18 +199,20 @@ void Driver::enter_mark(SystemState& state) {
                      : span / static_cast<double>(parts_);
   try {
     if (!has_started_) {
-      if (const auto impulse = marcher_.start(state, h_)) {
+      if (const auto impulse = stepper_.start(state, h_)) {
         statistics_.warnings.push_back(describe(*impulse, state.t, h_));
       }
       const double stored = calc_energy(model_, state, terms_).total();
-      watch_ = EnergyWatch(stored);
+      watch_ = EnergyWatch(
+          stored, settings_.integrator == IntegratorKind::explicit_euler);
       clash_ = find_start_clash(model_, terms_, stored, h_);
       peaks_.start(state);
-      audit_.start(state, terms_, marcher_.totals(), statistics_.events);
+      audit_.start(state, terms_, stepper_.totals(), statistics_.events);
     }
     if (at_jump_) {
-      marcher_.cross_jump(state, h_);
-      audit_.cross_jump(state, marcher_.terms());
+      stepper_.cross_jump(state, h_);
+      audit_.cross_jump(state, stepper_.terms());
+      at_jump_ = false;
     }
   } catch (const NumericalError& error) {
     fail(state, h_,
@@ -257,25 +222,24 @@ void Driver::enter_mark(SystemState& state) {
   has_started_ = true;
 }
 
-// A run that is halved on and on takes a thousand times as long as was asked
-// for.
-void Driver::count_share(const SystemState& state) {
+// Without a budget, repeated halving could make a run a thousand times longer.
+void TimeLoop::count_share(const SystemState& state) {
   if (budget_.allows_shares(++shares_, statistics_.steps)) return;
   fail(state, std::ldexp(h_, -depth_),
        fmt::format("at t = {:.9g} s: steps of {:.3g} s go through only when "
                    "they are halved again and again, {} times by now; ask for "
                    "shorter steps or for a tolerance; {}",
                    state.t, h_, statistics_.halved_steps,
-                   describe_trouble(state)));
+                   describe_failure(state)));
 }
 
-// One of equal steps, in parts where something happens or it must be halved.
-void Driver::take_planned_step(SystemState& state) {
-  // Times come from the landmark, not from a sum of steps.
+// One of equal steps, in parts if it is cut by events or halved.
+void TimeLoop::take_planned_step(SystemState& state) {
+  // Times are computed from the breakpoint, not as a sum of steps.
   const double end = part_ + 1 == parts_
-                         ? marks_[mark_].time
+                         ? breakpoints_[next_].time
                          : origin_ + static_cast<double>(part_ + 1) * h_;
-  const StepResult before = marcher_.totals();
+  const StepResult before = stepper_.totals();
   bool is_whole = true;
   while (end - state.t > kSame * h_) {
     const double left = is_whole ? h_ : end - state.t;
@@ -283,8 +247,8 @@ void Driver::take_planned_step(SystemState& state) {
     const bool is_last = h >= left * (1.0 - kSame);
     const std::size_t events = statistics_.events.size();
     const bool has_moved = goes_through(state, h, [&] {
-      marcher_.attempt(state, is_last ? left : h, is_last ? end : state.t + h);
-      marcher_.settle(state, h_);
+      stepper_.attempt(state, is_last ? left : h, is_last ? end : state.t + h);
+      stepper_.settle(state, h_);
     });
     is_whole = is_whole && !has_moved;
     if (has_moved) watch_step(state, events);
@@ -293,24 +257,25 @@ void Driver::take_planned_step(SystemState& state) {
   state.t = end;
   if (depth_ > 0) --depth_;
   count_step(before);
+  if (part_ + 1 == parts_ && breakpoints_[next_].is_sample) take_samples(state);
   ++part_;
 }
 
-// As long a step as the tolerance allows; whether it counts.
-bool Driver::take_free_step(SystemState& state, const Visit& visit) {
+// A step as long as the tolerance allows. @returns whether it is accepted
+bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   if (statistics_.steps + statistics_.rejected_steps >= settings_.most_steps) {
     fail(
         state, h_,
         fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
                     "steps than most_steps allows, {:.3g} s long by now; ask "
                     "for a larger tolerance, a shorter time or more steps; {}",
-                    state.t, settings_.tolerance, h_, describe_trouble(state)));
+                    state.t, settings_.tolerance, h_, describe_failure(state)));
   }
-  const double mark = marks_[mark_].time;
-  const StepResult before = marcher_.totals();
+  const double mark = breakpoints_[next_].time;
+  const StepResult before = stepper_.totals();
   const Losses losses_before = losses();
   const double left = mark - state.t;
-  // A load that is zero at both ends of a step is not missed.
+  // Loads that are zero at both ends of a step are not missed.
   const double most = refinement_ * (mark - origin_) / kFewestStepsToAMark;
   h_ = std::min(control_.propose(state, left), std::max(most, 0.0));
   if (left - h_ < kSame * h_) h_ = left;
@@ -318,15 +283,15 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
     fail(state, h_,
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
                      "step may have asks for steps below {:.3g} s",
-                     model_.bodies[marcher_.last().error_body].name, state.t,
+                     model_.bodies[stepper_.last().error_body].name, state.t,
                      settings_.tolerance, h_));
   }
   bool counts = false;
   const std::size_t events = statistics_.events.size();
   const bool has_moved = goes_through(state, h_, [&] {
-    marcher_.attempt(state, h_, h_ == left ? mark : state.t + h_);
-    counts = control_.accepts(h_, marcher_.last().error);
-    counts ? marcher_.settle(state, h_) : marcher_.take_back(state);
+    stepper_.attempt(state, h_, h_ == left ? mark : state.t + h_);
+    counts = control_.accepts(h_, stepper_.last().error);
+    counts ? stepper_.settle(state, h_) : stepper_.take_back(state);
   });
   if (!has_moved) {
     control_.halve();
@@ -335,13 +300,18 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
   depth_ = 0;
   if (!counts) {
     ++statistics_.rejected_steps;
-    statistics_.newton_iterations += marcher_.last().iterations;
-    statistics_.factorizations += marcher_.last().factorizations;
+    statistics_.newton_iterations += stepper_.last().iterations;
+    statistics_.factorizations += stepper_.last().factorizations;
     return false;
   }
   count_step(before);
   watch_step(state, events);
-  visit_within(marcher_.before(), state, losses_before, visit);
+  // An output there shows what was written.
+  if (breakpoints_[next_].is_sample && mark - state.t <= kSame * h_) {
+    state.t = mark;
+    take_samples(state);
+  }
+  visit_within(stepper_.before(), state, losses_before, visit);
   if (mark - state.t <= kSame * h_) {
     state.t = mark;
     part_ = parts_;
@@ -349,11 +319,11 @@ bool Driver::take_free_step(SystemState& state, const Visit& visit) {
   return true;
 }
 
-// Outputs within the step that ended at `state`.
-void Driver::visit_within(const SystemState& begin, const SystemState& state,
-                          const Losses& before, const Visit& visit) {
+// Visits outputs within the step that ended at `state`.
+void TimeLoop::visit_within(const SystemState& begin, const SystemState& state,
+                            const Losses& before, const Visit& visit) {
   const double h = state.t - begin.t;
-  const StepResult& step = marcher_.last();
+  const StepResult& step = stepper_.last();
   for (; output_ < outputs_.size() && outputs_[output_] <= state.t; ++output_) {
     const double t = outputs_[output_];
     if (t == state.t) {
@@ -363,7 +333,7 @@ void Driver::visit_within(const SystemState& begin, const SystemState& state,
     const double s = (t - begin.t) / h;
     interpolate(model_, begin, state, s, within_);
     within_.t = t;
-    // Powers change evenly over a step.
+    // Powers are assumed linear over a step.
     const double rise = 0.5 * s * s * h;
     visit(within_, {before.work + s * h * step.begin.loads +
                         rise * (step.end.loads - step.begin.loads),
@@ -372,51 +342,105 @@ void Driver::visit_within(const SystemState& begin, const SystemState& state,
   }
 }
 
-void Driver::leave_mark(const SystemState& state, const Visit& visit) {
-  const Landmark& mark = marks_[mark_];
-  at_jump_ = mark.is_jump;
+// Samples at the start, of which no step has to know: it begins there.
+void TimeLoop::begin(SystemState& state) {
+  sampling_.skip_until(state);
+  take_samples(state);
+  inputs_jump_ = false;
+}
+
+void TimeLoop::take_samples(SystemState& state) {
+  const ControllerSampling::Change change = sampling_.take(state);
+  inputs_jump_ |= change.has_jump;
+  stepper_.add_work(change.work);
+  watch_.add(change.work);
+}
+
+void TimeLoop::leave_breakpoint(const SystemState& state, const Visit& visit) {
+  const Breakpoint& mark = breakpoints_[next_];
+  at_jump_ = mark.is_jump || inputs_jump_;
+  inputs_jump_ = false;
   if (at_jump_) peaks_.cross_jump(state);
   if (mark.is_output) visit(state, losses());
-  ++mark_;
+  ++next_;
   part_ = parts_ = 0;
 }
 
-void Driver::run(SystemState& state, const Visit& visit,
-                 const Progress& progress, const CheckpointKeeper& keeper) {
+void TimeLoop::run(SystemState& state, const Visit& visit,
+                   const Progress& progress, const CheckpointKeeper& keeper) {
+  if (!has_started_) begin(state);
   if (!has_started_ && starts_with_output_) visit(state, losses());
-  while (mark_ < marks_.size()) {
-    if (parts_ == 0) enter_mark(state);
-    if (!is_adaptive()) {
-      take_planned_step(state);
-    } else if (!take_free_step(state, visit)) {
-      continue;
-    }
-    const long steps = ++statistics_.steps;
-    if (steps <= kStepsBetweenLooks || steps % kStepsBetweenLooks == 0 ||
-        state.t == settings_.end_time) {
-      inspect(state);
-    }
-    if (part_ == parts_) leave_mark(state, visit);
-    if (steps - told_step_ >= stride_) tell_progress(state, progress);
-    const bool is_even = steps % kStepsBetweenCheckpoints == 0;
-    const bool is_last = mark_ < marks_.size() && ends_here(is_even);
-    if (is_even || is_last) keep_checkpoint(state, keeper, is_last);
-    if (is_last) {
-      throw Interrupted(fmt::format("{} at t = {:.9g} s", words_, state.t));
-    }
+  while (next_ < breakpoints_.size()) {
+    take_step(state, visit, progress, keeper);
   }
 }
 
-std::vector<double> find_visited_times(const SystemModel& model, double start,
-                                       const SimulationSettings& settings) {
-  if (settings.tolerance > 0.0) return settings.output_times;
-  std::vector<double> times;
-  const auto& outputs = settings.output_times;
-  if (!outputs.empty() && outputs.front() <= start) times.push_back(start);
-  for (const Landmark& mark : find_landmarks(model, start, settings)) {
-    if (mark.is_output) times.push_back(mark.time);
+bool TimeLoop::run_to(double t, SystemState& state,
+                      const std::stop_token& stop) {
+  const auto ignore = [](const SystemState&, const Losses&) {};
+  if (!has_started_) begin(state);
+  const AddedBreakpoint target = add_breakpoint(t);
+  while (next_ <= target.index && !stop.stop_requested()) {
+    try {
+      take_step(state, ignore, {}, {});
+    } catch (...) {
+      remove_breakpoint(target);
+      throw;
+    }
   }
-  return times;
+  const bool is_there = next_ > target.index;
+  remove_breakpoint(target);
+  return is_there;
+}
+
+TimeLoop::AddedBreakpoint TimeLoop::add_breakpoint(double t) {
+  const double same = 1e-12 * settings_.end_time;
+  std::size_t i = next_;
+  while (i + 1 < breakpoints_.size() && breakpoints_[i].time < t - same) ++i;
+  if (std::abs(breakpoints_[i].time - t) <= same) return {i, false};
+  if (i == next_) part_ = parts_ = 0;
+  breakpoints_.insert(breakpoints_.begin() + static_cast<std::ptrdiff_t>(i),
+                      {.time = t});
+  return {i, true};
+}
+
+void TimeLoop::remove_breakpoint(const AddedBreakpoint& added) {
+  if (!added.is_new) return;
+  breakpoints_.erase(breakpoints_.begin() +
+                     static_cast<std::ptrdiff_t>(added.index));
+  if (next_ > added.index) {
+    --next_;
+  } else if (next_ == added.index) {
+    part_ = parts_ = 0;
+  }
+}
+
+// One step, or one attempt that must be repeated.
+void TimeLoop::take_step(SystemState& state, const Visit& visit,
+                         const Progress& progress,
+                         const CheckpointKeeper& keeper) {
+  if (parts_ == 0) enter_breakpoint(state);
+  if (!is_adaptive()) {
+    take_planned_step(state);
+  } else if (!take_free_step(state, visit)) {
+    return;
+  }
+  const long steps = ++statistics_.steps;
+  if (steps <= kStepsBetweenLooks || steps % kStepsBetweenLooks == 0 ||
+      state.t == settings_.end_time) {
+    inspect(state);
+  }
+  if (part_ == parts_) leave_breakpoint(state, visit);
+  if (pulse_.is_due(steps)) {
+    pulse_.report(steps, find_share(state.t), progress);
+  }
+  const bool is_even = steps % kStepsBetweenCheckpoints == 0;
+  const bool is_last = next_ < breakpoints_.size() && pulse_.ends_here(is_even);
+  if (is_even || is_last) keep_checkpoint(state, keeper, is_last);
+  if (is_last) {
+    throw Interrupted(
+        fmt::format("{} at t = {:.9g} s", pulse_.words(), state.t));
+  }
 }
 
 }  // namespace limber::dynamics

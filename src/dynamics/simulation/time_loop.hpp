@@ -3,47 +3,49 @@
 
 #include <chrono>
 #include <functional>
-#include <optional>
+#include <stop_token>
+#include <string>
 #include <vector>
 
-#include "dynamics/checkpoint.hpp"
-#include "dynamics/energy_watch.hpp"
-#include "dynamics/landmarks.hpp"
-#include "dynamics/marcher.hpp"
-#include "dynamics/peak_watch.hpp"
-#include "dynamics/run_record.hpp"
-#include "dynamics/step_audit.hpp"
-#include "dynamics/step_control.hpp"
-#include "dynamics/work_budget.hpp"
+#include "limber/dynamics/monitors/energy_watch.hpp"
+#include "limber/dynamics/monitors/peak_watch.hpp"
+#include "limber/dynamics/monitors/step_audit.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
+#include "limber/dynamics/simulation/checkpoint.hpp"
+#include "limber/dynamics/simulation/controller_sampling.hpp"
+#include "limber/dynamics/simulation/event_stepper.hpp"
+#include "limber/dynamics/simulation/progress_pulse.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/dynamics/simulation/step_control.hpp"
+#include "limber/dynamics/simulation/work_budget.hpp"
 
 namespace limber::dynamics {
 
-/// What the loads and the dampers did since the start.
+/// Work of loads and energy dissipated since the start.
 struct Losses {
   double work = 0.0;        ///< [J]
   double dissipated = 0.0;  ///< [J]
 };
 
-/// Carries a state along a timeline: steps of settings.step that end on every
-/// landmark, or of any length to a tolerance that end on jumps alone. A step
-/// that does not go through is halved, up to ten times.
+/// Advances a state in time: by steps of settings.step that end on every
+/// breakpoint, or, to a tolerance, by steps of varying length that end on jumps
+/// only. A step that fails is halved, up to ten times.
 ///
-/// A checkpoint may be made after every 256th step. There the run drops what it
-/// only keeps to be faster, so that one that goes on from a checkpoint is the
-/// same to the bit.
-class Driver {
+/// A checkpoint may be saved after every 256th step. There the run discards
+/// cached factors, so that a resumed run is identical to the bit.
+class TimeLoop {
  public:
   /// Called with every output.
   using Visit = std::function<void(const SystemState&, const Losses&)>;
 
-  /// @param state at the start @param refinement of all that limits steps to a
-  /// tolerance but their errors, at most 1 (StepControl)
-  Driver(const SystemModel& model, const SimulationSettings& settings,
-         const SystemState& state, SimulationStatistics& statistics,
-         double refinement, const Followed& followed = {});
+  /// @param state at the start
+  /// @param refinement see StepControl, at most 1 [-]
+  TimeLoop(const SystemModel& model, const SimulationSettings& settings,
+           const SystemState& state, SimulationStatistics& statistics,
+           double refinement, const Followed& followed = {});
 
-  /// Goes on from a checkpoint: `state` and all that was known then. Outputs
-  /// that were visited before are not visited again.
+  /// Resumes from a checkpoint: sets `state` and the history. Outputs before it
+  /// are not visited again.
   void resume(const Checkpoint& checkpoint, SystemState& state);
 
   /// @throws NumericalError naming the body or coupler and the time, and the
@@ -52,15 +54,39 @@ class Driver {
   void run(SystemState& state, const Visit& visit, const Progress& progress,
            const CheckpointKeeper& keeper);
 
-  /// Adds what was seen over all steps up to where the run is: peaks, energy
-  /// and warnings.
+  /// Advances `state` to t [s], at most the end time, and ends a step there;
+  /// ends after the current step once `stop` is requested.
+  /// @returns whether t was reached
+  /// @throws NumericalError as run() does.
+  bool run_to(double t, SystemState& state, const std::stop_token& stop);
+
+  /// A checkpoint for resume(). Discards cached factors, so that both runs
+  /// continue identically to the bit.
+  [[nodiscard]] Checkpoint save(SystemState& state);
+
+  [[nodiscard]] Losses losses() const;
+
+  /// Adds the results of monitoring all steps so far: peaks, energy and
+  /// warnings.
   void tell(RunRecord& record);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void enter_mark(SystemState& state);
-  void leave_mark(const SystemState& state, const Visit& visit);
+  // A breakpoint that run_to needs, if there was none.
+  struct AddedBreakpoint {
+    std::size_t index = 0;
+    bool is_new = false;
+  };
+
+  AddedBreakpoint add_breakpoint(double t);
+  void remove_breakpoint(const AddedBreakpoint& added);
+  void take_step(SystemState& state, const Visit& visit,
+                 const Progress& progress, const CheckpointKeeper& keeper);
+  void enter_breakpoint(SystemState& state);
+  void begin(SystemState& state);
+  void take_samples(SystemState& state);
+  void leave_breakpoint(const SystemState& state, const Visit& visit);
   void take_planned_step(SystemState& state);
   bool take_free_step(SystemState& state, const Visit& visit);
   template <typename Work>
@@ -76,24 +102,22 @@ class Driver {
   void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
                        bool is_last);
   [[nodiscard]] double find_share(double t) const;
-  void tell_progress(const SystemState& state, const Progress& progress);
-  [[nodiscard]] bool ends_here(bool is_even) const;
   void exchange_memory(Archive& archive, SystemState& state);
   [[noreturn]] void fail(const SystemState& state, double h,
                          const std::string& what) const;
-  [[nodiscard]] std::string describe_trouble(const SystemState& state) const;
+  [[nodiscard]] std::string describe_failure(const SystemState& state) const;
   [[nodiscard]] bool is_adaptive() const { return settings_.tolerance > 0.0; }
-  [[nodiscard]] Losses losses() const;
 
   const SystemModel& model_;
   const SimulationSettings& settings_;
   SimulationStatistics& statistics_;
-  double start_;
+  double start_;  // [s]
   bool starts_with_output_;
-  std::vector<Landmark> marks_;
+  std::vector<Breakpoint> breakpoints_;
   std::vector<double> outputs_;  // of steps to a tolerance
-  double refinement_;
-  Marcher marcher_;
+  double refinement_;            // see StepControl [-]
+  EventStepper stepper_;
+  ControllerSampling sampling_;
   StepControl control_;
   EnergyWatch watch_;
   PeakWatch peaks_;
@@ -102,33 +126,22 @@ class Driver {
   SystemTerms terms_;  // of the energy
   SystemState within_;
 
-  // Where the run is.
+  // Progress of the run.
   bool has_started_ = false;
-  std::size_t mark_ = 0;    // next landmark
-  long part_ = 0;           // of the steps to it
-  long parts_ = 0;          // steps to it, 0: not yet known
-  double origin_ = 0.0;     // the landmark before [s]
-  double h_ = 0.0;          // planned step [s]
-  bool at_jump_ = false;    // there, a load jumped
-  int depth_ = 0;           // how often steps are halved now
-  long shares_ = 0;         // of halved steps, so far
-  std::string trouble_;     // why the last step was halved
-  std::string clash_;       // of velocities at the start
-  std::size_t output_ = 0;  // next of outputs_
-  Clock::time_point kept_;  // when the last checkpoint was
-
-  // Progress: when and at which step it was told last, after how many it is
-  // again, and when and in which words it asked for the end.
-  Clock::time_point told_;
-  long told_step_ = 0;
-  long stride_ = 1;
-  std::optional<Clock::time_point> asked_;
-  std::string words_;
+  std::size_t next_ = 0;      // next breakpoint
+  long part_ = 0;             // number of the step to it
+  long parts_ = 0;            // number of steps to it, 0: not yet known
+  double origin_ = 0.0;       // the last breakpoint [s]
+  double h_ = 0.0;            // planned step [s]
+  bool at_jump_ = false;      // a load jumped at the last breakpoint
+  bool inputs_jump_ = false;  // where the current step ends
+  int depth_ = 0;             // number of current halvings of steps
+  long shares_ = 0;           // number of parts of halved steps so far
+  std::string failure_;       // cause of the last halving
+  std::string clash_;         // message on initial velocities against dampers
+  std::size_t output_ = 0;    // next of outputs_
+  Clock::time_point kept_;    // time of the last checkpoint
+  ProgressPulse pulse_;
 };
-
-/// When a Driver visits: the output times, those that agree with other
-/// landmarks but for round-off as the landmarks have them [s].
-[[nodiscard]] std::vector<double> find_visited_times(
-    const SystemModel& model, double start, const SimulationSettings& settings);
 
 }  // namespace limber::dynamics

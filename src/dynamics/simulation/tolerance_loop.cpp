@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/passes.hpp"
+#include "limber/dynamics/simulation/tolerance_loop.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/motion_scale.hpp"
-#include "dynamics/single_run.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/simulation/single_run.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr int kMostPasses = 8;
-// Of the tolerance: what a step of the first pass may err by.
+// Error of a step in the first pass, relative to the tolerance [-].
 constexpr double kFirst = 1.0 / 3.0;
-constexpr double kSecond = kFirst / 8.0;  // half as long steps
-constexpr double kSafety = 0.5;  // of the tolerance: what later ones aim at
+constexpr double kSecond = kFirst / 8.0;  // steps of half the length
+constexpr double kSafety = 0.5;  // target of later passes, of the tolerance [-]
 
-// How a pass's error changes with what its steps may err by, as ratios, and
-// back: of a second-order scheme.
+// Ratio of the errors of passes from that of the errors of their steps, and
+// back, for a second-order scheme.
 double to_error(double allowed) { return std::cbrt(allowed * allowed); }
 double to_allowed(double error) { return error * std::sqrt(error); }
 double to_length(double allowed) { return std::cbrt(allowed); }  // of steps
 
-// What a pass leaves at its outputs.
+// Outputs of a pass.
 struct Record {
   int pass = 0;
   std::vector<SystemState> states;
@@ -37,7 +37,7 @@ constexpr auto fields_of(const Record*) {
   return list_fields("record", "pass", "states", "balances");
 }
 
-// What a record holds from an output on.
+// Contents of a record from an output on.
 Record cut(const Record& record, std::size_t from) {
   const auto first = static_cast<std::ptrdiff_t>(from);
   return {record.pass,
@@ -52,12 +52,12 @@ void append(const Record& part, Record& record) {
                          part.balances.end());
 }
 
-// Between two passes, and of what a checkpoint holds.
+// State between two passes, saved in checkpoints.
 struct Course {
   int pass = 0;
   double allowed = 0.0;         // error of a step of this pass [m]
-  double allowed_before = 0.0;  // of the pass before
-  double estimate = 0.0;        // error of the pass that ended last [m]
+  double allowed_before = 0.0;  // of the previous pass [m]
+  double estimate = 0.0;        // error of the last complete pass [m]
 };
 
 constexpr auto fields_of(const Course*) {
@@ -85,12 +85,13 @@ void add_costs(const SimulationStatistics& pass,
   statistics.linear_solves += pass.linear_solves;
 }
 
-class Passes {
+class ToleranceLoop {
  public:
-  Passes(const SystemModel& model, const SystemState& start,
-         const SimulationSettings& settings, const Progress& progress,
-         SimulationStatistics& statistics, const Continuation& continuation,
-         const Followed& followed, RunRecord& record)
+  ToleranceLoop(const SystemModel& model, const SystemState& start,
+                const SimulationSettings& settings, const Progress& progress,
+                SimulationStatistics& statistics,
+                const Continuation& continuation, const Followed& followed,
+                RunRecord& record)
       : model_(model),
         start_(start),
         settings_(settings),
@@ -108,7 +109,7 @@ class Passes {
     if (continuation.from) unwrap(*continuation.from);
   }
 
-  // Leaves the last pass's end in `state`.
+  // Sets `state` to the end of the last pass.
   void run(SystemState& state) {
     while (true) {
       run_pass(state);
@@ -153,7 +154,7 @@ class Passes {
     finish();
   }
 
-  // Estimates the pass that ended.
+  // Estimates the error of the last complete pass.
   bool is_good_enough() {
     if (course_.pass < 2) return false;
     const double distance = measure_distance(scale_, before_, now_);
@@ -192,7 +193,7 @@ class Passes {
     return {inner.time, archive.numbers(), take_log()};
   }
 
-  // What the two records that are needed hold, and no log has yet.
+  // The contents of the two current records that are in no log yet.
   std::vector<double> take_log() {
     Archive log;
     Record before = cut(before_, before_logged_);
@@ -231,11 +232,11 @@ class Passes {
   RunRecord& run_record_;  // of the last pass
   MotionScale scale_;
   CheckpointKeeper keeper_;
-  std::optional<Checkpoint> inner_;  // of the pass that goes on
+  std::optional<Checkpoint> inner_;  // of the current pass
   Course course_;
-  Record before_;  // of the pass before
+  Record before_;  // of the previous pass
   Record now_;
-  std::size_t before_logged_ = 0;  // outputs that are in a log
+  std::size_t before_logged_ = 0;  // number of outputs in a log
   std::size_t now_logged_ = 0;
 };
 
@@ -247,8 +248,8 @@ void run_to_tolerance(const SystemModel& model, SystemState& state,
                       SimulationStatistics& statistics,
                       const Continuation& continuation,
                       const Followed& followed, RunRecord& record) {
-  Passes passes(model, state, settings, progress, statistics, continuation,
-                followed, record);
+  ToleranceLoop passes(model, state, settings, progress, statistics,
+                       continuation, followed, record);
   const auto tell = [&] {
     if (!observer) return;
     for (std::size_t i = 0; i < passes.record().states.size(); ++i) {

@@ -5,15 +5,14 @@
 
 namespace limber::dynamics {
 
-/// How much work a run may take beyond what its steps promise, counted, so that
-/// a run ends alike on every machine.
+/// Limits of a run's work by counts, so that it ends equally on every machine.
 ///
-/// Equation   shares of halved steps <= 1000 + 10 steps,
+/// Equation   parts of halved steps <= 1000 + 10 steps,
 ///            linear solves <= 2e6 / bodies + 300 steps
-/// Source     own choice. A step takes 2 to 3 solves as a rule, one with exact
-///            corrections 30 to 300; a body's share of a solve takes about
-///            4 us with its share of the rest, so that what a short run may
-///            take for nothing is some 10 s, of any number of bodies.
+/// Source     own choice. A step usually takes 2 to 3 solves, with exact
+///            corrections 30 to 300; a solve with its other work takes about
+///            4 us per body, so that a failing short run ends within about
+///            10 s for any number of bodies.
 class WorkBudget {
  public:
   explicit WorkBudget(std::size_t bodies)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/body_model.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
-#include "common/errors.hpp"
+#include <fmt/format.h>
+
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -12,8 +14,8 @@ Vector6 pack_symmetric(const Matrix3& m) {
   return c;
 }
 
-// tr(A) I - A of the symmetric part of S, twice: the inertia that a first
-// variation of the second moment makes.
+// tr(A) I - A of the symmetric part of S, twice: the inertia of a first
+// variation of the second moment.
 Matrix3 inertia_of(const Matrix3& S) {
   const Matrix3 symmetric = S + S.transpose();
   return symmetric.trace() * Matrix3::Identity() - symmetric;
@@ -39,6 +41,16 @@ ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& s) {
     }
   }
   return packed;
+}
+
+const VectorX& require_eigenvalues(const BodyModel& body,
+                                   std::string_view work) {
+  const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);
+  if (lambda != nullptr) return *lambda;
+  throw InputError(fmt::format(
+      "body '{}': its elasticity couples its modes, but {} takes each mode "
+      "alone; give it the elasticity of its reduced body",
+      body.name, work));
 }
 
 }  // namespace limber::dynamics

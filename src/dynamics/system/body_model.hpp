@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/system_model.hpp"
+#include <string_view>
+
+#include "limber/dynamics/system/system_model.hpp"
 
 namespace limber::dynamics {
 
@@ -11,6 +13,12 @@ namespace limber::dynamics {
 /// Source     design of the floating frame in docs/theory/equations.md.
 [[nodiscard]] ModalInertia pack_inertia(
     const flexbody::InertiaShapeIntegrals& s);
+
+/// Eigenvalues of a body's modes [rad^2/s^2].
+/// @param work what takes each mode alone, "advice on levels"
+/// @throws InputError naming the body if its elasticity couples them.
+[[nodiscard]] const VectorX& require_eigenvalues(const BodyModel& body,
+                                                 std::string_view work);
 
 /// Symmetric matrix of the components (xx, yy, zz, xy, xz, yz).
 [[nodiscard]] inline Matrix3 unpack_symmetric(const Vector6& c) {

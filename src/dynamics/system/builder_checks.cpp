@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/builder_checks.hpp"
+#include "limber/dynamics/system/builder_checks.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "common/errors.hpp"
-#include "dynamics/name_register.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/system/name_register.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -46,6 +49,11 @@ std::string NameRegister::check(const std::string& kind,
   if (name.empty()) {
     throw InputError(fmt::format("a {} has no name; give it one", kind));
   }
+  if (has_control(name) || name.size() > kMostNameBytes) {
+    throw InputError(fmt::format(
+        "the name '{}' of a {} has a control character or more than {} bytes",
+        echo(name), kind, kMostNameBytes));
+  }
   if (taken_.count({kind, name}) > 0) {
     throw InputError(
         fmt::format("{} '{}': another {} has this name; give each its own",
@@ -54,8 +62,8 @@ std::string NameRegister::check(const std::string& kind,
   return fmt::format("{} '{}'", kind, name);
 }
 
-// The principal moments of any mass obey I1 + I2 >= I3, with equality for what
-// is flat. Printed digits leave it by their rounding.
+// The principal moments of any mass obey I1 + I2 >= I3, with equality for flat
+// bodies. Rounding of printed digits may violate it.
 void check_inertia(const std::string& what, double mass,
                    const Matrix3& inertia) {
   constexpr double kPrinted = 1e-3;    // of the largest moment
@@ -67,10 +75,10 @@ void check_inertia(const std::string& what, double mass,
   check_finite(what, "its inertia", inertia.allFinite());
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() >
       kSymmetric * inertia.cwiseAbs().maxCoeff()) {
-    throw InputError(fmt::format(
-        "{}: its inertia is not symmetric; xy, xz, yz are products of inertia "
-        "that stand there twice",
-        what));
+    throw InputError(
+        fmt::format("{}: its inertia is not symmetric; the products of inertia "
+                    "xy, xz, yz each appear twice",
+                    what));
   }
   const Vector3 principal =
       Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly)
@@ -121,6 +129,25 @@ void check_integrals(const std::string& what,
   };
   check_finite(what, "the shape integral S1", is_finite(integrals.S1));
   check_finite(what, "the shape integral S2", is_finite(integrals.S2));
+}
+
+void check_elasticity(const std::string& what,
+                      const flexbody::ModalElasticity& elasticity, int modes,
+                      const ModalDamping& damping) {
+  if (flexbody::count_modes(elasticity) != modes) {
+    throw InputError(fmt::format("{}: its elasticity is of {} modes; it has {}",
+                                 what, flexbody::count_modes(elasticity),
+                                 modes));
+  }
+  const bool is_by_frequency =
+      damping.rayleigh_stiffness != 0.0 ||
+      std::any_of(damping.ratios.begin(), damping.ratios.end(),
+                  [](double ratio) { return ratio != 0.0; });
+  if (!is_by_frequency || flexbody::is_diagonal_at_rest(elasticity)) return;
+  throw InputError(
+      what +
+      ": its modes have no frequencies of their own, by which damping ratios "
+      "and Rayleigh damping of stiffness go; give Rayleigh damping of mass");
 }
 
 VectorX check_damping(const std::string& what, const ModalDamping& damping,
@@ -243,6 +270,83 @@ void check_joint_sum(const std::string& what, const JointSum& sum,
           "0",
           what, coupler.name, term.factor));
     }
+  }
+}
+
+namespace {
+
+void check_writes(const std::string& what, const ControllerModel& controller,
+                  const SystemModel& model) {
+  if (controller.writes.empty()) {
+    throw InputError(what + ": it writes no input; expected one or more");
+  }
+  std::vector<int> written;
+  for (const int input : controller.writes) {
+    check_index(what, "input", input, model.inputs.size());
+    const std::string& name = model.inputs[index(input)].name;
+    if (std::count(written.begin(), written.end(), input) > 0) {
+      throw InputError(
+          fmt::format("{}: it writes input '{}' twice", what, name));
+    }
+    written.push_back(input);
+    for (const ControllerModel& other : model.controllers) {
+      if (std::count(other.writes.begin(), other.writes.end(), input) == 0) {
+        continue;
+      }
+      throw InputError(fmt::format(
+          "{}: it writes input '{}', which controller '{}' writes, too; one "
+          "input has one writer",
+          what, name, other.name));
+    }
+  }
+}
+
+}  // namespace
+
+void check_controller(const std::string& what,
+                      const ControllerModel& controller,
+                      const SystemModel& model) {
+  LIMBER_EXPECT(controller.law != nullptr);
+  if (!(controller.period > 0.0) || !std::isfinite(controller.period)) {
+    throw InputError(fmt::format("{}: its period is {:g} s; expected > 0", what,
+                                 controller.period));
+  }
+  if (!std::isfinite(controller.offset)) {
+    throw InputError(
+        fmt::format("{}: its offset is {} s; expected a finite number", what,
+                    controller.offset));
+  }
+  check_writes(what, controller, model);
+  for (const double value : controller.memory) {
+    if (std::isfinite(value)) continue;
+    throw InputError(what + ": a number of its memory is not finite");
+  }
+  std::set<std::string> names;
+  for (const Measurement& measurement : controller.measures) {
+    LIMBER_EXPECT(measurement.measure != nullptr);
+    if (measurement.name.empty() || !names.insert(measurement.name).second) {
+      throw InputError(
+          fmt::format("{}: it measures '{}' twice, or something without a name",
+                      what, measurement.name));
+    }
+  }
+}
+
+void check_pair_bodies(const std::string& what, BodyIndex body_A,
+                       BodyIndex body_B, const SystemModel& model) {
+  if (body_A == body_B) {
+    throw InputError(fmt::format(
+        "{}: both of its bodies are {}; expected two different ones", what,
+        body_A == kWorld ? "the world" : "the same"));
+  }
+  for (const BodyIndex b : {body_A, body_B}) {
+    if (b == kWorld) continue;
+    const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
+    if (body.full < 0) continue;
+    throw InputError(fmt::format(
+        "{}: body '{}' is at level full, on which pairs cannot act; take level "
+        "coupled",
+        what, body.name));
   }
 }
 

@@ -4,18 +4,25 @@
 #include <cstddef>
 #include <string>
 
-#include "dynamics/system_builder.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/modal_damping.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/flexbody/model/full_body.hpp"
+#include "limber/flexbody/model/nodal_load.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
-/// What SystemBuilder checks. Each throws InputError for a value outside its
-/// range and ContractError for a foreign index or a wrong size, naming the
-/// thing.
+/// Checks of SystemBuilder. Each throws InputError for a value outside its
+/// range and ContractError for an invalid index or a wrong size, naming the
+/// object.
 namespace limber::dynamics {
 
-/// @param what names the thing, as "body 'arm'"
+/// @param what names the object, such as "body 'arm'"
+/// @param mass [kg]
+/// @param inertia [kg m^2]
 void check_inertia(const std::string& what, double mass,
                    const Matrix3& inertia);
 
-/// Mass, inertia, and where `has_modes` the eigenvalues and all sizes.
+/// Mass, inertia, and if `has_modes` the eigenvalues and all sizes.
 void check_reduced(const std::string& what,
                    const flexbody::ReducedBody& reduced, bool has_modes);
 
@@ -23,12 +30,17 @@ void check_reduced(const std::string& what,
 void check_integrals(const std::string& what,
                      const flexbody::ReducedBody& reduced);
 
+/// Number of modes, and damping that they can have.
+void check_elasticity(const std::string& what,
+                      const flexbody::ModalElasticity& elasticity, int modes,
+                      const ModalDamping& damping);
+
 /// Rates of a body's modes [1/s]. @param lambda [rad^2/s^2]
 [[nodiscard]] VectorX check_damping(const std::string& what,
                                     const ModalDamping& damping,
                                     const VectorX& lambda);
 
-/// Rows of a full body are its nodes, in the mesh's order.
+/// Checks that rows are the nodes of a full body, in the mesh's order.
 void check_same_nodes(const std::string& what,
                       const flexbody::ReducedBody& reduced,
                       const flexbody::FullBody& full);
@@ -48,6 +60,14 @@ void check_nodes(const std::string& what, const flexbody::NodeSet& nodes,
 
 void check_joint_sum(const std::string& what, const JointSum& sum,
                      const SystemModel& model);
+
+/// Also that its inputs are in the model, and written by no other controller.
+void check_controller(const std::string& what,
+                      const ControllerModel& controller,
+                      const SystemModel& model);
+/// Two different bodies, none of them at level `full`.
+void check_pair_bodies(const std::string& what, BodyIndex body_A,
+                       BodyIndex body_B, const SystemModel& model);
 
 /// @param modes of the body
 void check_nodal_load(const std::string& what,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/default_stiffness.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace limber::scene {
+namespace limber::dynamics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -50,6 +50,14 @@ double find_damping(double stiffness, double mu) {
 
 }  // namespace
 
+CouplerSide make_side(double mass, const Matrix3& inertia,
+                      const Vector3& p_BF) {
+  CouplerSide side;
+  side.mass = mass;
+  side.inertia = inertia.trace() / 3.0 + mass * p_BF.squaredNorm();
+  return side;
+}
+
 joints::JointParameters find_joint_parameters(const CouplerOptions& options,
                                               const CouplerSide& side_F,
                                               const CouplerSide& side_M,
@@ -75,4 +83,4 @@ StopStiffness find_stop_stiffness(const CouplerSide& side_F,
           stiffness_at(kStopFrequency, reduce(side_F.inertia, side_M.inertia))};
 }
 
-}  // namespace limber::scene
+}  // namespace limber::dynamics

@@ -4,68 +4,83 @@
 #include <limits>
 #include <optional>
 
-#include "common/types.hpp"
-#include "joints/joint_kind.hpp"
-#include "scene/robot.hpp"
+#include "limber/common/restitution.hpp"
+#include "limber/common/types.hpp"
+#include "limber/joints/joint_kind.hpp"
 
-namespace limber::scene {
+namespace limber::dynamics {
+
+/// Stiffness and damping of a joint; defaults follow from the bodies.
+struct CouplerOptions {
+  std::optional<double> translational_stiffness{};  ///< [N/m]
+  std::optional<double> rotational_stiffness{};     ///< [N m/rad]
+  std::optional<double> translational_damping{};    ///< [N s/m]
+  std::optional<double> rotational_damping{};       ///< [N m s/rad]
+  std::optional<double> free_damping{};             ///< [N s/m or N m s/rad]
+};
 
 /// One side of a coupler.
 struct CouplerSide {
   double mass = std::numeric_limits<double>::infinity();  ///< [kg]
   /// Mean moment of inertia about the coupler's frame [kg m^2].
   double inertia = std::numeric_limits<double>::infinity();
-  /// Flexibility of the interface, translation first; none if rigid.
+  /// Flexibility of the interface, translation first [m/N, rad/(N m)]; none if
+  /// rigid.
   std::optional<Matrix6> flexibility;
 };
 
-/// What a coupler may have to carry, of bodies of this size; zero: not known.
+/// A side on a body that moves. @param inertia about its centre of mass
+/// [kg m^2] @param p_BF from there to the coupler's frame [m]
+[[nodiscard]] CouplerSide make_side(double mass, const Matrix3& inertia,
+                                    const Vector3& p_BF);
+
+/// Expected load of a coupler, and size of its bodies; zero: unknown.
 struct CarriedLoad {
   double force = 0.0;                                     ///< [N]
   double moment = 0.0;                                    ///< [N m]
   double size = std::numeric_limits<double>::infinity();  ///< [m]
 };
 
-/// Stiffness over that of the stiffer side's own interface [-].
+/// Stiffness relative to the stiffer side's interface [-].
 inline constexpr double kStiffnessRatio = 100.0;
-/// Frequency at which two rigid sides would swing on their coupler [Hz].
+/// Natural frequency of two rigid sides on their coupler [Hz].
 inline constexpr double kRigidFrequency = 1000.0;
-/// What a coupler of two rigid sides may give way by under what it carries:
-/// of the sides' size, and in rotation [-, rad].
+/// Allowed displacement of a coupler of two rigid sides under its load:
+/// relative to the sides' size, and in rotation [-, rad].
 inline constexpr double kRigidShare = 1e-4;
 /// Share of critical damping of the two masses on their coupler [-].
 inline constexpr double kDampingRatio = 0.01;
 
-/// Frequency at which a free body would swing on a stop [Hz]: it touches for
-/// 10 ms, at any speed.
-inline constexpr double kStopFrequency = 50.0;
+/// Natural frequency of a free body on a stop [Hz]: contact lasts 10 ms, at any
+/// speed.
+inline constexpr double kStopFrequency = 0.5 / kImpactDuration;
 
-/// Parameters of a coupler between two sides: what `options` gives, and for
-/// the rest
+/// Parameters of a coupler between two sides: those in `options`, and by
+/// default
 ///   k = kStiffnessRatio / min over the flexible sides of c,
 /// where c is the largest principal flexibility of the interface (translation
 /// or rotation): the coupler then adds at most 1 % to the flexibility of the
 /// stiffer side. If both sides are rigid,
 ///   k = max(mu (2 pi kRigidFrequency)^2, load / (kRigidShare size)),
 ///   1/mu = 1/mu_F + 1/mu_M,
-/// with mu the mass (or moment of inertia), load the force (or moment) that it
-/// carries and size that of the bodies (or 1 rad). The damping is
+/// with mu the mass (or moment of inertia), load the force (or moment) carried
+/// and size that of the bodies (or 1 rad). The damping is
 ///   c = 2 kDampingRatio sqrt(k mu).
-/// A free direction has no damping unless the URDF gives one. The flexibility
-/// counts at every fidelity, so that a change of level changes nothing else.
+/// A free direction has no damping unless it is given. The flexibility
+/// is used at every fidelity, so that a change of level changes nothing else.
 [[nodiscard]] joints::JointParameters find_joint_parameters(
     const CouplerOptions& options, const CouplerSide& side_F,
     const CouplerSide& side_M, const CarriedLoad& load = {});
 
-/// Of an end stop whose file gives none.
+/// Default stiffness of an end stop.
 struct StopStiffness {
   double translational = 0.0;  ///< [N/m]
   double rotational = 0.0;     ///< [N m/rad]
 };
 
 /// mu (2 pi kStopFrequency)^2 with mu the mass, or the moment of inertia, of
-/// both sides as above. A stop is softer than what holds a joint: it is hit.
+/// both sides as above. Softer than a joint's constraints, because of impacts.
 [[nodiscard]] StopStiffness find_stop_stiffness(const CouplerSide& side_F,
                                                 const CouplerSide& side_M);
 
-}  // namespace limber::scene
+}  // namespace limber::dynamics

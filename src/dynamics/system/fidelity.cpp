@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/fidelity.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
 
-#include "common/names.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::dynamics {
 

@@ -7,7 +7,7 @@
 
 namespace limber::dynamics {
 
-/// How much of a body's physics is computed (docs/theory/equations.md).
+/// Level of detail of a body's physics (docs/theory/equations.md).
 enum class Fidelity { rigid, uncoupled, one_way, coupled, full };
 
 /// "rigid", "uncoupled", "one-way", "coupled",

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/manifest.hpp"
-#include "dynamics/simulation.hpp"
-#include "flexbody/fields.hpp"
-#include "joints/fields.hpp"
+#include "limber/common/records/manifest.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/flexbody/model/fields.hpp"
 
-/// What a system and its settings are made of, field by field
-/// (common/fields.hpp).
+/// Field lists of a system and its settings (common/records/fields.hpp).
 namespace limber::dynamics {
 
 constexpr auto fields_of(const Constant*) {
@@ -40,15 +39,38 @@ constexpr auto fields_of(const Table*) {
   return list_fields("table", "times [s]", "values");
 }
 
+constexpr auto fields_of(const InputFunction*) {
+  return list_fields("input", "index", "factor");
+}
+
+constexpr auto fields_of(const Input*) {
+  return list_fields("input", "name", "initial", "between samples");
+}
+
+constexpr auto fields_of(const Measurement*) {
+  return list_fields("measurement", "name", "of", nullptr);
+}
+
+/// What the law says of itself.
+inline void describe(Manifest& out, std::string_view name,
+                     const Controller& law) {
+  out.within(name, [&] { law.describe(out); });
+}
+
+constexpr auto fields_of(const ControllerModel*) {
+  return list_fields("controller", "name", "period [s]", "offset [s]", "writes",
+                     "measures", "memory", "law");
+}
+
 constexpr auto fields_of(const ModalInertia*) {
   return list_fields("inertia by mode", "J1", "J2", "beta");
 }
 
 constexpr auto fields_of(const BodyModel*) {
   return list_fields("body", "name", "level", "clamped", "mass [kg]",
-                     "inertia [kg m^2]", "modes", "offset",
-                     "eigenvalues [rad^2/s^2]", "damping [1/s]",
-                     "inertia by mode", "P [kg^1/2]", "reduced", "full");
+                     "inertia [kg m^2]", "modes", "offset", "elasticity",
+                     "damping [1/s]", "inertia by mode", "P [kg^1/2]",
+                     "reduced", "full");
 }
 
 constexpr auto fields_of(const FullModel*) {
@@ -96,26 +118,15 @@ constexpr auto fields_of(const BodyLoad*) {
   return list_fields("load", "name", "body", "history", "nodal forces [N]");
 }
 
+constexpr auto fields_of(const Pair*) {
+  return list_fields("pair", "name", "body A", "body B", "law", "first memory");
+}
+
 constexpr auto fields_of(const SystemModel*) {
-  return list_fields("system", "bodies", "attachments", "couplers",
-                     "transmissions", "loads", "body loads", "gravity [m/s^2]",
-                     "modal coordinates", "unreduced bodies",
-                     "nodal coordinates");
-}
-
-inline std::string_view to_string(IntegratorKind kind) {
-  return integrator_names()[static_cast<std::size_t>(kind)];
-}
-
-constexpr auto fields_of(const StepChange*) {
-  return list_fields("step change", "from [s]", "step [s]");
-}
-
-constexpr auto fields_of(const SimulationSettings*) {
-  return list_fields("settings", "integrator", "end [s]", "step [s]",
-                     "tolerance [m]", "most steps", "step changes",
-                     "output times [s]", "rho_inf", "Newton's tolerance",
-                     "Newton's iterations", "exact modes");
+  return list_fields(
+      "system", "bodies", "attachments", "couplers", "transmissions", "loads",
+      "body loads", "gravity [m/s^2]", "modal coordinates", "unreduced bodies",
+      "nodal coordinates", "inputs", "controllers", "pairs", "pair memories");
 }
 
 }  // namespace limber::dynamics

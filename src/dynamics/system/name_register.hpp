@@ -7,11 +7,12 @@
 
 namespace limber::dynamics {
 
-/// Names that a system's things have, each kind's once.
+/// Names of a system's objects, unique per kind.
 class NameRegister {
  public:
   /// "KIND 'NAME'", for errors.
-  /// @throws InputError for a name that is empty or taken.
+  /// @throws InputError for a name that is empty, taken or no name: with a
+  /// control character, or longer than kMostNameBytes.
   [[nodiscard]] std::string check(const std::string& kind,
                                   const std::string& name) const;
   void add(const std::string& kind, const std::string& name) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/nodal_frame.hpp"
+#include "limber/dynamics/system/nodal_frame.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 #include <numeric>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -25,7 +25,7 @@ double find_size(const flexbody::FullBody& body) {
       .maxCoeff();
 }
 
-// The frame turns with all nodes, or about a line with them.
+// The frame rotates with all nodes of the body, or about a line with them.
 void turn_with_body(const flexbody::FullBody& body, NodalFrame& frame) {
   frame.turns = true;
   frame.turning.resize(static_cast<std::size_t>(body.node_count()));
@@ -55,7 +55,7 @@ Vector3 find_line_vector(const NodalFrame& frame, const ConstNodes& x) {
   return sum;
 }
 
-// The rotation nearest to the correlation A of those that take `line` to t.
+// The rotation nearest to the correlation A among those that map `line` to t.
 Matrix3 find_line_rotation(const Matrix3& A, const Vector3& line,
                            const Vector3& t) {
   const Matrix3 mean = find_polar_rotation(A);
@@ -67,7 +67,7 @@ Matrix3 find_line_rotation(const Matrix3& A, const Vector3& line,
   return exp_rotation(angle * t) * R;
 }
 
-// Rotation of a set that defines it, and what spreads a moment.
+// Rotation of a set that defines it, and the map of a moment to its nodes.
 void calc_rotation(const NodalFrame& frame, const ConstNodes& u_H,
                    const Vector3& u, NodalFrameMotion& motion) {
   const Matrix3 A = find_correlation(frame, u_H, u);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "common/pose.hpp"
-#include "flexbody/full_body.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/flexbody/model/full_body.hpp"
 
 namespace limber::dynamics {
 
@@ -14,22 +14,24 @@ namespace limber::dynamics {
 ///            sum_i y_i x R^T (p_i - p) = 0 with y_i = w_i d_i
 /// Source     weighted orthogonal Procrustes problem [@umeyama1991];
 ///            for small motion this is flexbody::InterfaceMotion
-///            Nodes on one line along e define it but for the turn about the
+///            Nodes on one line along e do not define the rotation about the
 ///            line: R e = L / |L|, L = sum_i w_i (e . d_i) (p_i - p), and about
-///            L it is the nearest to the nodes of the whole body, y_i their
-///            first moments. These take the moment about the line.
-/// Limits     a single node defines no rotation: the frame then turns with the
-///            mean-axis frame of its body, whose nodes take the moment. If the
-///            body is clamped it does not turn, and the clamp takes the moment.
+///            L it is fitted to the nodes of the whole body, y_i their first
+///            moments, which take the moment about the line.
+/// Limits     a single node defines no rotation: the frame then rotates with
+///            the mean-axis frame of its body, whose nodes take the moment. If
+///            the body is clamped it does not rotate, and the clamp takes the
+///            moment.
 struct NodalFrame {
-  std::vector<int> nodes;
-  VectorX weights;                   ///< sum to one
+  std::vector<int> nodes;            ///< indices
+  VectorX weights;                   ///< sum to one [-]
   Vector3 mean_B = Vector3::Zero();  ///< undeformed [m]
   Vector3 arm_B = Vector3::Zero();   ///< from the mean to the origin [m]
   bool turns = false;
-  std::vector<int> turning;  ///< nodes that define the rotation
+  std::vector<int> turning;  ///< indices of the nodes that define the rotation
   Matrix3X d_B;              ///< 3 x n of these, undeformed, from the mean [m]
-  Matrix3X y_B;              ///< 3 x n first moments, their sum is zero
+  /// 3 x n first moments, their sum is zero [m]; with the whole body [kg m].
+  Matrix3X y_B;
   VectorX lever;  ///< of nodes on a line: w_i (e . d_i) [m], their sum is zero
   Vector3 line_B = Vector3::Zero();  ///< L undeformed, along e [m^2]
 
@@ -43,15 +45,16 @@ struct NodalFrame {
 
 /// Its motion in the home frame H (SystemState::X_WH).
 struct NodalFrameMotion {
-  Matrix3 R_HB = Matrix3::Identity();  ///< undeformed axes to H
+  Matrix3 R_HB = Matrix3::Identity();  ///< undeformed axes to H [-]
   Vector3 arm_H = Vector3::Zero();     ///< from the mean to the origin [m]
   Vector3 p_H = Vector3::Zero();       ///< of the origin [m]
   Vector3 v_H = Vector3::Zero();       ///< of the origin [m/s]
   Vector3 w_H = Vector3::Zero();       ///< [rad/s]
-  /// A moment [N m] to the factor of its nodal forces, the inverse of what
-  /// y_B d_B' measures; zero if it does not turn.
+  /// Maps a moment [N m] to the factor of its nodal forces: the inverse of the
+  /// second moment y_B d_B' [1/m^2, or 1/(kg m^2) with the whole body]; zero if
+  /// it does not rotate.
   Matrix3 spread = Matrix3::Zero();
-  /// Of nodes on a line, L' to what it adds to w_H [1/m^2].
+  /// For nodes on a line, maps L' to its part of w_H [1/m^2].
   Matrix3 line_spread = Matrix3::Zero();
 };
 
@@ -62,15 +65,15 @@ using Nodes = Eigen::Map<Matrix3X>;
 void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
                       const ConstNodes& udot_H, NodalFrameMotion& motion);
 
-/// Adds the nodal forces of a force [N] and a moment [N m] at the origin, so
-/// that work balances and nothing is lost: their sum is the force, and their
-/// moment, about any point of H, that of both.
+/// Distributes a force [N] and a moment [N m] at the origin to the nodes: the
+/// work balances, their sum is the force, and their moment about any point of H
+/// that of both.
 ///
 /// Equation   f_i = w_i f + (K^-1 (m + arm x f)) x R y_i,
 ///            K = tr(S) I - S, S = sum_i R y_i (p_i - p)^T;
-///            of nodes on a line along t = L / |L|, with k = K t, K^-1 is
-///            t t^T / (k . t), and the line's nodes also take
-///            w_i (e . d_i) [(I - t k^T / (k . t)) [t]x / |L|]^T (m + arm x f)
+///            for nodes on a line along t = L / |L|, with k = K t, K^-1 is t
+///            t^T / (k . t), and the line's nodes also take w_i (e . d_i) [(I -
+///            t k^T / (k . t)) [t]x / |L|]^T (m + arm x f)
 void add_nodal_wrench(const NodalFrame& frame, const NodalFrameMotion& motion,
                       const Vector3& force_H, const Vector3& moment_H,
                       Eigen::Ref<Matrix3X> force);

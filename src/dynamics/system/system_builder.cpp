@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/system_builder.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/body_model.hpp"
-#include "dynamics/builder_checks.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/dynamics/system/builder_checks.hpp"
+#include "limber/dynamics/system/model_check.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -40,10 +41,10 @@ BodyIndex SystemBuilder::add_body(const std::string& name, BodyModel body) {
   body.offset = model_.modal_count;
   model_.modal_count += body.modes;
   model_.bodies.push_back(std::move(body));
-  return static_cast<BodyIndex>(model_.bodies.size()) - 1;
+  return BodyIndex(model_.bodies.size() - 1);
 }
 
-// Bodies keep what they were reduced from, so its address stays its own.
+// Bodies own their reduced body, so its address remains unique.
 std::shared_ptr<const ModalInertia> SystemBuilder::find_inertia(
     const std::string& what, const flexbody::ReducedBody& reduced) {
   std::shared_ptr<const ModalInertia>& known = inertias_[&reduced];
@@ -58,7 +59,8 @@ std::shared_ptr<const ModalInertia> SystemBuilder::find_inertia(
 BodyIndex SystemBuilder::add_flexible_body(
     const std::string& name,
     std::shared_ptr<const flexbody::ReducedBody> reduced, Fidelity fidelity,
-    const ModalDamping& damping) {
+    const ModalDamping& damping,
+    const std::optional<flexbody::ModalElasticity>& elasticity) {
   LIMBER_EXPECT(reduced != nullptr);
   const std::string what = names_.check("body", name);
   if (fidelity < Fidelity::rigid || fidelity >= Fidelity::full) {
@@ -73,8 +75,11 @@ BodyIndex SystemBuilder::add_flexible_body(
   body.J0 = reduced->inertia();
   if (fidelity != Fidelity::rigid) {
     body.modes = reduced->mode_count();
-    body.lambda = reduced->lambda;
-    body.damping = check_damping(what, damping, reduced->lambda);
+    body.elasticity = elasticity.value_or(flexbody::DiagonalStiffness(
+        flexbody::DiagonalStiffness::Parameters{reduced->lambda}));
+    check_elasticity(what, body.elasticity, body.modes, damping);
+    body.damping =
+        check_damping(what, damping, flexbody::rest_stiffness(body.elasticity));
     if (body.clamped) body.P = reduced->integrals.P;
     body.inertia = find_inertia(what, *reduced);
   }
@@ -92,7 +97,7 @@ BodyIndex SystemBuilder::add_full_body(
   check_reduced(what, *reduced, true);
   check_same_nodes(what, *reduced, *full);
   FullModel more;
-  more.body = static_cast<BodyIndex>(model_.bodies.size());
+  more.body = BodyIndex(model_.bodies.size());
   more.first = model_.nodal_count;
   more.mesh = full;
   const VectorX rates = check_damping(what, damping, reduced->lambda);
@@ -150,7 +155,7 @@ AttachmentIndex SystemBuilder::attach_frame(const std::string& name,
                                 .R_BF = X_BF.R,
                                 .Phi_B = Matrix3X::Zero(3, modes),
                                 .Psi_B = Matrix3X::Zero(3, modes)});
-  return static_cast<AttachmentIndex>(model_.attachments.size()) - 1;
+  return AttachmentIndex(model_.attachments.size() - 1);
 }
 
 AttachmentIndex SystemBuilder::attach_interface(
@@ -166,7 +171,7 @@ AttachmentIndex SystemBuilder::attach_interface(
   const AttachmentIndex index = attach_frame(name, body, X_BF);
   Attachment& attachment = model_.attachments.back();
   if (attachment.Phi_B.cols() == 0) return index;  // a rigid body
-  // The frame's origin may sit off the mean point: it follows the rotation.
+  // An origin away from the mean point follows the rotation.
   const Vector3 arm = X_BF.p - interface.p_B;
   attachment.Psi_B = interface.Psi_B;
   attachment.Phi_B = interface.Phi_B;
@@ -185,7 +190,7 @@ AttachmentIndex SystemBuilder::attach_world(const std::string& name,
                                 .R_BF = X_WF.R,
                                 .Phi_B = Matrix3X::Zero(3, 0),
                                 .Psi_B = Matrix3X::Zero(3, 0)});
-  return static_cast<AttachmentIndex>(model_.attachments.size()) - 1;
+  return AttachmentIndex(model_.attachments.size() - 1);
 }
 
 const Attachment& SystemBuilder::find_frame(const std::string& what,
@@ -202,9 +207,10 @@ CouplerIndex SystemBuilder::add_coupler(const std::string& name,
   if (find_frame(what, frame_F).body == find_frame(what, frame_M).body) {
     throw InputError(what + ": both of its ends are on the same body");
   }
+  check_inputs(what, joints::find_inputs(law));
   names_.add("coupler", name);
   model_.couplers.push_back({name, law, frame_F, frame_M});
-  return static_cast<CouplerIndex>(model_.couplers.size()) - 1;
+  return CouplerIndex(model_.couplers.size() - 1);
 }
 
 TransmissionIndex SystemBuilder::add_path(
@@ -223,18 +229,60 @@ TransmissionIndex SystemBuilder::add_path(
         "all on the same body",
         what, points.size(), points.size() == 1 ? "" : "s"));
   }
+  for (const joints::ScalarLaw& law : laws) {
+    check_inputs(what, joints::find_inputs(law));
+  }
   names_.add("transmission", name);
   model_.transmissions.push_back({name, PathCoordinate{points}, laws});
-  return static_cast<TransmissionIndex>(model_.transmissions.size()) - 1;
+  return TransmissionIndex(model_.transmissions.size() - 1);
 }
 
 TransmissionIndex SystemBuilder::add_joint_sum(
     const std::string& name, const JointSum& sum,
     const std::vector<joints::ScalarLaw>& laws) {
-  check_joint_sum(names_.check("transmission", name), sum, model_);
+  const std::string what = names_.check("transmission", name);
+  check_joint_sum(what, sum, model_);
+  for (const joints::ScalarLaw& law : laws) {
+    check_inputs(what, joints::find_inputs(law));
+  }
   names_.add("transmission", name);
   model_.transmissions.push_back({name, sum, laws});
-  return static_cast<TransmissionIndex>(model_.transmissions.size()) - 1;
+  return TransmissionIndex(model_.transmissions.size() - 1);
+}
+
+PairIndex SystemBuilder::add_pair(
+    const std::string& name, BodyIndex body_A, BodyIndex body_B,
+    std::shared_ptr<const joints::PairInteraction> law) {
+  const std::string what = names_.check("pair", name);
+  LIMBER_EXPECT(law != nullptr);
+  const auto modes_of = [&](BodyIndex body) {
+    return body == kWorld ? 0 : find_body(what, body).modes;
+  };
+  const int modes_A = modes_of(body_A);
+  const int modes_B = modes_of(body_B);
+  check_pair_bodies(what, body_A, body_B, model_);
+  try {
+    law->check(modes_A, modes_B);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", what, error.what()));
+  }
+  names_.add("pair", name);
+  const std::size_t first = model_.pair_memory_size;
+  model_.pair_memory_size += law->memory_size();
+  model_.pairs.push_back({name, body_A, body_B, std::move(law), first});
+  return PairIndex(model_.pairs.size() - 1);
+}
+
+joints::PairPlace SystemBuilder::find_place(AttachmentIndex attachment) const {
+  const std::string what = fmt::format("place {}", attachment);
+  const Attachment& a = find_frame(what, attachment);
+  if (a.nodal) {
+    throw InputError(
+        fmt::format("{}: frame '{}' is on a body at level full, "
+                    "which has no places of pairs",
+                    what, a.name));
+  }
+  return {a.p_BF, a.Phi_B};
 }
 
 LoadIndex SystemBuilder::add_load(const std::string& name,
@@ -254,6 +302,9 @@ LoadIndex SystemBuilder::add_load(const std::string& name,
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", what, error.what()));
   }
+  if (const auto* follows = std::get_if<InputFunction>(&function)) {
+    check_inputs(what, {follows->input});
+  }
   if (attachment.nodal && frame == LoadFrame::body) {
     const int full =
         model_.bodies[static_cast<std::size_t>(attachment.body)].full;
@@ -262,7 +313,7 @@ LoadIndex SystemBuilder::add_load(const std::string& name,
   names_.add("load", name);
   model_.loads.push_back(
       {name, where, force, moment, frame == LoadFrame::world, function});
-  return static_cast<LoadIndex>(model_.loads.size()) - 1;
+  return LoadIndex(model_.loads.size() - 1);
 }
 
 void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
@@ -286,15 +337,42 @@ void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
       {name, body, history, target.full >= 0 ? nodal : MatrixX()});
 }
 
+void SystemBuilder::check_inputs(const std::string& what,
+                                 const std::vector<int>& inputs) const {
+  for (const int input : inputs) {
+    check_index(what, "input", input, model_.inputs.size());
+  }
+}
+
+InputIndex SystemBuilder::add_input(const std::string& name, double initial,
+                                    InputHold hold) {
+  const std::string what = names_.check("input", name);
+  if (!std::isfinite(initial)) {
+    throw InputError(
+        fmt::format("{}: its initial value is {}; expected a finite number",
+                    what, initial));
+  }
+  names_.add("input", name);
+  model_.inputs.push_back({name, initial, hold});
+  return InputIndex(model_.inputs.size() - 1);
+}
+
+ControllerIndex SystemBuilder::add_controller(
+    const ControllerModel& controller) {
+  const std::string what = names_.check("controller", controller.name);
+  check_controller(what, controller, model_);
+  names_.add("controller", controller.name);
+  model_.controllers.push_back(controller);
+  return ControllerIndex(model_.controllers.size() - 1);
+}
+
 void SystemBuilder::set_gravity(const Vector3& gravity_W) {
   if (!gravity_W.allFinite()) throw InputError("gravity is not finite");
   model_.gravity_W = gravity_W;
 }
 
 SystemModel SystemBuilder::build() const {
-  if (model_.bodies.empty()) {
-    throw InputError("the system has no body that can move");
-  }
+  check_model(model_);
   return model_;
 }
 

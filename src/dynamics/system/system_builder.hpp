@@ -3,44 +3,61 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "dynamics/fidelity.hpp"
-#include "dynamics/name_register.hpp"
-#include "dynamics/system_model.hpp"
-#include "dynamics/time_function.hpp"
-#include "flexbody/reduced_body.hpp"
-#include "joints/coupler_law.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/dynamics/system/modal_damping.hpp"
+#include "limber/dynamics/system/name_register.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/time_function.hpp"
+#include "limber/flexbody/elasticity/modal_elasticity.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/joints/coupler_law.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 namespace limber::dynamics {
 
-/// Mass of a rigid body about its centre of mass, body axes.
+/// Mass properties of a rigid body about its centre of mass, body frame.
 struct RigidInertia {
   double mass = 0.0;  ///< > 0 [kg]
-  /// Symmetric, positive definite, and that of a mass: no principal moment
-  /// more than the sum of the others, but for rounding to three digits
-  /// [kg m^2].
+  /// Symmetric, positive definite and physical: no principal moment exceeds the
+  /// sum of the others, up to rounding to three digits [kg m^2].
   Matrix3 inertia = Matrix3::Zero();
-};
-
-/// Damping of a flexible body's modes: ratio_k omega_k 2 plus Rayleigh
-/// alpha + beta omega_k^2.
-struct ModalDamping {
-  double rayleigh_mass = 0.0;       ///< alpha >= 0 [1/s]
-  double rayleigh_stiffness = 0.0;  ///< beta >= 0 [s]
-  std::vector<double> ratios;       ///< >= 0 per mode [-]; one value: all
 };
 
 /// Frame in which a load's components are constant.
 enum class LoadFrame { body, world };
 
-/// Puts a system together, each method checking what it is given: names that
-/// are empty or twice among bodies, couplers, transmissions or loads, and
-/// values that are not finite or outside their range throw InputError; indices
-/// of what does not exist and tables of another size ContractError. Texts name
-/// the thing; what was refused is not added. Frames' names may repeat.
+/// One side of a joint: a frame on a body, or in the world.
+struct JointSide {
+  BodyIndex body = kWorld;
+  /// Pose of the joint's frame on the undeformed body. By default the middle of
+  /// the interface, with the axes of B; without interface the frame B itself.
+  std::optional<Pose> X_BF{};
+  /// What carries the joint on a flexible body: an interface of its by name, or
+  /// as a table.
+  std::variant<std::monostate, std::string, flexbody::InterfaceTable>
+      interface {};
+};
+
+/// Of a joint; all by default.
+struct JointOptions {
+  Vector3 second_F = Vector3::UnitX();  ///< of a universal joint, any length
+  CouplerOptions held{};                ///< default: find_joint_parameters
+  /// End stops, friction, springs, drives along its coordinates.
+  std::vector<joints::JointElement> elements{};
+};
+
+/// Builds a system; each method checks its arguments. Empty or duplicate names
+/// among bodies, couplers, transmissions, loads, inputs or controllers, and
+/// values that are not finite or out of range throw InputError; invalid indices
+/// and tables of wrong size ContractError. Messages name the object; a rejected
+/// object is not added. Names of frames may repeat.
 class SystemBuilder {
  public:
   /// Body with frame B at its centre of mass.
@@ -48,9 +65,14 @@ class SystemBuilder {
                            const RigidInertia& inertia);
 
   /// Flexible body; at Fidelity::rigid only its mass properties are used.
-  BodyIndex add_flexible_body(const std::string& name,
-                              std::shared_ptr<const flexbody::ReducedBody> body,
-                              Fidelity fidelity, const ModalDamping& damping);
+  /// @param elasticity of its modes, in place of the reduced body's linear one
+  /// @throws InputError for an elasticity of another number of modes, or for
+  /// damping by frequencies that its modes do not have each of its own.
+  BodyIndex add_flexible_body(
+      const std::string& name,
+      std::shared_ptr<const flexbody::ReducedBody> body, Fidelity fidelity,
+      const ModalDamping& damping,
+      const std::optional<flexbody::ModalElasticity>& elasticity = {});
 
   /// Body without reduction (Fidelity::full). `body` is the same mesh reduced,
   /// with the rows of all nodes: for mass, names, damping and pictures.
@@ -60,8 +82,8 @@ class SystemBuilder {
                           std::shared_ptr<const flexbody::FullBody> full,
                           const ModalDamping& damping);
 
-  /// A frame fixed to frame B of a body, whose deformation it does not feel:
-  /// pose X_BF.
+  /// A frame fixed to frame B of a body, independent of its deformation: pose
+  /// X_BF.
   AttachmentIndex attach_frame(const std::string& name, BodyIndex body,
                                const Pose& X_BF);
   /// A frame on a flexible body's interface; X_BF its undeformed pose.
@@ -79,6 +101,20 @@ class SystemBuilder {
                            const joints::CouplerLaw& law,
                            AttachmentIndex frame_F, AttachmentIndex frame_M);
 
+  /// A joint between frame F on `parent` and frame M on `child`, which coincide
+  /// where its coordinates are zero. The frames are attached as NAME.F and
+  /// NAME.M, see attach_frame and attach_interface.
+  /// @param axis_F of any length; not looked at where the kind has none
+  /// @throws InputError also for an unknown interface, with the nearest; a
+  /// flexible body without interface; one that does not define a rotation that
+  /// the joint needs; two sides that cannot move.
+  /// @throws ContractError also for an element on a coordinate that the kind
+  /// does not have.
+  CouplerIndex add_joint(const std::string& name, joints::JointKind kind,
+                         const JointSide& parent, const JointSide& child,
+                         const Vector3& axis_F = Vector3::UnitZ(),
+                         const JointOptions& options = {});
+
   /// Laws along the length of a path through `points`, in order.
   TransmissionIndex add_path(const std::string& name,
                              const std::vector<AttachmentIndex>& points,
@@ -88,32 +124,59 @@ class SystemBuilder {
   TransmissionIndex add_joint_sum(const std::string& name, const JointSum& sum,
                                   const std::vector<joints::ScalarLaw>& laws);
 
+  /// A law between two bodies, or a body and the world (kWorld). Which pairs
+  /// there are is fixed; their points come and go.
+  /// @throws InputError also for a body at level `full`, a body with itself,
+  /// and a law that does not fit the bodies.
+  PairIndex add_pair(const std::string& name, BodyIndex body_A,
+                     BodyIndex body_B,
+                     std::shared_ptr<const joints::PairInteraction> law);
+  /// The origin of an attachment as a place of a pair, world frame in the
+  /// world.
+  [[nodiscard]] joints::PairPlace find_place(AttachmentIndex attachment) const;
+
   /// Force and moment at a body's attachment, constant components in the body
   /// frame B or the world frame, times `function`.
   LoadIndex add_load(const std::string& name, AttachmentIndex where,
                      const Vector3& force, const Vector3& moment,
                      LoadFrame frame, const TimeFunction& function);
 
-  /// Nodal forces on a flexible body, which follow it.
+  /// Nodal forces on a flexible body, constant in its frame.
   /// @param nodal 3N x T, of all nodes, for an unreduced body [N]
   void add_nodal_load(const std::string& name, BodyIndex body,
                       const flexbody::NodalLoad& history,
                       const MatrixX& nodal = {});
 
+  /// A number that loads (InputFunction) and drives (joints::InputSignal) can
+  /// follow from here on.
+  InputIndex add_input(const std::string& name, double initial,
+                       InputHold hold = InputHold::held);
+
+  /// What writes inputs. @throws InputError also for an input that another
+  /// controller writes, a period that is not > 0, no input at all.
+  ControllerIndex add_controller(const ControllerModel& controller);
+
   /// Uniform gravitational acceleration [m/s^2], world frame.
   void set_gravity(const Vector3& gravity_W);
 
-  /// @throws InputError if no body was added.
+  /// @throws InputError if no body was added, or as check_model does.
   [[nodiscard]] SystemModel build() const;
 
  private:
   BodyIndex add_body(const std::string& name, BodyModel body);
   [[nodiscard]] std::shared_ptr<const ModalInertia> find_inertia(
       const std::string& what, const flexbody::ReducedBody& reduced);
+  struct Mount;
+  [[nodiscard]] Mount find_mount(const std::string& what,
+                                 const JointSide& side) const;
+  AttachmentIndex attach(const std::string& name, BodyIndex body,
+                         const Mount& mount);
   [[nodiscard]] const BodyModel& find_body(const std::string& what,
                                            BodyIndex body) const;
   [[nodiscard]] const Attachment& find_frame(const std::string& what,
                                              AttachmentIndex frame) const;
+  void check_inputs(const std::string& what,
+                    const std::vector<int>& inputs) const;
 
   SystemModel model_;
   NameRegister names_;

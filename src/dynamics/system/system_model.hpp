@@ -3,36 +3,34 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "dynamics/fidelity.hpp"
-#include "dynamics/nodal_frame.hpp"
-#include "dynamics/time_function.hpp"
-#include "flexbody/nodal_load.hpp"
-#include "flexbody/reduced_body.hpp"
-#include "joints/coupler_law.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/controller.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/dynamics/system/indices.hpp"
+#include "limber/dynamics/system/nodal_frame.hpp"
+#include "limber/dynamics/system/time_function.hpp"
+#include "limber/flexbody/elasticity/modal_elasticity.hpp"
+#include "limber/flexbody/model/nodal_load.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/joints/coupler_law.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::dynamics {
 
-using BodyIndex = int;
-using AttachmentIndex = int;
-using CouplerIndex = int;
-using TransmissionIndex = int;
-using LoadIndex = int;
-inline constexpr BodyIndex kWorld = -1;
-
 /// Derivatives of a body's inertia by its modes, and the coupling of modes by
-/// rotation, packed for the inner loops. Of one reduced body, whichever bodies
-/// of the system it is: they read the same numbers, which stay in caches.
+/// rotation, packed for the inner loops. Shared by all bodies of the system
+/// with the same reduced body, which saves cache.
 ///
 /// Equation   J(eta) = J0 + J1 eta + eta' J2 eta / 2,
 ///            components (xx, yy, zz, xy, xz, yz)
 struct ModalInertia {
-  Matrix6X J1;   ///< 6 x m
-  MatrixX J2;    ///< 6m x m, row 6k + c
-  MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k
+  Matrix6X J1;   ///< 6 x m [kg^1/2 m]
+  MatrixX J2;    ///< 6m x m, row 6k + c [-]
+  MatrixX beta;  ///< 3m x m, row 3l + c: beta_kl in column k [-]
 };
 
 /// One body's constants. m modes, 0 when rigid.
@@ -42,32 +40,32 @@ struct BodyModel {
   bool clamped = false;          ///< B is fixed in the world
   double mass = 0.0;             ///< [kg]
   Matrix3 J0 = Matrix3::Zero();  ///< inertia, undeformed [kg m^2]
-  int modes = 0;
-  int offset = 0;   ///< first modal coordinate in the state
-  VectorX lambda;   ///< m [rad^2/s^2]
-  VectorX damping;  ///< m, diagonal of C [1/s]
+  int modes = 0;                 ///< number of modes m
+  int offset = 0;  ///< index of the first modal coordinate in the state
+  flexbody::ModalElasticity elasticity;  ///< of m modes
+  VectorX damping;                       ///< m, diagonal of C [1/s]
   /// Without columns when rigid; never null.
   std::shared_ptr<const ModalInertia> inertia =
       std::make_shared<const ModalInertia>();
-  Matrix3X P;  ///< 3 x m, int phi_k dm; no columns unless clamped
-  /// What was reduced; null for a rigid body. For probes and pictures.
+  Matrix3X P;  ///< 3 x m, int phi_k dm [kg^1/2]; no columns unless clamped
+  /// The reduced body; null for a rigid body. For probes and pictures.
   std::shared_ptr<const flexbody::ReducedBody> reduced;
   int full = -1;  ///< index into SystemModel::full_bodies, -1 if reduced
 
-  /// Whether frame B moves by equations of its own: that of a clamped body
-  /// rests, and that of an unreduced one follows its nodes.
+  /// Whether frame B has its own equations of motion: that of a clamped body is
+  /// fixed, and that of an unreduced one follows its nodes.
   [[nodiscard]] bool has_rigid_motion() const { return !clamped && full < 0; }
 };
 
-/// What level `full` adds to a BodyModel.
+/// Additional data of a BodyModel at level `full`.
 struct FullModel {
-  BodyIndex body = 0;
-  Eigen::Index first = 0;  ///< of its 3N entries in SystemState::u_H
+  BodyIndex body;
+  Eigen::Index first = 0;  ///< index of its 3N entries in SystemState::u_H
   std::shared_ptr<const flexbody::FullBody> mesh;
   /// Damping acts on the deformation's share in the reduced body's modes.
-  MatrixX damped_modes;  ///< 3N x m, M Phi; no columns if undamped
+  MatrixX damped_modes;  ///< 3N x m, M Phi [kg^1/2]; no columns if undamped
   VectorX damping;       ///< m [1/s]
-  /// Whether forces depend on the mean-axis frame: loads that turn with the
+  /// Whether forces depend on the mean-axis frame: loads that rotate with the
   /// body, or damping.
   bool needs_frame = false;
 
@@ -78,18 +76,18 @@ struct FullModel {
 struct Attachment {
   std::string name;
   BodyIndex body = kWorld;
-  Vector3 p_BF = Vector3::Zero();  ///< undeformed origin [m]
-  Matrix3 R_BF = Matrix3::Identity();
-  Matrix3X Phi_B;  ///< 3 x m; zero columns if the body is rigid
-  Matrix3X Psi_B;  ///< 3 x m
+  Vector3 p_BF = Vector3::Zero();      ///< undeformed origin [m]
+  Matrix3 R_BF = Matrix3::Identity();  ///< [-]
+  Matrix3X Phi_B;  ///< 3 x m [kg^-1/2]; zero columns if the body is rigid
+  Matrix3X Psi_B;  ///< 3 x m [kg^-1/2 m^-1]
   std::shared_ptr<const NodalFrame> nodal = nullptr;  ///< of an unreduced body
 };
 
 struct Coupler {
   std::string name;
   joints::CouplerLaw law;
-  AttachmentIndex frame_F = 0;
-  AttachmentIndex frame_M = 0;
+  AttachmentIndex frame_F;
+  AttachmentIndex frame_M;
 };
 
 /// The length of a path through the origins of attachments, which may follow
@@ -100,27 +98,37 @@ struct PathCoordinate {
 /// A sum of joints' coordinates: z = sum_i factor_i q_i - offset.
 struct JointSum {
   struct Term {
-    CouplerIndex coupler = 0;  ///< a joint
-    int coordinate = 0;        ///< of it
-    double factor = 1.0;       ///< [unit of z / unit of q]
+    CouplerIndex coupler;  ///< a joint
+    int coordinate = 0;    ///< index of the joint's coordinate
+    double factor = 1.0;   ///< [unit of z / unit of q]
   };
   std::vector<Term> terms;
-  double offset = 0.0;
+  double offset = 0.0;  ///< [unit of z]
 };
 
-/// What couples more than two frames: laws along one coordinate of them all. A
-/// tendon, a pair of gears, a joint that mimics another.
+/// Couples more than two frames by laws along one coordinate: a tendon, a pair
+/// of gears, a joint that mimics another.
 struct Transmission {
   std::string name;
   std::variant<PathCoordinate, JointSum> coordinate;
   std::vector<joints::ScalarLaw> laws;
 };
 
+/// Two bodies, or a body and the world, that may act on each other at points
+/// that come and go.
+struct Pair {
+  std::string name;
+  BodyIndex body_A = kWorld;
+  BodyIndex body_B = kWorld;
+  std::shared_ptr<const joints::PairInteraction> law;
+  std::size_t first_memory = 0;  ///< of it in SystemState::pair_memory
+};
+
 struct Load {
   std::string name;
-  AttachmentIndex where = 0;
-  Vector3 force = Vector3::Zero();
-  Vector3 moment = Vector3::Zero();
+  AttachmentIndex where;
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Vector3 moment = Vector3::Zero();  ///< [N m]
   bool in_world = false;
   TimeFunction function;
 };
@@ -128,9 +136,9 @@ struct Load {
 /// Nodal forces on one body, in reduced form.
 struct BodyLoad {
   std::string name;
-  BodyIndex body = 0;
+  BodyIndex body;
   flexbody::NodalLoad history;
-  MatrixX nodal;  ///< 3N x T nodal forces of an unreduced body, axes of B [N]
+  MatrixX nodal;  ///< 3N x T nodal forces of an unreduced body, frame B [N]
 };
 
 /// Bodies, couplers and loads; immutable once built, shared by threads.
@@ -142,9 +150,22 @@ struct SystemModel {
   std::vector<Load> loads;
   std::vector<BodyLoad> body_loads;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
-  int modal_count = 0;                  ///< modal coordinates of all bodies
+  int modal_count = 0;                  ///< number of modes of all bodies
   std::vector<FullModel> full_bodies;
-  Eigen::Index nodal_count = 0;  ///< 3N of all unreduced bodies together
+  Eigen::Index nodal_count = 0;  ///< number 3N of all unreduced bodies together
+  std::vector<Input> inputs;
+  std::vector<ControllerModel> controllers;
+  std::vector<Pair> pairs;
+  std::size_t pair_memory_size = 0;  ///< number of values of all pairs together
+
+  /// @throws InputError for an unknown name, with the nearest; for an
+  /// attachment also if several have it.
+  [[nodiscard]] BodyIndex find_body(std::string_view name) const;
+  [[nodiscard]] AttachmentIndex find_attachment(std::string_view name) const;
+  [[nodiscard]] CouplerIndex find_coupler(std::string_view name) const;
+  [[nodiscard]] TransmissionIndex find_transmission(
+      std::string_view name) const;
+  [[nodiscard]] LoadIndex find_load(std::string_view name) const;
 };
 
 }  // namespace limber::dynamics

@@ -3,46 +3,74 @@
 
 #include <vector>
 
-#include "common/pose.hpp"
-#include "dynamics/system_model.hpp"
-#include "joints/coupler_memory.hpp"
-#include "joints/motion.hpp"
+#include "limber/common/instant.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/joints/coupler_memory.hpp"
+#include "limber/joints/motion.hpp"
 
 namespace limber::dynamics {
 
-/// Rigid motion of one body's frame B. Of a body at level `full`, the mean-axis
-/// frame of its nodes at the last output; the nodes are what moves.
+/// Rigid motion of one body's frame B. For a body at level `full`, the
+/// mean-axis frame of its nodes at the last output; its state is that of the
+/// nodes.
 struct BodyState {
   Vector3 p_WB = Vector3::Zero();               ///< centre of mass [m]
-  Quaternion quat_WB = Quaternion::Identity();  ///< unit
+  Quaternion quat_WB = Quaternion::Identity();  ///< unit [-]
   Vector3 v_WB_W = Vector3::Zero();             ///< [m/s]
   Vector3 w_WB_B = Vector3::Zero();             ///< [rad/s], in B
 };
 
-/// All that moves. A plain value: copy it, store it, start from it.
+/// What a controller keeps between samples. A plain value, part of the state.
+struct ControllerState {
+  /// Of the next sample, at offset + next period; those before it are taken.
+  long next = 0;
+  std::vector<double> memory;  ///< its own [its own units]
+};
+
+/// State of a system. A plain value that can be copied and stored.
 struct SystemState {
   double t = 0.0;                 ///< [s]
-  std::vector<BodyState> bodies;  ///< one a body
+  std::vector<BodyState> bodies;  ///< one per body
   VectorX eta;     ///< modal coordinates of all bodies [kg^1/2 m]
   VectorX etadot;  ///< [kg^1/2 m/s]
-  /// Unreduced bodies, one after the other. Their home frames H rest in the
-  /// world, by default where B is at the start: node i is at X_WH (x_i + u_i),
-  /// so that no digits are lost on a position.
+  /// Unreduced bodies, one after the other. Their home frames H are fixed in
+  /// the world, by default at the initial B: node i is at X_WH (x_i + u_i), so
+  /// that displacements keep their digits.
   std::vector<Pose> X_WH;
   VectorX u_H;     ///< nodal displacements [m]
   VectorX udot_H;  ///< nodal velocities [m/s]
-  /// What couplers and then transmissions remember, one each; changes between
-  /// steps alone.
+  /// Memory of couplers and then transmissions, one each; changes only between
+  /// steps.
   std::vector<joints::CouplerMemory> memory;
+  /// One an input; changes only when a controller is sampled.
+  std::vector<InputState> inputs;
+  std::vector<ControllerState> controllers;  ///< one a controller
+  /// Memory of pairs, one after the other; changes only at accepted steps.
+  std::vector<double> pair_memory;
 };
 
+/// The state's time and inputs, as functions of time need them.
+[[nodiscard]] inline Instant now_of(const SystemState& state,
+                                    Side side = Side::right) {
+  return {state.t, side, state.inputs};
+}
+
+/// Copies what is constant within a step.
+inline void copy_step_constants(const SystemState& from, SystemState& to) {
+  to.memory = from.memory;
+  to.inputs = from.inputs;
+  to.controllers = from.controllers;
+  to.pair_memory = from.pair_memory;
+}
+
 /// A state of the right size: every body at the world origin, at rest; joints'
-/// angles without whole turns.
+/// angles without full turns; inputs and controllers as they begin.
 [[nodiscard]] SystemState make_state(const SystemModel& model);
 
-/// Puts the nodes of each unreduced body where its BodyState and, in the modes
-/// of the reduced body, `u_B` have them: home frames at X_WB, velocities those
-/// of the rigid motion. For a new state, after the bodies' were set.
+/// Places the nodes of each unreduced body by its BodyState and `u_B`: home
+/// frames at X_WB, velocities of the rigid motion plus `udot_B`. For a new
+/// state, after its BodyStates are set.
 /// @param u_B, udot_B as SystemState::u_H but in body frames; empty: zero
 void place_nodes(const SystemModel& model, const VectorX& u_B,
                  const VectorX& udot_B, SystemState& state);

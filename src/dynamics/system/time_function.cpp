@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/time_function.hpp"
+#include "limber/dynamics/system/time_function.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Whether t is at or past `edge`, seen from the given side of a jump.
+// Whether t is at or past `edge`, for the given side of a jump.
 bool has_passed(double t, double edge, Side side) {
   return side == Side::right ? t >= edge : t > edge;
 }
@@ -139,11 +139,23 @@ void check(const TimeFunction& function) {
           },
           [](const HarmonicSum& s) { check_harmonics(s); },
           [](const Table& t) { check_series(t.times, t.values, 2, "table"); },
+          [](const InputFunction& f) {
+            LIMBER_EXPECT(f.input >= 0);
+            if (!std::isfinite(f.factor)) {
+              throw InputError("input: its factor is not finite");
+            }
+          },
       },
       function);
 }
 
 double evaluate(const TimeFunction& function, double t, Side side) {
+  return evaluate(function, Instant{t, side});
+}
+
+double evaluate(const TimeFunction& function, const Instant& now) {
+  const double t = now.t;
+  const Side side = now.side;
   return std::visit(
       Overloaded{
           [&](const Constant& c) {
@@ -158,6 +170,9 @@ double evaluate(const TimeFunction& function, double t, Side side) {
           },
           [&](const HarmonicSum& s) { return evaluate_harmonics(s, t, side); },
           [&](const Table& table) { return evaluate_table(table, t, side); },
+          [&](const InputFunction& f) {
+            return f.factor * find_input(now, f.input).value;
+          },
       },
       function);
 }
@@ -183,6 +198,7 @@ std::vector<double> break_times(const TimeFunction& function) {
             return std::vector{s.from, s.until};
           },
           [](const Table& t) { return t.times; },
+          [](const InputFunction&) { return std::vector<double>{}; },
       },
       function);
 }

@@ -6,15 +6,15 @@
 #include <array>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "fem/reference_element.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/reference_element.hpp"
 
 namespace limber::fem {
 namespace {
 
 enum class Family { other, tetrahedron, hexahedron, prism, pyramid };
 
-/// @throws InputError for what is not tested here.
+/// @throws InputError for families that we do not test.
 Family family_of(const ReferenceElement& element) {
   if (element.dimension != 3) return Family::other;
   constexpr int kMaxOrder = 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/gmsh_reader.hpp"
+#include "limber/fem/gmsh/gmsh_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,18 +12,18 @@
 #include <unordered_map>
 #include <utility>
 
-#include "common/errors.hpp"
-#include "fem/gmsh_session.hpp"
-#include "fem/mesh_checks.hpp"
-#include "fem/mesh_file_kind.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_file_kind.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 
 namespace limber::fem {
 namespace {
 
 using Tags = std::vector<std::size_t>;
 
-/// Runs a Gmsh call and turns whatever it reports into an InputError.
+/// Runs a Gmsh call and turns its errors into an InputError.
 template <typename Call>
 void guarded(const GmshSession& session, const std::filesystem::path& file,
              const std::string& doing, const Call& call) {
@@ -87,7 +87,7 @@ class ElementTypes {
   std::map<int, std::shared_ptr<const ReferenceElement>> types_;
 };
 
-/// Elements as Gmsh hands them over, nodes still by tag.
+/// Elements as Gmsh returns them, nodes by tag.
 struct RawBlock {
   int type = 0;
   int nodes_each = 0;
@@ -203,7 +203,7 @@ class NodeIndex {
   std::unordered_map<std::size_t, int> index_;
 };
 
-/// With nodes as indices; elements off the solid are left out.
+/// With nodes as indices; elements off the solid are omitted.
 ElementBlock make_block(const RawBlock& raw, const NodeIndex& index,
                         ElementTypes& types) {
   ElementBlock block;
@@ -272,7 +272,7 @@ Mesh take_mesh(const std::filesystem::path& file, const MeshOptions& options,
   return mesh;
 }
 
-/// What is wrong with the mesh's elements, if anything.
+/// The first problem with the mesh's elements, if any.
 std::optional<std::string> find_flaw(const Mesh& mesh) {
   try {
     check_elements(mesh);
@@ -282,10 +282,10 @@ std::optional<std::string> find_flaw(const Mesh& mesh) {
   return std::nullopt;
 }
 
-/// Edges that follow a curved surface may turn a thin element inside out.
-/// Such a mesh is made straight-sided, if that mends it.
-void mend_curved(const std::filesystem::path& file, const MeshOptions& options,
-                 RawMesh& raw) {
+/// Edges that follow a curved surface may invert a thin element. Such a mesh is
+/// made straight-sided, if that repairs it.
+void straighten_curved(const std::filesystem::path& file,
+                       const MeshOptions& options, RawMesh& raw) {
   int order = 1;
   for (const ElementBlock& block : raw.mesh.blocks)
     order = std::max(order, block.element->order);
@@ -312,7 +312,7 @@ RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
   const MeshFileKind kind = find_mesh_file_kind(file);
   check_mesh_options(file, kind, options);
   const bool is_geometry = kind == MeshFileKind::geometry;
-  // Before the file, so that the file may say otherwise.
+  // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);
   guarded(session, file, "read", [&] { session.open(file); });
   gmsh::option::setNumber("General.NumThreads", 1);
@@ -321,7 +321,7 @@ RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
     guarded(session, file, "mesh", [&] { mesh_geometry(options); });
   guarded(session, file, "use", [&] {
     raw.mesh = take_mesh(file, options, is_geometry);
-    if (is_geometry) mend_curved(file, options, raw);
+    if (is_geometry) straighten_curved(file, options, raw);
   });
   return raw;
 }

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "fem/mesh.hpp"
-#include "fem/mesh_options.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/mesh/mesh_options.hpp"
 
 /// Part of limber::gmsh, which links Gmsh (GPL).
 namespace limber::fem {
 
-/// As read_mesh, by Gmsh in this process: a geometry then runs its commands
-/// with all rights of this process, may end it, and is held by no limit. Only
-/// for files that you trust. A Gmsh session of the caller's stays open, with
-/// its models and the options that are set here.
+/// As read_mesh, but Gmsh runs in this process: a geometry runs its commands
+/// with all rights of this process, may end it, and is subject to no limits.
+/// Only for trusted files. A Gmsh session of the caller stays open, with its
+/// models and the options that are set here.
 /// @throws InputError naming the file, what is wrong, what was expected.
 [[nodiscard]] Mesh read_mesh_in_process(const std::filesystem::path& file,
                                         const MeshOptions& options = {});
@@ -23,10 +23,10 @@ class GmshSession;
 /// A mesh as Gmsh made it, before complete_mesh().
 struct RawMesh {
   Mesh mesh;
-  /// What was done to the file's own wish to make it a usable mesh.
+  /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
 };
-/// In that session.
+/// Meshes the file in this session.
 [[nodiscard]] RawMesh make_mesh(GmshSession& session,
                                 const std::filesystem::path& file,
                                 const MeshOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/gmsh_session.hpp"
+#include "limber/fem/gmsh/gmsh_session.hpp"
 
 #include <gmsh.h>
 
@@ -10,7 +10,7 @@ std::mutex& gmsh_mutex() {
   return mutex;
 }
 
-// Gmsh 4.8 cannot be asked. A function that needs it leaves its result alone.
+// Gmsh 4.8 has no query. A function that needs it leaves its result unchanged.
 bool is_initialized() {
   constexpr double kUntouched = -1.0;
   double value = kUntouched;
@@ -71,12 +71,14 @@ void GmshSession::open(const std::filesystem::path& file) {
   gmsh::merge(file.string());
 }
 
-void GmshSession::speak() { gmsh::option::setNumber("General.Terminal", 1); }
+void GmshSession::enable_output() {
+  gmsh::option::setNumber("General.Terminal", 1);
+}
 
 std::vector<std::string> GmshSession::errors() const {
   constexpr std::string_view kPrefix = "Error: ";
-  // Gmsh says so of third-order prisms. Closures tell how the faces of two
-  // elements match in Gmsh's own solvers; nothing here uses them.
+  // Reported for third-order prisms. Closures match the faces of two elements
+  // in Gmsh's own solvers; nothing here uses them.
   constexpr std::string_view kHarmless = "Error: FaceClosureFull";
   const std::vector<std::string> log = read_log();
   std::vector<std::string> errors;

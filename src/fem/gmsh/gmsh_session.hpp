@@ -8,9 +8,9 @@
 
 namespace limber::fem {
 
-/// Gmsh, opened and closed, or a caller's own session of it, in which models
-/// are ours for a while. Gmsh keeps all in process-wide variables, so one
-/// session at a time: a second one waits.
+/// Initialises and finalises Gmsh, or borrows the caller's session. Gmsh's
+/// state is process-wide, so there is one session at a time: a second one
+/// waits.
 class GmshSession {
  public:
   GmshSession();
@@ -18,19 +18,19 @@ class GmshSession {
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// Reads the file into a model of this session's own.
+  /// Reads the file into a new model of this session.
   void open(const std::filesystem::path& file);
 
-  /// From now on Gmsh also prints what it does.
-  void speak();
+  /// Lets Gmsh print its log from now on.
+  void enable_output();
 
-  /// What Gmsh complained of since the session began (errors only).
+  /// Gmsh's error messages since the session began.
   [[nodiscard]] std::vector<std::string> errors() const;
 
  private:
   std::unique_lock<std::mutex> lock_;
-  bool is_guest_ = false;       ///< in a session of the caller's
-  std::string host_model_;      ///< current before we came
+  bool is_guest_ = false;       ///< whether the session is the caller's
+  std::string host_model_;      ///< the caller's current model
   std::size_t host_lines_ = 0;  ///< of its log
   double host_terminal_ = 0.0;
 };

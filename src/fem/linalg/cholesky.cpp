@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/cholesky.hpp"
+#include "limber/fem/linalg/cholesky.hpp"
 
-#include <cholmod.h>
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "fem/cholmod_view.hpp"
-#include "fem/serial_blas.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/cholmod_view.hpp"
+#include "limber/fem/linalg/serial_blas.hpp"
 
 namespace limber::fem {
 
@@ -15,8 +14,8 @@ std::vector<int> order_nodes(const SparseMatrix& M_s) {
   const SparseMatrix lower = M_s.triangularView<Eigen::Lower>();
   cholmod_sparse pattern = view_lower(lower);
   std::vector<int> nodes(static_cast<std::size_t>(M_s.cols()));
-  if (!cholmod_metis(&pattern, nullptr, 0, 1, nodes.data(), common.get()))
-    cholmod_amd(&pattern, nullptr, 0, nodes.data(), common.get());
+  if (!cholmod().metis(&pattern, nullptr, 0, 1, nodes.data(), common.get()))
+    cholmod().amd(&pattern, nullptr, 0, nodes.data(), common.get());
   common.check("ordering");
   return nodes;
 }
@@ -33,7 +32,7 @@ std::vector<int> order_dofs(const SparseMatrix& M_s) {
 struct SparseCholesky::Impl {
   mutable CholmodCommon common;
   cholmod_factor* factor = nullptr;
-  // Kept from one solution to the next.
+  // Reused from one solution to the next.
   cholmod_dense* answer = nullptr;
   cholmod_dense* room_Y = nullptr;
   cholmod_dense* room_E = nullptr;
@@ -46,9 +45,9 @@ struct SparseCholesky::Impl {
   Impl& operator=(const Impl&) = delete;
   ~Impl() {
     for (cholmod_dense** room : {&answer, &room_Y, &room_E}) {
-      cholmod_free_dense(room, common.get());
+      cholmod().free_dense(room, common.get());
     }
-    cholmod_free_factor(&factor, common.get());
+    cholmod().free_factor(&factor, common.get());
   }
 };
 
@@ -69,7 +68,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& lower,
 void SparseCholesky::factor(const SparseMatrix& lower) {
   const SerialBlas serial;
   cholmod_sparse matrix = view_lower(lower);
-  cholmod_factorize(&matrix, impl_->factor, impl_->common.get());
+  cholmod().factorize(&matrix, impl_->factor, impl_->common.get());
   impl_->common.check(impl_->what);
   if (impl_->factor->minor < impl_->factor->n)
     throw NumericalError(fmt::format(
@@ -98,8 +97,8 @@ void SparseCholesky::solve_in_place(Eigen::Ref<MatrixX> x) const {
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
   Impl& impl = *impl_;
-  cholmod_solve2(CHOLMOD_A, impl.factor, &b, nullptr, &impl.answer, nullptr,
-                 &impl.room_Y, &impl.room_E, impl.common.get());
+  cholmod().solve2(CHOLMOD_A, impl.factor, &b, nullptr, &impl.answer, nullptr,
+                   &impl.room_Y, &impl.room_E, impl.common.get());
   impl.common.check("solution");
   x = Eigen::Map<const MatrixX>(static_cast<const double*>(impl.answer->x),
                                 x.rows(), x.cols());

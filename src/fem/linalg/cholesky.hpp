@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/matrices.hpp"
+#include "limber/fem/linalg/sparse_matrix.hpp"
 
 namespace limber::fem {
 
@@ -13,7 +13,7 @@ namespace limber::fem {
 [[nodiscard]] std::vector<int> order_nodes(const SparseMatrix& M_s);
 
 /// Fill-reducing order of the degrees of freedom: nested dissection of the
-/// nodes (pattern of M_s), the three components of a node kept together.
+/// nodes (pattern of M_s), the three components of a node adjacent.
 [[nodiscard]] std::vector<int> order_dofs(const SparseMatrix& M_s);
 
 /// L L^T of a sparse positive definite matrix (CHOLMOD, supernodal).
@@ -30,12 +30,12 @@ class SparseCholesky {
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  /// Takes another matrix with the same pattern; its analysis is reused.
+  /// Factors another matrix of the same pattern, reusing the analysis.
   /// @throws NumericalError as the constructor does.
   void factor(const SparseMatrix& lower);
 
   [[nodiscard]] MatrixX solve(const MatrixX& right_hand_side) const;
-  /// The same in place. Not for two threads at once.
+  /// The same in place. Not thread-safe.
   void solve_in_place(Eigen::Ref<MatrixX> x) const;
   [[nodiscard]] double flops() const;
 

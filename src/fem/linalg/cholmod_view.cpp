@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/cholmod_view.hpp"
+#include "limber/fem/linalg/cholmod_view.hpp"
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::fem {
 
 CholmodCommon::CholmodCommon() {
-  cholmod_start(&common_);
+  cholmod().start(&common_);
   common_.print = 0;
   common_.error_handler = nullptr;
   common_.final_ll = 1;
   common_.quick_return_if_not_posdef = 1;
 }
 
-CholmodCommon::~CholmodCommon() { cholmod_finish(&common_); }
+CholmodCommon::~CholmodCommon() { cholmod().finish(&common_); }
 
 void CholmodCommon::check(const std::string& what) const {
   if (common_.status >= CHOLMOD_OK) return;
@@ -32,7 +32,7 @@ cholmod_sparse view_lower(const SparseMatrix& lower) {
   view.nrow = static_cast<std::size_t>(lower.rows());
   view.ncol = static_cast<std::size_t>(lower.cols());
   view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  // CHOLMOD takes mutable pointers and leaves the arrays alone.
+  // CHOLMOD takes mutable pointers but does not modify the arrays.
   view.p = const_cast<int*>(lower.outerIndexPtr());
   view.i = const_cast<int*>(lower.innerIndexPtr());
   view.x = const_cast<double*>(lower.valuePtr());
@@ -52,7 +52,7 @@ cholmod_factor* analyze(const SparseMatrix& lower,
   settings->method[0].ordering = CHOLMOD_GIVEN;
   settings->postorder = 1;
   cholmod_sparse matrix = view_lower(lower);
-  cholmod_factor* factor = cholmod_analyze_p(
+  cholmod_factor* factor = cholmod().analyze_p(
       &matrix, const_cast<int*>(order.data()), nullptr, 0, settings);
   common.check("symbolic factorisation");
   return factor;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// For sources of src/fem only: the one header that shows CHOLMOD's types.
-#include <cholmod.h>
+// Internal to src/fem/linalg: the only header that exposes CHOLMOD's types.
 
 #include <string>
 #include <vector>
 
-#include "fem/matrices.hpp"
+#include "limber/fem/linalg/cholmod_library.hpp"
+#include "limber/fem/linalg/sparse_matrix.hpp"
 
 namespace limber::fem {
 
-/// CHOLMOD's settings and status, started and finished, silent.
+/// RAII wrapper of cholmod_common, with printing disabled.
 class CholmodCommon {
  public:
   CholmodCommon();
@@ -27,7 +27,7 @@ class CholmodCommon {
   cholmod_common common_{};
 };
 
-/// The matrix's own arrays as CHOLMOD sees them.
+/// CHOLMOD view of the matrix's arrays, without a copy.
 [[nodiscard]] cholmod_sparse view_lower(const SparseMatrix& lower);
 
 /// Symbolic factor for a given order.

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "fem/matrices.hpp"
+#include "limber/fem/linalg/sparse_matrix.hpp"
 
 namespace limber::fem {
 
-/// About how long factors of a solid's stiffness take [s].
+/// Estimated time to factor a solid's stiffness matrix [s].
 ///
-/// Equation   t = 27 f / r: f the operations of factors of the nodes' pattern,
-///            three components a node make 27 times as many
+/// Equation   t = 27 f / r: f the operations to factor the nodes' pattern,
+///            times 27 for three components a node
 /// Source     f by CHOLMOD's analysis; r measured (factor_cost.cpp)
-/// Limits     of a processor of its kind; of small meshes too short, since
+/// Limits     for a processor of that kind; too short for small meshes, since
 ///            their fronts are small
 /// @param M_s pattern of the nodes @param nodes fill-reducing order of them
 [[nodiscard]] double estimate_factor_seconds(const SparseMatrix& M_s,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/parallel.hpp"
+#include "limber/fem/linalg/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>

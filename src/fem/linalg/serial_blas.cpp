@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/serial_blas.hpp"
+#include "limber/fem/linalg/serial_blas.hpp"
 
 #include <dlfcn.h>
 
 #include <mutex>
 
+#include "limber/fem/linalg/cholmod_library.hpp"
+
 namespace limber::fem {
 namespace {
 
-// Looked up by name: which BLAS is loaded is the system's choice.
+// Looked up by name, since the system chooses which BLAS is loaded.
 template <typename Function>
 Function find_function(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
 }
 
-// A number that a library keeps for the process.
+// A process-wide thread count of a library.
 class Setting {
  public:
   Setting(const char* set, const char* get)
@@ -36,7 +38,7 @@ class Setting {
   int before_ = 1;
 };
 
-// Counts who asks for one thread.
+// Counts the live instances.
 class Switch {
  public:
   void enter() {
@@ -60,6 +62,7 @@ class Switch {
 };
 
 Switch& process_switch() {
+  static_cast<void>(cholmod());  // its BLAS must be loaded to be found
   static Switch only;
   return only;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/types.hpp"
-#include "fem/reference_element.hpp"
+#include "limber/common/types.hpp"
+#include "limber/fem/mesh/reference_element.hpp"
 
 namespace limber::fem {
 
@@ -16,7 +16,7 @@ namespace limber::fem {
 struct ElementBlock {
   std::shared_ptr<const ReferenceElement> element;
   std::vector<std::size_t> tags;  ///< Gmsh element tags
-  std::vector<int> nodes;         ///< size() * node_count, Gmsh node order
+  std::vector<int> nodes;  ///< size() * node_count indices, Gmsh node order
   /// Index into Mesh::volume_groups of each element.
   std::vector<int> regions;
 
@@ -29,20 +29,20 @@ struct ElementBlock {
 /// A named physical group.
 struct PhysicalGroup {
   std::string name;
-  int dimension = 0;                 ///< 0 point, 1 curve, 2 surface, 3 volume
-  std::vector<int> nodes;            ///< sorted node indices
+  int dimension = 0;       ///< 0 point, 1 curve, 2 surface, 3 volume [-]
+  std::vector<int> nodes;  ///< sorted node indices
   std::vector<ElementBlock> blocks;  ///< its elements (regions unused)
 };
 
-/// A face of one solid element that no other shares: the body's skin.
+/// A face of one solid element that no other shares: part of the surface.
 struct BoundaryFace {
   int block = 0;            ///< index into Mesh::blocks
   std::size_t element = 0;  ///< index in the block
-  int face = 0;             ///< local face
+  int face = 0;             ///< local index of the face
 };
 
-/// A solid mesh, complete and sound: one connected part, every element with
-/// a positive Jacobian, every node used. Lengths in metres.
+/// A valid solid mesh: one connected part, every element with a positive
+/// Jacobian, every node used. Lengths in metres.
 struct Mesh {
   std::string source;                 ///< file name, for messages
   Matrix3X x;                         ///< 3 x N node positions [m]
@@ -52,7 +52,7 @@ struct Mesh {
   /// Per region (geometric volume): the physical groups that it belongs to.
   std::vector<std::vector<std::string>> volume_groups;
   std::vector<BoundaryFace> boundary_faces;
-  std::vector<int> boundary_nodes;  ///< sorted
+  std::vector<int> boundary_nodes;  ///< sorted indices
 
   [[nodiscard]] std::size_t node_count() const { return tags.size(); }
   [[nodiscard]] std::size_t element_count() const;
@@ -71,7 +71,7 @@ struct Mesh {
 [[nodiscard]] std::vector<int> face_nodes(const Mesh& mesh,
                                           const BoundaryFace& face);
 
-/// The skin as linear triangles on corner and mid-side nodes, node indices,
+/// The surface as linear triangles on corner and mid-side nodes: node indices,
 /// counter-clockwise seen from outside.
 [[nodiscard]] std::vector<std::array<int, 3>> boundary_triangles(
     const Mesh& mesh);

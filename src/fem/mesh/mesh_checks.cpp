@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::fem {
 namespace {
@@ -43,7 +43,7 @@ FaceKey key_of(const Mesh& mesh, const BoundaryFace& face) {
   return key;
 }
 
-/// All faces of all elements; those that elements share stand together.
+/// All faces of all elements; shared faces are adjacent.
 std::vector<KeyedFace> sorted_faces(const Mesh& mesh) {
   std::vector<KeyedFace> faces;
   for_each_face(mesh, [&](const BoundaryFace& face) {
@@ -77,8 +77,8 @@ struct KeyedTriple {
   BoundaryFace face;
 };
 
-/// All triples of corners that the boundary faces have: one of a triangle,
-/// four of a quadrilateral.
+/// All triples of corners of the boundary faces: one of a triangle, four of a
+/// quadrilateral.
 std::vector<KeyedTriple> boundary_triples(const Mesh& mesh) {
   std::vector<KeyedTriple> triples;
   for (const BoundaryFace& face : mesh.boundary_faces) {
@@ -121,12 +121,13 @@ void check_element(const Mesh& mesh, const ElementBlock& block, std::size_t e) {
         det < -least ? "inverted" : "degenerate", det,
         element.order > 1
             ? "where a curved edge did it, take a finer mesh or straight edges "
-              "(Mesh.SecondOrderLinear = 1); else mend the element's nodes"
-            : "mend the element's nodes or their order"));
+              "(Mesh.SecondOrderLinear = 1); else correct the element's nodes"
+            : "correct the element's nodes or their order"));
   }
 }
 
-/// Nodes on top of an earlier one: two meshes laid side by side, not joined.
+/// Nodes that coincide with an earlier one: two meshes side by side, not
+/// joined.
 std::size_t count_coincident_nodes(const Mesh& mesh) {
   std::map<std::array<double, 3>, int> places;
   for (Eigen::Index n = 0; n < mesh.x.cols(); ++n)
@@ -134,7 +135,7 @@ std::size_t count_coincident_nodes(const Mesh& mesh) {
   return mesh.node_count() - places.size();
 }
 
-/// @param first, last of the faces that have one key
+/// @param first, last range of faces with one key
 void check_shared_face(const Mesh& mesh, const KeyedFace* first,
                        const KeyedFace* last) {
   if (last - first <= 2) return;
@@ -219,7 +220,7 @@ void check_connected(const Mesh& mesh) {
     first.push_back(count);
     count += block.size();
   }
-  // Parts that meet in an edge or a node alone would swing there freely, so
+  // Parts that meet only in an edge or a node could rotate freely there, so
   // only a shared face connects.
   Partition parts(count);
   const auto element = [&](const KeyedFace& keyed) {

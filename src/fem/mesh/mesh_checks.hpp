@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fem/mesh.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
@@ -15,12 +15,12 @@ namespace limber::fem {
 [[nodiscard]] bool is_parallel_sided(const ReferenceElement& element,
                                      const Matrix3X& x);
 
-/// Fills boundary_faces and boundary_nodes: faces that one element alone has.
+/// Fills boundary_faces and boundary_nodes: faces of exactly one element.
 /// @throws InputError if more than two elements share a face.
 void find_boundary(Mesh& mesh);
 
-/// @throws InputError for elements that are inverted or degenerate (tag and
-/// Jacobian), for boundary faces that share three corners but not all, and
+/// @throws InputError for elements that are inverted or degenerate (with tag
+/// and Jacobian), for boundary faces that share three corners but not all, and
 /// for a mesh in several parts that share no face.
 void check_elements(const Mesh& mesh);
 void check_faces(const Mesh& mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesh_file_kind.hpp"
+#include "limber/fem/mesh/mesh_file_kind.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
 
 namespace limber::fem {
 namespace {
@@ -58,7 +58,7 @@ bool is_brep(std::string_view head) {
          has(head.substr(0, 1000), "CASCADE Topology");
 }
 
-// The 73rd letter of a line is that of its section; Start comes first.
+// Column 73 of a line names its section; Start comes first.
 bool is_iges(std::string_view head) {
   const std::string_view line = first_line(head);
   return line.size() >= 73 && (line[72] == 'S' || line[72] == 'C');
@@ -81,14 +81,14 @@ bool is_vtk(std::string_view head) {
   return head.starts_with("# vtk DataFile");
 }
 
-// A program has no form of its own: text that is nothing else.
+// A geometry program has no signature: any other text.
 bool is_geo(std::string_view head) {
   if (head.find('\0') != std::string_view::npos) return false;
   return !head.starts_with("$") && !is_step(head) && !is_brep(head) &&
          !is_med(head) && !is_vtk(head);
 }
 
-/// A kind of file, with its share of kMeshFileExtensions.
+/// A file format, with its part of kMeshFileExtensions.
 struct Format {
   std::vector<std::string_view> extensions;
   std::string_view name;

@@ -4,8 +4,8 @@
 namespace limber::fem {
 
 struct MeshOptions {
-  double size = 0.0;  ///< element size in mesh units; 0: the file's own
-  int order = 0;      ///< 1 to 3; 0: the file's own, else 2
+  double size = 0.0;  ///< element size [mesh units]; 0: the file's
+  int order = 0;      ///< 1 to 3; 0: the file's, else 2 [-]
   double unit = 1.0;  ///< metres per mesh unit [m]
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 
 #include <utility>
 
-#include "fem/mesh_checks.hpp"
-#include "fem/mesh_file_kind.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_file_kind.hpp"
 
 namespace limber::fem {
 
@@ -18,7 +18,7 @@ void complete_mesh(Mesh& mesh) {
 TracedMesh read_traced_mesh(const std::filesystem::path& file,
                             const MeshOptions& options, const Mesher& mesher) {
   check_mesh_options(file, find_mesh_file_kind(file), options);
-  MeshReply reply = ask_mesher(mesher, file, options);
+  MeshReply reply = run_mesher(mesher, file, options);
   complete_mesh(reply.mesh);
   return {std::move(reply.mesh), std::move(reply.notices),
           std::move(reply.files), reply.is_repeatable};
@@ -31,7 +31,7 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options,
 
 TracedMesh read_traced_mesh(const std::filesystem::path& file,
                             const MeshOptions& options) {
-  // The user's file comes before our installation.
+  // Problems of the user's file are reported before those of the installation.
   check_mesh_options(file, find_mesh_file_kind(file), options);
   return read_traced_mesh(file, options, find_mesher());
 }

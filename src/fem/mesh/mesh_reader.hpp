@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "common/file_stamp.hpp"
-#include "fem/mesh.hpp"
-#include "fem/mesh_options.hpp"
-#include "fem/mesher.hpp"
+#include "limber/common/files/file_stamp.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/mesh/mesh_options.hpp"
+#include "limber/fem/mesh/mesher.hpp"
 
 namespace limber::fem {
 
 /// Reads a mesh, or meshes a geometry; docs/formats/meshes.md lists the kinds.
 /// `size` and `order` belong to geometry; with a finished mesh they are errors.
-/// Of a geometry with physical volumes only those are meshed bodies, as when
-/// Gmsh saves a mesh. Nodes that no solid element uses are dropped.
+/// Of a geometry with physical volumes only these are used, as when Gmsh saves
+/// a mesh. Nodes that no solid element uses are removed.
 ///
-/// Gmsh runs in a process of its own, the mesher, which can read files and no
-/// more: a geometry is a program of whoever wrote it. To run Gmsh in this
-/// process, with all that it may do then, see fem/gmsh_reader.hpp.
+/// Gmsh runs in a separate process, the mesher, which can only read files: a
+/// geometry is a program and may be hostile. fem/gmsh/gmsh_reader.hpp runs Gmsh
+/// in this process, without that protection.
 /// @throws InputError naming the file, what is wrong, what was expected.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file,
                              const MeshOptions& options, const Mesher& mesher);
@@ -30,10 +30,10 @@ namespace limber::fem {
 /// A mesh and what it was made from.
 struct TracedMesh {
   Mesh mesh;
-  /// What was done to the file's own wish to make it a usable mesh.
+  /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
   std::vector<FileStamp> files;  ///< files that it depends on
-  bool is_repeatable = false;    ///< whether it depends on nothing else
+  bool is_repeatable = false;    ///< whether it depends on these files only
 };
 /// As read_mesh.
 [[nodiscard]] TracedMesh read_traced_mesh(const std::filesystem::path& file,
@@ -43,7 +43,7 @@ struct TracedMesh {
 [[nodiscard]] TracedMesh read_traced_mesh(const std::filesystem::path& file,
                                           const MeshOptions& options = {});
 
-/// Finds the boundary, and checks that the mesh is what Mesh promises.
+/// Finds the boundary and checks the invariants of Mesh.
 /// @throws InputError naming element and file
 void complete_mesh(Mesh& mesh);
 

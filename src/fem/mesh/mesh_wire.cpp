@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesh_wire.hpp"
+#include "limber/fem/mesh/mesh_wire.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <utility>
 
-#include "common/digest.hpp"
-#include "common/wire.hpp"
+#include "limber/common/records/digest.hpp"
+#include "limber/common/records/wire.hpp"
 
 namespace limber::fem {
 
-// Found by their argument's namespace.
+// Found by argument-dependent lookup.
 static void exchange(Wire& wire, Quadrature& rule) {
   wire(rule.weights, rule.shape, rule.gradients);
 }
@@ -50,7 +50,7 @@ void exchange(Wire& wire, WireBlock& block) {
 }
 
 void exchange(Wire& wire, WireGroup& group) {
-  // A list's entry begins with a length.
+  // A list entry begins with its length.
   wire(group.name, group.dimension, group.nodes, group.blocks);
 }
 
@@ -85,7 +85,7 @@ std::vector<WireBlock> to_wire(const std::vector<ElementBlock>& blocks,
   return result;
 }
 
-/// Takes parts of a message for what they say, or throws.
+/// Validates the parts of a message.
 void require(bool holds) {
   if (!holds) {
     throw InputError("the mesher's answer does not fit together");
@@ -163,7 +163,7 @@ std::vector<ElementBlock> from_wire(std::vector<WireBlock> blocks,
   return result;
 }
 
-/// The mesh as it goes over the wire.
+/// The mesh in serialised form.
 struct WireMesh {
   std::vector<ReferenceElement> elements;
   std::vector<std::size_t> tags;

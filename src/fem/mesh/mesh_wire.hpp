@@ -4,33 +4,32 @@
 #include <string>
 #include <vector>
 
-#include "common/file_stamp.hpp"
-#include "fem/mesh.hpp"
+#include "limber/common/files/file_stamp.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
-/// What the mesher, a process of its own, answers.
+/// Reply of the mesher process.
 struct MeshReply {
   std::vector<std::string> problems;  ///< of an InputError; else empty
-  /// Without `source` and what is found from it (boundary), and with indices
-  /// that fit each other; the elements may still be of any quality.
+  /// Without `source` and derived data (boundary). Indices are consistent; the
+  /// quality of elements is not yet checked.
   Mesh mesh;
-  /// What was done to the file's own wish to make it a usable mesh.
+  /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
-  /// Files that were opened or looked for.
+  /// Files that were opened or searched for.
   std::vector<FileStamp> files;
-  /// Whether equal files make an equal mesh again: the clock, say, was not
-  /// asked.
+  /// Whether the same files give the same mesh again: the clock, for example,
+  /// was not read.
   bool is_repeatable = false;
 };
 
 [[nodiscard]] std::string pack_reply(const MeshReply& reply);
-/// @throws InputError if the bytes are no such reply, or one that does not fit
-/// together
+/// @throws InputError if the bytes are not a consistent reply
 [[nodiscard]] MeshReply unpack_reply(std::string bytes);
 
-/// Digest of all that shapes a body: node positions, elements with the tables
-/// of their types, groups. Not of the file's name.
+/// Digest of all that determines a body: node positions, elements with the
+/// tables of their types, groups. Excludes the file's name.
 [[nodiscard]] std::string find_mesh_content(const Mesh& mesh);
 
 }  // namespace limber::fem

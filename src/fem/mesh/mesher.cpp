@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesher.hpp"
+#include "limber/fem/mesh/mesher.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,8 +15,17 @@
 #include <utility>
 #include <vector>
 
-#include "common/child_process.hpp"
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/process/child_process.hpp"
+#include "limber/common/process/helper_program.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define LIMBER_IS_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define LIMBER_IS_SANITIZED 1
+#endif
+#endif
 
 namespace limber::fem {
 namespace {
@@ -24,6 +33,13 @@ namespace {
 constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
 constexpr double kSeconds = 300.0;
 constexpr const char* kName = "limber-mesh";
+
+// The mesher is built as this library is.
+#ifdef LIMBER_IS_SANITIZED
+constexpr bool kIsAddressSpaceLimited = false;
+#else
+constexpr bool kIsAddressSpaceLimited = true;
+#endif
 
 std::optional<double> read_positive(const char* name) {
   const char* text = std::getenv(name);
@@ -44,11 +60,6 @@ double find_half_of_memory() {
          static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-bool can_run(const std::filesystem::path& program) {
-  return std::filesystem::is_regular_file(program) &&
-         access(program.c_str(), X_OK) == 0;
-}
-
 std::filesystem::path find_program() {
   if (const char* named = std::getenv("LIMBER_MESHER")) {
     if (can_run(named)) return std::filesystem::absolute(named);
@@ -56,22 +67,10 @@ std::filesystem::path find_program() {
         "LIMBER_MESHER names '{}', which is no program that can be run.",
         named));
   }
-  std::error_code unknown;
-  const std::filesystem::path folder =
-      std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
-  const std::vector<std::filesystem::path> places = {
-      folder / kName, folder.parent_path() / "libexec/limber" / kName,
-      std::filesystem::path(LIMBER_LIBEXEC_DIR) / kName};
-  for (const std::filesystem::path& place : places) {
-    if (can_run(place)) return place;
-  }
-  throw InputError(fmt::format(
-      "the mesher '{}' is not there: looked for {}, {} and {}. Name it by "
-      "LIMBER_MESHER.",
-      kName, places[0].string(), places[1].string(), places[2].string()));
+  return find_helper("the mesher", kName, "Name it by LIMBER_MESHER.");
 }
 
-/// A geometry sees no environment, so that its mesh cannot depend on one.
+/// A geometry gets no environment, so that its mesh cannot depend on one.
 std::vector<std::string> make_environment() {
   std::vector<std::string> environment = {
       "HOME=/nonexistent",  "LC_ALL=C",          "OMP_NUM_THREADS=1",
@@ -82,59 +81,63 @@ std::vector<std::string> make_environment() {
   return environment;
 }
 
-/// The end of what the mesher said, in one line, without control characters.
-std::string last_words(const ChildEnd& end) {
+/// The end of the mesher's output, in one line, without control characters.
+std::string describe_output(const ChildEnd& end) {
   constexpr std::size_t kMost = 300;
-  std::string words;
-  for (const char c : end.words) {
+  std::string output;
+  for (const char c : end.output) {
     const bool is_plain = static_cast<unsigned char>(c) >= ' ';
-    if (is_plain) words += c;
-    if (c == '\n' && !words.empty() && !words.ends_with("; ")) words += "; ";
+    if (is_plain) output += c;
+    if (c == '\n' && !output.empty() && !output.ends_with("; ")) output += "; ";
   }
-  while (words.ends_with("; ")) words.resize(words.size() - 2);
-  if (words.size() > kMost) {
-    words = "..." + words.substr(words.size() - kMost);
+  while (output.ends_with("; ")) output.resize(output.size() - 2);
+  if (output.size() > kMost) {
+    output = "..." + output.substr(output.size() - kMost);
   }
-  return words.empty() ? "It said nothing." : "Its last words: " + words;
+  return output.empty() ? "It printed nothing." : "Its last output: " + output;
 }
 
-/// Why no mesh came.
+/// Why there is no mesh.
 std::string explain(const Mesher& mesher, const ChildEnd& end) {
   const std::string memory = fmt::format(
-      "more than the {:.3g} GiB of memory that it may take. Mend the file, or "
+      "more than the {:.3g} GiB of memory that it may take. Correct the file, "
+      "or "
       "allow more by LIMBER_MESH_MEMORY (in GiB)",
       static_cast<double>(mesher.memory) / kGibibyte);
-  const std::string words = last_words(end);
+  const std::string output = describe_output(end);
   if (end.is_out_of_time) {
     return fmt::format(
-        "meshing did not end within {:.6g} s, and was ended. Mend the file, or "
+        "meshing did not end within {:.6g} s, and was ended. Correct the file, "
+        "or "
         "allow more by LIMBER_MESH_SECONDS. {}",
-        mesher.seconds, words);
+        mesher.seconds, output);
   }
   if (end.is_reply_too_long) return "its mesh needs " + memory + ".";
   if (end.exit_status == kMesherOutOfMemory) {
-    return fmt::format("meshing needs {}. {}", memory, words);
+    return fmt::format("meshing needs {}. {}", memory, output);
   }
   if (end.exit_status == kMesherRefused) {
-    const std::size_t at = end.words.rfind("it tries to ");
-    return at == std::string::npos ? words : end.words.substr(at);
+    const std::size_t at = end.output.rfind("it tries to ");
+    return at == std::string::npos ? output : end.output.substr(at);
   }
-  // A library blocks signals while it starts a process; then the words fail.
+  // A library blocks signals while it starts a process, so no message is
+  // printed.
   if (end.signal == SIGSYS) {
     return "it tries to run a program. A geometry may read files, and do "
            "nothing else here.";
   }
   if (end.signal != 0) {
     return fmt::format("the mesher was ended by signal {} ({}). {}", end.signal,
-                       strsignal(end.signal), words);
+                       strsignal(end.signal), output);
   }
   return fmt::format(
       "Gmsh left with status {} before there was a mesh, as Exit or Abort in a "
       "geometry do. {}",
-      end.exit_status, words);
+      end.exit_status, output);
 }
 
-/// Texts begin with the file's absolute name; a user knows it by another.
+/// Messages begin with the file's absolute path; replaces it by the user's
+/// path.
 std::vector<std::string> rename(std::vector<std::string> texts,
                                 const std::filesystem::path& place,
                                 const std::filesystem::path& file) {
@@ -170,7 +173,7 @@ std::string identify_mesher() {
   return identity;
 }
 
-MeshReply ask_mesher(const Mesher& mesher, const std::filesystem::path& file,
+MeshReply run_mesher(const Mesher& mesher, const std::filesystem::path& file,
                      const MeshOptions& options) {
   const std::filesystem::path place = std::filesystem::absolute(file);
   const ChildEnd end = run_child(
@@ -179,7 +182,8 @@ MeshReply ask_mesher(const Mesher& mesher, const std::filesystem::path& file,
         fmt::format("{}", options.order), fmt::format("{}", options.unit)},
        make_environment(),
        mesher.seconds,
-       mesher.memory});
+       mesher.memory,
+       kIsAddressSpaceLimited});
   if (end.exit_status != 0 || end.signal != 0 || end.is_out_of_time ||
       end.is_reply_too_long || end.reply.empty()) {
     throw InputError(
@@ -190,7 +194,7 @@ MeshReply ask_mesher(const Mesher& mesher, const std::filesystem::path& file,
     reply = unpack_reply(end.reply);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}. {}", file.string(), error.what(),
-                                 last_words(end)));
+                                 describe_output(end)));
   }
   if (!reply.problems.empty()) {
     throw InputError(rename(reply.problems, place, file));

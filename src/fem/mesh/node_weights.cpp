@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/node_weights.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <map>
 
-#include "common/errors.hpp"
-#include "fem/mesh_checks.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
 
 namespace limber::fem {
 namespace {

@@ -4,14 +4,14 @@
 #include <functional>
 #include <vector>
 
-#include "fem/mesh.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
-/// Nodes with the shares in which they carry a load or make an average.
+/// Nodes with their weights in a distributed load or an average.
 struct WeightedNodes {
   std::vector<int> nodes;  ///< sorted node indices
-  VectorX weights;         ///< sum to one
+  VectorX weights;         ///< sum to one [-]
 };
 
 /// Shares of a load spread evenly over a physical group: int N_n dA over a
@@ -23,7 +23,7 @@ struct WeightedNodes {
 /// Every node the same share.
 [[nodiscard]] WeightedNodes weigh_equally(std::vector<int> nodes);
 
-/// What of the boundary is near a region.
+/// Boundary nodes near a region.
 struct NearNodes {
   std::vector<int> nodes;  ///< sorted node indices
   double nearest = 0.0;    ///< distance of the nearest of all nodes [m]

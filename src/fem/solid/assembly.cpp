@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/assembly.hpp"
+#include "limber/fem/solid/assembly.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <functional>
 #include <limits>
 
-#include "common/errors.hpp"
-#include "fem/element_matrices.hpp"
-#include "fem/mesh_checks.hpp"
-#include "fem/parallel.hpp"
-#include "fem/stiffness_product.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
+#include "limber/fem/solid/stiffness_product.hpp"
 
 namespace limber::fem {
 namespace {
@@ -35,7 +35,7 @@ Neighbours find_neighbours(const Mesh& mesh) {
   return neighbours;
 }
 
-/// Where node i stands among the neighbours of j at or after j.
+/// Position of node i among the neighbours of j at or after j.
 std::size_t lower_place(const std::vector<int>& list, int j, int i) {
   const auto diagonal = std::lower_bound(list.begin(), list.end(), j);
   return static_cast<std::size_t>(std::lower_bound(diagonal, list.end(), i) -
@@ -94,7 +94,7 @@ SparseMatrix zero_stiffness(const Neighbours& neighbours) {
   return K;
 }
 
-/// What one element adds; an empty matrix adds nothing.
+/// Contribution of one element; an empty matrix adds nothing.
 struct ElementMatrices {
   MatrixX M;
   MatrixX K;
@@ -130,11 +130,11 @@ void add_element(const int* nodes, int count, const ElementMatrices& element,
 }
 
 /// Adds all elements of a block. Every thread goes through the elements in one
-/// order, so each entry is the same sum whatever the ranges.
+/// order, so each entry is the same sum for any ranges.
 void add_block(const ElementBlock& block, const ElementFunction& calc,
                const Neighbours& neighbours, const Progress& progress,
                StructuralMatrices& sum) {
-  constexpr std::size_t kChunk = 2048;  // bounds the memory of what waits
+  constexpr std::size_t kChunk = 2048;  // bounds the memory of pending elements
   std::vector<ElementMatrices> elements;
   for (std::size_t first = 0; first < block.size(); first += kChunk) {
     elements.resize(std::min(kChunk, block.size() - first));

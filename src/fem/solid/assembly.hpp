@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "common/progress.hpp"
-#include "fem/material.hpp"
-#include "fem/matrices.hpp"
-#include "fem/mesh.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/material.hpp"
+#include "limber/fem/solid/matrices.hpp"
 
 namespace limber::fem {
 
@@ -32,7 +32,7 @@ class StiffnessAssembly {
   explicit StiffnessAssembly(const Mesh& mesh);
   /// The patterns of M_s and K, all zero.
   [[nodiscard]] StructuralMatrices make_zero() const;
-  /// @param K with the pattern; what was in it is replaced
+  /// @param K with the pattern; its values are overwritten
   void assemble(const ElementStiffness& calc, SparseMatrix& K) const;
 
  private:

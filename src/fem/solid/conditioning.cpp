@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/conditioning.hpp"
+#include "limber/fem/solid/conditioning.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/stiffness_product.hpp"
+#include "limber/fem/solid/stiffness_product.hpp"
 
 namespace limber::fem {
 namespace {
 
 struct PrincipalPositions {
-  Matrix3X x;      ///< from the mean, along principal axes [m]
+  Matrix3X x;      ///< relative to the mean, principal axes [m]
   Vector3 extent;  ///< largest distance along each [m]
 };
 
@@ -31,7 +31,7 @@ std::string describe_mesh(const StiffnessSpread& spread) {
     text += fmt::format(
         " Element {} is nearly flat or a needle (its Jacobian's condition "
         "number is "
-        "{:.2g}): mend the mesh there.",
+        "{:.2g}): correct the mesh there.",
         spread.flattest, spread.flatness);
   if (spread.stiffest > kContrast * spread.softest)
     text += fmt::format(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/eigenmodes.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
 
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::fem {
 namespace {
@@ -30,8 +30,8 @@ Eigenmodes polish(const ElasticInverse& inverse, const MatrixX& X) {
   return {ritz.eigenvalues(), V * ritz.eigenvectors()};
 }
 
-/// Small models: every eigenpair at once, none can be missed. Each is good to
-/// eps of the highest eigenvalue, so the low ones are polished.
+/// Small models: all eigenpairs at once, none can be missed. Each is accurate
+/// to eps times the highest eigenvalue, so the low ones are refined.
 Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   const StructuralMatrices& full = inverse.matrices();
   const MatrixX lower = MatrixX(full.K);
@@ -51,8 +51,8 @@ Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   return modes;
 }
 
-/// @throws NumericalError. Roundoff in K phi is eps |K| |phi| whatever lambda
-/// is, so the tolerance has a part of that size.
+/// @throws NumericalError. Roundoff in K phi is eps |K| |phi| for any lambda,
+/// so the tolerance has a part of that size.
 void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
   constexpr double kTolerance = 1e-7;
   const StructuralMatrices& full = inverse.matrices();
@@ -72,8 +72,8 @@ void check_residuals(const ElasticInverse& inverse, const Eigenmodes& modes) {
   }
 }
 
-/// (K - s M)^-1 among motions that are M-orthogonal to the known modes, as
-/// Spectra wants it.
+/// (K - s M)^-1 restricted to motions M-orthogonal to the known modes, with
+/// Spectra's interface.
 class ShiftedInverse {
  public:
   using Scalar = double;
@@ -87,7 +87,7 @@ class ShiftedInverse {
 
   [[nodiscard]] Eigen::Index rows() const { return known_.rows(); }
   [[nodiscard]] Eigen::Index cols() const { return known_.rows(); }
-  void set_shift(double) const {}  // the factor's own
+  void set_shift(double) const {}  // that of the factor
 
   void perform_op(const double* in, double* out) const {
     count_call_(++calls_);
@@ -96,8 +96,8 @@ class ShiftedInverse {
         scale_ * deflate(inverse_.solve_shifted(load));
   }
 
-  /// Scales the operator to the order of 1 on `x`: Spectra's tolerance has an
-  /// absolute part, and eigenvalues depend on the unit of length.
+  /// Scales the operator to order 1 on `x`: Spectra's tolerance has an absolute
+  /// part, and eigenvalues depend on the unit of length.
   void scale_by(const MatrixX& x) {
     const MatrixX M_x = multiply_mass(inverse_.matrices().M_s, x);
     const MatrixX y = deflate(inverse_.solve_shifted(M_x));
@@ -117,7 +117,7 @@ class ShiftedInverse {
   mutable int calls_ = 0;
 };
 
-/// The inner product of M, as Spectra wants it.
+/// The inner product of M, with Spectra's interface.
 class MassProduct {
  public:
   using Scalar = double;
@@ -152,7 +152,7 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
       inverse.matrices().dof_count() - inverse.rigid_count() - known.cols();
   const Eigen::Index width = std::min(2 * count + 20, room);
   ShiftedInverse op(inverse, known, [&](int calls) {
-    // About two solves a column of the width, in our experience.
+    // About two solves a column of the width, empirically.
     report(progress, "finding eigenmodes",
            std::min(0.99, 0.5 * calls / static_cast<double>(width)));
   });
@@ -174,9 +174,9 @@ MatrixX search(const ElasticInverse& inverse, const MatrixX& known,
   return solver.eigenvectors();
 }
 
-/// One Krylov space meets repeated eigenvalues by roundoff alone. So what is
-/// found is taken out and the rest is searched, until nothing in it lies
-/// below the last mode asked for.
+/// One Krylov space finds repeated eigenvalues only through roundoff. So modes
+/// found are deflated and the complement is searched, until it has no
+/// eigenvalue below the last requested mode.
 Eigenmodes solve_lanczos(const ElasticInverse& inverse, Eigen::Index count,
                          const Progress& progress) {
   const Eigen::Index dofs = inverse.matrices().dof_count();

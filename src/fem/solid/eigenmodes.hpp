@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/progress.hpp"
-#include "fem/elastic_inverse.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
 
 namespace limber::fem {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/elastic_inverse.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <limits>
 #include <vector>
 
-#include "common/duration.hpp"
-#include "common/errors.hpp"
-#include "fem/conditioning.hpp"
-#include "fem/factor_cost.hpp"
+#include "limber/common/duration.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/factor_cost.hpp"
+#include "limber/fem/solid/conditioning.hpp"
 
 namespace limber::fem {
 namespace {
 
-/// All displacement fields quadratic in position: 27 columns. They hold the
+/// All displacement fields quadratic in position: 27 columns. They include the
 /// bending, torsion and stretching of a simple body.
 MatrixX quadratic_fields(const Matrix3X& x) {
   const Matrix3X scaled = scale_positions(x);
@@ -41,8 +41,8 @@ double estimate_first_eigenvalue(const StructuralMatrices& matrices,
   const MatrixX M = V.transpose() * multiply_mass(matrices.M_s, V);
   const MatrixX K = V.transpose() * multiply_stiffness(matrices.K, V);
   const Eigen::SelfAdjointEigenSolver<MatrixX> mass(M);
-  // Linear fields hold rotations, which the projection has taken out, so M
-  // is singular here: keep what is independent.
+  // Linear fields include rotations, which the projection removes, so M is
+  // singular here: keep the independent part.
   constexpr double kIndependent = 1e-6;
   const double largest = mass.eigenvalues()[M.cols() - 1];
   Eigen::Index dependent = 0;
@@ -64,9 +64,9 @@ double choose_shift(const StructuralMatrices& matrices, const MatrixX& R,
   return -kFraction * estimate_first_eigenvalue(matrices, R, MR, x);
 }
 
-constexpr double kLong = 20.0;  // s; eigenmodes take as long again
+constexpr double kLong = 20.0;  // s; eigenmodes take about as long again
 
-// @param order of degrees of freedom, those of a node together
+// @param order of degrees of freedom, those of a node adjacent
 void tell_factors(const SparseMatrix& M_s, const std::vector<int>& order,
                   const Progress& progress) {
   if (!progress) return;
@@ -74,9 +74,10 @@ void tell_factors(const SparseMatrix& M_s, const std::vector<int>& order,
   for (std::size_t i = 0; i < order.size(); i += 3) {
     nodes.push_back(order[i] / 3);
   }
-  report(progress,
-         foretell("factorising", estimate_factor_seconds(M_s, nodes), kLong),
-         0.0);
+  report(
+      progress,
+      with_duration("factorising", estimate_factor_seconds(M_s, nodes), kLong),
+      0.0);
 }
 
 }  // namespace
@@ -110,13 +111,13 @@ MatrixX ElasticInverse::solve_shifted(const MatrixX& F) const {
 
 MatrixX ElasticInverse::solve(const MatrixX& F) const {
   constexpr int kMaxSteps = 60;
-  constexpr double kTolerance = 1e-13;  // correction, relative to the answer
+  constexpr double kTolerance = 1e-13;  // correction, relative to the solution
   constexpr double kStalled = 1e-9;     // roundoff allowed for a hard matrix
-  constexpr double kCoarse = 1e-9;      // for which the matrix does, at best
+  constexpr double kCoarse = 1e-9;      // accuracy that the matrix suffices for
   const MatrixX load = project_load(F);
   MatrixX X = solve_shifted(load);
   double previous = std::numeric_limits<double>::infinity();
-  bool is_fine = false;  // by the product, which costs more
+  bool is_fine = false;  // residual by the product, which costs more
   for (int step = 0; step < kMaxSteps; ++step) {
     const MatrixX correction =
         solve_shifted(is_fine ? calc_residual(*matrices_, load, X)
@@ -135,15 +136,15 @@ MatrixX ElasticInverse::solve(const MatrixX& F) const {
     is_fine = true;
     previous = std::numeric_limits<double>::infinity();
   }
-  // Of the answers, the softest.
+  // The softest of the solutions.
   const VectorX stiffness =
       X.cwiseProduct(load).colwise().sum().transpose().cwiseQuotient(
           X.colwise().squaredNorm().transpose());
   throw NumericalError(fmt::format(
       "static solution: after {} refinements the correction is {:.3g} of the "
-      "answer (tolerance {:.0g}). The stiffness matrix is too ill-conditioned: "
-      "a node alone is up to {:.1g} times as stiff as the body in the answer, "
-      "and double precision tells 1e16 apart.{}",
+      "solution (tolerance {:.0g}). The stiffness matrix is too "
+      "ill-conditioned: a single node is up to {:.1g} times as stiff as the "
+      "body, and double precision resolves 1e16.{}",
       kMaxSteps, previous, kStalled,
       matrices_->K.diagonal().maxCoeff() / stiffness.minCoeff(),
       conditioning_));

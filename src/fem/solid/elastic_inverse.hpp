@@ -4,25 +4,25 @@
 #include <string>
 #include <vector>
 
-#include "common/progress.hpp"
-#include "fem/cholesky.hpp"
-#include "fem/matrices.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/fem/linalg/cholesky.hpp"
+#include "limber/fem/solid/matrices.hpp"
 
 namespace limber::fem {
 
 /// The elastic inverse of a body's stiffness: of a clamped body K^-1, of a
-/// free one the inertia-relief inverse K^+, which answers a load F with the
-/// elastic part of the displacement under F - M q_F, q_F being the rigid
-/// acceleration that F causes, orthogonal to rigid motion in M.
+/// free one the inertia-relief inverse K^+, which maps a load F to the elastic
+/// part of the displacement under F - M q_F, with q_F the rigid acceleration
+/// that F causes. It is M-orthogonal to rigid motion.
 ///
 /// Equation   P = I - R R^T M;  x <- x + P (K - s M)^-1 P^T (F - K x)
 /// Source     Refinement with a shifted factor, s < 0: the error shrinks by
-///            |s| / (lambda_1 + |s|) a step, so that the answer is exact to
-///            roundoff although K is singular, and the one factorisation
-///            also serves the eigenmodes.
-///            Residuals F - K x are those of the product that `matrices`
-///            have (fem/stiffness_product.hpp), so that the answer is K's even
-///            where the factor is good to a few digits only.
+///            |s| / (lambda_1 + |s|) a step, so that the solution is exact to
+///            roundoff although K is singular, and the one factorisation also
+///            serves the eigenmodes. Residuals F - K x use the product of
+///            `matrices` if there is one (fem/solid/stiffness_product.hpp), so
+///            that the solution is accurate even if the factor has only a few
+///            digits.
 /// Limits     The six rigid motions must be the whole null space of K. Bodies
 ///            up to some 1000 times as long as thick.
 class ElasticInverse {
@@ -51,7 +51,7 @@ class ElasticInverse {
   [[nodiscard]] double shift() const { return shift_; }  ///< s [rad^2/s^2]
   [[nodiscard]] Eigen::Index rigid_count() const { return R_.cols(); }
   [[nodiscard]] double factor_flops() const { return factor_.flops(); }
-  /// Sentences for an error on what makes the matrix ill-conditioned.
+  /// Causes of the matrix's ill-conditioning, as sentences for an error.
   [[nodiscard]] const std::string& conditioning() const {
     return conditioning_;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/element_matrices.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
-#include "fem/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
 
 namespace limber::fem {
 
@@ -24,8 +24,8 @@ MatrixX calc_element_mass(const ReferenceElement& element, const Matrix3X& x,
 
 namespace {
 
-/// Gradients of an element's functions in the material's axes, and what a
-/// quadrature point stands for.
+/// Gradients of an element's functions in material coordinates, and the measure
+/// of each quadrature point.
 struct Gradients {
   std::vector<Matrix3X> at;  ///< a point: 3 x nodes [1/m]
   VectorX measure;           ///< a point: w det J [m^3]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fem/hyperelastic.hpp"
-#include "fem/reference_element.hpp"
+#include "limber/fem/mesh/reference_element.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 
 namespace limber::fem {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/hyperelastic.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 
 namespace limber::fem {
 

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "fem/material.hpp"
+#include "limber/fem/solid/material.hpp"
 
 namespace limber::fem {
 
-/// Isotropic elasticity for large rotation. For small strains both laws are
-/// Hooke's.
+/// Isotropic elasticity for large rotation. Both laws reduce to Hooke's for
+/// small strain.
 enum class Elasticity {
   /// W = lambda tr(E)^2/2 + mu E:E, E = (F^T F - I)/2. For moderate strain: in
   /// compression it softens, and it cannot resist collapse.
@@ -19,7 +19,7 @@ enum class Elasticity {
   neo_hookean,
 };
 
-/// 3 x 3 numbers, or arrays of numbers that are worked on together.
+/// 3 x 3 tensor of numbers or of SIMD lanes.
 template <class T>
 using Tensor = std::array<std::array<T, 3>, 3>;
 
@@ -46,8 +46,8 @@ template <class T>
          F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
 }
 
-/// E from the displacement gradient H = F - I, so that no digits are lost at
-/// small strain: E = (H + H^T + H^T H)/2.
+/// Green strain from the displacement gradient H = F - I, without cancellation
+/// at small strain: E = (H + H^T + H^T H)/2.
 template <class T>
 [[nodiscard]] Tensor<T> calc_green_strain(const Tensor<T>& H) {
   Tensor<T> E;
@@ -78,7 +78,7 @@ template <class T>
   return stress;
 }
 
-/// det F > 0 is the caller's to check.
+/// The caller checks that det F > 0.
 template <class T>
 [[nodiscard]] Stress<T> calc_neo_hookean(const LameConstants<T>& lame,
                                          const Tensor<T>& H) {

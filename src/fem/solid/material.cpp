@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/material.hpp"
+#include "limber/fem/solid/material.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::fem {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/mesh.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
@@ -15,8 +15,8 @@ struct ElasticMaterial {
   double density = 0.0;         ///< rho > 0 [kg/m^3]
 };
 
-/// A material and the volume group that has it; an empty name means every
-/// element that no other assignment names.
+/// A material and its volume group; an empty name means every element that no
+/// other assignment covers.
 struct MaterialAssignment {
   std::string group;
   ElasticMaterial material;
@@ -24,7 +24,7 @@ struct MaterialAssignment {
 
 /// The material of each region (index into Mesh::volume_groups).
 /// @throws InputError, all problems at once, for values out of range, an
-/// unknown group, a region named twice or not at all, a nameless material
+/// unknown group, a region assigned twice or not at all, a nameless material
 /// with no region left.
 [[nodiscard]] std::vector<ElasticMaterial> assign_materials(
     const Mesh& mesh, const std::vector<MaterialAssignment>& assignments);

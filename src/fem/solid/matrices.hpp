@@ -1,39 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Sparse>
 #include <memory>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
+#include "limber/fem/linalg/sparse_matrix.hpp"
 
 namespace limber::fem {
 
 class StiffnessProduct;
-
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 /// A solid's matrices. Degree of freedom 3 n + c is component c of node n.
 struct StructuralMatrices {
   SparseMatrix
       M_s;         ///< N x N scalar mass, both triangles; M = M_s (x) I_3 [kg]
   SparseMatrix K;  ///< 3N x 3N stiffness, lower triangle only [N/m]
-  /// K once more, without the roundoff of its entries; null if all there is of
-  /// K is its matrix.
+  /// Products with K without the roundoff of its entries; null if only the
+  /// matrix is available.
   std::shared_ptr<const StiffnessProduct> product = nullptr;
 
   [[nodiscard]] Eigen::Index node_count() const { return M_s.cols(); }
   [[nodiscard]] Eigen::Index dof_count() const { return K.cols(); }
 };
 
-/// (M_s (x) I_3) X for 3N x k columns. Same result for any thread count.
-[[nodiscard]] MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X);
-
-/// K X, K given by its lower triangle.
-[[nodiscard]] MatrixX multiply_stiffness(const SparseMatrix& K_lower,
-                                         const MatrixX& X);
-
-/// F - K X and K X by the product where there is one, else by the matrix.
+/// F - K X and K X, by `product` if there is one, else by the matrix.
 [[nodiscard]] MatrixX calc_residual(const StructuralMatrices& matrices,
                                     const MatrixX& F, const MatrixX& X);
 [[nodiscard]] MatrixX multiply_stiffness(const StructuralMatrices& matrices,
@@ -46,10 +37,6 @@ struct StructuralMatrices {
 /// Matrices of the nodes listed (sorted), all others held fixed.
 [[nodiscard]] StructuralMatrices restrict_to(const StructuralMatrices& matrices,
                                              const std::vector<int>& nodes);
-
-/// Rows and columns `kept` (sorted) of a matrix.
-[[nodiscard]] SparseMatrix restrict_matrix(const SparseMatrix& full,
-                                           const std::vector<int>& kept);
 
 /// Mass, centre of mass and second moments of a nodal mass matrix.
 struct MassProperties {

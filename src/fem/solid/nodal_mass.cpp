@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/nodal_mass.hpp"
+#include "limber/fem/solid/nodal_mass.hpp"
 
-#include "common/errors.hpp"
-#include "fem/element_matrices.hpp"
-#include "fem/mesh_checks.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
 
 namespace limber::fem {
 

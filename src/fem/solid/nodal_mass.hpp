@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "fem/cholesky.hpp"
-#include "fem/material.hpp"
-#include "fem/matrices.hpp"
+#include "limber/fem/linalg/cholesky.hpp"
+#include "limber/fem/solid/material.hpp"
+#include "limber/fem/solid/matrices.hpp"
 
 namespace limber::fem {
 
@@ -19,7 +19,7 @@ namespace limber::fem {
 [[nodiscard]] VectorX calc_lumped_mass(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials);
 
-/// The mass of a mesh's nodes, ready to be divided by.
+/// Nodal mass matrix, lumped or consistent, with its inverse.
 class NodalMass {
  public:
   explicit NodalMass(const VectorX& lumped);

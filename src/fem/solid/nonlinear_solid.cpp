@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/nonlinear_solid.hpp"
+#include "limber/fem/solid/nonlinear_solid.hpp"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/errors.hpp"
-#include "fem/mesh_checks.hpp"
-#include "fem/parallel.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
 
 namespace limber::fem {
 namespace {
 
-// One rule for elements that are worked on together: the curved one serves
-// straight elements too.
+// One rule for all elements of a batch: the curved one is valid for straight
+// elements too.
 const Quadrature& choose_rule(const Mesh& mesh, const ElementBlock& block,
                               std::size_t first, std::size_t count) {
   for (std::size_t e = first; e < first + count; ++e) {
@@ -200,7 +200,7 @@ double NonlinearSolid::calc_batch(const Batch& batch,
 void NonlinearSolid::refuse(const Batch& batch, const Lane& J) const {
   int lane = 0;
   const double least = J.minCoeff(&lane);
-  // Not a number wins no comparison: name the first of the four then.
+  // NaN fails every comparison: name the first of the four then.
   const auto at =
       std::min(static_cast<std::size_t>(lane), batch.tags.size() - 1);
   throw NumericalError(fmt::format(

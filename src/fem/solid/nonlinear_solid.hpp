@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/hyperelastic.hpp"
-#include "fem/mesh.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 
 namespace limber::fem {
 
@@ -13,20 +13,20 @@ namespace limber::fem {
 ///
 /// Equation   f_a = sum_q w_q F S grad N_a,  F = I + sum_a u_a grad N_a^T
 /// Source     total Lagrangian, [@belytschko2000, ch. 4]
-/// Limits     the gradients at all quadrature points are kept: 1 kB a
+/// Limits     the gradients at all quadrature points are stored: 1 kB a
 ///            second-order tetrahedron
 ///
-/// Elements are worked on four at a time, one a lane, and in parallel; the
+/// Elements are processed four at a time (one a SIMD lane) and in parallel; the
 /// result does not depend on the number of threads.
 class NonlinearSolid {
  public:
-  /// Room for the forces of single elements. One a thread of the caller.
+  /// Buffers for the forces of single elements. One per calling thread.
   struct Workspace {
-    std::vector<double> forces;
-    std::vector<double> energies;
+    std::vector<double> forces;    ///< [N]
+    std::vector<double> energies;  ///< [J]
   };
 
-  /// @param materials one a region of the mesh
+  /// @param materials one per region of the mesh
   NonlinearSolid(const Mesh& mesh,
                  const std::vector<ElasticMaterial>& materials, Elasticity law);
 
@@ -34,8 +34,8 @@ class NonlinearSolid {
   [[nodiscard]] Workspace make_workspace() const;
 
   /// Internal force [N] at nodal displacements u [m], both 3 x N in the
-  /// mesh's axes. @returns the strain energy [J].
-  /// @throws NumericalError naming an element that is turned inside out.
+  /// mesh frame. @returns the strain energy [J].
+  /// @throws NumericalError naming an inverted element.
   double calc_force(const Eigen::Ref<const Matrix3X>& u,
                     Eigen::Ref<Matrix3X> force, Workspace& workspace) const;
 
@@ -43,8 +43,8 @@ class NonlinearSolid {
   static constexpr int kLanes = 4;
   using Lane = Eigen::Array<double, kLanes, 1>;
 
-  /// Four elements of one type. Where one is missing the last is repeated
-  /// without measure.
+  /// Four elements of one type. An incomplete batch repeats its last element
+  /// with measure 0.
   struct Batch {
     std::size_t nodes = 0;          // of an element
     std::size_t points = 0;         // of an element
@@ -53,7 +53,7 @@ class NonlinearSolid {
     std::vector<Lane> gradients;    // points x nodes x 3
     std::vector<Lane> measures;     // points [m^3]
     LameConstants<Lane> lame;
-    std::size_t place = 0;  // of its forces in the workspace
+    std::size_t place = 0;  // index of its forces in the workspace
   };
 
   void add_block(const Mesh& mesh, const ElementBlock& block,
@@ -71,7 +71,7 @@ class NonlinearSolid {
   Eigen::Index node_count_;
   std::vector<Batch> batches_;
   std::size_t force_count_ = 0;
-  // Places of the forces on each node, node by node: first_link_ N + 1.
+  // Indices of the forces on each node, node by node: first_link_ N + 1.
   std::vector<std::size_t> first_link_;
   std::vector<std::size_t> links_;
 };

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/skin.hpp"
+#include "limber/fem/solid/skin.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "fem/mesh_checks.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
 
 namespace limber::fem {
 namespace {
 
-/// int N_a N_b dA over one face, all nodes of the element.
+/// int N_a N_b dA over one face, for all nodes of the element.
 MatrixX calc_face_area(const ReferenceElement& element, std::size_t face,
                        const Matrix3X& x) {
   const Quadrature& rule = element.face_rules[face];

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fem/matrices.hpp"
-#include "fem/mesh.hpp"
+#include "limber/fem/linalg/sparse_matrix.hpp"
+#include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
 
-/// What the nodes have of the body's skin: N x N, both triangles [m^2]. Times a
-/// drag per area it is the scalar damping matrix of the skin.
+/// Surface matrix of the nodes: N x N, both triangles [m^2]. Times a drag
+/// coefficient per area it is the scalar damping matrix of the surface.
 ///
 /// Equation   S_ab = int N_a N_b dA over the boundary faces
 [[nodiscard]] SparseMatrix assemble_skin(const Mesh& mesh);
 
-/// Largest values over all quadrature points of the displacement gradient's
-/// two parts; both zero for a translation.
+/// Largest values over all quadrature points of the symmetric and skew parts of
+/// the displacement gradient; both zero for a translation.
 struct LargestGradient {
   double strain = 0.0;    ///< principal value of its symmetric part [-]
   double rotation = 0.0;  ///< of its skew part [rad]

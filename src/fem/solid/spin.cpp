@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/spin.hpp"
+#include "limber/fem/solid/spin.hpp"
 
 #include <Spectra/SymGEigsSolver.h>
 #include <fmt/format.h>
@@ -9,12 +9,13 @@
 #include <limits>
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::fem {
 namespace {
 
-/// P^T M E as Spectra wants it, scaled: its tolerance has an absolute part.
+/// P^T M E with Spectra's interface, scaled: its tolerance has an absolute
+/// part.
 class CentrifugalProduct {
  public:
   using Scalar = double;
@@ -41,7 +42,7 @@ class CentrifugalProduct {
   double scale_ = 1.0;
 };
 
-/// K and K^+ as Spectra wants them.
+/// K and K^+ with Spectra's interface.
 class EnergyProduct {
  public:
   using Scalar = double;
@@ -91,7 +92,7 @@ class SpunSolver {
     return inverse_.project_load(Kx) - square_ * product_.multiply(x);
   }
 
-  /// Conjugate gradients, far enough for refinement to do the rest.
+  /// Conjugate gradients, to a tolerance that refinement completes.
   [[nodiscard]] VectorX iterate(VectorX residual) const {
     constexpr double kTolerance = 1e-8;
     constexpr int kMaxSteps = 500;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fem/elastic_inverse.hpp"
+#include "limber/fem/solid/elastic_inverse.hpp"
 
-/// A body that turns steadily, seen in its own axes: K - Omega^2 M E.
+/// A body in steady rotation, in its own frame: K - Omega^2 M E.
 /// docs/theory/operating_states.md.
 namespace limber::fem {
 
-/// E X: what a 3N x k field has normal to the axis.
+/// E X: the part of a 3N x k field normal to the axis.
 /// @param axis unit vector
 [[nodiscard]] MatrixX project_normal(const Vector3& axis, const MatrixX& X);
 
-/// The angular speed at which the centrifugal softening takes all stiffness of
-/// a deformation [rad/s].
+/// The lowest angular speed at which centrifugal softening cancels the
+/// stiffness of a deformation [rad/s].
 ///
 /// Equation   smallest Omega with K x = Omega^2 P^T M E x for an x without
 ///            rigid motion
@@ -22,9 +22,9 @@ namespace limber::fem {
 [[nodiscard]] double find_critical_speed(const ElasticInverse& inverse,
                                          const Vector3& axis);
 
-/// Deformation under loads F in axes that turn at `speed`, without rigid
-/// motion: the rigid part of F and of Omega^2 M E x is left to what holds the
-/// body.
+/// Deformation under loads F in a frame that rotates at `speed`, without rigid
+/// motion: the supports of the body carry the rigid part of F and of Omega^2 M
+/// E x.
 ///
 /// Equation   P^T (K - Omega^2 M E) x = P^T F, x = P x
 /// Source     Conjugate gradients preconditioned with the factor of K, which

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/static_solid.hpp"
+#include "limber/fem/solid/static_solid.hpp"
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "fem/nonlinear_solid.hpp"
-#include "fem/tangent.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/nonlinear_solid.hpp"
+#include "limber/fem/solid/tangent.hpp"
 
 namespace limber::fem {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/stiffness_product.hpp"
+#include "limber/fem/solid/stiffness_product.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/errors.hpp"
-#include "fem/hyperelastic.hpp"
-#include "fem/mesh_checks.hpp"
-#include "fem/parallel.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 
 namespace limber::fem {
 namespace {
@@ -20,7 +20,7 @@ using Matrix43 = Eigen::Matrix<double, 4, 3>;
 using InverseMap =
     Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
-/// du_i/dxi_j of displacements from those of node 0.
+/// du_i/dxi_j of displacements relative to node 0.
 Matrix43 find_local_gradient(const MatrixX& gradients, const ElementField& d) {
   Matrix43 local = Matrix43::Zero();
   for (Eigen::Index a = 1; a < d.cols(); ++a)
@@ -29,8 +29,7 @@ Matrix43 find_local_gradient(const MatrixX& gradients, const ElementField& d) {
   return local;
 }
 
-/// w sigma J^-T: what a local gradient of a shape function turns into a nodal
-/// force.
+/// w sigma J^-T: maps a local gradient of a shape function to a nodal force.
 Matrix43 find_local_stress(const Matrix3& H, const Matrix3& inverse,
                            double measure, double lambda, double mu) {
   Matrix3 sigma = mu * (H + H.transpose());
@@ -113,9 +112,9 @@ StiffnessProduct StiffnessProduct::restrict_to(
   return part;
 }
 
-// Displacements from those of node 0, without the turn that the first point
-// has. The turn is taken out in extended precision: what is left is as small as
-// the strain, and double precision does for it.
+// Displacements relative to node 0, without the rotation at the first point.
+// The rotation is subtracted in extended precision: the rest is as small as the
+// strain, so double precision suffices for it.
 ElementField StiffnessProduct::find_deformation(const Element& element,
                                                 const VectorX& u) const {
   const auto at = [&](int a, int i) -> Real {

@@ -6,45 +6,45 @@
 #include <string>
 #include <vector>
 
-#include "common/types.hpp"
-#include "fem/material.hpp"
-#include "fem/mesh.hpp"
+#include "limber/common/types.hpp"
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/material.hpp"
 
 namespace limber::fem {
 
-/// What an elastic mesh has that makes its stiffness matrix ill-conditioned.
+/// Properties of a mesh that make its stiffness matrix ill-conditioned.
 struct StiffnessSpread {
-  std::string
-      flattest;  ///< tag and type of the one with the largest `flatness`
+  std::string flattest;   ///< tag and type of the element of largest `flatness`
   double flatness = 0.0;  ///< its |J| |J^-1|, J the Jacobian [-]
   double softest = 0.0;   ///< least Young's modulus [Pa]
   double stiffest = 0.0;  ///< largest Young's modulus [Pa]
 };
 
-/// Vectors of an element's nodes. The fourth row is zero: whole words.
+/// Vectors at an element's nodes. The fourth row is zero padding, for SIMD.
 inline constexpr int kMostElementNodes = 64;  ///< a hexahedron of order 3
 using ElementField =
     Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, kMostElementNodes>;
 
-/// The stiffness K of a mesh without its matrix: products K u summed from the
-/// elements' strains. An element's displacements lose their turn in extended
-/// precision (x86's 64 bits), and what is left has all digits of the strain.
+/// Matrix-free stiffness K of a mesh: products K u summed from the elements'
+/// strains. An element's rotation is subtracted from its displacements in
+/// extended precision (x86's 64 bits), and the rest has all digits of the
+/// strain.
 ///
 /// Equation   f_a = sum_q w_q sigma(H_q) g_a, f_0 = -sum_{a > 0} f_a,
 ///            H_q = sum_a (u_a - u_0) g_a^T, g_a = grad N_a
 /// Source     Hughes, The Finite Element Method, sec. 2.7 and 3.10;
 ///            K = B^T D B is never multiplied out
-/// Limits     A matrix of doubles lets rigid motion have forces of eps |K|.
+/// Limits     A matrix of doubles gives rigid motion forces of eps |K|.
 ///            A bar of slenderness s bends with s^-4 of |K|, so that eps s^4
 ///            of its bending stiffness is roundoff: 1e-4 at s = 1000. Here
-///            rigid motion has next to no force, which leaves s eps.
+///            rigid motion has almost no force, which leaves s eps.
 class StiffnessProduct {
  public:
-  /// @param materials one a region of the mesh
+  /// @param materials one per region of the mesh
   StiffnessProduct(const Mesh& mesh,
                    const std::vector<ElasticMaterial>& materials);
 
-  /// The same with all nodes held but those listed (sorted).
+  /// The same with all nodes fixed except those listed (sorted).
   [[nodiscard]] StiffnessProduct restrict_to(
       const std::vector<int>& nodes) const;
 
@@ -83,7 +83,7 @@ class StiffnessProduct {
                   std::vector<long double>& forces) const;
 
   std::shared_ptr<const Elements> elements_;
-  std::vector<int> rows_;  ///< of each node; -1 if it is held
+  std::vector<int> rows_;  ///< of each node; -1 if fixed
   int row_count_ = 0;
   StiffnessSpread spread_;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/tangent.hpp"
+#include "limber/fem/solid/tangent.hpp"
 
 #include <utility>
 
-#include "fem/element_matrices.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
 
 namespace limber::fem {
 

@@ -4,18 +4,18 @@
 #include <optional>
 #include <vector>
 
-#include "fem/assembly.hpp"
-#include "fem/cholesky.hpp"
-#include "fem/hyperelastic.hpp"
+#include "limber/fem/linalg/cholesky.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 
 namespace limber::fem {
 
 /// Factors of the tangent of a solid's equations of motion, c M + K(u), on the
-/// nodes that can move. The pattern's analysis is done once.
+/// free nodes. The symbolic analysis is done once.
 class TangentFactor {
  public:
-  /// @param mesh, materials kept by reference
-  /// @param M_s N x N scalar mass [kg], kept by reference
+  /// @param mesh, materials stored by reference
+  /// @param M_s N x N scalar mass [kg], stored by reference
   TangentFactor(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                 Elasticity law, const SparseMatrix& M_s,
                 std::vector<int> free_nodes);

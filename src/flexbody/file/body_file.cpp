@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/body_file.hpp"
+#include "limber/flexbody/file/body_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,13 @@
 #include <system_error>
 #include <vector>
 
-#include "common/digest.hpp"
-#include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
-#include "common/input_file.hpp"
-#include "common/whole_file.hpp"
-#include "flexbody/body_file_reader.hpp"
-#include "flexbody/body_file_records.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/common/records/digest.hpp"
+#include "limber/flexbody/file/body_file_reader.hpp"
+#include "limber/flexbody/file/body_file_records.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 const char* const kFormat = "limber reduced body";
 constexpr InputKind kReducedBody = {"reduced body", std::uint64_t{1} << 36};
 
-// HDF5 leaves this many bytes at the start to the seal.
+// Size of HDF5's user block, which holds the seal.
 constexpr std::size_t kSealSize = 512;
 
 std::string make_seal(int version, const std::string& digest) {
@@ -34,7 +34,7 @@ std::string make_seal(int version, const std::string& digest) {
   return seal;
 }
 
-// Digest of all bytes that `read(block, size)` still gives.
+// Digest of all remaining bytes of `read(block, size)`.
 template <typename Read>
 std::string calc_digest(const Read& read) {
   Digest digest;
@@ -46,7 +46,7 @@ std::string calc_digest(const Read& read) {
   return digest.text();
 }
 
-// The version that a seal names, or nothing if it is no seal.
+// The version in a seal, or nothing if it is not a seal.
 std::optional<int> version_of(const std::string& seal) {
   const std::string start = fmt::format("{}\nlayout ", kFormat);
   if (!seal.starts_with(start)) return std::nullopt;
@@ -222,8 +222,7 @@ void read_interfaces(const Reader& reader, std::size_t count,
   }
 }
 
-// Before HDF5 sees the file: a library that parses damaged structures can
-// answer with anything, a crash included.
+// Before HDF5 opens the file, since it may crash on damaged structures.
 void check_seal(const std::filesystem::path& file) {
   const auto problem = [&](const std::string& what) {
     return InputError(fmt::format("'{}' {}", file.string(), what));
@@ -266,7 +265,7 @@ void seal_body_file(const std::filesystem::path& file) {
     return static_cast<std::size_t>(stream.gcount());
   };
   const std::string seal = make_seal(kBodyFileVersion, calc_digest(read));
-  stream.clear();  // of the end of the file, to which the digest has read
+  stream.clear();  // the end-of-file state after the digest
   stream.seekp(0);
   stream.write(seal.data(), static_cast<std::streamsize>(seal.size()));
   stream.close();

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 
 namespace limber::flexbody {
 
-/// Reads with sizes and finiteness checked; every doubt is an InputError.
+/// Reads datasets and checks sizes and finiteness. Throws InputError.
 class BodyFileReader {
  public:
   BodyFileReader(const Hdf5File& in, const std::filesystem::path& file)
@@ -34,7 +34,7 @@ class BodyFileReader {
     if (values.size() != 1) fail(fmt::format("'{}' is not one number", name));
     return values[0];
   }
-  /// Integers that are not negative, `count` of them (any number if negative).
+  /// Non-negative integers, `count` of them (any number if `count` < 0).
   [[nodiscard]] std::vector<std::size_t> sizes(const std::string& name,
                                                std::int64_t count) const {
     const auto values = in_.read_integers(name);

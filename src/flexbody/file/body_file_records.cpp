@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/body_file_records.hpp"
+#include "limber/flexbody/file/body_file_records.hpp"
 
 #include <sstream>
 #include <utility>

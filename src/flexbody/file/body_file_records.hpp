@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "flexbody/body_file_reader.hpp"
-#include "flexbody/initial_deformation.hpp"
-#include "flexbody/load_modes_record.hpp"
-#include "flexbody/selection_record.hpp"
+#include "limber/flexbody/file/body_file_reader.hpp"
+#include "limber/flexbody/model/initial_deformation.hpp"
+#include "limber/flexbody/model/load_modes_record.hpp"
+#include "limber/flexbody/model/selection_record.hpp"
 
-/// What a body's file holds beside the body: how its modes were chosen, and
-/// what it starts with.
+/// Further content of a body file: how the modes were chosen, and the initial
+/// deformation.
 namespace limber::flexbody {
 
 void write_selection(Hdf5File& out,
@@ -24,7 +24,7 @@ void write_load_modes(Hdf5File& out,
 [[nodiscard]] std::vector<LoadModesRecord> read_load_modes(
     const BodyFileReader& reader);
 
-/// @param at group, with its slash; @param unit of the coordinates
+/// @param at group, ending in a slash; @param unit of the coordinates
 void write_field(Hdf5File& out, const std::string& at,
                  const std::optional<ProjectedField>& projected,
                  const std::string& unit);

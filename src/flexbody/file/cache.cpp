@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/cache.hpp"
+#include "limber/flexbody/file/cache.hpp"
 
 #include <cstdlib>
 #include <exception>
 #include <optional>
 #include <utility>
 
-#include "common/digest.hpp"
-#include "common/errors.hpp"
-#include "common/overloaded.hpp"
-#include "flexbody/body_file.hpp"
-#include "flexbody/cache_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
+#include "limber/common/records/digest.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/flexbody/file/cache_file.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-// Raise when the reduction itself changes: it makes old entries unknown.
+// Increment when the reduction changes, to invalidate old entries.
 constexpr int kReductionVersion = 4;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
@@ -95,9 +95,8 @@ std::filesystem::path find_place(const std::filesystem::path& folder,
   return folder / (key + ".h5");
 }
 
-// The entry if it is there, sound and the asked one. Whatever else is in its
-// place, of whatever kind its damage is, is no reason to fail: the body can
-// be made anew.
+// The entry if it exists, is undamaged and has the right key. Any other content
+// is ignored, since the body can be made again.
 std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
                                       const std::string& key) {
   try {
@@ -110,7 +109,7 @@ std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
   return std::nullopt;
 }
 
-// An entry that cannot be kept only makes the next run take longer.
+// Failing to store an entry only makes the next run take longer.
 void keep_entry(const ReducedBody& body, const std::filesystem::path& folder) {
   try {
     write_own_file(
@@ -169,7 +168,7 @@ CachedBody load_or_reduce(const Recipe& recipe,
     const std::string key = content_key(recipe, mesh.content);
     std::optional<ReducedBody> body = find_entry(folder, key);
     if (!body) return std::nullopt;
-    // Two links of one shape share an entry; the name is the asker's.
+    // Links of equal shape share an entry; the name is the caller's.
     body->name = recipe.name;
     return CachedBody{std::move(*body), true, mesh.notices};
   };

@@ -6,38 +6,38 @@
 #include <string>
 #include <vector>
 
-#include "flexbody/mesh_index.hpp"
-#include "flexbody/recipe.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/flexbody/file/mesh_index.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::flexbody {
 
-/// A mesh that was made, ready to be reduced.
+/// A finished mesh, ready to be reduced.
 struct MeshAtHand {
   MeshRecord record;
   std::function<ReducedBody(const Recipe&)> reduce;
 };
 
-/// Who makes meshes and bodies; usually flexbody::make_reducer.
+/// Functions that make meshes and bodies; usually flexbody::make_reducer.
 struct Reducer {
-  /// Who makes meshes: the program and what else a mesh may depend on; empty
-  /// if nobody can.
+  /// Identifies the mesher: the program and whatever else a mesh may depend on;
+  /// empty if there is none.
   std::string mesher;
   std::function<MeshAtHand(const MeshSource&)> make_mesh;
 };
 
-/// Hash of everything that shapes the reduced body: the recipe's values but its
-/// name, the mesh, the format version.
+/// Hash of everything that determines the reduced body: the recipe's values
+/// except its name, the mesh, the format version.
 /// @param mesh MeshRecord::content
 [[nodiscard]] std::string content_key(const Recipe& recipe,
                                       const std::string& mesh);
 
-/// Hash of what is asked, with the mesh by the place of its file: recipes of
-/// one key ask for one body, as long as no file changes.
+/// Hash of the request, with the mesh identified by its file's path: recipes of
+/// one key give the same body as long as no file changes.
 [[nodiscard]] std::string recipe_key(const Recipe& recipe);
 
-/// Where reduced bodies are kept when a user names no place:
-/// $LIMBER_CACHE, else $XDG_CACHE_HOME/limber, else $HOME/.cache/limber.
+/// Default folder of the cache: $LIMBER_CACHE, else $XDG_CACHE_HOME/limber,
+/// else $HOME/.cache/limber.
 /// @throws InputError if none of them is set
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
@@ -47,15 +47,15 @@ struct CachedBody {
   std::vector<std::string> notices;  ///< of its mesh
 };
 
-/// The body from the folder `cache`, by default default_cache_folder(), if it
-/// is there and sound, else reduced and then kept. It is kept by what its mesh
-/// is, so that equal meshes of whatever files share it. If the folder knows
-/// which mesh would result (flexbody/mesh_index.hpp), none is made.
+/// Loads the body from the folder `cache`, by default default_cache_folder(),
+/// or reduces it and stores it there. The key contains the mesh's content, so
+/// that equal meshes from different files share an entry. If the folder records
+/// which mesh would result (flexbody/file/mesh_index.hpp), none is made.
 ///
-/// An entry that is damaged, another's, of another user or for others to
-/// write is made anew; a folder that cannot be written only costs the speed-up.
-/// Threads and processes may ask for one body at once: each may reduce it, and
-/// each gets it whole.
+/// An entry that is damaged, has another key, belongs to another user or is
+/// writable by others is replaced; a folder that cannot be written only loses
+/// the speed-up. Safe for concurrent threads and processes: each may reduce the
+/// body, and each gets it complete.
 /// @throws what the reducer throws: InputError if the mesh cannot be made; as
 /// default_cache_folder()
 [[nodiscard]] CachedBody load_or_reduce(const Recipe& recipe,

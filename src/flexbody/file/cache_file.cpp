@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/cache_file.hpp"
+#include "limber/flexbody/file/cache_file.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

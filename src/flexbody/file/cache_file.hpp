@@ -6,13 +6,13 @@
 
 namespace limber::flexbody {
 
-/// Whether a file of a cache may be read: a regular file of the user's own, or
-/// of the administrator's, that nobody else can write.
+/// Whether a cache file may be trusted: a regular file of the user or the
+/// administrator that nobody else can write.
 [[nodiscard]] bool is_own_file(const std::filesystem::path& file);
 
-/// Makes the folder, for its owner alone, and the file by `write`, which
-/// nobody else can write.
-/// @throws whatever keeps it from being written
+/// Creates the folder, accessible to its owner only, and the file by `write`,
+/// writable by its owner only.
+/// @throws on any failure to write
 void write_own_file(
     const std::filesystem::path& file,
     const std::function<void(const std::filesystem::path&)>& write);

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/mesh_index.hpp"
+#include "limber/flexbody/file/mesh_index.hpp"
 
 #include <algorithm>
 #include <exception>
 #include <system_error>
 
-#include "common/digest.hpp"
-#include "common/sealed_file.hpp"
-#include "common/wire.hpp"
-#include "flexbody/cache_file.hpp"
+#include "limber/common/files/sealed_file.hpp"
+#include "limber/common/records/digest.hpp"
+#include "limber/common/records/wire.hpp"
+#include "limber/flexbody/file/cache_file.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 constexpr Seal kSeal = {"limber mesh record", 1};
 
-/// One request and what came of it.
+/// One request and its result.
 struct Entry {
   std::string request;
   std::string mesher;
@@ -28,7 +28,8 @@ void exchange(Wire& wire, Entry& entry) {
        record.files);
 }
 
-// A geometry names files from its folder, so where links lead is part of it.
+// A geometry refers to files relative to its folder, so symbolic links are
+// resolved.
 std::string find_request(const MeshSource& mesh) {
   std::error_code unknown;
   Digest digest;
@@ -66,7 +67,7 @@ std::optional<MeshRecord> find_mesh_record(
     }
     entry.record.is_repeatable = true;
     return entry.record;
-  } catch (const std::exception&) {  // whatever its damage: as if not there
+  } catch (const std::exception&) {  // damaged in any way: as if missing
     return std::nullopt;
   }
 }

@@ -6,32 +6,32 @@
 #include <string>
 #include <vector>
 
-#include "common/file_stamp.hpp"
-#include "flexbody/recipe.hpp"
+#include "limber/common/files/file_stamp.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 namespace limber::flexbody {
 
-/// What a mesh that was made is, and what it was made from.
+/// Content of a finished mesh, and what it was made from.
 struct MeshRecord {
   std::string content;  ///< digest of its nodes, elements and groups
-  /// What was done to the file's own wish to make it a usable mesh.
+  /// Changes made to the mesh to make it usable.
   std::vector<std::string> notices;
-  std::vector<FileStamp> files;  ///< opened or looked for as it was made
-  bool is_repeatable = false;    ///< whether it depends on nothing else
+  std::vector<FileStamp> files;  ///< opened or searched for in the making
+  bool is_repeatable = false;    ///< whether it depends on these only
 };
 
-/// What `folder` remembers of the mesh that `mesh` asks for, if each of the
-/// files still bears its stamp: then it would result again. An entry that is
-/// damaged, of another request, of another user or for others to write counts
-/// as none.
-/// @param mesher who would make the mesh; empty: nobody here, and what any
-/// mesher made holds
+/// The record in `folder` of the mesh that `mesh` requests, if each of its
+/// files still matches its stamp: the same mesh would result again. Ignores an
+/// entry that is damaged, of another request, of another user or writable by
+/// others.
+/// @param mesher that would make the mesh; empty: there is none here, and the
+/// record of any mesher is accepted
 [[nodiscard]] std::optional<MeshRecord> find_mesh_record(
     const MeshSource& mesh, const std::string& mesher,
     const std::filesystem::path& folder);
 
-/// Remembers a mesh that `mesher` made, if it is repeatable, whole or not at
-/// all. A folder that cannot be written only costs the speed-up.
+/// Records a mesh that `mesher` made, if it is repeatable. Atomic. A folder
+/// that cannot be written only loses the speed-up.
 void keep_mesh_record(const MeshRecord& record, const MeshSource& mesh,
                       const std::string& mesher,
                       const std::filesystem::path& folder);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/decision_boundary.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -112,7 +112,7 @@ ModalAnswers find_answers(const ReducedBody& body) {
   return answers;
 }
 
-/// A and B of one node: the modes answer together.
+/// A and B of one node: the modes respond in phase.
 std::pair<double, double> bound_slow(const Matrix3X& Phi_n,
                                      const ModalAnswers& answers) {
   std::array<Matrix3, 3> T{Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero()};
@@ -126,7 +126,7 @@ std::pair<double, double> bound_slow(const Matrix3X& Phi_n,
   return {bound_quadratic(T), spectral_norm(L)};
 }
 
-/// Each mode may be at twice its static answer, whatever the others do.
+/// Each mode may reach twice its static response, independently of the others.
 std::pair<double, double> bound_sudden(const Matrix3X& Phi_n,
                                        const ModalAnswers& answers) {
   double A = 0.0;

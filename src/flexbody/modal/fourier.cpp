@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/fourier.hpp"
+#include "limber/flexbody/modal/fourier.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -42,7 +42,7 @@ MatrixX make_waves(const VectorX& angles, Eigen::Index harmonics) {
   return waves;
 }
 
-// The turn is taken off first, so that late times keep their digits.
+// Reduced to one period first, so that late times keep their digits.
 VectorX find_angles(const std::vector<double>& times, double start,
                     double period) {
   VectorX angles(std::ssize(times));

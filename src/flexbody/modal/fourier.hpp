@@ -4,13 +4,13 @@
 #include <limits>
 #include <vector>
 
-#include "common/types.hpp"
-#include "flexbody/modal_response_load.hpp"
+#include "limber/common/types.hpp"
+#include "limber/flexbody/modal/modal_response_load.hpp"
 
 namespace limber::flexbody {
 
-/// A measured load. The last column is the moment at which the first would
-/// come again: the span of the table is one period.
+/// A measured load. The table spans one period: its last instant is where the
+/// first repeats.
 struct LoadTable {
   std::vector<double> times;  ///< n >= 2, strictly increasing [s]
   MatrixX values;             ///< m x n [unit of the load]
@@ -23,18 +23,18 @@ struct FourierSeries {
   double period = 0.0;  ///< > 0 [s]
   MatrixX cosine;       ///< m x (K + 1), column 0 is the mean [unit of f]
   MatrixX sine;         ///< m x (K + 1), column 0 is zero [unit of f]
-  /// m, root of the mean square over the period of what the series misses of
-  /// the table [unit of f]
+  /// m, root mean square over the period of the table minus the series [unit of
+  /// f]
   VectorX residual;
 };
 
-/// The series of K = `harmonics` harmonics that is closest to the table.
+/// Least-squares fit of K = `harmonics` harmonics to the table.
 ///
 /// Equation   minimises sum_i h_i |f(t_i) - table_i|^2 for each row, h_i half
 ///            of the time between the neighbours of t_i (trapezoidal weights)
 /// Source     elementary; on a uniform grid, the discrete Fourier transform
-/// Limits     a table whose ends differ jumps once a period: the fit passes
-///            between both ends there and converges like 1/K.
+/// Limits     a table whose ends differ jumps once a period: there the fit
+///            passes between both ends and converges like 1/K.
 /// @throws InputError, all problems at once, as check(ModalLoads) for the
 /// table; for fewer than 2 K + 1 different instants of the period; and for
 /// instants so uneven that errors of the table would be amplified by more

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/modal_response.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -76,8 +76,8 @@ VectorX fill(const VectorX& values, Eigen::Index modes) {
   return values.size() == 0 ? VectorX(VectorX::Zero(modes)) : values;
 }
 
-// The free responses of all modes since one moment, kept while that moment
-// stays the same: waves mostly share their start.
+// The free responses of all modes since one start, cached while the start does
+// not change: most waves share it.
 class SharedResponses {
  public:
   explicit SharedResponses(const std::vector<ModalOscillator>& modes)
@@ -118,7 +118,7 @@ ModalResponse::ModalResponse(const VectorX& lambda, const VectorX& damping,
   for (const SinusoidalLoad& load : loads.sinusoids) add_wave(load);
 }
 
-// The first interval starts at the initial time, whatever load holds then.
+// The first interval starts at the initial time, under the load at that time.
 void ModalResponse::add_intervals(const StepLoad& steps,
                                   const ModalState& initial) {
   const auto later =
@@ -294,7 +294,7 @@ void ModalResponse::add_driven(const Wave& wave,
   }
 }
 
-// After its end a wave is a free motion.
+// After a wave ends, its motion is free.
 void ModalResponse::add_left(const Wave& wave,
                              const std::vector<FreeResponse>& free,
                              Eigen::Index column, ModalHistory& history) const {
@@ -315,8 +315,8 @@ MatrixX ModalResponse::find_wave_eta(const std::vector<double>& times) const {
   return history.eta;
 }
 
-// Goes on from the interval before while times increase, so that a sorted
-// list costs no search.
+// Continues from the previous interval while times increase, so that a sorted
+// list needs no search.
 ModalResponse::Indices ModalResponse::find_intervals(
     const std::vector<double>& times) const {
   Indices intervals(times.size());

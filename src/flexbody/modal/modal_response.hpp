@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "common/types.hpp"
-#include "flexbody/modal_response_load.hpp"
-#include "flexbody/modal_response_oscillator.hpp"
+#include "limber/common/types.hpp"
+#include "limber/flexbody/modal/modal_response_load.hpp"
+#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 namespace limber::flexbody {
 
@@ -26,20 +26,20 @@ struct ModalHistory {
 struct ModalEnergies {
   MatrixX kinetic;  ///< m x T, etadot^2 / 2 [J]
   MatrixX elastic;  ///< m x T, lambda eta^2 / 2 [J]
-  MatrixX load;     ///< m x T, -f eta of the step load f of the moment [J]
+  MatrixX load;     ///< m x T, -f eta of the current step load f [J]
   /// Constant in an undamped mode while its load is constant [J].
   [[nodiscard]] MatrixX corrected() const { return kinetic + elastic + load; }
 };
 
-/// What m modes took from their loads and lost, from the initial time to each
-/// of T times, a column each.
+/// Work of the loads on m modes and dissipated energy, from the initial time to
+/// each of T times, a column each.
 struct ModalLosses {
   MatrixX work;        ///< m x T [J]
   MatrixX dissipated;  ///< m x T [J]
 };
 
-/// Response of independent modes to step loads and sinusoids, at any times
-/// and without time steps.
+/// Closed-form response of independent modes to step loads and sinusoids, at
+/// any times.
 ///
 /// Equation   eta'' + damping eta' + lambda eta = f(t), for each mode
 /// Source     [@morrison2023, section 2], with damping, zero frequencies and
@@ -47,14 +47,14 @@ struct ModalLosses {
 /// Limits     the load must not depend on the motion. Phases are exact up to
 ///            the round-off of sqrt(lambda) t.
 ///
-/// The cost is one evaluation of ModalOscillator per mode for each load
-/// change and each time asked for (and each sinusoid then), whatever the
-/// time between them. Modal quantities are in body axes; see ModalLoads.
+/// The cost is one evaluation of ModalOscillator per mode for each load change
+/// and each requested time (times the active sinusoids), independent of the
+/// time between them. See ModalLoads for modal quantities.
 class ModalResponse {
  public:
   /// @param lambda m, >= 0 [rad^2/s^2]
   /// @param damping m, diagonal of C, >= 0 [1/s]
-  /// @param loads on m modes; what they were before initial.time is ignored
+  /// @param loads on m modes; ignored before initial.time
   /// @throws InputError, all problems at once, for sizes that differ, negative
   /// or non-finite lambda, damping, initial state; and as check(loads).
   ModalResponse(const VectorX& lambda, const VectorX& damping,
@@ -66,7 +66,9 @@ class ModalResponse {
   /// @throws InputError for a time that is earlier or not finite.
   [[nodiscard]] ModalHistory evaluate(const std::vector<double>& times) const;
 
-  /// Arguments and errors as evaluate(). At a load change the new load counts.
+  /// At a load change the new load applies.
+  /// @param times as for evaluate() [s]
+  /// @throws InputError as evaluate() does.
   [[nodiscard]] ModalEnergies evaluate_energies(
       const std::vector<double>& times) const;
 
@@ -77,27 +79,28 @@ class ModalResponse {
       const std::vector<double>& times) const;
 
   /// Work of all loads and dissipation. Under step loads alone the work is
-  /// evaluate_step_work(), and a damped mode dissipates what is then missing
-  /// from its energy. Under a sinusoid the energy tells the work instead, and
-  /// the dissipation is integrated by Gauss's rule over panels that resolve the
-  /// fastest rate, at most kMostPanels between two times.
+  /// evaluate_step_work(), and the dissipation follows from the energy balance.
+  /// Under a sinusoid the dissipation is integrated by Gauss's rule over panels
+  /// that resolve the fastest rate, at most kMostPanels between two times, and
+  /// the work follows from the balance.
   /// @param times T, increasing, not before the initial time [s]
   /// @throws InputError for a time that is earlier or not finite.
   [[nodiscard]] ModalLosses evaluate_losses(
       const std::vector<double>& times) const;
-  static constexpr int kMostPanels = 256;
+  static constexpr int kMostPanels = 256;  ///< largest number of panels
 
   /// Starts of the intervals in which the step load is constant [s]: the
   /// initial time, then the changes after it.
   [[nodiscard]] const std::vector<double>& interval_starts() const {
     return starts_;
   }
-  /// Work of the step load in each such interval but the last, which has no
+  /// Work of the step load in each such interval except the last, which has no
   /// end; m x (intervals - 1) [J].
   [[nodiscard]] MatrixX calc_interval_work() const;
 
  private:
-  // A sinusoid from rest: cosine - i sine at its start, and what it leaves.
+  // A sinusoid acting from rest: cosine - i sine at its start, and the state at
+  // its end.
   struct Wave {
     double omega;
     double start;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/modal_response_load.hpp"
+#include "limber/flexbody/modal/modal_response_load.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {

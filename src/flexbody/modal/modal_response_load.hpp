@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
-/// Loads on m modes. A modal load is Phi^T times the nodal forces in body
-/// axes; its unit is kg^1/2 m/s^2.
+/// Loads on m modes. A modal load is Phi^T times the nodal forces expressed in
+/// the body frame; its unit is kg^1/2 m/s^2.
 namespace limber::flexbody {
 
-/// Column j of `values` holds on [times[j], times[j+1]), the last one for
-/// ever; before the first the load is zero. Empty: no such load.
+/// Column j of `values` applies on [times[j], times[j+1]), the last one without
+/// end; before the first the load is zero. Empty: no such load.
 struct StepLoad {
   std::vector<double> times;  ///< n, strictly increasing [s]
   MatrixX values;             ///< m x n [kg^1/2 m/s^2]
@@ -36,18 +36,19 @@ struct ModalLoads {
 };
 
 /// @throws InputError, all problems at once, for times that do not increase,
-/// sizes that differ from each other or from `modes`, a number that is not
+/// sizes that differ from each other or from `modes`, a value that is not
 /// finite (`until` may be infinite), a negative frequency, a window that ends
 /// before it begins.
 void check(const ModalLoads& loads, Eigen::Index modes);
 
-/// What is wrong with the instants `times` [s] of the table called `what`:
-/// fewer than `least`, not finite, not increasing. Empty: nothing.
+/// Problems with the instants `times` [s] of the table called `what`: fewer
+/// than `least`, not finite, not increasing. Empty if none.
 [[nodiscard]] std::vector<std::string> find_time_problems(
     const std::vector<double>& times, std::size_t least,
     const std::string& what);
 
-/// Where `values` (m x n) is not finite, called `what`. Empty: nowhere.
+/// Problems with entries of `values` (m x n), called `what`, that are not
+/// finite. Empty if none.
 [[nodiscard]] std::vector<std::string> find_value_problems(
     const MatrixX& values, const std::string& what);
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "flexbody/modal_response.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::array<double, 5> kWeights = {
     0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
     0.23931433524968324, 0.11846344252809454};
 
-// Largest change of phase over a panel: the rule is then good to about 1e-10.
+// Largest change of phase over a panel: the rule is then accurate to 1e-10.
 constexpr double kPanelPhase = 1.0;
 
 }  // namespace
@@ -99,7 +99,7 @@ MatrixX ModalResponse::integrate_dissipation(
   if (times.empty()) return result;
   const std::vector<double> panels = find_panels(times);
   VectorX sum = VectorX::Zero(modes());
-  std::size_t next = 0;  // time that has no answer yet
+  std::size_t next = 0;  // first time without a result
   const auto answer = [&](double reached) {
     while (next < times.size() && times[next] <= reached) {
       result.col(static_cast<Eigen::Index>(next++)) = sum;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/modal_response_oscillator.hpp"
+#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
 
 using Complex = std::complex<double>;
 
-// Up to here power series in t converge in some 25 terms and lose no digits;
-// beyond, the closed forms lose none.
+// Up to here power series in t converge in some 25 terms without cancellation;
+// beyond, the closed forms have none.
 constexpr double kEarly = 2.0;
 constexpr int kMostTerms = 60;
 
@@ -42,7 +42,7 @@ ModalOscillator::ModalOscillator(double lambda, double damping)
   LIMBER_EXPECT(std::isfinite(lambda) && lambda >= 0.0);
   LIMBER_EXPECT(std::isfinite(damping) && damping >= 0.0);
   const double sigma = 0.5 * damping;
-  // Fused, so that close to critical damping the difference is not lost.
+  // Fused, to avoid cancellation close to critical damping.
   const double discriminant = std::fma(-sigma, sigma, lambda);
   oscillates_ = discriminant > 0.0;
   rate_ = std::sqrt(std::abs(discriminant));
@@ -59,8 +59,8 @@ FreeResponse ModalOscillator::find_free_response(double t) const {
 }
 
 // Divided differences of exp are power series in the complete homogeneous
-// polynomials of the roots, which are real whatever the roots are:
-// h_n = -damping t h_(n-1) - lambda t^2 h_(n-2).
+// polynomials of the roots, which are real for any roots: h_n = -damping t
+// h_(n-1) - lambda t^2 h_(n-2).
 FreeResponse ModalOscillator::find_early_response(double t) const {
   double before = 0.0;
   double h = 1.0;
@@ -116,15 +116,15 @@ HarmonicResponse ModalOscillator::find_harmonic_response(
   const double sigma = 0.5 * damping_;
   const Complex s1 = oscillates_ ? Complex(-sigma, rate_) : Complex(-slow_);
   const Complex s2 = oscillates_ ? Complex(-sigma, -rate_) : Complex(-fast_);
-  // (s1 - i omega) (s2 - i omega). Fused, so that close to resonance the
-  // difference is not lost.
+  // (s1 - i omega) (s2 - i omega). Fused, to avoid cancellation close to
+  // resonance.
   const Complex impedance(std::fma(-omega, omega, lambda_), damping_ * omega);
   const Complex far = s2 - Complex(0.0, omega);
   const Complex close = impedance / far;
   if (std::abs(close) * free.t < kEarly && 2.0 * rate_ * free.t >= 1.0) {
     return find_close_harmonic({s1, s2, close, far}, phasor, free.t);
   }
-  // Particular solution minus the homogeneous one that starts like it.
+  // Particular solution minus the homogeneous one with its initial values.
   const Complex eta = phasor - Complex(free.stay, omega * free.impulse);
   const Complex etadot = Complex(lambda_ * free.impulse, -omega * free.keep) +
                          Complex(0.0, omega) * phasor;
@@ -156,8 +156,8 @@ HarmonicResponse ModalOscillator::find_early_harmonic(
   return {eta, free.impulse + Complex(0.0, omega) * eta};
 }
 
-// Divided difference of the answers of the two roots alone; each is smooth
-// through its resonance.
+// Divided difference of the responses of the two roots; each is smooth through
+// its resonance.
 HarmonicResponse ModalOscillator::find_close_harmonic(const Roots& roots,
                                                       Complex phasor,
                                                       double t) {

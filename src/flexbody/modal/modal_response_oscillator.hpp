@@ -5,33 +5,34 @@
 
 namespace limber::flexbody {
 
-/// Answers of one mode to unit causes at time 0, after a time t >= 0 [s].
+/// Response of one mode at t >= 0 [s] to unit initial values and a unit load at
+/// time 0.
 ///
 /// Equation   eta(t)    = stay eta0 + impulse etadot0 + step f
 ///            etadot(t) = -lambda impulse eta0 + keep etadot0 + impulse f
 struct FreeResponse {
-  double t = 0.0;        ///< time since the cause [s]
+  double t = 0.0;        ///< time since the start [s]
   double stay = 1.0;     ///< eta after a unit initial eta [-]
   double keep = 1.0;     ///< etadot after a unit initial etadot [-]
   double impulse = 0.0;  ///< eta after a unit initial etadot [s]
   double step = 0.0;     ///< eta under a unit constant load [s^2]
 };
 
-/// Answer from rest to the load e^(i omega t): the real parts answer
-/// cos(omega t), the imaginary parts sin(omega t).
+/// Response from rest to the load e^(i omega t): the real parts to cos(omega
+/// t), the imaginary parts to sin(omega t).
 struct HarmonicResponse {
   std::complex<double> eta;     ///< per unit load [s^2]
   std::complex<double> etadot;  ///< per unit load [s]
 };
 
-/// One mode, solved for all times at once.
+/// Closed-form solution of one mode.
 ///
 /// Equation   eta'' + damping eta' + lambda eta = f(t); with s1, s2 the roots
 ///            of s^2 + damping s + lambda, and exp[...] a divided difference,
 ///            impulse = exp[s1, s2], step = exp[0, s1, s2],
 ///            HarmonicResponse::eta = exp[i omega, s1, s2], all of t.
-/// Source     elementary; docs/theory/modal_response.md says how each stays
-///            accurate where roots or frequencies come close to each other
+/// Source     elementary; docs/theory/modal_response.md explains how each stays
+///            accurate where roots or frequencies nearly coincide
 /// Limits     errors are round-off times 1 + sqrt(lambda) t (+ omega t)
 class ModalOscillator {
  public:
@@ -46,7 +47,7 @@ class ModalOscillator {
   [[nodiscard]] FreeResponse find_free_response(double t) const;
 
   /// @param omega >= 0 [rad/s]; @param phasor e^(i omega t)
-  /// @param free find_free_response(t), which several frequencies may share
+  /// @param free find_free_response(t), shared by several frequencies
   [[nodiscard]] HarmonicResponse find_harmonic_response(
       double omega, std::complex<double> phasor,
       const FreeResponse& free) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/mode_selection.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <set>
 
-#include "common/errors.hpp"
-#include "flexbody/multiply_mass.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/model/multiply_mass.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -37,7 +37,7 @@ std::vector<int> find_order(const VectorX& shares, SelectionOrder order) {
   return modes;
 }
 
-/// Roundoff that a sum of m shares may miss its total by.
+/// Roundoff of a sum of m shares relative to its total.
 double roundoff(Eigen::Index count) {
   return 4e-16 * static_cast<double>(count + 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduced_basis.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "flexbody/multiply_mass.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/model/multiply_mass.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -31,11 +31,11 @@ struct Eigenpairs {
   MatrixX vectors;
 };
 
-/// Of a reduced stiffness. An eigensolver leaves errors of eps of the highest
+/// Of a reduced stiffness. An eigensolver has errors of eps times the highest
 /// eigenvalue in all; on a slender body that is a local mode's, 1e10 times the
-/// first. The singular values of the Cholesky factor spread half as far.
+/// first. The singular values of the Cholesky factor span half as many decades.
 Eigenpairs find_eigenpairs(const MatrixX& stiffness) {
-  constexpr double kWide = 1e6;  // above it ten digits are no longer sure
+  constexpr double kWide = 1e6;  // above it ten digits are not guaranteed
   const MatrixX K = 0.5 * (stiffness + stiffness.transpose());
   const Eigen::SelfAdjointEigenSolver<MatrixX> solver(K);
   const VectorX& lambda = solver.eigenvalues();
@@ -59,7 +59,8 @@ MatrixX orthonormalise(const MatrixX& vectors, const SparseMatrix& M_s,
                        const MatrixX& R, double drop_tolerance) {
   LIMBER_EXPECT(vectors.rows() == 3 * M_s.cols());
   LIMBER_EXPECT(R.rows() == vectors.rows());
-  // Rigid modes lead, so that one Gram-Schmidt loop also projects them out.
+  // Rigid modes come first, so that one Gram-Schmidt loop also projects them
+  // out.
   const Eigen::Index rigid = R.cols();
   MatrixX Q(vectors.rows(), rigid + vectors.cols());
   MatrixX MQ(Q.rows(), Q.cols());
@@ -76,8 +77,8 @@ MatrixX orthonormalise(const MatrixX& vectors, const SparseMatrix& M_s,
     if (before == 0.0) continue;
     x /= before;
     double norm = 1.0;
-    // Twice is enough (Giraud, Langou, Rozloznik, 2005), normalised between,
-    // so that what is left of a nearly dependent vector is clean.
+    // Twice is enough (Giraud, Langou, Rozloznik, 2005), normalised in between,
+    // so that the remainder of a nearly dependent vector is orthogonal.
     for (int pass = 0; pass < 2 && norm > drop_tolerance; ++pass) {
       x -= Q.leftCols(kept) * (MQ.leftCols(kept).transpose() * x);
       const double left = std::sqrt(x.dot(multiply_mass(M_s, x).col(0)));

@@ -4,19 +4,20 @@
 #include <Eigen/Sparse>
 #include <functional>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::flexbody {
 
-/// A basis in its one form: M-orthonormal, K-diagonal, free of rigid motion.
+/// A basis in canonical form: M-orthonormal, K-diagonal, no rigid motion.
 struct ReducedBasis {
   VectorX lambda;  ///< ascending [rad^2/s^2]
   MatrixX Phi;     ///< 3N x m [kg^-1/2]
 };
 
-/// M-orthonormal columns that span what `vectors` span beyond the rigid modes
-/// `R` (3N x 6 or 3N x 0, M-orthonormal). A vector whose remainder has less
-/// than `drop_tolerance` of its M-norm is dropped.
+/// M-orthonormal columns that span `vectors` without the rigid modes `R` (3N x
+/// 6 or 3N x 0, M-orthonormal). A vector whose remainder has less than
+/// `drop_tolerance` [-] of its M-norm is omitted.
+/// @param M_s N x N nodal mass, both triangles [kg]
 /// @throws NumericalError for a vector that is not finite.
 [[nodiscard]] MatrixX orthonormalise(const MatrixX& vectors,
                                      const Eigen::SparseMatrix<double>& M_s,
@@ -25,13 +26,13 @@ struct ReducedBasis {
 /// K X for 3N x k columns. [N for m]
 using StiffnessFunction = std::function<MatrixX(const MatrixX& X)>;
 
-/// Any vectors into the one form.
+/// Brings any vectors into canonical form.
 ///
 /// Equation   Phi^T M Phi = I, Phi^T K Phi = diag(lambda), R^T M Phi = 0
 /// Source     design.md, section 1
-/// @param M_s N x N nodal mass, both triangles
-/// @throws NumericalError for a vector that is not finite, or one that has no
-/// stiffness.
+/// @param M_s N x N nodal mass, both triangles [kg]
+/// @param drop_tolerance as for orthonormalise() [-]
+/// @throws NumericalError for a vector that is not finite or has no stiffness.
 [[nodiscard]] ReducedBasis make_reduced_basis(
     const MatrixX& vectors, const Eigen::SparseMatrix<double>& M_s,
     const StiffnessFunction& multiply_stiffness, const MatrixX& R,

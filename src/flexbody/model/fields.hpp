@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/fields.hpp"
-#include "flexbody/full_body.hpp"
-#include "flexbody/nodal_load.hpp"
-#include "flexbody/reduced_body.hpp"
+#include "limber/common/records/fields.hpp"
+#include "limber/flexbody/model/full_body.hpp"
+#include "limber/flexbody/model/nodal_load.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
-/// What bodies are made of, field by field (common/fields.hpp).
+/// Field lists of bodies (common/records/fields.hpp).
 namespace limber::flexbody {
 
 constexpr auto fields_of(const InertiaShapeIntegrals*) {
@@ -40,7 +40,7 @@ constexpr auto fields_of(const InitialDeformation*) {
   return list_fields("initial", "displacement", "velocity");
 }
 
-// The records tell how modes were chosen, to people alone.
+// The records of how modes were chosen are for information only.
 constexpr auto fields_of(const ReducedBody*) {
   return list_fields(
       "reduced body", "name", "clamped", "mass [kg]", "centre of mass [m]",
@@ -57,8 +57,8 @@ constexpr auto fields_of(const FullOptions*) {
   return list_fields("level full", "material law", "nodal mass");
 }
 
-// The solver is made of the recipe, whose digest the reduced body has, and of
-// FullOptions.
+// The solver is determined by the recipe, whose digest the reduced body has,
+// and by FullOptions.
 constexpr auto fields_of(const FullBody*) {
   return list_fields("mesh", "nodes [m]", "nodal masses [kg]",
                      "first moments [kg m]", "held nodes", "interfaces",

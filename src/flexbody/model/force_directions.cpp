@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/force_directions.hpp"
+#include "limber/flexbody/model/force_directions.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 
@@ -26,7 +26,7 @@ ForceDirections find_force_directions(const MatrixX& F, double tolerance,
     found.Q.col(r) = q.normalized();
     found.R.row(r) = found.Q.col(r).transpose() * F;
     left -= found.R.row(r).cwiseAbs2().transpose();
-    left[pivot] = 0.0;  // what is left of it is roundoff
+    left[pivot] = 0.0;  // its remainder is roundoff
   }
   found.is_whole = left.size() == 0 || left.maxCoeff() <= enough;
   found.Q.conservativeResize(Eigen::NoChange, r);

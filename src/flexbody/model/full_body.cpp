@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/full_body.hpp"
+#include "limber/flexbody/model/full_body.hpp"
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::flexbody {
 namespace {

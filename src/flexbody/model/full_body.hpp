@@ -8,12 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::flexbody {
 
-/// How stress follows strain at level `full`. For small strains both laws are
-/// Hooke's.
+/// Material law at level `full`. Both reduce to Hooke's for small strain.
 enum class MaterialLaw {
   st_venant_kirchhoff,  ///< linear in Green's strain; softens in compression
   neo_hookean,          ///< compressible; resists collapse
@@ -23,7 +22,7 @@ enum class MaterialLaw {
 /// @throws InputError naming the nearest.
 [[nodiscard]] MaterialLaw parse_material_law(std::string_view name);
 
-/// Which mass the nodes of a body at level `full` have.
+/// Nodal mass matrix of a body at level `full`.
 enum class NodalMassKind {
   consistent,  ///< int rho N_a N_b dV: as the reduced levels
   lumped,      ///< diagonal, positive, of the same total
@@ -33,7 +32,7 @@ enum class NodalMassKind {
 /// @throws InputError naming the nearest.
 [[nodiscard]] NodalMassKind parse_nodal_mass(std::string_view name);
 
-/// What is chosen at level `full` alone.
+/// Options of level `full`.
 struct FullOptions {
   MaterialLaw law = MaterialLaw::st_venant_kirchhoff;
   NodalMassKind mass = NodalMassKind::consistent;
@@ -43,12 +42,11 @@ struct FullOptions {
 struct NodeSet {
   std::string name;
   std::vector<int> nodes;  ///< node indices
-  VectorX weights;         ///< sum to one
+  VectorX weights;         ///< sum to one [-]
 };
 
-/// One user's room to compute with a body's whole mesh: forces, mass and
-/// stiffness. Not to be shared by threads. Nodal fields are 3 x N, axes of the
-/// body frame.
+/// Forces, mass and stiffness of a body's whole mesh, with workspace. Not to be
+/// shared by threads. Nodal fields are 3 x N, expressed in the body frame.
 class FullBodySolver {
  public:
   using Field = Eigen::Ref<Matrix3X>;
@@ -60,30 +58,30 @@ class FullBodySolver {
   virtual ~FullBodySolver() = default;
 
   /// Internal force [N] at displacements u [m] from x_B. @returns the strain
-  /// energy [J]. @throws NumericalError naming an element turned inside out.
+  /// energy [J]. @throws NumericalError naming an inverted element.
   virtual double calc_internal_force(ConstField u, Field force) = 0;
   /// force = M a [N] of accelerations a [m/s^2].
   virtual void multiply_mass(ConstField a, Field force) const = 0;
-  /// a = M^-1 force; zero at the nodes that are held.
+  /// a = M^-1 force; zero at clamped nodes.
   virtual void divide_mass(ConstField force, Field a) const = 0;
-  /// Factors c M + K(u), c in [1/s^2], on the nodes that are not held.
+  /// Factors c M + K(u), c in [1/s^2], on the free nodes.
   /// @throws NumericalError if it is not positive definite.
   virtual void factor(ConstField u, double c) = 0;
-  /// x <- (c M + K)^-1 x for 3N x k; zero at the nodes that are held.
+  /// x <- (c M + K)^-1 x for 3N x k; zero at clamped nodes.
   virtual void solve(Eigen::Ref<MatrixX> x) const = 0;
 };
 
-/// A body without reduction, as dynamics sees it: immutable, shared by threads.
-/// What it needs of finite elements is behind `make_solver`, so that nothing
-/// here depends on a mesher or a sparse solver.
+/// A body without reduction: immutable, shared by threads. Finite elements are
+/// behind `make_solver`, so that nothing here depends on a mesher or a sparse
+/// solver.
 ///
 /// The body frame B is that of the reduced body of the same mesh: the mesh's
 /// axes at the undeformed centre of mass of the consistent mass.
 struct FullBody {
-  Matrix3X x_B;            ///< 3 x N undeformed nodes, from the c.m. [m]
+  Matrix3X x_B;            ///< 3 x N undeformed nodes, relative to the c.m. [m]
   VectorX node_mass;       ///< M_s 1, N [kg]; may be negative at a vertex
   Matrix3X first_moment;   ///< 3 x N, (x_B - its mean) M_s [kg m]
-  std::vector<char> held;  ///< N: 1 where a clamp holds the node
+  std::vector<char> held;  ///< N: 1 if the node is clamped
   std::vector<NodeSet> interfaces;
   std::function<std::unique_ptr<FullBodySolver>()> make_solver;
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/initial_deformation.hpp"
+#include "limber/flexbody/model/initial_deformation.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "flexbody/multiply_mass.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/model/multiply_mass.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-/// Shares below this are not worth a word.
+/// Smallest share that is reported.
 constexpr double kSmall = 0.01;
-/// What is left of a rigid field by roundoff.
+/// Remainder of a rigid field by roundoff.
 constexpr double kRoundoff = 1e-10;
 
 double calc_norm(const VectorX& u, const Eigen::SparseMatrix<double>& M_s) {

@@ -6,26 +6,26 @@
 #include <string>
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::flexbody {
 
-/// A nodal field as modal coordinates, with what they leave out.
+/// A nodal field projected on the modes, with the parts that this omits.
 ///
 /// Equation   u = R R^T M u + Phi eta + rest,  eta = Phi^T M u
 /// Source     R and Phi are M-orthonormal and M-orthogonal to each other, so
 ///            the three parts are orthogonal in M and eta is the best fit
 struct ProjectedField {
   VectorX eta;  ///< m [kg^1/2 m, or that a second]
-  /// |R R^T M u|_M / |u|_M: rigid motion, which is the business of the body's
-  /// frame, not of its modes [-].
+  /// |R R^T M u|_M / |u|_M: rigid motion, which belongs to the body's frame,
+  /// not to its modes [-].
   double rigid_share = 0.0;
-  /// |rest|_M / |u - R R^T M u|_M: deformation that the basis cannot have [-].
+  /// |rest|_M / |u - R R^T M u|_M: deformation outside the basis [-].
   double missed_share = 0.0;
   std::string key;  ///< find_field_key of the field
 };
 
-/// What a body starts with, kept with it: its rows may be gone.
+/// Initial deformation, stored with the body, which may not contain all rows.
 struct InitialDeformation {
   std::optional<ProjectedField> displacement;
   std::optional<ProjectedField> velocity;
@@ -40,7 +40,7 @@ struct InitialDeformation {
 /// Digest of a field's values.
 [[nodiscard]] std::string find_field_key(const VectorX& u);
 
-/// A text for each share above 1 %, with its figure.
+/// A text for each share above 1 %, with its value.
 /// @param what the field is, e.g. "initial velocity"
 [[nodiscard]] std::vector<std::string> describe_losses(
     const ProjectedField& field, const std::string& what);

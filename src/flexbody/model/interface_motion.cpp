@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/interface_motion.hpp"
+#include "limber/flexbody/model/interface_motion.hpp"
 
 #include <Eigen/Eigenvalues>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::flexbody {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::flexbody {
 
@@ -15,12 +15,12 @@ namespace limber::flexbody {
 ///            A = sum w_i (d_i.d_i I - d_i d_i^T)
 /// Source     weighted least squares of u + theta x d_i against u_i
 /// Limits     small rotation; on a line of nodes the rotation about it, and at
-///            a point every rotation, is undefined and taken as zero.
+///            a point every rotation, is undefined and set to zero.
 class InterfaceMotion {
  public:
   /// @param nodes node indices; @param weights sum to one
   /// @param x 3 x N node positions [m]; @param body_size largest edge of the
-  /// body [m], against which a set counts as a point
+  /// body [m], relative to which a set counts as a point
   InterfaceMotion(std::vector<int> nodes, VectorX weights, const Matrix3X& x,
                   double body_size);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/load_modes_record.hpp"
+#include "limber/flexbody/model/load_modes_record.hpp"
 
 #include <fmt/format.h>
 

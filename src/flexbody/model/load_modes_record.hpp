@@ -6,21 +6,21 @@
 
 namespace limber::flexbody {
 
-/// What became of one file of nodal forces as static-deformation modes, kept
-/// with the body.
+/// Result of turning one file of nodal forces into static-deformation modes,
+/// stored with the body.
 struct LoadModesRecord {
   std::string name;
-  int directions = 0;    ///< independent static answers that were found
-  bool is_whole = true;  ///< false: there were more than were looked at
-  int taken = 0;         ///< of them, those that deform the body most
-  /// Of the static answers to all columns, the share in the norm of elastic
-  /// energy that the others have, root of the sum of squares [-].
+  int directions = 0;    ///< number of independent static responses
+  bool is_whole = true;  ///< false: there were more than examined
+  int taken = 0;         ///< number used: those of most elastic energy
+  /// Share of the omitted ones in the static responses to all columns, in the
+  /// norm of elastic energy (root of the sum of squares) [-].
   double left_out = 0.0;
 
   bool operator==(const LoadModesRecord&) const = default;
 };
 
-/// A text if directions were left out.
+/// A text if directions were omitted.
 [[nodiscard]] std::optional<std::string> describe_left_out(
     const LoadModesRecord& record);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/multiply_mass.hpp"
+#include "limber/flexbody/model/multiply_mass.hpp"
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Sparse>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
 namespace limber::flexbody {
 

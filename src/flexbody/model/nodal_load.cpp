@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/nodal_load.hpp"
+#include "limber/flexbody/model/nodal_load.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {

@@ -3,24 +3,25 @@
 
 #include <vector>
 
-#include "flexbody/reduced_body.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::flexbody {
 
-/// Nodal forces that change in time, reduced once so that a step never touches
-/// a node. Components in the body frame B; column i holds on
-/// [times[i], times[i+1]), nothing before, the last column holds on.
+/// Nodal forces that change in time, reduced once so that a step needs no
+/// nodes. Expressed in the body frame B; column i applies on [times[i],
+/// times[i+1]), nothing before, the last column without end.
 ///
 /// Equation   F = sum_n f_n, M = sum_n (x_n + Phi_n eta) x f_n, Q = Phi^T f
 struct NodalLoad {
   std::vector<double> times;  ///< T, increasing [s]
   Matrix3X force;             ///< 3 x T [N]
   Matrix3X moment;            ///< 3 x T about the c.m., undeformed [N m]
-  Matrix3X moment_by_mode;    ///< 3 x m T: column i m + k is dM / d eta_k
-  MatrixX modal;              ///< m x T [kg^-1/2 N]
+  /// 3 x m T: column i m + k is dM / d eta_k [kg^-1/2 N].
+  Matrix3X moment_by_mode;
+  MatrixX modal;  ///< m x T [kg^-1/2 N]
 };
 
-/// @param forces 3n x T at the body's rows, n of them [N]
+/// @param forces 3n x T at the body's n rows [N]
 /// @throws InputError if times do not increase or a value is not finite.
 [[nodiscard]] NodalLoad reduce_nodal_load(const ReducedBody& body,
                                           const std::vector<double>& times,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/node_selection.hpp"
+#include "limber/flexbody/model/node_selection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-/// All digits, so that other numbers are another text; -0 is 0.
+/// All digits, so that different numbers give different text; -0 is 0.
 std::string to_text(const Vector3& v) {
   return fmt::format("{},{},{}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }

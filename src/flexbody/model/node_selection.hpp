@@ -5,9 +5,9 @@
 #include <string>
 #include <variant>
 
-#include "common/types.hpp"
+#include "limber/common/types.hpp"
 
-/// Ways to pick nodes of a mesh, before any mesh is read. Lengths in metres,
+/// Ways to select nodes of a mesh, before any mesh is read. Lengths in metres,
 /// mesh frame.
 namespace limber::flexbody {
 
@@ -19,7 +19,7 @@ struct GroupNodes {
 };
 /// One node by its Gmsh tag.
 struct TaggedNode {
-  std::size_t tag = 0;
+  std::size_t tag = 0;  ///< Gmsh node tag
 
   bool operator==(const TaggedNode&) const = default;
 };
@@ -39,7 +39,7 @@ struct BoxNodes {
 /// Nodes on the body's surface near a plane.
 struct PlaneNodes {
   Vector3 point = Vector3::Zero();    ///< of the plane [m]
-  Vector3 normal = Vector3::UnitZ();  ///< unit
+  Vector3 normal = Vector3::UnitZ();  ///< unit vector [-]
   /// Largest distance from the plane [m]; 0: kNearness of the body's longest
   /// edge.
   double tolerance = 0.0;
@@ -48,8 +48,8 @@ struct PlaneNodes {
 };
 /// Nodes on the body's surface in or on a filled cylinder, its two end faces
 /// included; with an inner radius, those of a tube. Bounds are widened by
-/// kNearness of the body's longest edge, so that a wall of just this radius
-/// belongs to it.
+/// kNearness of the body's longest edge, so that a wall of exactly this radius
+/// is included.
 struct CylinderNodes {
   Vector3 from = Vector3::Zero();  ///< one end of the axis [m]
   Vector3 to = Vector3::UnitZ();   ///< the other end [m]
@@ -65,21 +65,24 @@ using NodeSelection = std::variant<GroupNodes, TaggedNode, NearestNode,
 /// cylinder's wall [-].
 inline constexpr double kNearness = 1e-6;
 
-/// @param normal any length but zero @param tolerance [m], 0: the default
+/// @param point of the plane [m]
+/// @param normal of any length except zero [-]
+/// @param tolerance [m]; 0: the default
 /// @throws InputError for a normal without direction.
 [[nodiscard]] PlaneNodes make_plane(const Vector3& point, const Vector3& normal,
                                     double tolerance);
+/// @param from, to ends of the axis [m]
+/// @param radius, inner_radius [m]
 /// @throws InputError for an axis without length or an inner radius above the
 /// radius.
 [[nodiscard]] CylinderNodes make_cylinder(const Vector3& from,
                                           const Vector3& to, double radius,
                                           double inner_radius);
 
-/// Whether it picks one node, whatever the mesh.
+/// Whether it selects exactly one node of any mesh.
 [[nodiscard]] bool is_single_node(const NodeSelection& nodes);
 
-/// A word for the selection, the same for equal ones and for no others:
-/// "group:tip", "box:0,0,0:1,1,0.5".
+/// Unique name of the selection: "group:tip", "box:0,0,0:1,1,0.5".
 [[nodiscard]] std::string name_of(const NodeSelection& nodes);
 
 /// The selection with its numbers, for messages.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/recipe.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -26,14 +26,14 @@ ModeMeasure parse_measure(std::string_view name) {
   return static_cast<ModeMeasure>(find_name("measure", name, measure_names()));
 }
 
-KeptRows parse_rows(const std::vector<std::string>& words) {
+KeptRows parse_rows(const std::vector<std::string>& names) {
   using Extent = KeptRows::Extent;
-  if (words.size() == 1) {
-    if (words[0] == "all") return {Extent::all, {}};
-    if (words[0] == "boundary") return {Extent::boundary, {}};
-    if (words[0] == "interfaces") return {Extent::groups, {}};
+  if (names.size() == 1) {
+    if (names[0] == "all") return {Extent::all, {}};
+    if (names[0] == "boundary") return {Extent::boundary, {}};
+    if (names[0] == "interfaces") return {Extent::groups, {}};
   }
-  return {Extent::groups, words};
+  return {Extent::groups, names};
 }
 
 }  // namespace limber::flexbody

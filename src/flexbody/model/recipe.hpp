@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "common/types.hpp"
-#include "flexbody/node_selection.hpp"
+#include "limber/common/types.hpp"
+#include "limber/flexbody/model/node_selection.hpp"
 
-/// What a user asks of one flexible body, before any mesh is read. Plain
-/// values: hashed to key the cache, so everything that shapes the result is
+/// Specification of one flexible body, before any mesh is read. Plain values,
+/// hashed for the key of the cache, so everything that determines the result is
 /// here.
 namespace limber::flexbody {
 
@@ -25,7 +25,7 @@ struct Material {
 };
 
 /// A material on one physical volume group; an empty group name means every
-/// element that no other region names.
+/// element that no other region covers.
 struct MaterialRegion {
   std::string group;
   Material material;
@@ -34,14 +34,14 @@ struct MaterialRegion {
 /// Where the mesh comes from.
 struct MeshSource {
   std::filesystem::path file;  ///< .msh, .geo or .step/.stp
-  double size = 0.0;  ///< target element size in mesh units; 0: the file's own
-  int order = 0;      ///< 1 to 3 when meshing geometry; 0: the file's own, or 2
+  double size = 0.0;  ///< target element size [mesh units]; 0: the file's
+  int order = 0;      ///< 1 to 3 when meshing geometry; 0: the file's, or 2 [-]
   double unit = 1.0;  ///< metres per mesh unit [m]
 };
 
-/// How a selection's nodes share a load or make an average.
+/// Weights of a selection's nodes in a load or an average.
 enum class Weighting {
-  uniform,  ///< by the area (or volume) that each node stands for
+  uniform,  ///< by the area (or volume) of each node
   equal,    ///< every node the same
 };
 
@@ -61,28 +61,28 @@ struct LoadPattern {
   std::string interface;
   Vector3 force = Vector3::Zero();   ///< mesh frame [N]
   Vector3 moment = Vector3::Zero();  ///< mesh frame [N m]
-  bool static_mode = true;           ///< false: a load case alone
+  bool static_mode = true;           ///< false: only a load case
 };
 
-/// Forces on every node: the static answers to their span enter the basis, and
-/// their columns are load cases of automatic modes. Rows: x, y, z of each node
-/// that is not clamped, in the order of the mesh's tags.
+/// Forces on every node: the static responses to their span enter the basis,
+/// and their columns are load cases of automatic modes. Rows: x, y, z of each
+/// node that is not clamped, in the order of the mesh's tags.
 struct NodalForces {
   std::string name;           ///< for messages
-  std::vector<double> times;  ///< one a column, from which it holds [s]
+  std::vector<double> times;  ///< one per column, from which it applies [s]
   MatrixX forces;             ///< 3 x free nodes, cases [N]
 };
 
-/// A field on every node, rows as those of NodalForces; without any, none.
+/// A field on every node, rows as those of NodalForces; empty: no field.
 struct NodalField {
   std::string name;  ///< for messages
   VectorX values;    ///< 3 x free nodes [m or m/s]
 };
 
-/// What a mode's share of a load case is measured by; docs/theory/choosing.md.
+/// Measure of a mode's share of a load case; docs/theory/choosing.md.
 enum class ModeMeasure {
-  compliance,  ///< work of the load on the mode's static answer
-  report,      ///< the report's effective mass, which takes all modes
+  compliance,  ///< work of the load on the mode's static response
+  report,      ///< the report's effective mass, which needs all modes
   mass,        ///< effective modal mass in x, y, z of a clamped body's base
 };
 
@@ -90,26 +90,27 @@ enum class ModeMeasure {
 /// @throws InputError naming the nearest.
 [[nodiscard]] ModeMeasure parse_measure(std::string_view name);
 
-/// Of the lowest eigenmodes, those that reach a share of every load case.
-/// The load cases are the recipe's load patterns and nodal forces; if it has
-/// neither, the forces and moments that its interfaces can carry.
+/// Selects those of the lowest eigenmodes that reach a share of every load
+/// case. The load cases are the recipe's load patterns and nodal forces; if it
+/// has neither, the forces and moments that its interfaces can carry.
 struct AutomaticModes {
   double threshold = 0.9;  ///< of the total of all modes, in [0, 1] [-]
   ModeMeasure measure = ModeMeasure::compliance;
-  int candidates = 60;  ///< lowest elastic eigenmodes to choose from
+  int candidates = 60;  ///< number of lowest elastic eigenmodes to select from
 };
 
 struct BasisOptions {
-  int eigenmodes = 10;                      ///< lowest elastic eigenmodes
+  int eigenmodes = 10;  ///< number of lowest elastic eigenmodes
   std::optional<AutomaticModes> automatic;  ///< in place of `eigenmodes`
   bool interface_modes = true;  ///< static-deformation modes: interfaces
   bool load_modes = true;       ///< static-deformation modes: loads
-  int terms = 1;  ///< of each of these; above 1 Krylov terms (K^+ M)^n x_0
+  int terms =
+      1;  ///< number for each of these; above 1 Krylov terms (K^+ M)^n x_0
   double drop_tolerance = 1e-8;  ///< relative M-norm below which a vector
-                                 ///< counts as dependent
+                                 ///< counts as dependent [-]
 };
 
-/// Which nodal rows of the basis are kept. Those of interfaces always are.
+/// Which nodal rows of the basis are stored. Those of interfaces always are.
 struct KeptRows {
   enum class Extent { all, boundary, groups };
   Extent extent = Extent::boundary;
@@ -120,7 +121,7 @@ struct KeptRows {
 };
 
 /// "all", "boundary", "interfaces" (nothing else), or names of groups.
-[[nodiscard]] KeptRows parse_rows(const std::vector<std::string>& words);
+[[nodiscard]] KeptRows parse_rows(const std::vector<std::string>& names);
 
 struct Recipe {
   std::string name;
@@ -131,7 +132,7 @@ struct Recipe {
   std::vector<InterfaceRequest> interfaces;
   std::vector<LoadPattern> load_patterns;
   std::vector<NodalForces> nodal_forces;
-  NodalField initial_displacement;  ///< projected before rows are dropped [m]
+  NodalField initial_displacement;  ///< projected before rows are discarded [m]
   NodalField initial_velocity;      ///< [m/s]
   BasisOptions basis;
   KeptRows rows;

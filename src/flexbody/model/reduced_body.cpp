@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduced_body.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::flexbody {
 

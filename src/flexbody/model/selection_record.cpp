@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/selection_record.hpp"
+#include "limber/flexbody/model/selection_record.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 namespace limber::flexbody {
 namespace {
 
-/// What roundoff may take from a share.
+/// Roundoff of a share.
 constexpr double kRoundoff = 1e-9;
 
 double percent(double share) { return 100.0 * share; }

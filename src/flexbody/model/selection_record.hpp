@@ -4,36 +4,36 @@
 #include <string>
 #include <vector>
 
-#include "flexbody/recipe.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 namespace limber::flexbody {
 
-/// What automatic selection found for one load case.
+/// Result of automatic selection for one load case.
 struct SelectedCase {
   std::string name;
-  std::vector<int> modes;  ///< that this case asks for, ascending, from 0
-  double reached = 1.0;    ///< share that all kept eigenmodes have [-]
-  /// Relative error of the static answer in the norm of elastic energy, by the
-  /// kept eigenmodes alone and by the body's whole basis [-].
-  double eigenmode_error = 0.0;
-  double basis_error = 0.0;
+  std::vector<int> modes;  ///< indices of those this case needs, ascending
+  double reached = 1.0;    ///< share of all selected eigenmodes [-]
+  /// Relative error of the static response in the norm of elastic energy, with
+  /// the selected eigenmodes alone and with the whole basis.
+  double eigenmode_error = 0.0;  ///< [-]
+  double basis_error = 0.0;      ///< [-]
 
   bool operator==(const SelectedCase&) const = default;
 };
 
-/// How a body's eigenmodes were chosen, kept with the body.
+/// How a body's eigenmodes were selected, stored with the body.
 struct SelectionRecord {
   ModeMeasure measure = ModeMeasure::compliance;
   double threshold = 0.9;  ///< [-]
-  int candidates = 0;      ///< eigenmodes there were to choose from
-  std::vector<int> modes;  ///< kept, ascending, from 0
+  int candidates = 0;      ///< number of eigenmodes to select from
+  std::vector<int> modes;  ///< indices of the selected, ascending
   std::vector<SelectedCase> cases;
 
   bool operator==(const SelectionRecord&) const = default;
 };
 
-/// Texts on the load cases that the candidates do not carry to the threshold,
-/// the worst first, at most five; none if all do.
+/// Texts on the load cases for which all candidates miss the threshold, the
+/// worst first, at most five.
 [[nodiscard]] std::vector<std::string> describe_shortfalls(
     const SelectionRecord& record);
 

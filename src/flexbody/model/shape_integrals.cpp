@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/shape_integrals.hpp"
+#include "limber/flexbody/model/shape_integrals.hpp"
 
 #include <array>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {

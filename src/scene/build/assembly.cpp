@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/assembly.hpp"
+#include "limber/scene/build/assembly.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "scene/coupler_assembly.hpp"
-#include "scene/interface_tables.hpp"
-#include "scene/link_start.hpp"
-#include "scene/naming.hpp"
-#include "scene/nodal_forces.hpp"
-#include "scene/rotation_check.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/joint_state.hpp"
+#include "limber/scene/build/coupler_assembly.hpp"
+#include "limber/scene/build/interface_tables.hpp"
+#include "limber/scene/build/link_start.hpp"
+#include "limber/scene/build/nodal_forces.hpp"
+#include "limber/scene/build/rotation_check.hpp"
+#include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
 namespace {
 
 /// Mass in <inertial> may differ from the mesh's by this share.
 constexpr double kMassShare = 0.01;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Assembly::Assembly(const Scene& scene, const BodyPlans& plans,
     : scene_(scene),
       plans_(plans),
       motions_(motions),
-      mounts_(scene, plans, motions, body_index_) {
+      sites_(scene, plans, motions, body_index_) {
   builder_.set_gravity(scene.scenario.gravity);
 }
 
@@ -69,12 +69,12 @@ void Assembly::add_body(const BodyPlan& plan) {
 }
 
 void Assembly::add_couplers() {
-  CouplerAssembly(scene_, plans_, mounts_, builder_, warnings_).add_all();
+  CouplerAssembly(scene_, plans_, sites_, builder_, warnings_).add_all();
 }
 
 void Assembly::add_loads() {
   for (const LoadSpec& load : scene_.scenario.loads) {
-    naming("load '" + load.name + "'", [&] {
+    with_context("load '" + load.name + "'", [&] {
       load.nodal_forces.empty() ? add_load(load) : add_nodal_load(load);
     });
   }
@@ -82,48 +82,50 @@ void Assembly::add_loads() {
 
 void Assembly::add_nodal_load(const LoadSpec& load) {
   const int link = find_link(scene_.robot, load.where.link);
-  const BodyPlan& plan = mounts_.plan_of(link);
+  const BodyPlan& plan = sites_.plan_of(link);
   const FlexibleLink& flexible = *scene_.robot.links[index(link)].flexible;
   const ForceFile file = read_force_file(load.nodal_forces);
   const MatrixX forces = spread_over_nodes(
       *plan.reduced, flexible.clamped_groups, file, load.nodal_forces);
   builder_.add_nodal_load(
-      load.name, mounts_.body_of(link),
+      load.name, sites_.body_of(link),
       flexbody::reduce_nodal_load(*plan.reduced, file.times, forces), forces);
 }
 
-void Assembly::check_moment(const LoadSpec& load, const Mount& mount) const {
-  if (!mount.anchor.table || load.moment.isZero()) return;
+void Assembly::check_moment(const LoadSpec& load,
+                            const AttachmentSite& site) const {
+  if (!site.anchor.table || load.moment.isZero()) return;
   const int link = find_link(scene_.robot, load.where.link);
   if (load.frame == dynamics::LoadFrame::body) {
-    check_rotation(mount, rotation_about(load.moment));
-  } else if (mounts_.plan_of(link).reduced->clamped) {
+    check_rotation(site, joints::rotation_about(load.moment));
+  } else if (sites_.plan_of(link).reduced->clamped) {
     const Matrix3& R_WL = motions_[index(link)].X_WL.R;
-    check_rotation(mount, rotation_about(R_WL.transpose() * load.moment));
+    check_rotation(site,
+                   joints::rotation_about(R_WL.transpose() * load.moment));
   } else {
-    naming(
+    with_context(
         "its moment is fixed in the world, so it comes about every direction "
         "of a link that turns",
-        [&] { check_rotation(mount, Matrix3::Identity()); });
+        [&] { check_rotation(site, Matrix3::Identity()); });
   }
 }
 
 void Assembly::add_load(const LoadSpec& load) {
   const int link = find_link(scene_.robot, load.where.link);
-  const BodyPlan& plan = mounts_.plan_of(link);
+  const BodyPlan& plan = sites_.plan_of(link);
   if (plan.is_world) throw InputError("it acts on the world, which is fixed");
   Pose X_LF{Matrix3::Identity(), load.where.point.value_or(Vector3::Zero())};
   Anchor anchor;
   if (plan.reduced) {
     anchor = find_anchor(plan, load.where);
-    X_LF.p = mounts_.X_BL(link).inverse() * anchor.table->p_B;
+    X_LF.p = sites_.X_BL(link).inverse() * anchor.table->p_B;
   }
-  const Mount mount = mounts_.find_mount(link, X_LF, anchor);
-  check_moment(load, mount);
-  const dynamics::AttachmentIndex where = attach(load.name, mount, builder_);
+  const AttachmentSite site = sites_.find_site(link, X_LF, anchor);
+  check_moment(load, site);
+  const dynamics::AttachmentIndex where = attach(load.name, site, builder_);
   const bool in_body = load.frame == dynamics::LoadFrame::body;
   const Matrix3 R =
-      in_body ? mounts_.X_BL(link).R : Matrix3(Matrix3::Identity());
+      in_body ? sites_.X_BL(link).R : Matrix3(Matrix3::Identity());
   builder_.add_load(load.name, where, R * load.force, R * load.moment,
                     load.frame, load.time);
 }
@@ -135,12 +137,12 @@ std::vector<Probe> Assembly::make_probes(
     const std::string who = "probe '" + spec.name + "'";
     if (const auto* point = std::get_if<PointProbeSpec>(&spec.of)) {
       probes.push_back(
-          {spec.name, naming(who + " on link '" + point->where.link + "'",
-                             [&] { return make_point_probe(*point); })});
+          {spec.name, with_context(who + " on link '" + point->where.link + "'",
+                                   [&] { return make_point_probe(*point); })});
       continue;
     }
     const auto& coupler = std::get<CouplerProbeSpec>(spec.of);
-    probes.push_back({spec.name, naming(who, [&] {
+    probes.push_back({spec.name, with_context(who, [&] {
                         return make_coupler_probe(coupler, model);
                       })});
   }
@@ -149,12 +151,12 @@ std::vector<Probe> Assembly::make_probes(
 
 PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   const int link = find_link(scene_.robot, spec.where.link);
-  const BodyPlan& plan = mounts_.plan_of(link);
+  const BodyPlan& plan = sites_.plan_of(link);
   if (plan.is_world) throw InputError("it is on the world, which is fixed");
-  const Pose& X_BL = mounts_.X_BL(link);
+  const Pose& X_BL = sites_.X_BL(link);
   PointProbe probe;
   probe.quantity = spec.quantity;
-  probe.body = mounts_.body_of(link);
+  probe.body = sites_.body_of(link);
   probe.R_BL = X_BL.R;
   probe.p_B = X_BL * spec.where.point.value_or(Vector3::Zero());
   if (!plan.reduced) return probe;
@@ -180,7 +182,7 @@ void Assembly::deform(const dynamics::SystemModel& model,
                       VectorX& udot_B, dynamics::SystemState& state) const {
   const LinkStart* start = find_start(scene_.scenario, body.name);
   if (start == nullptr || body.fidelity == dynamics::Fidelity::rigid) return;
-  naming("[initial.links." + body.name + "]", [&] {
+  with_context("[initial.links." + body.name + "]", [&] {
     const ModalStart modal = find_modal_start(*start, *body.reduced);
     if (body.full >= 0) {
       const auto& full = model.full_bodies[index(body.full)];
@@ -194,21 +196,6 @@ void Assembly::deform(const dynamics::SystemModel& model,
   });
 }
 
-// Joints that start beyond half a turn count on from there.
-void Assembly::remember_turns(const dynamics::SystemModel& model,
-                              dynamics::SystemState& state) const {
-  const auto starts = find_joint_starts(scene_.robot, scene_.scenario);
-  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    const auto start = starts.find(model.couplers[c].name);
-    if (start == starts.end()) continue;
-    const std::vector<double>& q = start->second.position;
-    const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
-    for (std::size_t i = 0; i < coordinates.size() && i < q.size(); ++i) {
-      state.memory[c].near[i] = q[i];
-    }
-  }
-}
-
 dynamics::SystemState Assembly::make_initial_state(
     const dynamics::SystemModel& model) const {
   dynamics::SystemState state = dynamics::make_state(model);
@@ -218,7 +205,7 @@ dynamics::SystemState Assembly::make_initial_state(
     if (body_index_[i] == dynamics::kWorld) continue;
     const int link = plans_.bodies[i].links.front();
     const LinkMotion& motion = motions_[index(link)];
-    const Pose X_WB = motion.X_WL * mounts_.X_BL(link).inverse();
+    const Pose X_WB = motion.X_WL * sites_.X_BL(link).inverse();
     dynamics::BodyState& body = state.bodies[index(body_index_[i])];
     body.p_WB = X_WB.p;
     body.quat_WB = Quaternion(X_WB.R).normalized();
@@ -227,7 +214,7 @@ dynamics::SystemState Assembly::make_initial_state(
     deform(model, model.bodies[index(body_index_[i])], u_B, udot_B, state);
   }
   place_nodes(model, u_B, udot_B, state);
-  remember_turns(model, state);
+  store_turns(model, find_joint_starts(scene_.robot, scene_.scenario), state);
   return state;
 }
 

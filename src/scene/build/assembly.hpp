@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_builder.hpp"
-#include "scene/body_plan.hpp"
-#include "scene/link_motion.hpp"
-#include "scene/mounts.hpp"
-#include "scene/probe.hpp"
-#include "scene/scene.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/scene/build/attachment_sites.hpp"
+#include "limber/scene/build/body_plan.hpp"
+#include "limber/scene/build/link_motion.hpp"
+#include "limber/scene/build/scene.hpp"
+#include "limber/scene/probes/probe.hpp"
 
 namespace limber::scene {
 
-/// Puts a scene's system together, part by part.
+/// Builds a scene's system, part by part.
 class Assembly {
  public:
   Assembly(const Scene& scene, const BodyPlans& plans,
@@ -22,7 +22,7 @@ class Assembly {
   void add_bodies();
   void add_couplers();
   void add_loads();
-  /// @param model of build()
+  /// @param model the result of build()
   [[nodiscard]] std::vector<Probe> make_probes(
       const dynamics::SystemModel& model) const;
 
@@ -36,21 +36,19 @@ class Assembly {
 
  private:
   void add_body(const BodyPlan& plan);
-  void check_moment(const LoadSpec& load, const Mount& mount) const;
+  void check_moment(const LoadSpec& load, const AttachmentSite& site) const;
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;
   void deform(const dynamics::SystemModel& model,
               const dynamics::BodyModel& body, VectorX& u_B, VectorX& udot_B,
               dynamics::SystemState& state) const;
-  void remember_turns(const dynamics::SystemModel& model,
-                      dynamics::SystemState& state) const;
 
   const Scene& scene_;
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& motions_;
-  std::vector<dynamics::BodyIndex> body_index_;  ///< one a plan
-  Mounts mounts_;
+  std::vector<dynamics::BodyIndex> body_index_;  ///< one per plan
+  AttachmentSites sites_;
   dynamics::SystemBuilder builder_;
   std::vector<std::string> warnings_;
 };

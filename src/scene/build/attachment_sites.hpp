@@ -4,17 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_builder.hpp"
-#include "scene/body_plan.hpp"
-#include "scene/default_stiffness.hpp"
-#include "scene/interface_tables.hpp"
-#include "scene/link_motion.hpp"
-#include "scene/scene.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/scene/build/body_plan.hpp"
+#include "limber/scene/build/interface_tables.hpp"
+#include "limber/scene/build/link_motion.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::scene {
 
-/// A coupler's or a load's frame F on a body, and what it holds on to there.
-struct Mount {
+using dynamics::CouplerSide;
+
+/// A coupler's or a load's frame F on a body, and its attachment there.
+struct AttachmentSite {
   std::string link;  ///< "world" is the world
   dynamics::BodyIndex body = dynamics::kWorld;
   Pose X_BF;         ///< undeformed; in the world if that is the body
@@ -22,13 +24,13 @@ struct Mount {
   CouplerSide side;  ///< for default stiffness
 };
 
-/// Finds mounts on the bodies of a scene while its system is put together.
-class Mounts {
+/// Finds sites on the bodies of a scene while its system is built.
+class AttachmentSites {
  public:
   /// @param body_of_plan grows while bodies are added
-  Mounts(const Scene& scene, const BodyPlans& plans,
-         const std::vector<LinkMotion>& start,
-         const std::vector<dynamics::BodyIndex>& body_of_plan)
+  AttachmentSites(const Scene& scene, const BodyPlans& plans,
+                  const std::vector<LinkMotion>& start,
+                  const std::vector<dynamics::BodyIndex>& body_of_plan)
       : scene_(scene),
         plans_(plans),
         start_(start),
@@ -40,17 +42,19 @@ class Mounts {
   /// Motion of all links at the start.
   [[nodiscard]] const std::vector<LinkMotion>& start() const { return start_; }
 
-  [[nodiscard]] Mount find_mount(int link, const Pose& X_LF,
-                                 const Anchor& anchor) const;
+  [[nodiscard]] AttachmentSite find_site(int link, const Pose& X_LF,
+                                         const Anchor& anchor) const;
 
-  /// Pose of an end in the world where links move as `motions` say: its
-  /// point, or the middle of its interface, and the axes of its link.
-  /// @throws InputError for a flexible link without nodes, a rigid one with.
+  /// Pose of an end in the world, with links at `motions`: its point, or the
+  /// mean point of its interface, and the axes of its link.
+  /// @throws InputError for a flexible link without nodes, or a rigid one with
+  /// nodes.
   [[nodiscard]] Pose find_pose(const ConnectorEnd& end,
                                const std::vector<LinkMotion>& motions) const;
-  /// A frame on an end's link that is at X_WF there.
-  [[nodiscard]] Mount find_mount(const ConnectorEnd& end, const Pose& X_WF,
-                                 const std::vector<LinkMotion>& motions) const;
+  /// A frame on an end's link, at X_WF with links at `motions`.
+  [[nodiscard]] AttachmentSite find_site(
+      const ConnectorEnd& end, const Pose& X_WF,
+      const std::vector<LinkMotion>& motions) const;
 
  private:
   [[nodiscard]] Anchor find_end_anchor(const Place& where) const;
@@ -62,7 +66,7 @@ class Mounts {
 };
 
 [[nodiscard]] dynamics::AttachmentIndex attach(const std::string& name,
-                                               const Mount& mount,
+                                               const AttachmentSite& site,
                                                dynamics::SystemBuilder&);
 
 }  // namespace limber::scene

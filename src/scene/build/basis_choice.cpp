@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/basis_choice.hpp"
+#include "limber/scene/build/basis_choice.hpp"
 
 #include <fmt/format.h>
 
-#include "scene/problems.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 namespace {
 
-/// `over` where it says something, else `base`.
+/// Values of `over` where set, else of `base`.
 BasisChoice merge(const BasisChoice& base, const BasisChoice& over) {
   BasisChoice choice = base;
   if (over.eigenmodes) choice.eigenmodes = over.eigenmodes;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "scene/robot.hpp"
-#include "scene/scenario.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
 namespace limber::scene {
 
-/// Puts the scenario's choice of bases, and `over` on top of it, into the
-/// robot's flexible links: what `over` gives, else what the scenario says of
-/// the link, else of every link, else the link's own <basis>.
-/// @throws InputError for a link from a saved body, whose basis is made.
+/// Applies the choice of bases to the robot's flexible links. Precedence:
+/// `over`, the scenario's choice for the link, its choice for all links, the
+/// link's <basis>.
+/// @throws InputError for a link from a saved body, whose basis is fixed.
 void choose_bases(const Scenario& scenario, const BasisChoice& over,
                   Robot& robot);
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/body_plan.hpp"
+#include "limber/scene/build/body_plan.hpp"
 
 #include <fmt/format.h>
 
-#include "scene/problems.hpp"
+#include "limber/common/index.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Inertia of a mass `m` at distance `d` from a point.
 Matrix3 steiner(double m, const Vector3& d) {
@@ -48,7 +47,7 @@ class Planner {
     if (merges(robot_, joint)) {
       plans_.body_of_link[index(joint.child)] = parent;
       plans_.bodies[index(parent)].links.push_back(joint.child);
-      // For now in the frame of the body's first link.
+      // Temporarily in the frame of the body's first link.
       plans_.X_BL[index(joint.child)] =
           plans_.X_BL[index(joint.parent)] * joint.X_PJ;
       return;
@@ -121,12 +120,6 @@ class Planner {
 };
 
 }  // namespace
-
-bool merges(const Robot& robot, const Joint& joint) {
-  return joint.kind == joints::JointKind::fixed &&
-         !robot.links[index(joint.parent)].flexible &&
-         !robot.links[index(joint.child)].flexible;
-}
 
 BodyPlans plan_bodies(const Robot& robot,
                       const std::vector<ReducedPointer>& reduced) {

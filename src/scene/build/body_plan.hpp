@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/full_body.hpp"
-#include "flexbody/reduced_body.hpp"
-#include "scene/robot.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/flexbody/model/full_body.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/scene/robot/robot.hpp"
 
 namespace limber::scene {
 
@@ -17,33 +17,30 @@ using ReducedPointer = std::shared_ptr<const flexbody::ReducedBody>;
 
 using FullPointer = std::shared_ptr<const flexbody::FullBody>;
 
-/// One body of the system: a flexible link, or rigid links that fixed joints
-/// hold together.
+/// One body of the system: a flexible link, or rigid links connected by fixed
+/// joints.
 struct BodyPlan {
-  std::string name;  ///< of its first link
-  std::vector<int> links;
-  bool is_world = false;   ///< the link called world and what is fixed
+  std::string name;        ///< of its first link
+  std::vector<int> links;  ///< indices of the robot's links
+  bool is_world = false;   ///< the link called world and links fixed to it
   ReducedPointer reduced;  ///< null if rigid
   FullPointer full;        ///< null unless at level `full`
   double mass = 0.0;       ///< [kg]; 0 for the world
-  Matrix3 inertia = Matrix3::Zero();  ///< about B, axes of B [kg m^2]
+  Matrix3 inertia = Matrix3::Zero();  ///< about Bo, frame B [kg m^2]
 };
 
-/// How the links of a robot become bodies.
+/// Mapping of a robot's links to bodies.
 struct BodyPlans {
   std::vector<BodyPlan> bodies;
-  std::vector<int> body_of_link;    ///< index into `bodies`, one a link
-  std::vector<Pose> X_BL;           ///< link frame in its body's, one a link
-  std::vector<int> coupled_joints;  ///< joints that become couplers
+  std::vector<int> body_of_link;    ///< index into `bodies`, one per link
+  std::vector<Pose> X_BL;           ///< link frame in its body's, one per link
+  std::vector<int> coupled_joints;  ///< indices of joints that become couplers
 };
 
-/// Whether a joint holds two rigid links together as one body.
-[[nodiscard]] bool merges(const Robot& robot, const Joint& joint);
-
-/// Merges rigid links on fixed joints (parallel-axis theorem) and puts every
-/// frame B at its centre of mass: axes of the first link if rigid, of the mesh
-/// if flexible. The world's B is the root link.
-/// @param reduced one entry a link; null where the link is rigid.
+/// Merges rigid links on fixed joints (parallel-axis theorem) and places every
+/// frame B at its centre of mass, with the axes of the first link if rigid, of
+/// the mesh if flexible. The world's B is the root link.
+/// @param reduced one entry per link; null if the link is rigid.
 /// @throws InputError for a body without mass, or a clamped body that is not
 /// the root or fixed to the world.
 [[nodiscard]] BodyPlans plan_bodies(const Robot& robot,

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/carried_load.hpp"
+#include "limber/scene/build/carried_load.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::scene {
 namespace {
 
-// Frames nearer than this share of a body's farthest two are one.
+// Frames nearer than this share of a body's farthest distance coincide.
 constexpr double kSamePlace = 1e-6;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double find_largest(const std::vector<double>& values) {
   double largest = 0.0;
@@ -36,11 +36,16 @@ double find_peak(const dynamics::TimeFunction& function) {
                                  }
                                  return peak;
                                },
+                               [](const dynamics::InputFunction&) -> double {
+                                 throw ContractError(
+                                     "an input has no bound before a run; a "
+                                     "scenario has none");
+                               },
                                [](const auto&) { return 1.0; }},
                     function);
 }
 
-// Largest angular speed that a drive commands; 0 of what moves along a line.
+// Largest angular speed that a drive commands; 0 for a translation.
 double find_turn(const DriveSpec& drive, joints::JointKind kind) {
   const auto coordinates =
       joints::find_coordinates(kind, Vector3::UnitZ(), Vector3::UnitX());
@@ -135,7 +140,7 @@ double CarriedLoads::find_speed() const {
   return largest;
 }
 
-// Interfaces of flexible links count as at the link's origin.
+// Interfaces of flexible links are placed at the link's origin.
 Vector3 CarriedLoads::place(const Place& where) const {
   const int link = find_link(scene_.robot, where.link);
   return start_[index(link)].X_WL * where.point.value_or(Vector3::Zero());
@@ -161,7 +166,7 @@ double CarriedLoads::find_radius(int link, const Vector3& centre) const {
   return radius;
 }
 
-// Least distance of two couplers on a link's body, or what its inertia says.
+// Least distance of two couplers on a link's body, else by its inertia.
 double CarriedLoads::find_size(int link) const {
   const auto b = index(plans_.body_of_link[index(link)]);
   const BodyPlan& plan = plans_.bodies[b];

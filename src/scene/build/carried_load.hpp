@@ -3,27 +3,28 @@
 
 #include <vector>
 
-#include "scene/body_plan.hpp"
-#include "scene/default_stiffness.hpp"
-#include "scene/link_motion.hpp"
-#include "scene/scene.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
+#include "limber/scene/build/body_plan.hpp"
+#include "limber/scene/build/link_motion.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::scene {
 
-/// Estimates what joints carry in a scene from what its files say, for default
-/// stiffness.
+using dynamics::CarriedLoad;
+
+/// Estimates the loads of joints from the scene's files, for default stiffness.
 ///
 /// Equation   force  = sum_i m_i (w^2 r_i + g) + sum_l |f_l|,
 ///            moment = sum_i m_i (w^2 r_i + g) d_i + sum_l (|f_l| d_l + |t_l|),
-///            of the bodies i and loads l beyond the joint, of all of them if
-///            the robot has loops; d the distance from the joint, r_i the
-///            largest one of body i's centre of mass from a joint between it
-///            and the root; w the largest angular speed of a link at the start
-///            or the largest sum, along a way from the root, of what drives
-///            command
-/// Limits     an upper bound where all turn as one, else an estimate: speeds
-///            that loads or effort drives bring about, shocks, and what drives
-///            take to speed up are left out.
+///            of the bodies i and loads l outboard of the joint, of all of them
+///            if the robot has loops; d the distance from the joint, r_i the
+///            largest distance of body i's centre of mass from a joint between
+///            it and the root; w the largest angular speed of a link at the
+///            start or the largest sum of commanded drive speeds along a path
+///            from the root
+/// Limits     an upper bound if all rotate as one, else an estimate: neglects
+///            speeds due to loads or effort drives, shocks, and loads of
+///            acceleration by drives.
 class CarriedLoads {
  public:
   CarriedLoads(const Scene& scene, const BodyPlans& plans,
@@ -54,7 +55,7 @@ class CarriedLoads {
   const Scene& scene_;
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& start_;
-  std::vector<std::vector<Vector3>> frames_;  // of couplers, one a plan
+  std::vector<std::vector<Vector3>> frames_;  // of couplers, one per plan
   std::vector<Part> parts_;
 };
 

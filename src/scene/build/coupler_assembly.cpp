@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_assembly.hpp"
+#include "limber/scene/build/coupler_assembly.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/naming.hpp"
-#include "scene/recipes.hpp"
-#include "scene/rotation_check.hpp"
+#include "limber/common/index.hpp"
+#include "limber/scene/build/recipes.hpp"
+#include "limber/scene/build/rotation_check.hpp"
+#include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
 namespace {
@@ -18,26 +19,24 @@ namespace {
 /// a warning.
 constexpr double kFarShare = 0.05;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-/// Two ends of a loop meet within this share of the robot's size.
+/// Largest gap between the ends of a loop, relative to the robot's size.
 constexpr double kGapShare = 1e-6;
 
-/// A gear that is farther from its place at the start gets a warning [rad, m].
+/// A gear with a larger error at the start gets a warning [rad, m].
 constexpr double kStretched = 1e-9;
 
 }  // namespace
 
 CouplerAssembly::CouplerAssembly(const Scene& scene, const BodyPlans& plans,
-                                 const Mounts& mounts,
+                                 const AttachmentSites& sites,
                                  dynamics::SystemBuilder& builder,
                                  std::vector<std::string>& warnings)
     : scene_(scene),
       plans_(plans),
-      mounts_(mounts),
+      sites_(sites),
       builder_(builder),
       warnings_(warnings),
-      loads_(scene, plans, mounts.start()),
+      loads_(scene, plans, sites.start()),
       at_zero_(find_motions_at_zero(scene.robot, scene.scenario)),
       starts_(find_joint_starts(scene.robot, scene.scenario)) {}
 
@@ -46,7 +45,7 @@ void CouplerAssembly::add_all() {
   for (const int joint : plans_.coupled_joints) add_joint(joint);
   const auto add_each = [](const char* what, const auto& all, const auto& add) {
     for (const auto& one : all) {
-      naming(fmt::format("{} '{}'", what, one.name), [&] { add(one); });
+      with_context(fmt::format("{} '{}'", what, one.name), [&] { add(one); });
     }
   };
   add_each("loop", robot.loops, [this](const Loop& l) { add_loop(l); });
@@ -58,47 +57,47 @@ void CouplerAssembly::add_all() {
 }
 
 void CouplerAssembly::check_joint_interface(const Joint& joint, int link,
-                                            const Mount& mount) {
-  const flexbody::InterfaceTable& table = *mount.anchor.table;
-  const double distance = (mount.X_BF.p - table.p_B).norm();
-  if (distance > kFarShare * mounts_.plan_of(link).reduced->size.norm()) {
+                                            const AttachmentSite& site) {
+  const flexbody::InterfaceTable& table = *site.anchor.table;
+  const double distance = (site.X_BF.p - table.p_B).norm();
+  if (distance > kFarShare * sites_.plan_of(link).reduced->size.norm()) {
     warnings_.push_back(fmt::format(
         "joint '{}' is {:.3g} m from the middle of interface '{}' of link "
         "'{}'; check the joint's origin and the mesh's <origin> and unit",
-        joint.name, distance, table.name, mount.link));
+        joint.name, distance, table.name, site.link));
   }
 }
 
-Mount CouplerAssembly::mount_joint(const Joint& joint, int link,
-                                   const Pose& X_LF) {
-  const BodyPlan& plan = mounts_.plan_of(link);
+AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
+                                                const Pose& X_LF) {
+  const BodyPlan& plan = sites_.plan_of(link);
   if (!plan.reduced || joint.kind == joints::JointKind::floating) {
-    return mounts_.find_mount(link, X_LF, {});
+    return sites_.find_site(link, X_LF, {});
   }
   const Link& source = scene_.robot.links[index(link)];
-  const Anchor anchor =
-      naming("joint '" + joint.name + "' on link '" + source.name + "'", [&] {
+  const Anchor anchor = with_context(
+      "joint '" + joint.name + "' on link '" + source.name + "'", [&] {
         return find_anchor(plan,
                            find_joint_interface(*source.flexible, joint.name));
       });
-  Mount mount = mounts_.find_mount(link, X_LF, anchor);
-  check_joint_interface(joint, link, mount);
-  return mount;
+  AttachmentSite site = sites_.find_site(link, X_LF, anchor);
+  check_joint_interface(joint, link, site);
+  return site;
 }
 
 dynamics::CouplerIndex CouplerAssembly::add_coupler(
-    const std::string& name, const joints::CouplerLaw& law, const Mount& F,
-    const Mount& M) {
-  const AskedSides asked = find_asked_rotations(law);
-  check_rotation(F, asked.F);
-  check_rotation(M, asked.M);
+    const std::string& name, const joints::CouplerLaw& law,
+    const AttachmentSite& F, const AttachmentSite& M) {
+  const RequiredSides required = joints::find_required_rotations(law);
+  check_rotation(F, required.F);
+  check_rotation(M, required.M);
   const dynamics::AttachmentIndex frame_F = attach(name + ".F", F, builder_);
   const dynamics::AttachmentIndex frame_M = attach(name + ".M", M, builder_);
   return builder_.add_coupler(name, law, frame_F, frame_M);
 }
 
-void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
-                                const Mount& M) {
+void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
+                                const AttachmentSite& M) {
   const joints::JointParameters held =
       find_joint_parameters(spec.coupler, F.side, M.side, spec.load);
   const auto coordinates =
@@ -107,7 +106,7 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const Mount& F,
       spec.actions, coordinates, find_stop_stiffness(F.side, M.side));
   for (const DriveSpec& drive : scene_.scenario.drives) {
     if (drive.joint != spec.name) continue;
-    naming("drive '" + drive.name + "'", [&] {
+    with_context("drive '" + drive.name + "'", [&] {
       elements.push_back({drive.coordinate - 1,
                           make_drive(drive, spec.max_effort, spec.max_speed)});
     });
@@ -127,9 +126,9 @@ void CouplerAssembly::add_joint(int i) {
   const Joint& joint = scene_.robot.joints[index(i)];
   const bool free = joint.kind == joints::JointKind::floating;
   if (free && joint.coupler.free_damping.value_or(0.0) == 0.0) return;
-  const Mount F = mount_joint(joint, joint.parent, joint.X_PJ);
-  const Mount M = mount_joint(joint, joint.child, Pose{});
-  naming("joint '" + joint.name + "'", [&] {
+  const AttachmentSite F = find_joint_site(joint, joint.parent, joint.X_PJ);
+  const AttachmentSite M = find_joint_site(joint, joint.child, Pose{});
+  with_context("joint '" + joint.name + "'", [&] {
     add_joint(
         {joint.name, joint.kind, joint.axis_J, joint.second_J, joint.coupler,
          joint.actions, joint.max_effort, joint.max_speed, loads_.of_joint(i)},
@@ -153,41 +152,41 @@ void CouplerAssembly::check_gap(const Pose& from, const Pose& to,
 }
 
 void CouplerAssembly::add_loop(const Loop& loop) {
-  const Pose X_WF = mounts_.find_pose(loop.from, at_zero_);
-  check_gap(X_WF, mounts_.find_pose(loop.to, at_zero_),
+  const Pose X_WF = sites_.find_pose(loop.from, at_zero_);
+  check_gap(X_WF, sites_.find_pose(loop.to, at_zero_),
             "where all joints are at zero");
   add_joint({loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
              loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited,
              loads_.of_loop(loop)},
-            mounts_.find_mount(loop.from, X_WF, at_zero_),
-            mounts_.find_mount(loop.to, X_WF, at_zero_));
+            sites_.find_site(loop.from, X_WF, at_zero_),
+            sites_.find_site(loop.to, X_WF, at_zero_));
 }
 
 void CouplerAssembly::add_connector(const Connector& connector) {
-  const std::vector<LinkMotion>& start = mounts_.start();
-  const Pose from = mounts_.find_pose(connector.from, start);
-  const Pose to = mounts_.find_pose(connector.to, start);
-  const Mount F = mounts_.find_mount(connector.from, from, start);
+  const std::vector<LinkMotion>& start = sites_.start();
+  const Pose from = sites_.find_pose(connector.from, start);
+  const Pose to = sites_.find_pose(connector.to, start);
+  const AttachmentSite F = sites_.find_site(connector.from, from, start);
   if (const auto* spring = std::get_if<SpringOptions>(&connector.law)) {
     add_coupler(connector.name, make_spring(*spring, (to.p - from.p).norm()), F,
-                mounts_.find_mount(connector.to, to, start));
+                sites_.find_site(connector.to, to, start));
     return;
   }
-  // At rest at the start: both frames are the one of the first end.
+  // Unstressed at the start: both frames are that of the first end.
   if (connector.to.where.point) check_gap(from, to, "at the start");
   add_coupler(
       connector.name,
       joints::Bushing(std::get<joints::Bushing::Parameters>(connector.law)), F,
-      mounts_.find_mount(connector.to, from, start));
+      sites_.find_site(connector.to, from, start));
 }
 
 void CouplerAssembly::add_latch(const Latch& latch) {
-  const auto mount = [&](const ConnectorEnd& end) {
-    return mounts_.find_mount(end, mounts_.find_pose(end, mounts_.start()),
-                              mounts_.start());
+  const auto site = [&](const ConnectorEnd& end) {
+    return sites_.find_site(end, sites_.find_pose(end, sites_.start()),
+                            sites_.start());
   };
-  const Mount F = mount(latch.from);
-  const Mount M = mount(latch.to);
+  const AttachmentSite F = site(latch.from);
+  const AttachmentSite M = site(latch.to);
   Latch released = latch;
   const auto time = scene_.scenario.releases.find(latch.name);
   if (time != scene_.scenario.releases.end()) {
@@ -204,10 +203,10 @@ void CouplerAssembly::add_tendon(const Tendon& tendon) {
   std::vector<Vector3> p_W;
   double length = 0.0;
   for (const ConnectorEnd& end : tendon.via) {
-    const Pose X_WF = mounts_.find_pose(end, mounts_.start());
-    const Mount mount = mounts_.find_mount(end, X_WF, mounts_.start());
+    const Pose X_WF = sites_.find_pose(end, sites_.start());
+    const AttachmentSite site = sites_.find_site(end, X_WF, sites_.start());
     points.push_back(attach(
-        fmt::format("{}.{}", tendon.name, points.size() + 1), mount, builder_));
+        fmt::format("{}.{}", tendon.name, points.size() + 1), site, builder_));
     if (!p_W.empty()) {
       const double stretch = (X_WF.p - p_W.back()).norm();
       if (!(stretch > 0.0)) {
@@ -223,7 +222,7 @@ void CouplerAssembly::add_tendon(const Tendon& tendon) {
   std::vector<joints::ScalarLaw> laws = make_tendon_laws(tendon, length);
   for (const DriveSpec& drive : scene_.scenario.drives) {
     if (drive.tendon != tendon.name) continue;
-    naming("drive '" + drive.name + "'", [&] {
+    with_context("drive '" + drive.name + "'", [&] {
       laws.emplace_back(make_drive(drive, joints::Drive::kUnlimited,
                                    joints::Drive::kUnlimited));
     });
@@ -252,9 +251,10 @@ void CouplerAssembly::add_gear(const Gear& gear) {
   const Geared& joint = geared_.at(gear.joint);
   const Geared& with = geared_.at(gear.with);
   for (const Geared* side : {&joint, &with}) {
-    const AskedSides asked = find_asked_rotations(side->coordinates, 0);
-    check_rotation(side->mounts[0], asked.F);
-    check_rotation(side->mounts[1], asked.M);
+    const RequiredSides required =
+        joints::find_required_rotations(side->coordinates, 0);
+    check_rotation(side->sites[0], required.F);
+    check_rotation(side->sites[1], required.M);
   }
   dynamics::JointSum sum;
   sum.terms = {{joint.coupler, 0, 1.0}, {with.coupler, 0, -gear.ratio}};

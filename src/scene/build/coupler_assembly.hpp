@@ -6,25 +6,26 @@
 #include <string>
 #include <vector>
 
-#include "scene/carried_load.hpp"
-#include "scene/coupler_laws.hpp"
-#include "scene/mounts.hpp"
+#include "limber/scene/build/attachment_sites.hpp"
+#include "limber/scene/build/carried_load.hpp"
+#include "limber/scene/build/coupler_laws.hpp"
 
 namespace limber::scene {
 
-/// Puts a scene's couplers on its bodies: joints first, then loops, springs and
-/// bushings, latches; then what couples more than two frames, tendons and
-/// gears. All have the names of the robot's file in the built model.
+/// Adds a scene's couplers to its bodies: joints first, then loops, springs and
+/// bushings, latches; then transmissions: tendons and gears. All have the names
+/// of the robot's file in the built model.
 class CouplerAssembly {
  public:
   CouplerAssembly(const Scene& scene, const BodyPlans& plans,
-                  const Mounts& mounts, dynamics::SystemBuilder& builder,
+                  const AttachmentSites& sites,
+                  dynamics::SystemBuilder& builder,
                   std::vector<std::string>& warnings);
 
   void add_all();
 
  private:
-  /// What is between the two mounts of a joint or loop.
+  /// Specification of a joint or loop between two sites.
   struct JointSpec {
     std::string name;
     joints::JointKind kind;
@@ -41,13 +42,16 @@ class CouplerAssembly {
     dynamics::CouplerIndex coupler;
     Hold hold;
     std::vector<joints::AxisCoordinate> coordinates;
-    std::array<Mount, 2> mounts;  ///< of F and M
+    std::array<AttachmentSite, 2> sites;  ///< of F and M
   };
 
   void add_joint(int index);
-  void add_joint(const JointSpec& spec, const Mount& F, const Mount& M);
-  Mount mount_joint(const Joint& joint, int link, const Pose& X_LF);
-  void check_joint_interface(const Joint& joint, int link, const Mount& mount);
+  void add_joint(const JointSpec& spec, const AttachmentSite& F,
+                 const AttachmentSite& M);
+  AttachmentSite find_joint_site(const Joint& joint, int link,
+                                 const Pose& X_LF);
+  void check_joint_interface(const Joint& joint, int link,
+                             const AttachmentSite& site);
   void add_loop(const Loop& loop);
   void check_gap(const Pose& from, const Pose& to, const char* where) const;
   void add_connector(const Connector& connector);
@@ -57,16 +61,17 @@ class CouplerAssembly {
   void add_gear(const Gear& gear);
   dynamics::CouplerIndex add_coupler(const std::string& name,
                                      const joints::CouplerLaw& law,
-                                     const Mount& F, const Mount& M);
+                                     const AttachmentSite& F,
+                                     const AttachmentSite& M);
 
   const Scene& scene_;
   const BodyPlans& plans_;
-  const Mounts& mounts_;
+  const AttachmentSites& sites_;
   dynamics::SystemBuilder& builder_;
   std::vector<std::string>& warnings_;
   CarriedLoads loads_;
-  std::vector<LinkMotion> at_zero_;  ///< links where all joints are at zero
-  std::map<std::string, JointStart> starts_;  ///< of the tree, gears followed
+  std::vector<LinkMotion> at_zero_;           ///< links with all joints at zero
+  std::map<std::string, JointStart> starts_;  ///< of the tree, including gears
   std::map<std::string, Geared> geared_;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_laws.hpp"
+#include "limber/scene/build/coupler_laws.hpp"
 
 #include <cmath>
 
-#include "common/overloaded.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::scene {
 namespace {

@@ -3,18 +3,20 @@
 
 #include <vector>
 
-#include "joints/coupler_law.hpp"
-#include "joints/joint_kind.hpp"
-#include "scene/default_stiffness.hpp"
-#include "scene/robot.hpp"
-#include "scene/scenario.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
+#include "limber/joints/coupler_law.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
-/// Laws of couplers from what a robot's and a scenario's files say of them.
-/// All throw InputError for values outside their range.
+/// Laws of couplers from the specifications in robot and scenario files. All
+/// throw InputError for values outside their range.
 namespace limber::scene {
 
-/// What acts along the coordinates of a joint.
-/// @param stiffness of a stop that gives none
+using dynamics::StopStiffness;
+
+/// Elements along the coordinates of a joint.
+/// @param stiffness default of stops
 [[nodiscard]] std::vector<joints::JointElement> make_elements(
     const std::vector<JointAction>& actions,
     const std::vector<joints::AxisCoordinate>& coordinates,
@@ -37,19 +39,19 @@ namespace limber::scene {
 [[nodiscard]] std::vector<joints::ScalarLaw> make_tendon_laws(
     const Tendon& tendon, double length);
 
-/// How stiffly something holds along a coordinate.
+/// Stiffness and damping along a coordinate.
 struct Hold {
   double stiffness = 0.0;  ///< [N m/rad or N/m]
   double damping = 0.0;    ///< [N m s/rad or N s/m]
 };
 
-/// What a joint holds its rotations with for an angle, its translations for a
-/// distance.
+/// A joint's stiffness and damping of constrained rotations for an angle, of
+/// translations for a distance.
 [[nodiscard]] Hold find_hold(const joints::AxisCoordinate& coordinate,
                              const joints::JointParameters& held);
 
-/// Spring and damper of q - ratio q_with - offset. What the gear does not give
-/// is that of the softer joint's hold, of q_with as q feels it: / ratio^2.
+/// Spring and damper of q - ratio q_with - offset. Default values are those of
+/// the softer joint, for q_with referred to q: / ratio^2.
 [[nodiscard]] joints::ScalarSpring make_gear_spring(const Gear& gear,
                                                     const Hold& joint,
                                                     const Hold& with);

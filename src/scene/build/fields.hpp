@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/model_fields.hpp"
-#include "scene/probe.hpp"
+#include "limber/dynamics/system/model_fields.hpp"
+#include "limber/scene/probes/probe.hpp"
 
-/// What probes are made of, field by field (common/fields.hpp).
+/// Field lists of probes (common/records/fields.hpp).
 namespace limber::scene {
 
 constexpr auto fields_of(const PointProbe*) {
@@ -17,7 +17,7 @@ constexpr auto fields_of(const CouplerProbeSpec*) {
 }
 
 constexpr auto fields_of(const CouplerProbe*) {
-  return list_fields("coupler", "what", "of a transmission", "index",
+  return list_fields("coupler", "what", "coupler index", "transmission index",
                      "coordinates");
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/full_bodies.hpp"
+#include "limber/scene/build/full_bodies.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <string>
 
-#include "common/errors.hpp"
-#include "flexbody/cache.hpp"
-#include "scene/recipes.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/file/cache.hpp"
+#include "limber/scene/build/recipes.hpp"
 
 namespace limber::scene {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/interface_tables.hpp"
+#include "limber/scene/build/interface_tables.hpp"
 
 #include <optional>
 
-#include "scene/recipes.hpp"
+#include "limber/scene/build/recipes.hpp"
 
 namespace limber::scene {
 namespace {
@@ -55,7 +55,7 @@ Anchor find_anchor(const BodyPlan& plan, const Place& place) {
   Anchor anchor;
   anchor.table = row_table(*plan.reduced, *row);
   if (plan.full) {
-    // All rows are kept, so a row is a node.
+    // All rows are stored, so a row is a node.
     anchor.nodes = {name, {static_cast<int>(*row)}, VectorX::Ones(1)};
   }
   return anchor;

@@ -3,18 +3,18 @@
 
 #include <optional>
 
-#include "flexbody/reduced_body.hpp"
-#include "scene/body_plan.hpp"
-#include "scene/scenario.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/scene/build/body_plan.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
-/// What couplers, loads and probes on a flexible link hold on to.
+/// Interfaces for couplers, loads and probes on a flexible link.
 namespace limber::scene {
 
 /// The table of an interface of `body`. @throws InputError naming the nearest.
 [[nodiscard]] const flexbody::InterfaceTable& get_table(
     const flexbody::ReducedBody& body, const std::string& interface);
 
-/// A place on a link; nothing on a rigid one.
+/// A place on a link; empty on a rigid one.
 struct Anchor {
   std::optional<flexbody::InterfaceTable> table;  ///< of a flexible link
   std::optional<flexbody::NodeSet> nodes;         ///< if it is unreduced too

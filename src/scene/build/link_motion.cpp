@@ -1,89 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/link_motion.hpp"
+#include "limber/scene/build/link_motion.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/names.hpp"
-#include "common/rotation.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/roll_pitch_yaw.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/joints/joint_motion.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 namespace {
 
-/// Motion of the child's frame in the joint frame.
-struct JointMotion {
-  Pose X_JC;
-  Vector3 v_JC_J = Vector3::Zero();
-  Vector3 w_JC_J = Vector3::Zero();
-};
-
-std::vector<double> padded(std::vector<double> values, std::size_t count) {
-  values.resize(count, 0.0);
-  return values;
-}
-
-JointMotion planar_motion(const Vector3& axis, const std::vector<double>& q,
-                          const std::vector<double>& u) {
-  const auto [x, y] = joints::find_plane_axes(axis);
-  JointMotion motion;
-  motion.X_JC.p = q[0] * x + q[1] * y;
-  motion.X_JC.R = exp_rotation(q[2] * axis);
-  motion.v_JC_J = u[0] * x + u[1] * y;
-  motion.w_JC_J = u[2] * axis;
-  return motion;
-}
-
-JointMotion find_joint_motion(const Joint& joint, const JointStart& start) {
-  const std::size_t count = coordinate_count(joint.kind);
-  const std::vector<double> q = padded(start.position, count);
-  const std::vector<double> u = padded(start.velocity, count);
-  JointMotion motion;
-  switch (joint.kind) {
-    case joints::JointKind::fixed:
-      break;
-    case joints::JointKind::revolute:
-    case joints::JointKind::continuous:
-      motion.X_JC.R = exp_rotation(q[0] * joint.axis_J);
-      motion.w_JC_J = u[0] * joint.axis_J;
-      break;
-    case joints::JointKind::prismatic:
-      motion.X_JC.p = q[0] * joint.axis_J;
-      motion.v_JC_J = u[0] * joint.axis_J;
-      break;
-    case joints::JointKind::planar:
-      return planar_motion(joint.axis_J, q, u);
-    case joints::JointKind::floating:
-      motion.X_JC.p = Vector3(q[0], q[1], q[2]);
-      motion.X_JC.R = rotation_rpy(Vector3(q[3], q[4], q[5]));
-      motion.v_JC_J = Vector3(u[0], u[1], u[2]);
-      motion.w_JC_J = Vector3(u[3], u[4], u[5]);
-      break;
-    case joints::JointKind::universal:
-      motion.X_JC.R = exp_rotation(q[0] * joint.axis_J);
-      motion.w_JC_J =
-          u[0] * joint.axis_J + u[1] * (motion.X_JC.R * joint.second_J);
-      motion.X_JC.R = motion.X_JC.R * exp_rotation(q[1] * joint.second_J);
-      break;
-    case joints::JointKind::ball:
-      motion.X_JC.R = rotation_rpy(Vector3(q[0], q[1], q[2]));
-      motion.w_JC_J = Vector3(u[0], u[1], u[2]);
-      break;
-  }
-  return motion;
-}
-
+/// Motion of the child's frame from that of its parent.
 LinkMotion follow(const LinkMotion& parent, const Joint& joint,
-                  const JointMotion& relative) {
-  const Pose X_WJ = parent.X_WL * joint.X_PJ;
-  LinkMotion child;
-  child.X_WL = X_WJ * relative.X_JC;
-  child.w_WL_W = parent.w_WL_W + X_WJ.R * relative.w_JC_J;
-  child.v_WL_W = parent.v_WL_W +
-                 parent.w_WL_W.cross(child.X_WL.p - parent.X_WL.p) +
-                 X_WJ.R * relative.v_JC_J;
-  return child;
+                  JointStart start) {
+  // A gear may have passed one to a joint that has none, which is told later.
+  const std::size_t count = joints::coordinate_count(joint.kind);
+  start.position.resize(count, 0.0);
+  start.velocity.resize(count, 0.0);
+  const dynamics::FrameMotion F =
+      dynamics::follow({parent.X_WL, parent.v_WL_W, parent.w_WL_W},
+                       {.R_FM = joint.X_PJ.R, .p_FM_F = joint.X_PJ.p});
+  const dynamics::FrameMotion M = dynamics::follow(
+      F, joints::find_joint_motion({joint.kind, joint.axis_J, joint.second_J},
+                                   start));
+  return {M.X_WF, M.v_WF_W, M.w_WF_W};
 }
 
 LinkMotion root_motion(const BaseStart& base) {
@@ -109,7 +53,7 @@ void check_start(const Robot& robot, const std::string& name,
                  "[initial.joints] " + describe_unknown("joint", name, known));
     return;
   }
-  const std::size_t count = coordinate_count(joint->kind);
+  const std::size_t count = joints::coordinate_count(joint->kind);
   for (const std::vector<double>* values : {&start.position, &start.velocity}) {
     if (values->empty() || values->size() == count) continue;
     problems.add(0, fmt::format("[initial.joints.{}] has {} numbers; a joint "
@@ -141,15 +85,14 @@ std::vector<LinkMotion> place_links(
   motions.front() = root_motion(base);
   for (const Joint& joint : robot.joints) {
     const auto start = starts.find(joint.name);
-    const JointMotion relative = find_joint_motion(
-        joint, start == starts.end() ? JointStart{} : start->second);
-    motions[static_cast<std::size_t>(joint.child)] = follow(
-        motions[static_cast<std::size_t>(joint.parent)], joint, relative);
+    motions[static_cast<std::size_t>(joint.child)] =
+        follow(motions[static_cast<std::size_t>(joint.parent)], joint,
+               start == starts.end() ? JointStart{} : start->second);
   }
   return motions;
 }
 
-/// Gives one of a gear's joints the start that the other has.
+/// Sets the start of one joint of a gear from that of the other.
 void pass_start(const Gear& gear, std::map<std::string, JointStart>& starts) {
   const auto value = [](const std::vector<double>& values) {
     return values.empty() ? 0.0 : values.front();
@@ -166,22 +109,6 @@ void pass_start(const Gear& gear, std::map<std::string, JointStart>& starts) {
 }
 
 }  // namespace
-
-std::size_t coordinate_count(joints::JointKind kind) {
-  switch (kind) {
-    case joints::JointKind::fixed:
-      return 0;
-    case joints::JointKind::universal:
-      return 2;
-    case joints::JointKind::planar:
-    case joints::JointKind::ball:
-      return 3;
-    case joints::JointKind::floating:
-      return 6;
-    default:
-      return 1;
-  }
-}
 
 std::map<std::string, JointStart> find_joint_starts(const Robot& robot,
                                                     const Scenario& scenario) {
@@ -205,7 +132,7 @@ std::map<std::string, JointStart> find_joint_starts(const Robot& robot,
       pass_start(*gear, starts);
       continue;
     }
-    // Of joints that hang together and have no start, one stays at zero.
+    // One of several geared joints without a start is at zero.
     gear = std::find_if(gears.begin(), gears.end(),
                         [&](const Gear& g) { return !is_known(g.with); });
     if (gear == gears.end()) return starts;

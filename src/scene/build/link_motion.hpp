@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "scene/robot.hpp"
-#include "scene/scenario.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
 namespace limber::scene {
 
@@ -18,22 +18,19 @@ struct LinkMotion {
   Vector3 w_WL_W = Vector3::Zero();  ///< [rad/s]
 };
 
-/// Forward kinematics of the undeformed robot: one entry a link.
+/// Forward kinematics of the undeformed robot: one entry per link.
 /// @throws InputError for joints that do not exist, wrong numbers of
-/// coordinates, or a base motion of a robot that stands on the world.
+/// coordinates, or a base motion of a robot fixed to the world.
 [[nodiscard]] std::vector<LinkMotion> find_link_motions(
     const Robot& robot, const Scenario& scenario);
 
-/// The same where all joints are at zero; the root link is where it starts.
+/// The same with all joints at zero; the root link is at its start.
 [[nodiscard]] std::vector<LinkMotion> find_motions_at_zero(
     const Robot& robot, const Scenario& scenario);
 
-/// Starts of joints: the scenario's, and of geared and mimicking joints that it
-/// leaves out where the other joint puts them.
+/// Starts of joints: the scenario's; geared and mimicking joints without one
+/// follow the other joint.
 [[nodiscard]] std::map<std::string, JointStart> find_joint_starts(
     const Robot& robot, const Scenario& scenario);
-
-/// Numbers that say where a joint of this kind is: 0, 1, 2, 3 or 6.
-[[nodiscard]] std::size_t coordinate_count(joints::JointKind kind);
 
 }  // namespace limber::scene

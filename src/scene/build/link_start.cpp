@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/link_start.hpp"
+#include "limber/scene/build/link_start.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
-#include "scene/force_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/scene/text/force_file.hpp"
 
 namespace limber::scene {
 namespace {

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "flexbody/recipe.hpp"
-#include "flexbody/reduced_body.hpp"
-#include "scene/force_file.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/scene/text/force_file.hpp"
 
 namespace limber::scene {
 
-/// A force file's rows at the rows of a body that keeps all of them, 3n x T
-/// [N]: nodes of clamped groups have no rows in the file and get zeros.
-/// @throws InputError naming `file` if the body does not keep every row or the
-/// file has another number of them than the body has free degrees of freedom.
+/// A force file's rows at the rows of a body that has all of them, 3n x T [N]:
+/// nodes of clamped groups have no rows in the file and get zeros.
+/// @throws InputError naming `file` if the body does not have every row or the
+/// file's number of rows is not that of the body's free degrees of freedom.
 [[nodiscard]] MatrixX spread_over_nodes(
     const flexbody::ReducedBody& body,
     const std::vector<std::string>& clamped_groups, const ForceFile& forces,

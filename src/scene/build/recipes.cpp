@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/recipes.hpp"
+#include "limber/scene/build/recipes.hpp"
 
 #include <fmt/format.h>
 
-#include "scene/link_start.hpp"
-#include "scene/nodal_forces.hpp"
+#include "limber/scene/build/link_start.hpp"
+#include "limber/scene/build/nodal_forces.hpp"
 
 namespace limber::scene {
 namespace {
@@ -21,7 +21,7 @@ const InterfaceRequest* find_request(const Recipe& recipe,
   return nullptr;
 }
 
-/// The interface called `name`; a group of that name unless it exists.
+/// Adds an interface `name` on the group of that name, unless it exists.
 void require_interface(Recipe& recipe, const std::string& name) {
   if (find_request(recipe, name) != nullptr) return;
   InterfaceRequest request;
@@ -51,10 +51,10 @@ void require_place(Recipe& recipe, const Place& place,
   }
 }
 
-/// What the interface's own static-deformation modes cover needs none of its
-/// own, but is still a load case. A body-frame load is one pattern. One fixed
-/// in the world turns through all directions of the body, so it takes a pattern
-/// an axis.
+/// A load covered by the interface's static-deformation modes needs no mode of
+/// its own, but is still a load case. A body-frame load is one pattern. One
+/// fixed in the world may have any direction in the body, so it gives one
+/// pattern per axis.
 void add_patterns(Recipe& recipe, const FlexibleLink& link,
                   const LoadSpec& load) {
   const std::string name = find_place_interface(load.where);
@@ -79,7 +79,7 @@ void add_patterns(Recipe& recipe, const FlexibleLink& link,
   }
 }
 
-/// Nodal forces need every row. Their span brings static-deformation modes,
+/// Nodal forces need every row. Their span gives static-deformation modes,
 /// their columns are load cases of automatic modes.
 void add_nodal_forces(Recipe& recipe, const std::filesystem::path& file) {
   recipe.rows = flexbody::parse_rows({"all"});

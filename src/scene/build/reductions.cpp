@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/reductions.hpp"
+#include "limber/scene/build/reductions.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <set>
 
-#include "flexbody/body_file.hpp"
-#include "flexbody/cache.hpp"
-#include "scene/link_start.hpp"
-#include "scene/problems.hpp"
-#include "scene/recipes.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/flexbody/file/cache.hpp"
+#include "limber/scene/build/link_start.hpp"
+#include "limber/scene/build/recipes.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 namespace {
@@ -92,7 +92,7 @@ class Reduction {
         flexbody::load_or_reduce(recipe, cache_, reducer_);
     for (const std::string& notice : found.notices) {
       // Links may share a mesh.
-      if (!told_.insert(notice).second) continue;
+      if (!reported_.insert(notice).second) continue;
       result_.warnings.push_back(fmt::format("link '{}': {}", link, notice));
     }
     (found.was_cached ? result_.cached : result_.reduced) += 1;
@@ -104,7 +104,7 @@ class Reduction {
   const Scene& scene_;
   const Reducer& reducer_;
   const std::filesystem::path& cache_;
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
   std::map<std::filesystem::path, ReducedPointer> saved_;
   Reductions result_;
 };

@@ -2,26 +2,37 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "scene/body_plan.hpp"
-#include "scene/scene.hpp"
+#include "limber/flexbody/file/cache.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/scene/build/body_plan.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::scene {
 
+/// Makes meshes and reduced bodies; usually flexbody::make_reducer.
+using Reducer = flexbody::Reducer;
+
+/// Available reduced bodies, by flexbody::recipe_key.
+using KnownBodies =
+    std::map<std::string, std::shared_ptr<const flexbody::ReducedBody>>;
+
 struct Reductions {
-  std::vector<ReducedPointer> of_link;  ///< null where the link is rigid
-  int reduced = 0;
-  int cached = 0;
-  /// What the bodies fall short of, and notices of their meshes.
+  std::vector<ReducedPointer> of_link;  ///< null if the link is rigid
+  int reduced = 0;                      ///< number of reductions done now
+  int cached = 0;                       ///< number of reductions from the cache
+  /// Shortfalls of the bodies' bases, and notices of their meshes.
   std::vector<std::string> warnings;
-  KnownBodies known;  ///< those given, reduced and cached
+  KnownBodies known;  ///< given, reduced and cached ones
 };
 
 /// Reduced bodies of all flexible links: from a file, from the cache, or from
 /// `reducer`; links with equal recipes or one file share one. Those in `known`
-/// are taken first.
+/// take precedence.
 /// @throws InputError naming the link.
 [[nodiscard]] Reductions find_reductions(const Scene& scene,
                                          const Reducer& reducer,

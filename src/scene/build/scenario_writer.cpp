@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/scenario_writer.hpp"
+#include "limber/scene/build/scenario_writer.hpp"
 
 #include <algorithm>
 #include <sstream>
 
-#include "scene/toml_file.hpp"
+#include "limber/scene/text/toml_file.hpp"
 
 namespace limber::scene {
 namespace {
@@ -17,7 +17,7 @@ toml::table& get_table(toml::table& parent, const std::string& key) {
   return *parent.get_as<toml::table>(key);
 }
 
-/// Turns paths that lead from one folder into paths that lead from another.
+/// Converts paths relative to one folder to paths relative to another.
 class Mover {
  public:
   Mover(const std::filesystem::path& from, const std::filesystem::path& to)
@@ -33,7 +33,7 @@ class Mover {
   }
 
  private:
-  /// An empty path is where the program runs.
+  /// An empty path is the current folder.
   static std::filesystem::path resolve(const std::filesystem::path& folder) {
     return std::filesystem::weakly_canonical(std::filesystem::current_path() /
                                              folder);
@@ -70,8 +70,8 @@ void move_paths(toml::table& root, const Mover& mover) {
   }
 }
 
-/// Sets a key of [basis] and takes it out of every [basis.links.NAME]. The
-/// words of static_deformation are a table of their own there.
+/// Sets a key of [basis] and removes it from every [basis.links.NAME]. The
+/// values of static_deformation are a sub-table there.
 template <typename Value>
 void set_basis(toml::table& basis, const std::string& table,
                const std::string& key, const std::optional<Value>& value) {
@@ -125,9 +125,9 @@ std::string rewrite_scenario(const std::filesystem::path& file,
   set_basis(root, overrides.basis);
   if (overrides.step) set_step(root, *overrides.step);
   if (overrides.integrator) {
-    const auto kind = static_cast<std::size_t>(*overrides.integrator);
     get_table(root, "time")
-        .insert_or_assign("integrator", dynamics::integrator_names()[kind]);
+        .insert_or_assign("integrator",
+                          dynamics::to_string(*overrides.integrator));
   }
   std::ostringstream text;
   text << root << '\n';

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/scene_checks.hpp"
+#include "limber/scene/build/scene_checks.hpp"
 
 #include <fmt/format.h>
 
-#include "common/names.hpp"
-#include "scene/coupler_probe.hpp"
-#include "scene/problems.hpp"
+#include "limber/common/names.hpp"
+#include "limber/scene/probes/coupler_probe.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 namespace {
@@ -117,7 +117,7 @@ class Checker {
     }
   }
 
-  /// Null and a problem if none of `all` is called so.
+  /// Null and a problem if none of `all` has this name.
   template <typename Named>
   const Named* find_named(const std::string& who, const std::string& kind,
                           const std::string& name,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/vain_keys.hpp"
+#include "limber/scene/build/unused_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -58,15 +58,13 @@ class Finder {
   void look_at_integrator() {
     const dynamics::SimulationSettings& time = scenario_.settings;
     const IntegratorKind kind = time.integrator;
-    const std::string it_is = fmt::format(
-        "the integrator is {}",
-        dynamics::integrator_names()[static_cast<std::size_t>(kind)]);
-    const bool is_alpha = kind == IntegratorKind::generalized_alpha;
-    if (!is_alpha) {
+    const std::string it_is =
+        fmt::format("the integrator is {}", dynamics::to_string(kind));
+    const dynamics::IntegratorTraits& traits = dynamics::traits_of(kind);
+    if (!traits.has_spectral_radius) {
       tell("time", "rho_inf", it_is + "; generalized-alpha alone has it");
     }
-    if (!is_alpha && kind != IntegratorKind::implicit_euler &&
-        kind != IntegratorKind::energy_conserving) {
+    if (!traits.is_implicit) {
       const std::string why = it_is + ", which solves nothing by Newton";
       tell("time", "newton_tolerance", why);
       tell("time", "newton_iterations", why);
@@ -74,12 +72,12 @@ class Finder {
     if (time.tolerance == 0.0) {
       tell("time", "most_steps", "it limits steps to a tolerance alone");
     }
-    if (kind == IntegratorKind::explicit_euler && time.exact_modes) {
+    if (!traits.takes_exact_modes && time.exact_modes) {
       tell("time", "exact_modes", it_is + ", which has no closed form");
     }
   }
 
-  // What the file says of levels, unless another is asked for.
+  // Checks the levels in the file, unless they are overridden.
   void look_at_levels() {
     if (overrides_.fidelity) return;
     const std::string none = "no link is at level ";
@@ -88,7 +86,7 @@ class Finder {
       tell("full", "mass", none + "full");
     }
     if (!is_any_at(Fidelity::uncoupled) &&
-        scenario_.settings.integrator != IntegratorKind::explicit_euler) {
+        dynamics::traits_of(scenario_.settings.integrator).takes_exact_modes) {
       tell("time", "exact_modes", none + "uncoupled");
     }
     const bool are_all_listed =
@@ -113,7 +111,7 @@ class Finder {
     }
   }
 
-  // The time from or until which a load acts, if the file says it.
+  // The time from or until which a load acts, if given in the file.
   [[nodiscard]] std::optional<double> find_time(std::size_t load,
                                                 const char* key) const {
     return file_["load"][load]["time"][key].value<double>();
@@ -162,9 +160,9 @@ class Finder {
 
 }  // namespace
 
-std::vector<std::string> find_vain_keys(const toml::table& file,
-                                        const Scene& scene,
-                                        const Overrides& overrides) {
+std::vector<std::string> find_unused_keys(const toml::table& file,
+                                          const Scene& scene,
+                                          const Overrides& overrides) {
   return Finder(file, scene, overrides).find();
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_probe.hpp"
+#include "limber/scene/probes/coupler_probe.hpp"
 
 #include <fmt/format.h>
 
 #include <variant>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/coupler_motion.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/coupler_motion.hpp"
 
 namespace limber::scene {
 namespace {
@@ -16,21 +17,10 @@ namespace {
 using Kind = joints::AxisCoordinate::Kind;
 using dynamics::CouplerReading;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 bool is_along_coordinates(CouplerQuantity quantity) {
   return quantity == CouplerQuantity::coordinate ||
          quantity == CouplerQuantity::coordinate_rate ||
          quantity == CouplerQuantity::effort;
-}
-
-std::vector<Kind> kinds_of(const joints::CouplerLaw& law) {
-  if (std::holds_alternative<joints::PointSpring>(law)) return {Kind::distance};
-  std::vector<Kind> kinds;
-  for (const joints::AxisCoordinate& c : joints::coordinates_of(law)) {
-    kinds.push_back(c.kind);
-  }
-  return kinds;
 }
 
 // A sum has the unit of its first joint's coordinate.
@@ -50,7 +40,7 @@ std::string unit_along(CouplerQuantity quantity, Kind kind) {
   return is_angle ? "rad/s" : "m/s";
 }
 
-// Symbol and unit of what does not depend on the coordinate's kind.
+// Symbol and unit of quantities independent of the coordinate's kind.
 ProbeColumnName describe(CouplerQuantity quantity) {
   switch (quantity) {
     case CouplerQuantity::coordinate:
@@ -81,7 +71,7 @@ ProbeColumnName describe(CouplerQuantity quantity) {
   return {};
 }
 
-// Axes of F.
+// Expressed in F.
 Vector3 find_vector(const CouplerProbeSpec& spec,
                     const CouplerReading& reading) {
   const joints::RelativeMotion& motion = reading.motion;
@@ -112,21 +102,11 @@ Vector3 turn(ProbeAxes axes, const CouplerReading& reading,
   return vector_F;
 }
 
-// The length of a spring and its rate, and its tension.
-dynamics::CoordinateReading find_length(const CouplerReading& reading) {
-  const Vector3& p = reading.motion.p_FM_F;
-  const Vector3& v = reading.motion.v_FM_F;
-  const Vector3 force = reading.response.wrench.head<3>();
-  const double length = p.norm();
-  if (length == 0.0) return {{0.0, v.norm()}, {.force = -force.norm()}};
-  return {{length, v.dot(p) / length}, {.force = force.dot(p) / length}};
-}
-
 double pick(CouplerQuantity quantity,
-            const dynamics::CoordinateReading& reading, bool pulls) {
+            const dynamics::CoordinateReading& reading) {
   if (quantity == CouplerQuantity::coordinate) return reading.motion.z;
   if (quantity == CouplerQuantity::coordinate_rate) return reading.motion.rate;
-  return pulls ? -reading.response.force : reading.response.force;
+  return reading.effort;
 }
 
 template <typename Response>
@@ -141,12 +121,10 @@ void append_transmission(const CouplerProbe& probe,
                          const dynamics::SystemState& state,
                          std::vector<double>& values) {
   const dynamics::CoordinateReading reading =
-      dynamics::evaluate_transmission(model, state, probe.index);
+      dynamics::evaluate_transmission(model, state, probe.transmission);
   const CouplerQuantity quantity = probe.spec.quantity;
-  const bool is_path = std::holds_alternative<dynamics::PathCoordinate>(
-      model.transmissions[index(probe.index)].coordinate);
   values.push_back(is_along_coordinates(quantity)
-                       ? pick(quantity, reading, is_path)
+                       ? pick(quantity, reading)
                        : pick(quantity, reading.response));
 }
 
@@ -155,17 +133,9 @@ void append_coordinates(const CouplerProbe& probe,
                         const dynamics::SystemState& state,
                         std::vector<double>& values) {
   const CouplerQuantity quantity = probe.spec.quantity;
-  const auto& law = model.couplers[index(probe.index)].law;
-  if (std::holds_alternative<joints::PointSpring>(law)) {
-    const CouplerReading reading =
-        dynamics::evaluate_coupler(model, state, probe.index);
-    values.push_back(pick(quantity, find_length(reading), true));
-    return;
-  }
   for (int i = 0; i < std::ssize(probe.coordinates); ++i) {
-    values.push_back(pick(
-        quantity, dynamics::evaluate_coordinate(model, state, probe.index, i),
-        false));
+    values.push_back(pick(quantity, dynamics::evaluate_coordinate(
+                                        model, state, probe.coupler, i)));
   }
 }
 
@@ -201,19 +171,19 @@ CouplerProbe make_coupler_probe(const CouplerProbeSpec& spec,
                                 const dynamics::SystemModel& model) {
   std::vector<CouplerTraits> known;
   std::vector<CouplerProbe> probes;
-  const auto add = [&](const std::string& name, bool is_transmission, int i,
-                       const std::vector<Kind>& kinds) {
-    known.push_back(
-        {name, !is_transmission, static_cast<int>(kinds.size()), ""});
-    probes.push_back({spec, is_transmission, i, kinds});
+  const auto add = [&](const std::string& name, const CouplerProbe& probe) {
+    known.push_back({name, probe.coupler >= 0,
+                     static_cast<int>(probe.coordinates.size()), ""});
+    probes.push_back(probe);
   };
-  for (int i = 0; i < std::ssize(model.couplers); ++i) {
+  for (dynamics::CouplerIndex i(0); i < std::ssize(model.couplers); ++i) {
     const dynamics::Coupler& coupler = model.couplers[index(i)];
-    add(coupler.name, false, i, kinds_of(coupler.law));
+    add(coupler.name, {spec, i, {}, joints::reading_kinds(coupler.law)});
   }
-  for (int i = 0; i < std::ssize(model.transmissions); ++i) {
+  for (dynamics::TransmissionIndex i(0); i < std::ssize(model.transmissions);
+       ++i) {
     const dynamics::Transmission& t = model.transmissions[index(i)];
-    add(t.name, true, i, kinds_of(model, t));
+    add(t.name, {spec, {}, i, kinds_of(model, t)});
   }
   return probes[check_coupler_probe(spec, known)];
 }
@@ -241,7 +211,7 @@ void append_values(const CouplerProbe& probe,
                    const dynamics::SystemModel& model,
                    const dynamics::SystemState& state,
                    std::vector<double>& values) {
-  if (probe.is_transmission) {
+  if (probe.transmission >= 0) {
     append_transmission(probe, model, state, values);
     return;
   }
@@ -251,7 +221,7 @@ void append_values(const CouplerProbe& probe,
     return;
   }
   const CouplerReading reading =
-      dynamics::evaluate_coupler(model, state, probe.index);
+      dynamics::evaluate_coupler(model, state, probe.coupler);
   if (!is_vector(quantity)) {
     values.push_back(pick(quantity, reading.response));
     return;

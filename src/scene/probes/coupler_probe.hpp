@@ -4,31 +4,31 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
-#include "scene/coupler_traits.hpp"
-#include "scene/probe_column.hpp"
-#include "scene/scenario.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/scene/probes/coupler_traits.hpp"
+#include "limber/scene/probes/probe_column.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
 namespace limber::scene {
 
-/// A coupler or a transmission that is followed in time.
+/// A probe of a coupler or a transmission.
 ///
 /// Equation   on side M its law's wrench (f, t) at Mo; on side F, at Fo,
-///            (-f, -t - p_FM x f). Coordinates as its law counts them; of a
-///            spring or a tendon the length, and the effort is the tension.
+///            (-f, -t - p_FM x f). Coordinates as in its law; for a spring or a
+///            tendon the length, with the tension as effort.
 struct CouplerProbe {
   CouplerProbeSpec spec;
-  bool is_transmission = false;
-  int index = 0;  ///< of SystemModel::couplers or transmissions
-  /// What it can move along, in order.
+  dynamics::CouplerIndex coupler;            ///< or
+  dynamics::TransmissionIndex transmission;  ///< the other is -1
+  /// Its coordinates, in order.
   std::vector<joints::AxisCoordinate::Kind> coordinates;
 };
 
-/// @param known all of them; names may be shared, the first one counts
-/// @returns the index of the one that `spec` names
-/// @throws InputError for a name that is not there, with the nearest, or a
-/// quantity that the coupler does not have.
+/// @param known all of them; of equal names the first one applies
+/// @returns the index of the coupler that `spec` names
+/// @throws InputError for an unknown name, with the nearest, or a quantity that
+/// the coupler does not have.
 std::size_t check_coupler_probe(const CouplerProbeSpec& spec,
                                 const std::vector<CouplerTraits>& known);
 
@@ -40,8 +40,8 @@ std::size_t check_coupler_probe(const CouplerProbeSpec& spec,
 [[nodiscard]] std::vector<ProbeColumnName> column_names(
     const CouplerProbe& probe, const std::string& name);
 
-/// Appends the value of each column in `state`.
-/// @throws NumericalError where a coordinate has no meaning.
+/// Appends the value of each column in `state`, in the units of column_names().
+/// @throws NumericalError if a coordinate is undefined.
 void append_values(const CouplerProbe& probe,
                    const dynamics::SystemModel& model,
                    const dynamics::SystemState& state,

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_traits.hpp"
+#include "limber/scene/probes/coupler_traits.hpp"
 
 #include <variant>
-
-#include "scene/body_plan.hpp"
 
 namespace limber::scene {
 namespace {

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "scene/robot.hpp"
+#include "limber/scene/robot/robot.hpp"
 
 namespace limber::scene {
 
-/// What a probe of a coupler can follow.
+/// Quantities available to a probe of a coupler.
 struct CouplerTraits {
   std::string name;
-  bool has_frames = true;  ///< joins two frames; a tendon or gear does not
-  int coordinates = 0;     ///< a spring's length is one
-  std::string why_none;    ///< why there is no such coupler after all
+  bool has_frames = true;  ///< connects two frames; a tendon or gear does not
+  int coordinates = 0;     ///< count; a spring has one, its length
+  std::string why_none;    ///< why there is no such coupler, if so
 };
 
-/// All couplers that a robot names, before any of them is made.
+/// All couplers in a robot's file, before they are built.
 [[nodiscard]] std::vector<CouplerTraits> find_coupler_traits(
     const Robot& robot);
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/followed_probes.hpp"
+#include "limber/scene/probes/followed_probes.hpp"
 
 #include <limits>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::scene {
 namespace {
 
-// A joint's coordinate is that of the bodies; what stiff couplers do is not to
-// be had from a state between two.
+// A joint's coordinate follows from the bodies; forces of stiff couplers cannot
+// be evaluated at an interpolated state.
 dynamics::Course find_course(const Probe& probe) {
   const auto* coupler = std::get_if<CouplerProbe>(&probe.of);
   const bool is_motion =

@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "dynamics/followed.hpp"
-#include "scene/probe.hpp"
+#include "limber/dynamics/monitors/followed.hpp"
+#include "limber/scene/probes/probe.hpp"
 
 namespace limber::scene {
 
-/// All columns of all probes, in order, for a run to follow at every step.
-/// Where a quantity has no meaning it is not a number.
-/// @param probes, model kept by reference
+/// All columns of all probes, in order, for evaluation at every step. NaN where
+/// a quantity is undefined.
+/// @param probes, model stored by reference
 [[nodiscard]] dynamics::Followed follow(const std::vector<Probe>& probes,
                                         const dynamics::SystemModel& model);
 

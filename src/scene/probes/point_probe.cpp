@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/point_probe.hpp"
+#include "limber/scene/probes/point_probe.hpp"
 
-#include "common/rotation.hpp"
-#include "dynamics/mean_frame.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 
 namespace limber::scene {
 namespace {
 
-/// The motion of the point and of the frame that a probe is on.
+/// The motion of a probe's point and frame.
 struct Motion {
   Vector3 p_W;                    ///< [m]
   Vector3 v_W;                    ///< [m/s]
   Matrix3 R_W;                    ///< of the deformed frame
   Vector3 w_W;                    ///< [rad/s]
-  Vector3 u_B = Vector3::Zero();  ///< deformation, if asked for [m]
+  Vector3 u_B = Vector3::Zero();  ///< deformation, if requested [m]
 };
 
 Motion find_modal_motion(const PointProbe& probe,

@@ -5,29 +5,29 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
-#include "dynamics/system_state.hpp"
-#include "scene/probe_column.hpp"
-#include "scene/scenario.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/scene/probes/probe_column.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
 namespace limber::scene {
 
-/// A point (and frame) of a body that is followed in time.
+/// A probe of a point (and frame) of a body.
 ///
 /// Equation   p = p_WB + R_WB b, b = p_B + Phi_B eta;
 ///            v = v_WB + R_WB (w_WB x b + Phi_B etadot);
-///            R = R_WB exp(Psi_B eta); of an unreduced body, those of its
+///            R = R_WB exp(Psi_B eta); for an unreduced body, those of its
 ///            NodalFrame.
 struct PointProbe {
   Quantity quantity = Quantity::displacement;
-  dynamics::BodyIndex body = 0;
+  dynamics::BodyIndex body;
   Vector3 p_B = Vector3::Zero();  ///< undeformed [m]
-  Matrix3X Phi_B;                 ///< 3 x m, no columns at level rigid
-  Matrix3X Psi_B;                 ///< 3 x m
+  Matrix3X Phi_B;  ///< 3 x m, no columns at level rigid [kg^-1/2]
+  Matrix3X Psi_B;  ///< 3 x m [kg^-1/2 m^-1]
   std::shared_ptr<const dynamics::NodalFrame> nodal;  ///< of an unreduced body
-  Matrix3 R_BL = Matrix3::Identity();                 ///< axes of the link
+  Matrix3 R_BL = Matrix3::Identity();                 ///< axes of the link [-]
   Vector3 p_start_W = Vector3::Zero();                ///< [m]
-  Matrix3 R_start = Matrix3::Identity();              ///< of the deformed frame
+  Matrix3 R_start = Matrix3::Identity();  ///< of the deformed frame [-]
 };
 
 /// Name and unit of its three columns: "NAME.ux" [m], ...
@@ -39,7 +39,7 @@ struct PointProbe {
                                const dynamics::SystemModel& model,
                                const dynamics::SystemState& state);
 
-/// Takes `state` as the start, from which displacement and rotation count.
+/// Sets the start, relative to which displacement and rotation are measured.
 void set_start(PointProbe& probe, const dynamics::SystemModel& model,
                const dynamics::SystemState& state);
 

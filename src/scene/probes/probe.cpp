@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/probe.hpp"
+#include "limber/scene/probes/probe.hpp"
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "common/overloaded.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::scene {
 

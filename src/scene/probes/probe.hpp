@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "scene/coupler_probe.hpp"
-#include "scene/point_probe.hpp"
+#include "limber/scene/probes/coupler_probe.hpp"
+#include "limber/scene/probes/point_probe.hpp"
 
 namespace limber::scene {
 
@@ -19,12 +19,12 @@ struct Probe {
 /// Name and unit of each of a probe's columns: "tip.ux" [m], ...
 [[nodiscard]] std::vector<ProbeColumnName> column_names(const Probe& probe);
 
-/// Takes `state` as the start, from which displacement and rotation count.
+/// Sets the start, relative to which displacement and rotation are measured.
 void set_start(Probe& probe, const dynamics::SystemModel& model,
                const dynamics::SystemState& state);
 
 /// All columns of all probes in `state`, in order.
-/// @throws NumericalError naming the probe whose quantity has no meaning there.
+/// @throws NumericalError naming a probe whose quantity is undefined.
 [[nodiscard]] std::vector<double> evaluate_all(
     const std::vector<Probe>& probes, const dynamics::SystemModel& model,
     const dynamics::SystemState& state);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/action_reader.hpp"
+#include "limber/scene/robot/action_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::scene {
 namespace {

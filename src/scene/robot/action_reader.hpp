@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "scene/robot.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 namespace limber::scene {
 
-/// Reads what acts along the coordinates of a joint or loop: its children
+/// Reads the elements along the coordinates of a joint or loop: its children
 /// <stop>, <friction> and <spring>.
 class ActionReader {
  public:
-  /// @param actions what acts already; a <stop> changes the one that is there
-  /// on its coordinate, a <friction> takes its place.
+  /// @param actions existing ones; a <stop> modifies the one on its coordinate,
+  /// a <friction> replaces it.
   ActionReader(joints::JointKind kind, std::vector<JointAction>& actions);
 
   /// For XmlElement::read_children; they refer to this reader.

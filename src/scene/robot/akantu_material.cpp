@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/akantu_material.hpp"
+#include "limber/scene/robot/akantu_material.hpp"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "common/names.hpp"
-#include "common/parse_number.hpp"
-#include "scene/range.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/parse_number.hpp"
+#include "limber/scene/text/range.hpp"
 
 namespace limber::scene {
 namespace {
@@ -27,7 +27,7 @@ struct Token {
   int line = 0;
 };
 
-/// Words, '[', ']' and '='; what follows '#' on a line is a comment.
+/// Words, '[', ']' and '='; '#' starts a comment.
 std::vector<Token> read_tokens(std::istream& stream) {
   std::vector<Token> tokens;
   std::string line;
@@ -60,7 +60,7 @@ class Parser {
   std::vector<flexbody::MaterialRegion> run() {
     std::vector<flexbody::MaterialRegion> regions;
     while (!is_end()) {
-      if (take().text != "material") continue;  // of no concern here
+      if (take().text != "material") continue;  // other sections are ignored
       regions.push_back(read_section());
     }
     if (regions.empty()) {

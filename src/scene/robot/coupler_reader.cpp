@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_reader.hpp"
+#include "limber/scene/robot/coupler_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "scene/action_reader.hpp"
-#include "scene/end_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
+#include "limber/scene/robot/action_reader.hpp"
+#include "limber/scene/robot/end_reader.hpp"
 
 namespace limber::scene {
 namespace {
@@ -47,10 +47,10 @@ Vector3 read_direction(XmlElement& element, const std::string& name,
   return usual;
 }
 
-/// Axes that the kind needs. Two of them are normal to each other.
+/// Axes of the kind. Two axes must be normal to each other.
 void read_axes(XmlElement& element, JointKind kind, Vector3& first,
                Vector3& second) {
-  constexpr double kNormal = 1e-6;  // what digits of a file leave
+  constexpr double kNormal = 1e-6;  // rounding in files
   if (!joints::needs_axis(kind)) return;
   first = read_direction(element, "axis", Vector3::UnitX());
   if (kind != JointKind::universal) return;
@@ -64,7 +64,7 @@ void read_axes(XmlElement& element, JointKind kind, Vector3& first,
   second = (second - along * first).normalized();
 }
 
-/// The kinds for which URDF has no joint, of one of type floating.
+/// The kinds without a URDF joint type, given on a floating joint.
 void read_joint_kind(XmlElement& element, Joint& joint) {
   const std::optional<std::string> name = element.text("kind");
   if (!name) return;
@@ -100,9 +100,9 @@ void read_diagonal_bushing(XmlElement& element,
   bushing.rotational_damping = read("rotational_damping");
 }
 
-/// 36 numbers row by row, x y z rx ry rz; zero if it is not given.
+/// 36 numbers row by row, x y z rx ry rz; zero by default.
 Matrix6 read_matrix(XmlElement& element, const std::string& name) {
-  constexpr double kSymmetric = 1e-6;  // what digits of a file leave
+  constexpr double kSymmetric = 1e-6;  // rounding in files
   const auto numbers = element.numbers(name);
   if (!numbers) return Matrix6::Zero();
   if (numbers->size() != 36) {

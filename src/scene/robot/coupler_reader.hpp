@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "scene/robot.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 /// Readers of the couplers that Limber adds to URDF.
 namespace limber::scene {
 
-/// <coupler joint="...">: what it says of the joint goes into it.
+/// Reads <coupler joint="..."> into `joint`.
 void read_coupler(XmlElement& element, Joint& joint);
 
 [[nodiscard]] Loop read_loop(XmlElement& element);

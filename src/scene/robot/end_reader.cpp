@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/end_reader.hpp"
+#include "limber/scene/robot/end_reader.hpp"
 
 #include <fmt/format.h>
 
-#include "scene/place_reader.hpp"
+#include "limber/common/roll_pitch_yaw.hpp"
+#include "limber/scene/robot/place_reader.hpp"
 
 namespace limber::scene {
 namespace {

@@ -4,20 +4,20 @@
 #include <map>
 #include <string>
 
-#include "scene/robot.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 /// Readers of the ends of couplers.
 namespace limber::scene {
 
-/// Which ends of a coupler have axes that `rpy` may turn.
+/// Ends of a coupler whose axes `rpy` may rotate.
 enum class TurnedEnds { none, from, both };
 
-/// The end that an element's place makes, with the link's axes.
+/// The end at an element's place, with the link's axes.
 [[nodiscard]] ConnectorEnd read_end(XmlElement& element);
 
-/// Both ends of a coupler, by children <from> and <to> or by attributes of
-/// these names, and all its children: `others` by their readers.
+/// Reads both ends of a coupler, from children <from> and <to> or attributes of
+/// these names, and all its other children by the readers `others`.
 void read_ends(XmlElement& element, TurnedEnds turned, ConnectorEnd& from,
                ConnectorEnd& to,
                std::map<std::string, XmlElement::Reader> others = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/extension_reader.hpp"
+#include "limber/scene/robot/extension_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/names.hpp"
-#include "scene/coupler_reader.hpp"
-#include "scene/flexible_reader.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/common/names.hpp"
+#include "limber/scene/robot/coupler_reader.hpp"
+#include "limber/scene/robot/flexible_reader.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 namespace limber::scene {
 namespace {
@@ -68,7 +68,7 @@ class ExtensionReader {
                        add_pair(e, read_latch(e), robot_.latches);
                      }},
                     {"tendon", [this](XmlElement& e) { add_tendon(e); }}});
-    // They name joints and loops, which are known by now.
+    // Read last, since they refer to joints and loops.
     read_all(root, {{"gear", [this](XmlElement& e) { add_gear(e); }}});
   }
 
@@ -175,7 +175,7 @@ class ExtensionReader {
         joints::to_string(kind), count));
   }
 
-  // Probes, drives and results tell couplers apart by their names.
+  // Probes, drives and results identify couplers by name.
   void check_name(const XmlElement& element, const std::string& name) {
     if (couplers_.insert(name).second) return;
     element.fail(fmt::format(

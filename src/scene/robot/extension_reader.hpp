@@ -3,14 +3,14 @@
 
 #include <tinyxml.h>
 
-#include "scene/problems.hpp"
-#include "scene/robot.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 
-/// Adds to a robot with links and joints what Limber's own elements say:
-/// <flexible>, <coupler>, <loop>, <spring>, <bushing>, <latch>, <tendon>,
-/// <gear>. Elements of others are passed over.
+/// Reads Limber's own elements into a robot with links and joints: <flexible>,
+/// <coupler>, <loop>, <spring>, <bushing>, <latch>, <tendon>, <gear>. Ignores
+/// elements of other programs.
 void read_extension(const TiXmlElement& root, Robot& robot, Problems& problems);
 
 }  // namespace limber::scene

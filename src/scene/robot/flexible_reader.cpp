@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/flexible_reader.hpp"
+#include "limber/scene/robot/flexible_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <iterator>
 #include <sstream>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "scene/akantu_material.hpp"
-#include "scene/place_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
+#include "limber/scene/robot/akantu_material.hpp"
+#include "limber/scene/robot/place_reader.hpp"
 
 namespace limber::scene {
 namespace {
@@ -84,7 +84,7 @@ flexbody::KeptRows read_rows(XmlElement& element) {
   return flexbody::parse_rows({std::istream_iterator<std::string>(text), {}});
 }
 
-/// eigenmodes="auto" and what belongs to it.
+/// eigenmodes="auto" and its options.
 flexbody::AutomaticModes read_automatic(XmlElement& element) {
   flexbody::AutomaticModes automatic;
   automatic.threshold = element.number("threshold", {0.0, 1.0, false, false})
@@ -146,7 +146,7 @@ void add_interface(XmlElement& element, FlexibleLink& link) {
   link.interfaces.push_back(request);
 }
 
-/// Of each tag that may be given once, how often it was.
+/// Number of occurrences of each tag that may be given once.
 using Counts = std::map<std::string, int>;
 
 void check_counts(const XmlElement& element, const Counts& counts) {
@@ -155,7 +155,7 @@ void check_counts(const XmlElement& element, const Counts& counts) {
   }
 }
 
-/// A saved body was made with all of these.
+/// A saved body already has all of these.
 void check_saved(const XmlElement& element, const FlexibleLink& link,
                  const Counts& counts) {
   const auto refuse = [&](const char* tag) {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "scene/robot.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 namespace limber::scene {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "common/types.hpp"
-#include "flexbody/recipe.hpp"
+#include "limber/common/types.hpp"
+#include "limber/flexbody/model/recipe.hpp"
 
 namespace limber::scene {
 
@@ -15,8 +15,8 @@ struct Place {
   std::string link;
   std::string interface;                         ///< name, or empty
   std::optional<flexbody::NodeSelection> nodes;  ///< of a flexible link
-  /// Of a rigid link, or where a coupler's frame is off the middle of the nodes
-  /// that it follows; link frame [m].
+  /// On a rigid link, or a coupler frame's origin away from the mean point of
+  /// its nodes; link frame [m].
   std::optional<Vector3> point;
   flexbody::Weighting weighting = flexbody::Weighting::uniform;
 };

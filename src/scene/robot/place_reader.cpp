@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/place_reader.hpp"
+#include "limber/scene/robot/place_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "common/names.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::scene {
 namespace {
 
 using flexbody::NodeSelection;
 
-/// Elements and tables answer alike; `prefix` stands before a region's names.
+/// For elements and tables alike; `prefix` precedes a region's names.
 template <typename Source>
 NodeSelection read_box(Source& source, const std::string& prefix) {
   const auto lower = source.vector(prefix + "lower");
@@ -75,7 +75,7 @@ NodeSelection read_region(Source& source, const std::string& kind,
   return read_cylinder(source, prefix);
 }
 
-/// What was read and from how many of the ways to say it.
+/// The value read, and the number of alternatives present.
 struct Choice {
   std::optional<NodeSelection> nodes;
   int ways = 0;

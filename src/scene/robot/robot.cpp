@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/robot.hpp"
+#include "limber/scene/robot/robot.hpp"
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::scene {
 
@@ -35,6 +35,12 @@ int find_link(const Robot& robot, const std::string& name) {
     names.push_back(robot.links[i].name);
   }
   throw InputError(describe_unknown("link", name, names));
+}
+
+bool merges(const Robot& robot, const Joint& joint) {
+  return joint.kind == joints::JointKind::fixed &&
+         !robot.links[static_cast<std::size_t>(joint.parent)].flexible &&
+         !robot.links[static_cast<std::size_t>(joint.child)].flexible;
 }
 
 }  // namespace limber::scene

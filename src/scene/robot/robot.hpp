@@ -8,29 +8,30 @@
 #include <variant>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/recipe.hpp"
-#include "joints/bushing.hpp"
-#include "joints/drive.hpp"
-#include "joints/friction.hpp"
-#include "joints/joint_kind.hpp"
-#include "joints/point_spring.hpp"
-#include "joints/scalar_spring.hpp"
-#include "scene/place.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/joints/bushing.hpp"
+#include "limber/joints/drive.hpp"
+#include "limber/joints/friction.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/joints/point_spring.hpp"
+#include "limber/joints/scalar_spring.hpp"
+#include "limber/scene/robot/place.hpp"
 
-/// A robot as its URDF file and Limber's extension describe it. Plain
-/// values; docs/formats/urdf.md is the manual page.
+/// A robot as described by its URDF file with Limber's extension. Plain values;
+/// docs/formats/urdf.md is the manual page.
 namespace limber::scene {
 
-/// <inertial> of a rigid link, turned into the link's axes.
+/// <inertial> of a rigid link, expressed in the link's axes.
 struct LinkInertia {
   double mass = 0.0;                  ///< [kg]
   Vector3 p_LBcm = Vector3::Zero();   ///< centre of mass in L [m]
-  Matrix3 inertia = Matrix3::Zero();  ///< about it, axes of L [kg m^2]
+  Matrix3 inertia = Matrix3::Zero();  ///< about it, frame L [kg m^2]
 };
 
-/// What <flexible link="..."> adds to a link.
+/// Data of <flexible link="...">.
 struct FlexibleLink {
   flexbody::MeshSource mesh;           ///< used if `reduced_file` is empty
   std::filesystem::path reduced_file;  ///< a saved reduced body
@@ -50,16 +51,10 @@ struct Link {
   std::optional<FlexibleLink> flexible;
 };
 
-/// What <coupler joint="..."> gives; the rest follows from the bodies.
-struct CouplerOptions {
-  std::optional<double> translational_stiffness;  ///< [N/m]
-  std::optional<double> rotational_stiffness;     ///< [N m/rad]
-  std::optional<double> translational_damping;    ///< [N s/m]
-  std::optional<double> rotational_damping;       ///< [N m s/rad]
-  std::optional<double> free_damping;             ///< [N s/m or N m s/rad]
-};
+/// Options of <coupler joint="...">.
+using dynamics::CouplerOptions;
 
-/// End stops of one coordinate; what is not given follows from the joint.
+/// End stops of one coordinate; defaults follow from the joint.
 struct StopOptions {
   std::optional<double> lower;      ///< none: unbounded [rad or m]
   std::optional<double> upper;      ///< none: unbounded [rad or m]
@@ -69,9 +64,9 @@ struct StopOptions {
   double speed = 1.0;               ///< [rad/s or m/s]
 };
 
-/// What acts along a coordinate of a joint: <stop>, <friction>, <spring>.
+/// An element along a coordinate of a joint: <stop>, <friction>, <spring>.
 struct JointAction {
-  int coordinate = 0;  ///< from 0
+  int coordinate = 0;  ///< its index, from 0
   std::variant<StopOptions, joints::Friction::Parameters,
                joints::ScalarSpring::Parameters>
       law;
@@ -83,41 +78,41 @@ struct Joint {
   int parent = 0;  ///< link index
   int child = 0;   ///< link index
   Pose X_PJ;       ///< joint frame in the parent link's frame
-  Vector3 axis_J = Vector3::UnitX();    ///< unit
-  Vector3 second_J = Vector3::UnitY();  ///< unit, of a universal joint
+  Vector3 axis_J = Vector3::UnitX();    ///< unit [-]
+  Vector3 second_J = Vector3::UnitY();  ///< unit, of a universal joint [-]
   CouplerOptions coupler;
   std::vector<JointAction> actions;
-  /// Of drives: <limit>'s effort [N or N m] and velocity [m/s or rad/s].
-  double max_effort = joints::Drive::kUnlimited;
-  double max_speed = joints::Drive::kUnlimited;
+  /// Of drives: <limit>'s effort and velocity.
+  double max_effort = joints::Drive::kUnlimited;  ///< [N or N m]
+  double max_speed = joints::Drive::kUnlimited;   ///< [m/s or rad/s]
 };
 
 /// One end of a coupler.
 struct ConnectorEnd {
   Place where;                      ///< the link "world" is the world
-  Matrix3 R = Matrix3::Identity();  ///< axes of the end in the link's
+  Matrix3 R = Matrix3::Identity();  ///< axes of the end in the link's [-]
 };
 
-/// <loop>: a joint that closes a loop. Its frame is at the end `from`, at rest
-/// where all joints of the tree are at zero.
+/// <loop>: a joint that closes a loop. Its frame is at the end `from`,
+/// unstressed with all joints of the tree at zero.
 struct Loop {
   std::string name;
   joints::JointKind kind = joints::JointKind::revolute;
   ConnectorEnd from;
   ConnectorEnd to;
-  Vector3 axis_F = Vector3::UnitX();    ///< unit, axes of `from`
-  Vector3 second_F = Vector3::UnitY();  ///< unit, of a universal joint
+  Vector3 axis_F = Vector3::UnitX();    ///< unit, axes of `from` [-]
+  Vector3 second_F = Vector3::UnitY();  ///< unit, of a universal joint [-]
   CouplerOptions coupler;
   std::vector<JointAction> actions;
 };
 
 struct SpringOptions {
-  joints::PointSpring::Parameters law;  ///< but for the free length
+  joints::PointSpring::Parameters law;  ///< except the free length
   std::optional<double> free_length;    ///< [m]; none: the length at the start
 };
 
-/// <spring> or <bushing>. A bushing is at rest at the start, in the axes of
-/// `from`.
+/// <spring> or <bushing>. A bushing is unstressed at the start, with the axes
+/// of `from`.
 struct Connector {
   std::string name;
   ConnectorEnd from;
@@ -144,7 +139,7 @@ struct Tendon {
   double damping = 0.0;               ///< [N s/m]
   std::optional<double> free_length;  ///< [m]; none: the length at the start
   std::optional<double> pretension;   ///< at the start [N]
-  double tension = 0.0;               ///< constant, besides [N]
+  double tension = 0.0;               ///< additional, constant [N]
 };
 
 /// <gear> and URDF's <mimic>: q = ratio q_with + offset.
@@ -154,8 +149,8 @@ struct Gear {
   std::string with;                 ///< of q_with, a joint or loop
   double ratio = 1.0;               ///< not zero [unit of q / unit of q_with]
   double offset = 0.0;              ///< [unit of q]
-  std::optional<double> stiffness;  ///< by q [N m/rad or N/m]
-  std::optional<double> damping;    ///< by q [N m s/rad or N s/m]
+  std::optional<double> stiffness;  ///< in terms of q [N m/rad or N/m]
+  std::optional<double> damping;    ///< in terms of q [N m s/rad or N s/m]
 };
 
 /// A tree of links. Links are ordered so that a parent comes before its
@@ -170,7 +165,7 @@ struct Robot {
   std::vector<Latch> latches;
   std::vector<Tendon> tendons;
   std::vector<Gear> gears;
-  std::vector<std::string> warnings;  ///< what was read but is not modelled
+  std::vector<std::string> warnings;  ///< content that is not modelled
 
   /// Whether the root link stands for the world.
   [[nodiscard]] bool has_world_root() const {
@@ -178,13 +173,16 @@ struct Robot {
   }
 };
 
-/// Coordinates along which a kind's actions and drives act: 0 to 3.
+/// Number of coordinates for a kind's actions and drives: 0 to 3.
 [[nodiscard]] std::size_t count_coordinates(joints::JointKind kind);
 
-/// All ends of a robot's couplers but those of its joints.
+/// All ends of a robot's couplers except those of its joints.
 [[nodiscard]] std::vector<ConnectorEnd> find_ends(const Robot& robot);
 
 /// Index of a link. @throws InputError naming the nearest.
 [[nodiscard]] int find_link(const Robot& robot, const std::string& name);
+
+/// Whether a joint merges two rigid links into one body.
+[[nodiscard]] bool merges(const Robot& robot, const Joint& joint);
 
 }  // namespace limber::scene

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/robot_reader.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "scene/extension_reader.hpp"
-#include "scene/urdf_joints.hpp"
-#include "scene/urdf_tree.hpp"
-#include "scene/urdf_words.hpp"
-#include "scene/xml_depth.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/scene/robot/extension_reader.hpp"
+#include "limber/scene/robot/urdf_joints.hpp"
+#include "limber/scene/robot/urdf_names.hpp"
+#include "limber/scene/robot/urdf_tree.hpp"
+#include "limber/scene/text/xml_depth.hpp"
 
 namespace limber::scene {
 namespace {
 
 constexpr InputKind kRobot = {"robot file", std::uint64_t{1} << 28};
 
-/// Keeps what urdfdom would print, for as long as it lives.
+/// Captures urdfdom's output during its lifetime.
 class LogCapture : public console_bridge::OutputHandler {
  public:
   LogCapture() { console_bridge::useOutputHandler(this); }
@@ -70,7 +70,7 @@ joints::JointKind to_kind(int type) {
   }
 }
 
-/// What <limit> and <dynamics> make act in the joint.
+/// Joint actions from <limit> and <dynamics>.
 void add_actions(const urdf::Joint& source, Joint& joint) {
   const bool has_range = joint.kind == joints::JointKind::revolute ||
                          joint.kind == joints::JointKind::prismatic;
@@ -125,8 +125,8 @@ Link to_link(const urdf::Link& source) {
   return link;
 }
 
-/// Adds all links, branch by branch, parents first. (Without recursion: a
-/// chain may have more links than the stack has room for.)
+/// Adds all links, branch by branch, parents first. Not recursive: a long chain
+/// could overflow the stack.
 void add_links(const urdf::ModelInterface& model, Robot& robot) {
   struct Branch {
     const urdf::Joint* joint;
@@ -245,7 +245,7 @@ Robot read_robot(const std::filesystem::path& file) {
   check_urdf_joints(root, problems);
   Robot robot;
   robot.file = file;
-  check_urdf_words(root, file.string(), problems, robot.warnings);
+  check_urdf_names(root, file.string(), problems, robot.warnings);
   robot.name = root.Attribute("name") != nullptr ? root.Attribute("name") : "";
   if (robot.name.empty()) problems.add(root.Row(), "<robot> needs a 'name'");
   problems.raise();

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "scene/robot.hpp"
+#include "limber/scene/robot/robot.hpp"
 
 namespace limber::scene {
 

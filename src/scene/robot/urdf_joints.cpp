@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/urdf_joints.hpp"
+#include "limber/scene/robot/urdf_joints.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/names.hpp"
-#include "scene/xml_element.hpp"
+#include "limber/common/names.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 namespace limber::scene {
 namespace {
@@ -128,7 +128,7 @@ class JointChecks {
     check_cycle(*mimic, index);
   }
 
-  // Who mimics whom comes back to this joint: told once, at the first of them.
+  // A cycle of mimicking joints: reported once, at the first of them.
   void check_cycle(const TiXmlElement& mimic, std::size_t start) {
     std::size_t at = start;
     for (std::size_t i = 0; i < joints_.size(); ++i) {

@@ -3,7 +3,7 @@
 
 #include <tinyxml.h>
 
-#include "scene/problems.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 

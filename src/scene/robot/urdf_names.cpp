@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/urdf_words.hpp"
+#include "limber/scene/robot/urdf_names.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "common/echo.hpp"
-#include "common/names.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::scene {
 namespace {
 
-/// What an element may hold.
-struct Words {
+/// Allowed content of an element.
+struct ElementNames {
   std::string tag;
   std::vector<std::string> attributes;
-  std::vector<Words> children = {};  ///< that are checked likewise
-  /// Children of other programs, or of another reader here.
+  std::vector<ElementNames> children = {};  ///< checked recursively
+  /// Children of other programs, or of other readers of Limber.
   std::vector<std::string> others = {};
   bool may_repeat = false;
 };
 
-Words describe_link() {
+ElementNames describe_link() {
   return {"link",
           {"name"},
           {{"inertial",
@@ -34,7 +34,7 @@ Words describe_link() {
           true};
 }
 
-Words describe_joint() {
+ElementNames describe_joint() {
   return {"joint",
           {"name", "type"},
           {{"origin", {"xyz", "rpy"}},
@@ -55,17 +55,17 @@ const std::vector<std::string>& own_elements() {
   return names;
 }
 
-const Words& describe_robot() {
-  static const Words robot = [] {
-    Words words = {"robot",
-                   {"name", "version"},
-                   {describe_link(), describe_joint()},
-                   own_elements()};
+const ElementNames& describe_robot() {
+  static const ElementNames robot = [] {
+    ElementNames names = {"robot",
+                          {"name", "version"},
+                          {describe_link(), describe_joint()},
+                          own_elements()};
     for (const char* foreign : {"material", "transmission", "gazebo", "sensor",
                                 "ros2_control", "mujoco"}) {
-      words.others.emplace_back(foreign);
+      names.others.emplace_back(foreign);
     }
-    return words;
+    return names;
   }();
   return robot;
 }
@@ -80,17 +80,17 @@ class WordCheck {
             std::vector<std::string>& warnings)
       : file_(file), problems_(problems), warnings_(warnings) {}
 
-  void check(const TiXmlElement& element, const Words& words) {
+  void check(const TiXmlElement& element, const ElementNames& names) {
     for (const TiXmlAttribute* a = element.FirstAttribute(); a != nullptr;
          a = a->Next()) {
       const std::string name = a->Name();
-      if (is_in(words.attributes, name) || is_foreign(name)) continue;
-      judge(element, element, "attribute", name, words.attributes);
+      if (is_in(names.attributes, name) || is_foreign(name)) continue;
+      judge(element, element, "attribute", name, names.attributes);
     }
     std::set<std::string> given;
     for (const TiXmlElement* child = element.FirstChildElement();
          child != nullptr; child = child->NextSiblingElement()) {
-      check_child(element, *child, words, given);
+      check_child(element, *child, names, given);
     }
   }
 
@@ -100,7 +100,7 @@ class WordCheck {
   }
 
   void check_child(const TiXmlElement& element, const TiXmlElement& child,
-                   const Words& words, std::set<std::string>& given) {
+                   const ElementNames& names, std::set<std::string>& given) {
     const std::string tag = child.ValueStr();
     if (tag.starts_with("xacro:")) {
       problems_.add(child.Row(),
@@ -109,12 +109,12 @@ class WordCheck {
                                 echo(tag)));
       return;
     }
-    if (is_foreign(tag) || is_in(words.others, tag)) return;
+    if (is_foreign(tag) || is_in(names.others, tag)) return;
     const auto known =
-        std::find_if(words.children.begin(), words.children.end(),
-                     [&](const Words& one) { return one.tag == tag; });
-    if (known == words.children.end()) {
-      judge(element, child, "element", tag, list_tags(words));
+        std::find_if(names.children.begin(), names.children.end(),
+                     [&](const ElementNames& one) { return one.tag == tag; });
+    if (known == names.children.end()) {
+      judge(element, child, "element", tag, list_tags(names));
       return;
     }
     if (!given.insert(tag).second && !known->may_repeat) {
@@ -125,10 +125,10 @@ class WordCheck {
   }
 
   /// Those that are read.
-  static std::vector<std::string> list_tags(const Words& words) {
+  static std::vector<std::string> list_tags(const ElementNames& names) {
     std::vector<std::string> tags;
-    for (const Words& child : words.children) tags.push_back(child.tag);
-    if (words.tag == "robot") {
+    for (const ElementNames& child : names.children) tags.push_back(child.tag);
+    if (names.tag == "robot") {
       tags.insert(tags.end(), own_elements().begin(), own_elements().end());
     }
     return tags;
@@ -141,7 +141,7 @@ class WordCheck {
     return fmt::format("<{} name=\"{}\">", tag, echo(name));
   }
 
-  /// An unknown word: near to a known one it is a slip.
+  /// An unknown name: an error if it is near a known one.
   void judge(const TiXmlElement& element, const TiXmlElement& at,
              const char* kind, const std::string& name,
              const std::vector<std::string>& known) {
@@ -152,17 +152,18 @@ class WordCheck {
                                           describe_unknown(kind, name, known)));
       return;
     }
-    // Robots have many links that a program has written alike.
-    if (!told_.insert(element.ValueStr() + kind + name).second) return;
-    if (told_.size() > kMostTold) return;
-    const std::string more = told_.size() == kMostTold ? ", nor others" : "";
+    // Generated robots repeat the same name in many links.
+    if (!reported_.insert(element.ValueStr() + kind + name).second) return;
+    if (reported_.size() > kMostReported) return;
+    const std::string more =
+        reported_.size() == kMostReported ? ", nor others" : "";
     warnings_.push_back(fmt::format("{}:{}: {}: {} '{}' is not read{}", file_,
                                     at.Row(), describe(element), kind,
                                     echo(name), more));
   }
 
-  static constexpr std::size_t kMostTold = 20;
-  std::set<std::string> told_;
+  static constexpr std::size_t kMostReported = 20;
+  std::set<std::string> reported_;
   const std::string& file_;
   Problems& problems_;
   std::vector<std::string>& warnings_;
@@ -170,7 +171,7 @@ class WordCheck {
 
 }  // namespace
 
-void check_urdf_words(const TiXmlElement& robot, const std::string& file,
+void check_urdf_names(const TiXmlElement& robot, const std::string& file,
                       Problems& problems, std::vector<std::string>& warnings) {
   WordCheck(file, problems, warnings).check(robot, describe_robot());
 }

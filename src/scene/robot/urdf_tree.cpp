@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/urdf_tree.hpp"
+#include "limber/scene/robot/urdf_tree.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/names.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber::scene {
 namespace {
@@ -21,11 +21,11 @@ std::string attribute(const TiXmlElement* element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// More links than any robot has, and so many that urdfdom, which lets go of a
-/// chain link inside link, has stack for it.
+/// More links than any robot has, and few enough that urdfdom, which destroys a
+/// chain recursively, does not overflow the stack.
 constexpr std::size_t kMostLinks = 10000;
 
-/// Links and joints by name, gathered while the file is checked.
+/// Links and joints by name, collected while the file is checked.
 class TreeCheck {
  public:
   explicit TreeCheck(Problems& problems) : problems_(problems) {}

@@ -3,14 +3,14 @@
 
 #include <tinyxml.h>
 
-#include "scene/problems.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 
-/// Checks what urdfdom only logs or tells without a place: names that are
-/// missing or given twice, joints whose links do not exist, a link with two
-/// parents, loops, more than one root, joints of an unknown type or with
-/// parts that Limber does not model.
+/// Checks what urdfdom only logs or reports without a line: missing or
+/// duplicate names, joints whose links do not exist, a link with two parents,
+/// loops, more than one root, joints of an unknown type or with parts that
+/// Limber does not model.
 void check_urdf_tree(const TiXmlElement& robot, Problems& problems);
 
 }  // namespace limber::scene

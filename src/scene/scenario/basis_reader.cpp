@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/basis_reader.hpp"
+#include "limber/scene/scenario/basis_reader.hpp"
 
 namespace limber::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_probe_reader.hpp"
+#include "limber/scene/scenario/coupler_probe_reader.hpp"
 
 namespace limber::scene {
 namespace {

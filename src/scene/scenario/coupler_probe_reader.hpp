@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "scene/scenario.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/drive_reader.hpp"
+#include "limber/scene/scenario/drive_reader.hpp"
 
 #include <fmt/format.h>
 
-#include "scene/signal_reader.hpp"
+#include "limber/scene/scenario/signal_reader.hpp"
 
 namespace limber::scene {
 namespace {

@@ -5,17 +5,17 @@
 #include <map>
 #include <string>
 
-#include "scene/scenario.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 
-/// Reads a [[drive]]. Its name is that of its joint or tendon if it has none.
-/// @param folder what files in it are relative to
+/// Reads a [[drive]]. Its name defaults to that of its joint or tendon.
+/// @param folder to which its file names are relative
 [[nodiscard]] DriveSpec read_drive(TomlTable& table,
                                    const std::filesystem::path& folder);
 
-/// Reads a [[release]] of a latch that `releases` does not hold yet.
+/// Reads a [[release]] of a latch that is not yet in `releases`.
 void read_release(TomlTable& table, std::map<std::string, double>& releases);
 
 }  // namespace limber::scene

@@ -8,20 +8,21 @@
 #include <variant>
 #include <vector>
 
-#include "common/types.hpp"
-#include "dynamics/equilibrium.hpp"
-#include "dynamics/fidelity.hpp"
-#include "dynamics/level_advice.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "dynamics/time_function.hpp"
-#include "flexbody/full_body.hpp"
-#include "flexbody/recipe.hpp"
-#include "joints/drive.hpp"
-#include "scene/place.hpp"
+#include "limber/common/types.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/analysis/level_advice.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/time_function.hpp"
+#include "limber/flexbody/model/full_body.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/joints/drive.hpp"
+#include "limber/joints/joint_motion.hpp"
+#include "limber/scene/robot/place.hpp"
 
-/// What a scenario file asks for. Plain values; docs/formats/scenario.md is
-/// the manual page.
+/// Contents of a scenario file. Plain values; docs/formats/scenario.md is the
+/// manual page.
 namespace limber::scene {
 
 struct LoadSpec {
@@ -31,29 +32,29 @@ struct LoadSpec {
   Vector3 moment = Vector3::Zero();  ///< [N m]
   dynamics::LoadFrame frame = dynamics::LoadFrame::body;
   dynamics::TimeFunction time;
-  /// A force file (scene/force_file.hpp) in place of all but name and link:
-  /// forces on every node, axes of the mesh.
+  /// A force file (scene/text/force_file.hpp) in place of all but name and
+  /// link: forces on every node, mesh frame.
   std::filesystem::path nodal_forces;
 };
 
 enum class Quantity {
-  displacement,      ///< from the initial position, world axes [m]
+  displacement,      ///< from the initial position, world frame [m]
   position,          ///< world [m]
   velocity,          ///< world [m/s]
-  rotation,          ///< rotation vector from the start, world axes [rad]
-  angular_velocity,  ///< world axes [rad/s]
-  deformation,       ///< elastic part, axes of the link [m]
+  rotation,          ///< rotation vector from the start, world frame [rad]
+  angular_velocity,  ///< world frame [rad/s]
+  deformation,       ///< elastic part, link frame [m]
 };
 
-/// A point of a link that is followed.
+/// A probe of a point of a link.
 struct PointProbeSpec {
   Place where;
   Quantity quantity = Quantity::displacement;
 };
 
-/// Of a coupler: docs/formats/scenario.md says which has what.
+/// Of a coupler; docs/formats/scenario.md lists which couplers have which.
 enum class CouplerQuantity {
-  coordinate,                 ///< with whole turns [rad or m]
+  coordinate,                 ///< with full turns [rad or m]
   coordinate_rate,            ///< [rad/s or m/s]
   effort,                     ///< along each coordinate [N m or N]
   relative_position,          ///< from Fo to Mo [m]
@@ -63,8 +64,8 @@ enum class CouplerQuantity {
   force,                      ///< on one side [N]
   moment,                     ///< on one side, about its origin [N m]
   energy,                     ///< stored [J]
-  dissipation,                ///< power turned to heat [W]
-  power,                      ///< that its drives put in [W]
+  dissipation,                ///< dissipated power [W]
+  power,                      ///< supplied by its drives [W]
 };
 [[nodiscard]] inline bool has_side(CouplerQuantity quantity) {
   return quantity == CouplerQuantity::force ||
@@ -74,11 +75,12 @@ enum class CouplerQuantity {
   return quantity >= CouplerQuantity::relative_position &&
          quantity <= CouplerQuantity::moment;
 }
-/// On which of a coupler's frames a force acts, and whose axes are used.
+/// Frame of a coupler on which a force acts, and in which vectors are
+/// expressed.
 enum class ProbeSide { F, M };
 enum class ProbeAxes { F, M, world };
 
-/// A joint, spring, bushing, latch, tendon or gear that is followed.
+/// A probe of a joint, spring, bushing, latch, tendon or gear.
 struct CouplerProbeSpec {
   std::string coupler;
   CouplerQuantity quantity = CouplerQuantity::coordinate;
@@ -91,15 +93,11 @@ struct ProbeSpec {
   std::variant<PointProbeSpec, CouplerProbeSpec> of;
 };
 
-/// Coordinates of one joint: 1 (revolute, continuous, prismatic), 3 (planar:
-/// x, y, angle) or 6 (floating: x, y, z, roll, pitch, yaw).
-struct JointStart {
-  std::vector<double> position;  ///< [m, rad]; empty: zero
-  std::vector<double> velocity;  ///< [m/s, rad/s]; empty: zero
-};
+/// Coordinates of one joint at the start.
+using JointStart = joints::JointCoordinates;
 
 /// Deformation of a flexible link at the start and its rate: by modal
-/// coordinates, or by files of nodal fields (scene/force_file.hpp).
+/// coordinates, or by files of nodal fields (scene/text/force_file.hpp).
 struct LinkStart {
   std::vector<double> eta;     ///< [kg^1/2 m]; those not given are zero
   std::vector<double> etadot;  ///< [kg^1/2 m/s]
@@ -107,7 +105,7 @@ struct LinkStart {
   std::filesystem::path velocity;
 };
 
-/// Motion of the root link at the start, world axes.
+/// Motion of the root link at the start, world frame.
 struct BaseStart {
   Vector3 position = Vector3::Zero();          ///< [m]
   Vector3 orientation_rpy = Vector3::Zero();   ///< [rad]
@@ -115,22 +113,23 @@ struct BaseStart {
   Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
 };
 
-/// What takes the place of a link's <basis>; what is not given stays as it is.
+/// Overrides of a link's <basis>; unset values are unchanged.
 struct BasisChoice {
-  std::optional<int> eigenmodes;   ///< lowest; also in place of "auto"
+  std::optional<int>
+      eigenmodes;  ///< number of lowest ones; also in place of "auto"
   std::optional<bool> interfaces;  ///< their static-deformation modes
   std::optional<bool> loads;       ///< their static-deformation modes
-  std::optional<int> terms = {};   ///< of each of these: Krylov terms
+  std::optional<int> terms = {};   ///< number of Krylov terms for each of these
 
   bool operator==(const BasisChoice&) const = default;
 };
 
 /// A drive along a coordinate of a joint or loop, or along a tendon.
 struct DriveSpec {
-  std::string name;    ///< that of its joint or tendon if it has none
+  std::string name;    ///< defaults to that of its joint or tendon
   std::string joint;   ///< a joint's or loop's name, or empty
   std::string tendon;  ///< a tendon's name, or empty
-  int coordinate = 1;  ///< of the joint: 1, 2, ...
+  int coordinate = 1;  ///< its number in the joint, from 1
   joints::Drive::Parameters drive;
 };
 
@@ -138,7 +137,7 @@ struct OutputSpec {
   std::filesystem::path folder;  ///< empty: out/<scenario name>
   bool xdmf = false;
   bool pictures = true;
-  double checkpoint_interval = 60.0;  ///< of wall time, >= 0 [s]
+  double checkpoint_interval = 60.0;  ///< wall time, >= 0 [s]
 };
 
 struct Scenario {
@@ -156,13 +155,13 @@ struct Scenario {
   std::map<std::string, JointStart> joints;
   BaseStart base;
   std::map<std::string, LinkStart> link_starts;
-  /// Starts from the static equilibrium near what all these say, at rest.
+  /// Starts at rest from the static equilibrium near the above.
   std::optional<dynamics::EquilibriumMethod> equilibrium;
   std::vector<DriveSpec> drives;
   std::map<std::string, double> releases;  ///< of latches, at these times [s]
   std::vector<ProbeSpec> probes;
   OutputSpec output;
-  std::vector<std::string> warnings;  ///< what was read, but not to the letter
+  std::vector<std::string> warnings;  ///< deviations from the file's values
   dynamics::AdviceSettings advice;    ///< what may be neglected
 
   [[nodiscard]] dynamics::Fidelity level_of(const std::string& link) const {

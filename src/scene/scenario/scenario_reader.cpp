@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/scenario_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "scene/basis_reader.hpp"
-#include "scene/coupler_probe_reader.hpp"
-#include "scene/drive_reader.hpp"
-#include "scene/place_reader.hpp"
-#include "scene/time_function_reader.hpp"
-#include "scene/time_settings_reader.hpp"
-#include "scene/toml_file.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/scene/robot/place_reader.hpp"
+#include "limber/scene/scenario/basis_reader.hpp"
+#include "limber/scene/scenario/coupler_probe_reader.hpp"
+#include "limber/scene/scenario/drive_reader.hpp"
+#include "limber/scene/scenario/time_function_reader.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
+#include "limber/scene/text/toml_file.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "scene/scenario.hpp"
+#include "limber/scene/scenario/scenario.hpp"
 
 namespace limber::scene {
 
@@ -13,8 +13,8 @@ namespace limber::scene {
 /// @throws InputError with every problem of the file, each with its line.
 [[nodiscard]] Scenario read_scenario(const std::filesystem::path& file);
 
-/// The same of a table that was parsed already.
-/// @param file where it is from: for messages, and what its paths start from
+/// The same from a parsed table.
+/// @param file its source: for messages, and as base of relative paths
 [[nodiscard]] Scenario read_scenario(const toml::table& table,
                                      const std::filesystem::path& file);
 

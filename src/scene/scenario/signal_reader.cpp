@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/signal_reader.hpp"
+#include "limber/scene/scenario/signal_reader.hpp"
 
-#include "scene/points_reader.hpp"
+#include "limber/scene/text/points_reader.hpp"
 
 namespace limber::scene {
 namespace {

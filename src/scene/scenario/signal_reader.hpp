@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-#include "joints/signal.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/joints/signal.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 
-/// Reads `signal = { kind = ... }` and, if there is one, `shaper` of a drive's
-/// table. @param folder what files in it are relative to
+/// Reads `signal = { kind = ... }` and the optional `shaper` of a drive's
+/// table. @param folder to which its file names are relative
 [[nodiscard]] joints::Signal read_signal(TomlTable& drive,
                                          const std::filesystem::path& folder);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/time_function_reader.hpp"
+#include "limber/scene/scenario/time_function_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <functional>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "flexbody/fourier.hpp"
-#include "scene/points_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/modal/fourier.hpp"
+#include "limber/scene/text/points_reader.hpp"
 
 namespace limber::scene {
 namespace {
 
-// What the kinds have in common.
+// Input common to all kinds.
 struct Source {
   TomlTable& table;
   const std::filesystem::path& folder;
@@ -96,7 +96,7 @@ dynamics::TimeFunction read_sinusoids(Source& source) {
   return sum;
 }
 
-// A misfit worth a word, of the table's largest value.
+// Misfit that gives a warning, relative to the table's largest value.
 constexpr double kTellMisfit = 0.01;
 
 dynamics::HarmonicSum to_sum(const flexbody::FourierSeries& series) {
@@ -112,7 +112,7 @@ dynamics::HarmonicSum to_sum(const flexbody::FourierSeries& series) {
   return sum;
 }
 
-// Outside of its table a measured load is zero, unless `until` goes on.
+// A measured load is zero outside its table, unless `until` extends it.
 dynamics::TimeFunction read_fourier(Source& source) {
   TomlTable& table = source.table;
   const Series points = read_points(source.table, source.folder);

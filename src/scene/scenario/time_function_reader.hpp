@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/time_function.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/dynamics/system/time_function.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 
 /// Reads a load's `time` table: kind = "constant", "steps", "pulse",
 /// "sinusoid", "sinusoids", "fourier" or "table", with the keys of that kind.
-/// @param folder what files in it are relative to
-/// @param warnings takes how far a Fourier series is from its table
+/// @param folder to which its file names are relative
+/// @param warnings gets the misfit of a Fourier series from its table
 [[nodiscard]] dynamics::TimeFunction read_time_function(
     TomlTable& table, const std::filesystem::path& folder,
     std::vector<std::string>& warnings);

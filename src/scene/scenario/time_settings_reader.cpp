@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/time_settings_reader.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::scene {
 namespace {
 
-/// Most output times that a scenario may ask for: they stay in memory.
+/// Largest number of output times, which are kept in memory.
 constexpr double kMostOutputs = 1e7;
-/// Outputs of a run to a tolerance, whose steps are not known, by default.
+/// Default number of outputs of a run to a tolerance, whose steps are unknown.
 constexpr double kOutputsOfTolerance = 200.0;
 
 std::vector<double> even_times(double end, double interval) {

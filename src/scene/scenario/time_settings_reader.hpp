@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simulation.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 

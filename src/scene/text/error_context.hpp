@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::scene {
 
-/// Runs `work`; what it refuses is told with `who` in front.
+/// Runs `work` and prefixes its InputError with `who`.
 template <typename Work>
-auto naming(const std::string& who, const Work& work) {
+auto with_context(const std::string& who, const Work& work) {
   try {
     return work();
   } catch (const InputError& error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/force_file.hpp"
+#include "limber/scene/text/force_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "common/parse_number.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/common/parse_number.hpp"
 
 namespace limber::scene {
 namespace {
@@ -91,7 +91,7 @@ MatrixX to_matrix(const std::vector<Row>& rows, std::size_t columns) {
   return matrix;
 }
 
-/// A column that repeats the one before changes nothing.
+/// Removes columns equal to the previous one.
 ForceFile without_repeats(const Row& times, const MatrixX& forces) {
   ForceFile result;
   std::vector<Eigen::Index> kept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/key_depth.hpp"
+#include "limber/scene/text/key_depth.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +8,8 @@
 namespace limber::scene {
 namespace {
 
-// Behind the string that begins at `at`, or the end of its line if it has no
-// end; of one in triple quotes, the end of all.
+// Position after the string that begins at `at`; if unterminated, the end of
+// its line or, for triple quotes, of the text.
 std::size_t skip_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string_view triple = text.substr(at, 3);
@@ -31,7 +31,7 @@ bool is_bare(char c) {
 }  // namespace
 
 std::optional<int> find_overlong_key(std::string_view toml) {
-  int parts = 1;  // of the key, or whatever it is, at hand
+  int parts = 1;  // of the current key or value
   for (std::size_t at = 0; at < toml.size();) {
     const char c = toml[at];
     if (c == '"' || c == '\'') {

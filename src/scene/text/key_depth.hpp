@@ -6,9 +6,9 @@
 
 namespace limber::scene {
 
-/// Parts that a dotted key of a scenario may have. Each part is a table inside
-/// a table, and toml++, which limits brackets but not dots, calls itself for
-/// each when it lets go of them: it would run out of stack.
+/// Largest number of parts of a dotted key in a scenario. Each part is a nested
+/// table, and toml++, which limits brackets but not dots, destroys them
+/// recursively: it could overflow the stack.
 inline constexpr int kMostKeyParts = 20;
 
 /// Line of the first key with more parts, before anything parses the text.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/points_reader.hpp"
+#include "limber/scene/text/points_reader.hpp"
 
 namespace limber::scene {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-#include "scene/series_file.hpp"
-#include "scene/toml_table.hpp"
+#include "limber/scene/text/series_file.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {
 
 /// The points of a history: `times` and `values`, or a `file` of both, relative
-/// to `folder`. Neither their number nor their order is checked.
+/// to `folder`. Does not check their number or order.
 [[nodiscard]] Series read_points(TomlTable& table,
                                  const std::filesystem::path& folder);
 

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::scene {
 
-/// Gathers what is wrong with one file, so that all of it is told at once.
+/// Collects the problems of one file, to report them together.
 class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/range.hpp"
+#include "limber/scene/text/range.hpp"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 
 namespace limber::scene {
 
-/// Bounds of a number and whether they belong to it.
+/// Bounds of a number, inclusive or exclusive.
 struct Range {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  double lower = -std::numeric_limits<double>::infinity();  ///< [its unit]
+  double upper = std::numeric_limits<double>::infinity();   ///< [its unit]
   bool open_lower = false;
   bool open_upper = false;
 

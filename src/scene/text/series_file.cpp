@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/series_file.hpp"
+#include "limber/scene/text/series_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "common/parse_number.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/common/parse_number.hpp"
 
 namespace limber::scene {
 namespace {

@@ -8,13 +8,14 @@ namespace limber::scene {
 
 /// A measured history.
 struct Series {
-  std::vector<double> times;   ///< [s]
-  std::vector<double> values;  ///< what the file's second column means
+  std::vector<double> times;  ///< [s]
+  /// The file's second column [its unit].
+  std::vector<double> values;
 };
 
 /// Reads two columns, time and value, separated by blanks, a comma or a
-/// semicolon. Blank lines, lines that begin with '#' and one heading line are
-/// passed over. Times are not checked for their order.
+/// semicolon. Skips blank lines, lines that begin with '#' and one heading
+/// line. Does not check the order of times.
 /// @throws InputError naming the line.
 [[nodiscard]] Series read_series(const std::filesystem::path& file);
 

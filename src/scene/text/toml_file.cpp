@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/toml_file.hpp"
+#include "limber/scene/text/toml_file.hpp"
 
 #include <fmt/format.h>
 
-#include "common/echo.hpp"
-#include "common/errors.hpp"
-#include "common/input_file.hpp"
-#include "scene/key_depth.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
+#include "limber/scene/text/key_depth.hpp"
 
 namespace limber::scene {
 namespace {

@@ -7,7 +7,7 @@
 
 namespace limber::scene {
 
-/// @throws InputError naming the file, and the line of what is no TOML.
+/// @throws InputError naming the file, and the line of a syntax error.
 [[nodiscard]] toml::table parse_toml_file(const std::filesystem::path& file);
 
 }  // namespace limber::scene

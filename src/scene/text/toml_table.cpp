@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/toml_table.hpp"
+#include "limber/scene/text/toml_table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <sstream>
 
-#include "common/echo.hpp"
+#include "limber/common/echo.hpp"
 
 namespace limber::scene {
 namespace {

@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/names.hpp"
-#include "common/types.hpp"
-#include "scene/problems.hpp"
-#include "scene/range.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/types.hpp"
+#include "limber/scene/text/problems.hpp"
+#include "limber/scene/text/range.hpp"
 
 namespace limber::scene {
 
-/// One TOML table whose every key must be known. Wrong types, values outside
-/// their range and unknown keys go to `problems`; reading carries on.
+/// One TOML table whose every key must be known. Wrong types, values out of
+/// range and unknown keys are added to `problems`; reading continues.
 class TomlTable {
  public:
-  /// @param path how to name the table in errors, e.g. "time" or "load[2]".
+  /// @param path name of the table in errors, e.g. "time" or "load[2]".
   TomlTable(const toml::table& table, std::string path, Problems& problems)
       : table_(table), path_(std::move(path)), problems_(problems) {}
 
@@ -31,7 +31,7 @@ class TomlTable {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& key) const;
 
-  /// Readers of one key; each makes the key known.
+  /// Readers of one key; each marks the key as known.
   [[nodiscard]] std::optional<std::string> text(const std::string& key);
   [[nodiscard]] std::string required_text(const std::string& key);
   [[nodiscard]] std::optional<double> number(const std::string& key,
@@ -49,7 +49,7 @@ class TomlTable {
   [[nodiscard]] const toml::table* table(const std::string& key);
   [[nodiscard]] std::vector<const toml::table*> tables(const std::string& key);
 
-  /// After everything was read: unknown keys are problems.
+  /// Call after reading: unknown keys are problems.
   void finish() const;
 
  private:
@@ -81,7 +81,7 @@ Value read_choice(TomlTable& table, const std::string& key,
   return otherwise;
 }
 
-/// The value of `key` as `parse` reads it, or `otherwise` if there is none.
+/// The value of `key` parsed by `parse`, or `otherwise` if there is none.
 template <typename Value>
 Value read_name(TomlTable& table, const std::string& key, Value otherwise,
                 Value (*parse)(std::string_view)) {

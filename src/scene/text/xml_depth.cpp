@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/xml_depth.hpp"
+#include "limber/scene/text/xml_depth.hpp"
 
 #include <fmt/format.h>
 
@@ -11,14 +11,14 @@ namespace {
 
 constexpr auto kEnd = std::string_view::npos;
 
-// Behind the next `mark`, or the end.
+// Position after the next `mark`, or the end.
 std::size_t skip_past(std::string_view xml, std::string_view mark,
                       std::size_t from) {
   const std::size_t at = xml.find(mark, from);
   return at == kEnd ? xml.size() : at + mark.size();
 }
 
-// The '>' that ends a tag: one that is in no attribute's value.
+// The '>' that ends a tag, skipping attribute values.
 std::size_t find_tag_end(std::string_view xml, std::size_t at) {
   while (at < xml.size() && xml[at] != '>') {
     const char c = xml[at];
@@ -32,7 +32,7 @@ bool starts_name(char c) {
   return byte >= 127 || c == '_' || std::isalpha(byte) != 0;
 }
 
-// What stands behind a '<', and by how much it goes deeper.
+// The markup after a '<', and its change of depth.
 struct Tag {
   std::size_t end = 0;
   int step = 0;

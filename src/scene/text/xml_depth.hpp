@@ -3,12 +3,12 @@
 
 #include <string_view>
 
-#include "scene/problems.hpp"
+#include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 
-/// Elements inside elements that a robot file may have. TinyXML, and what else
-/// walks through its tree, calls itself for each and would run out of stack.
+/// Largest nesting depth of elements in a robot file. TinyXML, and other code
+/// that walks its tree, is recursive and could overflow the stack.
 inline constexpr int kMostNestedElements = 200;
 
 /// Adds a problem if the text nests deeper, before anything parses it.

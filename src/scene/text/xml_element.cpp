@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/xml_element.hpp"
+#include "limber/scene/text/xml_element.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <string_view>
 
-#include "common/echo.hpp"
-#include "common/names.hpp"
-#include "common/parse_number.hpp"
+#include "limber/common/echo.hpp"
+#include "limber/common/names.hpp"
+#include "limber/common/parse_number.hpp"
+#include "limber/common/roll_pitch_yaw.hpp"
 
 namespace limber::scene {
 void XmlElement::fail(const std::string& text) const {
@@ -146,13 +147,6 @@ void XmlElement::read_children(const std::map<std::string, Reader>& readers) {
     found->second(element);
     element.finish();
   }
-}
-
-Matrix3 rotation_rpy(const Vector3& rpy) {
-  return (Eigen::AngleAxisd(rpy.z(), Vector3::UnitZ()) *
-          Eigen::AngleAxisd(rpy.y(), Vector3::UnitY()) *
-          Eigen::AngleAxisd(rpy.x(), Vector3::UnitX()))
-      .toRotationMatrix();
 }
 
 }  // namespace limber::scene

@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "common/pose.hpp"
-#include "scene/problems.hpp"
-#include "scene/range.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/scene/text/problems.hpp"
+#include "limber/scene/text/range.hpp"
 
 namespace limber::scene {
 
 /// One XML element whose every attribute and child must be known. Wrong or
-/// unknown ones go to `problems`; reading carries on with defaults.
+/// unknown ones are added to `problems`; reading continues with defaults.
 class XmlElement {
  public:
   XmlElement(const TiXmlElement& element, Problems& problems)
@@ -28,7 +28,7 @@ class XmlElement {
   [[nodiscard]] Problems& problems() const { return problems_; }
   void fail(const std::string& text) const;
 
-  /// Attribute readers; each makes the name known.
+  /// Attribute readers; each marks the name as known.
   [[nodiscard]] bool has(const std::string& name);
   [[nodiscard]] std::optional<std::string> text(const std::string& name);
   [[nodiscard]] std::string required_text(const std::string& name);
@@ -46,8 +46,8 @@ class XmlElement {
   /// `xyz` and `rpy` attributes as a pose.
   [[nodiscard]] Pose pose();
 
-  /// After all was read: attributes that nobody asked for are problems,
-  /// children unless they were read, and text.
+  /// Call after reading: unread attributes, unread children and text are
+  /// problems.
   void finish() const;
   /// Calls the reader of each child's tag; a tag without one is a problem.
   using Reader = std::function<void(XmlElement&)>;
@@ -59,8 +59,5 @@ class XmlElement {
   std::set<std::string> known_;
   bool has_read_children_ = false;
 };
-
-/// Rotation of URDF's fixed-axis roll, pitch, yaw [rad].
-[[nodiscard]] Matrix3 rotation_rpy(const Vector3& rpy);
 
 }  // namespace limber::scene

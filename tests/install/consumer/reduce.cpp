@@ -2,7 +2,7 @@
 // Reaches Gmsh: asking for a mesh that is not there must say so.
 #include <cstdio>
 #include <limber/common/errors.hpp>
-#include <limber/flexbody/reduce.hpp>
+#include <limber/reduction/reduce.hpp>
 #include <string>
 
 int main() {

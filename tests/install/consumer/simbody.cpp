@@ -2,7 +2,7 @@
 // A weight in free fall, by Simbody behind Limber's face.
 #include <cmath>
 #include <cstdio>
-#include <limber/reference/witness.hpp>
+#include <limber/reference/simbody_reference.hpp>
 
 int main() {
   using namespace limber::reference;
@@ -14,9 +14,9 @@ int main() {
   mechanism.bodies = {weight};
   mechanism.gravity_W = {0.0, 0.0, -9.81};
   mechanism.watched = {{0, {}}};
-  const WitnessRun run =
+  const SimbodyRun run =
       simulate(mechanism, {JointModel::ideal, 1e-10}, {{1.0, false, true}});
   const double z = run.snapshots.back().frames[0].p_WB.z();
-  std::printf("%s: z = %g m\n", witness_name().c_str(), z);
+  std::printf("%s: z = %g m\n", simbody_name().c_str(), z);
   return std::abs(z + 4.905) < 1e-9 ? 0 : 1;
 }

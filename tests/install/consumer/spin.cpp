@@ -8,7 +8,7 @@
 int main() {
   using namespace limber;
   dynamics::SystemBuilder builder;
-  const int rod = builder.add_rigid_body(
+  const auto rod = builder.add_rigid_body(
       "rod", {.mass = 2.0, .inertia = Vector3(0.2, 0.2, 0.01).asDiagonal()});
   const joints::Bushing hinge = joints::make_joint_bushing(
       joints::JointKind::revolute, Vector3::UnitX(),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/echo.hpp"
+#include "limber/common/echo.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "common/names.hpp"
+#include "limber/common/names.hpp"
 
 namespace limber {
 namespace {
@@ -38,7 +38,7 @@ TEST(Echo, EndsWhateverTheBytes) {
 }
 
 TEST(Echo, KeepsTheLinesOfAWholeMessage) {
-  EXPECT_EQ(spell_out_controls("one\ntwo\x1b"), "one\ntwo\\x1b");
+  EXPECT_EQ(escape_controls("one\ntwo\x1b"), "one\ntwo\\x1b");
 }
 
 TEST(DescribeUnknown, EchoesTheNameAndTheKnownOnes) {

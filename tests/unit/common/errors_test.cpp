@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/names.hpp"
+#include "limber/common/names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

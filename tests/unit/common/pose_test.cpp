@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/pose.hpp"
+#include "limber/common/pose.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber {
 namespace {

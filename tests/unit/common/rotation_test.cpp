@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 #include <gtest/gtest.h>
 

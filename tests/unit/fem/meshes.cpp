@@ -10,7 +10,7 @@
 #include <array>
 #include <fstream>
 
-#include "fem/gmsh_session.hpp"
+#include "limber/fem/gmsh/gmsh_session.hpp"
 
 namespace limber::fem::testing {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 
 /// Small meshes for the tests of src/fem.
 namespace limber::fem::testing {

@@ -10,11 +10,11 @@
 #include <string>
 #include <system_error>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody::test {
 
-/// An empty folder of its own, removed at the end.
+/// An empty temporary folder, removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "flexbody/reduced_body.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::flexbody::test {
 
 /// A body of three nodes, two modes, two groups and one interface, in which
-/// no two numbers are equal. It obeys no physics: files do not ask for any.
+/// no two numbers are equal. It is not physical, which files do not require.
 [[nodiscard]] ReducedBody make_small_body(unsigned seed);
 
 /// Every field's name with all its sizes and bits.

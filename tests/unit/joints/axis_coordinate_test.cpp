@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/axis_coordinate.hpp"
+#include "limber/joints/axis_coordinate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
@@ -77,7 +77,7 @@ TEST(AxisCoordinate, TheTwoAnglesOfAUniversalJointAreExact) {
       margin.add(std::abs(evaluate(second, motion, 0.0).z - t), 1.0);
     }
   }
-  // At 3 rad cos(t / 2) = 0.07 of the quaternion is left to tell the angle.
+  // At 3 rad only cos(t / 2) = 0.07 of the quaternion determines the angle.
   margin.expect_below(1e-14 / 0.07);
 }
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <string>
 
-#include "common/errors.hpp"
-#include "joints/joint_kind.hpp"
-#include "joints/latch.hpp"
-#include "joints/point_spring.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/joints/latch.hpp"
+#include "limber/joints/point_spring.hpp"
 
 namespace limber::joints {
 namespace {
@@ -51,7 +51,7 @@ TEST(BadValues, OfASpringCurve) {
   expect_refused<SpringCurve>({.extensions = {0.0, 1.0}, .forces = {0.0}},
                               "2 extensions and 1 forces");
   expect_refused<SpringCurve>({.extensions = {0.0, 0.0}, .forces = {0.0, 1.0}},
-                              "goes back at extension 0");
+                              "decreases at extension 0");
   expect_refused<SpringCurve>({.extensions = {0.0, 1.0}, .forces = {2.0, 1.0}},
                               "force 1;");
   expect_refused<SpringCurve>({.extensions = {0.0, 1.0}, .forces = {0.0, kNaN}},
@@ -62,7 +62,7 @@ TEST(BadValues, OfASpringAlongACoordinate) {
   for (const double bad : {-1.0, kNaN, kInf}) {
     expect_refused<ScalarSpring>({.damping = bad}, "its damping is");
   }
-  expect_refused<ScalarSpring>({.rest = kInf}, "where it rests");
+  expect_refused<ScalarSpring>({.rest = kInf}, "rest position");
   const SpringCurve pushes({.extensions = {0.0, 1.0}, .forces = {-2.0, 1.0}});
   expect_refused<ScalarSpring>({.curve = pushes, .tension_only = true},
                                "pushes with 2 at extension 0");
@@ -175,7 +175,7 @@ TEST(BadValues, OfABushing) {
   skewed(0, 1) = 0.5;
   expect_refused<Bushing>({.rotational_stiffness = skewed},
                           "rotational stiffness is not symmetric");
-  // More coupling than the blocks bear; and the same in other units.
+  // Coupling that makes the matrix indefinite; and the same in other units.
   for (const double unit : {1.0, 1e4}) {
     expect_refused<Bushing>(
         {.translational_stiffness = 4.0 * unit * unit * kI,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/bushing.hpp"
+#include "limber/joints/bushing.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/rotation.hpp"
-#include "joints/coupler_law.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/joints/coupler_law.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
 namespace limber::joints {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::testing {
 namespace {

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "joints/coupler_law.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/joints/coupler_law.hpp"
+#include "limber/joints/joint_kind.hpp"
 
-/// The coupler laws that keep the contract, and random motions of them.
+/// The coupler laws tested for consistency, and random motions of them.
 namespace limber::testing {
 
 /// When a law is the same with the names of F and M exchanged.
 enum class Ends { differ, same_at_rest, same };
 
-/// What it has: a law without a spring stores nothing, one without a damper
+/// Its properties: a law without a spring stores nothing, one without a damper
 /// dissipates nothing.
 enum class Parts { both, spring, damper };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/drive.hpp"
+#include "limber/joints/drive.hpp"
 
 #include <gtest/gtest.h>
 

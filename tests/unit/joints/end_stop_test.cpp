@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/end_stop.hpp"
+#include "limber/joints/end_stop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -124,7 +124,7 @@ TEST(EndStop, BothSidesPressBackIntoTheRange) {
   EXPECT_EQ(stop.evaluate({0.0, 9.0}).force, 0.0);
 }
 
-// So that a step across it sees no corner.
+// So that the law has no corner within a step.
 TEST(EndStop, AStopHeldOnGoesOnWhereItIsLeft) {
   const EndStop stop = make_stop(1e4, 2.0);
   const SwitchModes upper{SwitchMode::on, SwitchMode::off};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/friction.hpp"
+#include "limber/joints/friction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/joint_kind.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 
 namespace limber::joints {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/latch.hpp"
+#include "limber/joints/latch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
@@ -106,7 +106,7 @@ TEST(Latch, NeverClosesAgain) {
   CouplerMemory memory = closed_at(motion);
   latch.update(0, motion, memory);
   EXPECT_EQ(memory.latch, LatchStatus::released);
-  // Together, and where a closed one would give way again.
+  // At zero distance, and where a closed one would open again.
   for (const RelativeMotion& m :
        {at(Vector3::Zero()), at(Vector3(9., 0., 0.))}) {
     for (const int index : {0, 1}) {
@@ -139,8 +139,9 @@ TEST(Latch, SwitchRatesAreDerivativesByTime) {
           return latch.find_switch(index, carried(motion, by), memory, 1.0 + by)
               .value;
         });
-        const double told = latch.find_switch(index, motion, memory, 1.0).rate;
-        margin.add(std::abs(told - rate), std::abs(told));
+        const double rate_found =
+            latch.find_switch(index, motion, memory, 1.0).rate;
+        margin.add(std::abs(rate_found - rate), std::abs(rate_found));
       }
     }
   }

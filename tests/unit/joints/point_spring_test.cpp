@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/point_spring.hpp"
+#include "limber/joints/point_spring.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::joints {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every law along a coordinate keeps the same contract; a new law joins by one
+// All laws along a coordinate must pass the same tests; add a new law by one
 // line in `laws`.
-#include "joints/scalar_law.hpp"
+#include "limber/joints/scalar_law.hpp"
 
 #include <gtest/gtest.h>
 

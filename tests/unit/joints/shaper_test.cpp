@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "joints/signal.hpp"
+#include "limber/joints/signal.hpp"
 #include "support/differences.hpp"
 
 namespace limber::joints {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/signal.hpp"
+#include "limber/joints/signal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST_P(Signals, ValueIsContinuousAtEachBreak) {
   }
 }
 
-// A time on a break is seen from the side that it asks for.
+// At a break the one-sided limit is selected by the side.
 TEST_P(Signals, RateAtABreakIsThatOfItsSide) {
   double largest_jump = 0.0;
   for (const double t : breaks_) {
@@ -251,7 +251,7 @@ TEST(Signal, BreaksThatAreOneButForRoundoffAreOne) {
   const Signal signal{r, {{0.5, 0.0}, {0.5, delay}}};
   ASSERT_EQ(break_times(signal).size(), 3U);
   const double middle = break_times(signal)[1];
-  // Both are on the side asked for: one ramp of twice the duration.
+  // Both use the requested side: one ramp of twice the duration.
   for (const Side side : {Side::left, Side::right}) {
     EXPECT_NEAR(evaluate(signal, {middle, side}).rate, 2.5, 1e-14);
   }

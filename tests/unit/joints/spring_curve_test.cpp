@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/spring_curve.hpp"
+#include "limber/joints/spring_curve.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "joints/scalar_spring.hpp"
+#include "limber/joints/scalar_spring.hpp"
 
 namespace limber::joints {
 namespace {

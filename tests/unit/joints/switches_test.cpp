@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joints/switches.hpp"
+#include "limber/joints/switches.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/joints/coupler_law.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
@@ -76,7 +77,7 @@ TEST(Switches, ArePositiveWhileTautOrTouching) {
   EXPECT_NEAR(at(2).rate, -2.0, 1e-14);
 }
 
-// Held off, each takes away the force of its own law alone.
+// Switched off, each removes only the force of its own law.
 TEST(Switches, AreHeldInTheOrderInWhichTheyAreFound) {
   const Vector3 y = find_plane_axes(kAxis).y;
   RelativeMotion motion;
@@ -130,8 +131,8 @@ TEST(Switches, RatesAreDerivativesByTime) {
         const double rate = differentiate([&](double by) {
           return find_switch(law, i, carried(motion, by), {}, by).value;
         });
-        const double told = find_switch(law, i, motion, {}, 0.0).rate;
-        margin.add(std::abs(told - rate), std::abs(told));
+        const double rate_found = find_switch(law, i, motion, {}, 0.0).rate;
+        margin.add(std::abs(rate_found - rate), std::abs(rate_found));
       }
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesher/walls.hpp"
+#include "limber/mesher/sandbox.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace limber::mesher {
 namespace {
 
-// What keeps a geometry in where the kernel has neither seccomp nor Landlock.
+// Protection from geometries on kernels with neither seccomp nor Landlock.
 TEST(DangerousWord, IsFoundHoweverItIsWritten) {
   for (const std::string text :
        {"SystemCall \"touch x\";", "x = 1; System\n\"touch x\";",
@@ -19,7 +19,7 @@ TEST(DangerousWord, IsFoundHoweverItIsWritten) {
         "Printf(\"a > b\", 1) > Str(\"file\");", "Error(\"x\") > \"file\";",
         "Plugin(Skin).Run;", "Parse(\"Save\");", "/* */ Save \"x\";",
         "// \"\nSave \"x\";", "For i In {0:1} Save \"x\"; EndFor"}) {
-    EXPECT_TRUE(find_dangerous_word(text)) << text;
+    EXPECT_TRUE(find_dangerous_command(text)) << text;
   }
 }
 
@@ -29,16 +29,16 @@ TEST(DangerousWord, IsNotInPlainGeometries) {
         "// SystemCall \"x\";\n", "/* Save \"x\"; */",
         "SaveAll = 1; MySystem = 2; Mesh.SaveAll = 1;",
         "x = \"SystemCall\"; y = 'Save';", "If(1 > 0) Printf(\"x\"); EndIf"}) {
-    EXPECT_FALSE(find_dangerous_word(text)) << text;
+    EXPECT_FALSE(find_dangerous_command(text)) << text;
   }
 }
 
 TEST(FleetingWord, IsTheClockMemoryChanceAndEnvironment) {
   for (const std::string word :
        {"Cpu", "Memory", "TotalMemory", "Today", "GetEnv(\"A\")", "Rand(1)"}) {
-    EXPECT_TRUE(has_fleeting_word("x = " + word + ";")) << word;
+    EXPECT_TRUE(has_unrepeatable_command("x = " + word + ";")) << word;
   }
-  EXPECT_FALSE(has_fleeting_word("Random = 1; MyCpu = 2; x = Cpus;"));
+  EXPECT_FALSE(has_unrepeatable_command("Random = 1; MyCpu = 2; x = Cpus;"));
 }
 
 }  // namespace

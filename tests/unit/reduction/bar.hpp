@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "flexbody/reduce_meshed_body.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
 /// A bar of hexahedra along x, and its matrices entry by entry.
 namespace limber::flexbody::testing {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/reduction/departure.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "flexbody/fem_departure.hpp"
-#include "flexbody/reduce_krylov.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/reduction/krylov.hpp"
 #include "support/eigenpairs.hpp"
-#include "unit/flexbody/reduction/bar.hpp"
+#include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -36,7 +37,7 @@ struct DenseBar {
     lambda = modes.values.tail(K.cols() - rigid);
   }
 
-  /// The elastic answer to F e^(s t) with D = alpha M + beta K.
+  /// The elastic response to F e^(s t) with D = alpha M + beta K.
   [[nodiscard]] Eigen::MatrixXcd answer(const MatrixX& F, Complex s,
                                         const Friction& friction = {}) const {
     const Eigen::MatrixXcd load =
@@ -62,7 +63,8 @@ struct DenseBar {
   double first_frequency = 0.0;
 };
 
-/// Pushed at the tip in a direction that bends, twists little and stretches.
+/// Loaded at the tip in a direction that causes bending, a little torsion and
+/// stretching.
 MatrixX push_tip(const MeshedBody& body) {
   return testing::spread(body, 1, {1e3, 2e2, -1e2}).reshaped();
 }
@@ -193,7 +195,7 @@ TEST_P(Departure, PlainPowersLoseTheirIndependenceAndTheVectorsUsedDoNot) {
   const MatrixX vectors = find_krylov_vectors(body, first, kTerms, 1e-8);
   ASSERT_EQ(vectors.cols(), kTerms);
   EXPECT_NEAR(condition(vectors), 1.0, 1e-10);
-  // They span the same, as far as the powers still tell.
+  // They span the same space, within the precision of the powers.
   const MatrixX lead = powers.leftCols(4);
   const MatrixX Q = vectors.leftCols(4);
   EXPECT_LT((root * (lead - Q * (Q.transpose() * slender.M * lead))).norm(),
@@ -201,8 +203,9 @@ TEST_P(Departure, PlainPowersLoseTheirIndependenceAndTheVectorsUsedDoNot) {
 }
 
 /// The hierarchy alpha_n'' + alpha_(n+1) = 0, cut off after A coefficients,
-/// is a chain of integrators: a disturbance grows as t^(2A - 2), where that of
-/// Lagrange's equations keeps its energy and swings at the body's frequencies.
+/// is a chain of integrators: a disturbance grows as t^(2A - 2), while that of
+/// Lagrange's equations conserves its energy and oscillates at the body's
+/// frequencies.
 TEST_P(Departure, HierarchyOfCoefficientsGrowsWithoutBound) {
   constexpr int kTerms = 4;
   const DepartureModel model =

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/reduce_interfaces.hpp"
+#include "limber/reduction/interfaces.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/errors.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 
 /// Node selections on the beam of 1 x 1 x 5 m: root at z = 0, tip at z = 5.
 namespace limber::flexbody {
@@ -75,7 +75,7 @@ TEST(Interfaces, CylinderAroundTheWholeFaceIsItsGroup) {
       find(GroupNodes{"tip"}));
 }
 
-TEST(Interfaces, WithoutNodesAreToldWithTheSelectionAndTheNearestNode) {
+TEST(Interfaces, WithoutNodesAreReportedWithTheSelectionAndTheNearestNode) {
   EXPECT_THAT(error_of(BoxNodes{{0, 0, 7}, {1, 1, 8}}),
               AllOf(StartsWith("interface 'seat': "),
                     HasSubstr("beam579_v41.msh: no surface node belongs to the "
@@ -105,7 +105,7 @@ TEST(Interfaces, NearestNodeIsNeverEmpty) {
             1e-12);
 }
 
-TEST(Interfaces, ThatAreEmptyAreAllToldAtOnce) {
+TEST(Interfaces, ThatAreEmptyAreAllReportedAtOnce) {
   Recipe recipe;
   recipe.interfaces = {{"first", GroupNodes{"none"}},
                        {"tip", GroupNodes{"tip"}},

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/reduction/operating_states.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
-#include "common/errors.hpp"
-#include "flexbody/fem_operating_state.hpp"
-#include "unit/flexbody/reduction/bar.hpp"
+#include "limber/common/errors.hpp"
+#include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -18,8 +19,8 @@ using testing::make_recipe;
 
 constexpr double kRoundoff = 1e-10;  // of a stiffness with condition 1e6
 
-/// Finite elements held at six degrees of freedom, which a balanced load does
-/// not feel, then freed of rigid motion.
+/// Finite elements fixed at six degrees of freedom, without reactions under a
+/// balanced load, then without rigid motion.
 Matrix3X solve_held(const MeshedBody& body, const Matrix3X& load) {
   const MatrixX K = testing::dense_stiffness(body);
   const MatrixX R = testing::rigid_motions(body.mesh.x);
@@ -78,7 +79,8 @@ TEST(AcceleratingState, OfAClampedBodyIsItsStaticAnswer) {
             1e-12 * load.norm());
 }
 
-/// The axial force falls from F at the pushed end to 0: half of F L / (E A).
+/// The axial force decreases from F at the loaded end to 0: half of F L / (E
+/// A).
 TEST(AcceleratingState, PushedBarShortensByHalfOfItsStaticAnswer) {
   const Bar bar;
   const MeshedBody body(make_recipe(bar), {});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "limber/reduction/power.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,11 +9,10 @@
 #include <limits>
 #include <random>
 
-#include "common/errors.hpp"
-#include "flexbody/fem_departure.hpp"
-#include "flexbody/fem_power.hpp"
-#include "flexbody/modal_response.hpp"
-#include "unit/flexbody/reduction/bar.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
+#include "limber/reduction/departure.hpp"
+#include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -38,7 +39,7 @@ class Power : public ::testing::TestWithParam<bool> {
     return {rigid(), rigid(), draw_deformation() * mass / K_.diagonal().mean(),
             draw_deformation(), draw_deformation()};
   }
-  /// The load that a motion asks for, by dense matrices.
+  /// The load required for a motion, by dense matrices.
   [[nodiscard]] VectorX find_load(const BodyMotion& motion,
                                   const Friction& friction) const {
     const VectorX v = motion.qdot + motion.xdot;
@@ -121,7 +122,7 @@ TEST_P(Power, InstantaneousDeformationTakesWorkOfTheInternalForce) {
   EXPECT_NEAR(motion.xdot.dot(Mq), 0.0,
               kRoundoff * motion.xdot.norm() * Mq.norm());
   const PowerBalance power = calc_power(body_, F, motion, friction);
-  // The memo leaves out D x'.
+  // The memo neglects D x'.
   EXPECT_NEAR((F - Dx).dot(motion.qdot + motion.xdot),
               power.rigid + power.elastic + internal + power.rigid_friction,
               kRoundoff * sum_sizes(power));

@@ -4,9 +4,9 @@
 
 #include <Eigen/LU>
 
-#include "common/errors.hpp"
-#include "flexbody/fem_operating_state.hpp"
-#include "unit/flexbody/reduction/bar.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/reduction/operating_states.hpp"
+#include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -35,7 +35,7 @@ Matrix3 cross_matrix(const Vector3& n) {
   return cross;
 }
 
-/// Without Poisson's ratio each direction is a bar of its own, stretched by
+/// Without Poisson's ratio each direction is an independent bar, stretched by
 /// rho Omega^2 (x + u): E u'' + rho Omega^2 (x + u) = 0, free at +-L/2.
 double stretch(double x, double L, double k) {
   return std::sin(k * x) / (k * std::cos(0.5 * k * L)) - x;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reference/verification.hpp"
+#include "limber/reference/verification.hpp"
 #include "unit/reference/scene_folder.hpp"
 
 namespace limber::reference {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "reference/scene_mechanism.hpp"
-#include "reference/verification.hpp"
+#include "limber/reference/scene_mechanism.hpp"
+#include "limber/reference/verification.hpp"
 #include "unit/reference/scene_folder.hpp"
 
 /// Universal and ball joints, and what acts in joints.
@@ -69,7 +69,8 @@ Snapshot start_of(const RigidScene& scene, JointModel joints) {
       .snapshots.front();
 }
 
-TEST(Witness, StartsUniversalAndBallJointsAsWeDoAtRandomAnglesAndRates) {
+TEST(SimbodyReference,
+     StartsUniversalAndBallJointsAsWeDoAtRandomAnglesAndRates) {
   std::mt19937 random(7);
   for (int i = 0; i < 10; ++i) {
     const RigidScene scene(make_robot(kStiff, kStiff),

@@ -4,7 +4,9 @@
 #include <fstream>
 #include <string>
 
-#include "scene/scene.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/build/scene.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 namespace limber::reference::test {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/stiffening.hpp"
-#include "reference/verification.hpp"
+#include "limber/reference/stiffening.hpp"
+#include "limber/reference/verification.hpp"
 #include "unit/reference/scene_folder.hpp"
 
 /// As stiffness grows, joints converge to Simbody's mobilizers at first order.
@@ -77,7 +77,7 @@ void expect_first_order(const std::vector<Verification>& results) {
   }
 }
 
-/// What is left where differences stop falling, which the test tells.
+/// The difference at which the decrease stops, reported by the test.
 void expect_floor(const std::vector<Verification>& results) {
   std::vector<double> differences;
   for (const Verification& result : results) {

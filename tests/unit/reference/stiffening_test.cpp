@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/stiffening.hpp"
+#include "limber/reference/stiffening.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/errors.hpp"
-#include "joints/joint_kind.hpp"
-#include "reference/verification.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/reference/verification.hpp"
 #include "unit/reference/scene_folder.hpp"
 
 namespace limber::reference {
@@ -29,7 +29,7 @@ joints::Joint make(JointKind kind, const joints::JointParameters& parameters) {
 
 joints::Joint stiffen(const joints::Joint& joint, double factor) {
   dynamics::SystemModel model;
-  model.couplers.push_back({"joint", joint, 0, 0});
+  model.couplers.push_back({"joint", joint, {}, {}});
   return std::get<joints::Joint>(stiffen_joints(model, factor).couplers[0].law);
 }
 

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "reference/witness.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reference/simbody_reference.hpp"
 #include "support/free_top.hpp"
 
 namespace limber::reference {
 namespace {
 
+using dynamics::Breakpoint;
 using dynamics::IntegratorKind;
-using dynamics::Landmark;
 
 // --- The flip about the intermediate axis
 // -------------------------------------
@@ -32,7 +32,7 @@ Vector3 spin_by_us(double t, double step) {
   return state.bodies[0].w_WB_B;
 }
 
-Vector3 spin_by_witness(double t) {
+Vector3 spin_by_simbody(double t) {
   Mechanism mechanism;
   MechanismBody body;
   body.mass = 1.0;
@@ -55,7 +55,7 @@ TEST(Tops, AfterTenAndAHundredFlipsWeAreNoWorseThanSimbody) {
     const double t = (flips - 0.5) * top.flip_time() + 3.0;
     const Vector3 exact = top.angular_velocity(t);
     const double ours = (spin_by_us(t, 0.0025) - exact).norm();
-    const double theirs = (spin_by_witness(t) - exact).norm();
+    const double theirs = (spin_by_simbody(t) - exact).norm();
     EXPECT_LT(ours, 1e-9) << flips;
     EXPECT_LE(ours, theirs) << flips;
   }
@@ -98,7 +98,7 @@ std::vector<Snapshot> run_on_a_ball() {
   mechanism.bodies = {body};
   mechanism.gravity_W = {0, 0, -kGravity};
   mechanism.watched = {{0, {}}};
-  std::vector<Landmark> marks;
+  std::vector<Breakpoint> marks;
   for (const double t : sample()) {
     if (t > 0.0) marks.push_back({t, false, true});
   }
@@ -109,10 +109,10 @@ std::vector<Snapshot> run_on_a_ball() {
 std::vector<dynamics::SystemState> run_on_a_spring(double stiffness,
                                                    double step) {
   dynamics::SystemBuilder builder;
-  const int body =
+  const auto body =
       builder.add_rigid_body("top", {kMass, Matrix3(kInertia.asDiagonal())});
-  const int pivot = builder.attach_world("pivot", {});
-  const int foot =
+  const auto pivot = builder.attach_world("pivot", {});
+  const auto foot =
       builder.attach_frame("foot", body, {Matrix3::Identity(), {0, 0, -kArm}});
   builder.add_coupler(
       "point",
@@ -188,7 +188,7 @@ double find_difference(const std::vector<dynamics::SystemState>& ours,
   return largest;
 }
 
-// The pivot gives way by m g / k: so does the motion, at first order.
+// The pivot deflects by m g / k, which changes the motion at first order.
 TEST(Tops, HeavyTopOnAStiffeningPointConvergesToSimbodysBall) {
   const std::vector<Snapshot> ball = run_on_a_ball();
   std::vector<double> difference;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/verification.hpp"
+#include "limber/reference/verification.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "reference/scene_mechanism.hpp"
+#include "limber/reference/scene_mechanism.hpp"
 #include "unit/reference/scene_folder.hpp"
 
 namespace limber::reference {
@@ -89,7 +89,7 @@ Snapshot start_of(const RigidScene& scene, JointModel joints) {
 
 // Merging, centres of mass, joint coordinates of every kind: by programs that
 // share no code.
-TEST(Witness, FindsOurInitialStateByItsOwnKinematics) {
+TEST(SimbodyReference, FindsOurInitialStateByItsOwnKinematics) {
   const RigidScene scene(make_zoo(kStiffness, 10.0),
                          make_zoo_scenario(0.1, 1e-4));
   for (const JointModel joints : {JointModel::bushings, JointModel::ideal}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/checkpoint_file.hpp"
+#include "limber/results/checkpoint_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <random>
 
-#include "common/archive.hpp"
-#include "common/errors.hpp"
-#include "dynamics/archives.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
 #include "small_run.hpp"
 #include "temporary_folder.hpp"
 

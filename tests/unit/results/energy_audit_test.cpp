@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/energy_audit.hpp"
+#include "limber/results/energy_audit.hpp"
 
 #include <gtest/gtest.h>
 

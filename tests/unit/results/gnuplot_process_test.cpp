@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/gnuplot_process.hpp"
+#include "limber/results/gnuplot_process.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -9,8 +9,8 @@
 
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 namespace limber::results {
@@ -34,7 +34,7 @@ TEST(Hdf5Handler, IsTheProgramsOwnAfterEveryCallOfOurs) {
   }
   std::ofstream(file) << "no HDF5";
   EXPECT_THROW((void)Hdf5File::open(file), InputError);
-  EXPECT_EQ(calls, 0);  // ours are told by exceptions
+  EXPECT_EQ(calls, 0);  // ours are reported by exceptions
   EXPECT_LT(H5Fopen("/no/such/file", H5F_ACC_RDONLY, H5P_DEFAULT), 0);
   EXPECT_EQ(calls, 1);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

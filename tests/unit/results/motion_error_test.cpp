@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/motion_error.hpp"
+#include "limber/results/motion_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::results {

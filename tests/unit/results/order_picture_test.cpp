@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/order_picture.hpp"
+#include "limber/results/order_picture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/pictures.hpp"
+#include "limber/results/pictures.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <ostream>
 #include <utility>
 
-#include "dynamics/system_builder.hpp"
-#include "results/gnuplot.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/results/gnuplot.hpp"
 #include "small_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -68,7 +68,7 @@ Size read_png_size(const std::filesystem::path& file) {
   return {number(16), number(20)};
 }
 
-// Draws into a new folder and looks at what is there.
+// Draws into a new folder and checks its content.
 template <typename Draw>
 Size draw_and_measure(const Draw& draw) {
   const TemporaryFolder folder;
@@ -142,7 +142,7 @@ TEST_F(Pictures, EnergyAndSceneOfARunArePngs) {
 
 TEST_F(Pictures, SceneOfRigidBodiesAloneIsAPng) {
   dynamics::SystemBuilder builder;
-  const int ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
+  const auto ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
   const dynamics::SystemModel free_ball = builder.build();
   expect_sensible(draw_and_measure([&](const auto& file) {
     return draw_scene(file, "ball", free_ball, {make_state(free_ball)});
@@ -278,8 +278,8 @@ TEST(PicturesWithoutGnuplot, SayWhatToInstallAndLeaveNothing) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-// More text than a pipe holds (64 KiB): writing it goes on after the shell
-// that found no gnuplot has ended.
+// More text than a pipe holds (64 KiB): writing continues after the shell
+// without gnuplot has ended.
 TEST(PicturesWithoutGnuplot, LargePictureDoesNotEndTheProgram) {
   const TemporaryFolder folder;
   const TemporaryFolder empty;
@@ -289,7 +289,7 @@ TEST(PicturesWithoutGnuplot, LargePictureDoesNotEndTheProgram) {
     EXPECT_THAT(draw_overlay(folder.path() / "p.png", "tip", {panel, panel}),
                 HasSubstr("gnuplot-nox"));
   }
-  // Nor is the signal kept back for later.
+  // Nor is the signal left pending.
   sigset_t pending;
   sigset_t blocked;
   ASSERT_EQ(sigpending(&pending), 0);

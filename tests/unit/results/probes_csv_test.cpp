@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/probes_csv.hpp"
+#include "limber/results/probes_csv.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #if __has_include(<hdf5.h>)
 #include <hdf5.h>
-#else  // where Debian keeps it, beside the parallel variants
+#else  // Debian's path, beside the parallel variants
 #include <hdf5/serial/hdf5.h>
 #endif
 

@@ -9,7 +9,7 @@
 
 namespace limber::results::test {
 
-/// A dataset as the HDF5 library itself tells it.
+/// A dataset as read by the HDF5 library directly.
 struct RawDataset {
   std::vector<std::uint64_t> shape;               ///< empty: a scalar
   std::vector<double> numbers;                    ///< row by row; if floating

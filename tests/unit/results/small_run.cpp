@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 namespace limber::results::test {
 namespace {
@@ -30,8 +30,8 @@ SmallRun make_system(const BodyNames& names) {
     return builder.add_flexible_body(name, testing::share(run.points[i]), level,
                                      {.ratios = {0.02}});
   };
-  const int arm = add(names.arm, 0, Fidelity::coupled);
-  const int hand = add(names.hand, 1, Fidelity::coupled);
+  const auto arm = add(names.arm, 0, Fidelity::coupled);
+  const auto hand = add(names.hand, 1, Fidelity::coupled);
   add(names.plate, 2, Fidelity::rigid);
   builder.add_rigid_body(names.ball, {2.0, Vector3(1, 2, 3).asDiagonal()});
   const auto wrist = testing::make_interface(run.points[0], 0, 8);

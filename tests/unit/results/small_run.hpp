@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/system_model.hpp"
-#include "results/history.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/results/history.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::results::test {

@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::results::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/trade_picture.hpp"
+#include "limber/results/trade_picture.hpp"
 
 #include <gmock/gmock.h>
 

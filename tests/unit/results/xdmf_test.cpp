@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "results/xdmf.hpp"
+#include "limber/results/xdmf.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "dynamics/system_builder.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "raw_hdf5.hpp"
 #include "small_run.hpp"
 #include "temporary_folder.hpp"

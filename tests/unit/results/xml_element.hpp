@@ -11,7 +11,7 @@ namespace limber::results::test {
 struct XmlElement {
   std::string tag;
   std::map<std::string, std::string> attributes;
-  std::string text;  ///< its own, children's left out
+  std::string text;  ///< its own, without its children's
   std::vector<XmlElement> children;
 };
 

@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "scene/scene.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/build/scene.hpp"
 
 /// Scenes of rigid links from text to motion.
 namespace limber::scene::test {

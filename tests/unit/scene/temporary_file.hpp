@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::scene::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/comparison_plan.hpp"
+#include "limber/app/compare/comparison_plan.hpp"
 
 #include <gmock/gmock.h>
 

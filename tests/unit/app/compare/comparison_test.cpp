@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/comparison.hpp"
+#include "limber/app/compare/comparison.hpp"
 
 #include <gmock/gmock.h>
 
-#include "app/comparison_selection.hpp"
+#include "limber/app/compare/comparison_selection.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::app {
@@ -22,7 +22,7 @@ ComparedRun make_run(double cost, double displacement, double deformation,
   };
   ComparedRun run;
   run.cost.online = cost;
-  run.choice.step = cost;  // tells runs apart
+  run.choice.step = cost;  // identifies runs
   results::SystemMotionError error;
   error.error = {field(displacement), field(rigid), field(deformation)};
   run.error = std::move(error);

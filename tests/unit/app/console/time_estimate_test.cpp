@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/time_estimate.hpp"
+#include "limber/app/console/time_estimate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Work that goes on evenly for `total` seconds, reported every 0.1 s until
-/// `end`: what was said of it.
+/// Announcement of work at a constant rate for `total` seconds, reported every
+/// 0.1 s until `end`.
 std::string follow(TimeEstimate& estimate, const std::string& what,
                    double total, double end, double begin = 0.0) {
   std::string said;
@@ -42,8 +42,7 @@ TEST(TimeEstimate, TellsEachWorkApart) {
               HasSubstr("about 2.0 h to go"));
 }
 
-// What a first part of the work does not tell of the rest: halfway in, the rate
-// counts from there.
+// The rate may change: after a restart it is measured from there.
 TEST(TimeEstimate, GoesByTheRateSinceTheWorkBegan) {
   TimeEstimate estimate;
   estimate.note("all 2 runs", 0.5, 100.0);
@@ -51,17 +50,17 @@ TEST(TimeEstimate, GoesByTheRateSinceTheWorkBegan) {
   estimate.note("all 2 runs", 0.6, 110.0);
   ASSERT_TRUE(estimate.left());
   EXPECT_NEAR(*estimate.left(), 40.0, 1e-9);
-  estimate.note("all 2 runs", 0.0, 120.0);  // begun anew
+  estimate.note("all 2 runs", 0.0, 120.0);  // restarted
   EXPECT_FALSE(estimate.left());
 }
 
-TEST(TimeEstimate, TellsOnceWhatWasForetoldAndNothingOfShortWork) {
+TEST(TimeEstimate, AnnouncesAStatedDurationOnceAndNothingForShortWork) {
   TimeEstimate estimate;
-  estimate.note(foretell("factorising", 59.0), 0.0, 1.0);
+  estimate.note(with_duration("factorising", 59.0), 0.0, 1.0);
   EXPECT_EQ(estimate.take_announcement(), "");
-  estimate.note(foretell("factorising", 300.0), 0.0, 1.0);
+  estimate.note(with_duration("factorising", 300.0), 0.0, 1.0);
   EXPECT_EQ(estimate.take_announcement(), "factorising, about 5 min");
-  estimate.note(foretell("factorising", 300.0), 0.0, 2.0);
+  estimate.note(with_duration("factorising", 300.0), 0.0, 2.0);
   EXPECT_EQ(estimate.take_announcement(), "");
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/describe.hpp"
+#include "limber/app/reports/describe.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "results/checkpoint_file.hpp"
+#include "limber/results/checkpoint_file.hpp"
 
 namespace limber::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/event_report.hpp"
+#include "limber/app/reports/event_report.hpp"
 
 #include <gmock/gmock.h>
 

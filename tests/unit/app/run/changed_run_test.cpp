@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever is changed in a scenario or its robot between a run and the run that
-// goes on from its checkpoint: it is another run and says so, or the change
-// changes no bit.
+// Any change of a scenario or its robot between a run and its resumption is
+// rejected as another run, or does not change the results in any bit.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cctype>
 
-#include "app/reducer.hpp"
-#include "app/run_manifest.hpp"
-#include "common/errors.hpp"
-#include "unit/app/changed_run_scene.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/run_manifest.hpp"
+#include "limber/common/errors.hpp"
+#include "unit/app/run/changed_run_scene.hpp"
 #include "unit/scene/scene_folder.hpp"
 
 namespace limber::app {
@@ -75,7 +74,7 @@ std::vector<Change> find_numbers(const std::string& text) {
   return changes;
 }
 
-/// Words that have others in their place.
+/// Replacements of words.
 std::vector<Change> find_words(const std::string& text) {
   const std::vector<std::pair<std::string, std::string>> pairs = {
       {"'true'", "'false'"},
@@ -147,7 +146,7 @@ class ChangedRun : public ::testing::Test {
     return numbers;
   }
 
-  /// @returns what is told, empty if the change changes nothing
+  /// @returns the message, empty if the change has no effect
   std::vector<std::string> expect_told(const Built& before, const Built& now,
                                        const std::string& what) {
     auto differences = find_differences(before.manifest, now.manifest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/append_file.hpp"
+#include "limber/common/files/append_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <csignal>
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "common/sealed_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/sealed_file.hpp"
 
 namespace limber {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/file_stamp.hpp"
+#include "limber/common/files/file_stamp.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -26,7 +26,7 @@ TEST_F(Stamp, OfContentHoldsUntilAByteChanges) {
   write_bytes(file(), "abc");
   const FileStamp stamp = stamp_content(file());
   EXPECT_TRUE(is_unchanged(stamp));
-  write_bytes(file(), "abc");  // written anew, but the same
+  write_bytes(file(), "abc");  // rewritten with the same content
   EXPECT_TRUE(is_unchanged(stamp));
   write_bytes(file(), "abd");
   EXPECT_FALSE(is_unchanged(stamp));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/folder_lock.hpp"
+#include "limber/common/files/folder_lock.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

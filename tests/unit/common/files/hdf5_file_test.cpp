@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/hdf5_file.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include <system_error>
 #include <vector>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/input_file.hpp"
+#include "limber/common/files/input_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "common/hdf5_file.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 #include "unit/flexbody/files.hpp"
 
 namespace limber {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/whole_file.hpp"
+#include "limber/common/files/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "common/errors.hpp"
-#include "common/unfinished_files.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/files/unfinished_files.hpp"
 
 namespace limber {
 namespace {
@@ -74,7 +74,7 @@ TEST_F(WholeFile, HasTheModeThatTheUserWants) {
 }
 
 // Of two writers none can be made to write to a place that somebody prepared.
-TEST_F(WholeFile, IsWrittenUnderNamesThatNobodyCanForesee) {
+TEST_F(WholeFile, IsWrittenUnderNamesThatCannotBePredicted) {
   std::set<std::string> names;
   for (int i = 0; i < 20; ++i) {
     write_whole(file_, [&](const fs::path& part) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/child_process.hpp"
+#include "limber/common/process/child_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <csignal>
 #include <thread>
 
-#include "common/errors.hpp"
-#include "common/landlock.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/process/landlock.hpp"
 #include "unit/flexbody/files.hpp"
 
 namespace limber {
@@ -30,18 +30,18 @@ ChildEnd run(const std::string& script, double seconds = 20.0) {
 TEST(ChildProcess, HandsBackReplyWordsAndStatus) {
   const ChildEnd end = run("echo to3 >&3; echo words; echo more >&2; exit 5");
   EXPECT_EQ(end.reply, "to3\n");
-  EXPECT_EQ(end.words, "words\nmore\n");
+  EXPECT_EQ(end.output, "words\nmore\n");
   EXPECT_EQ(end.exit_status, 5);
   EXPECT_EQ(end.signal, 0);
 }
 
 TEST(ChildProcess, SeesNothingOfOurs) {
-  // Its input ends at once; the environment is what was given.
+  // Its input is empty; its environment is the given one.
   const ChildEnd end = run("cat; /usr/bin/env; ls /proc/self/fd | wc -l");
-  EXPECT_THAT(end.words, HasSubstr("A=b\n"));
-  EXPECT_THAT(end.words, ::testing::Not(HasSubstr("HOME=")));
+  EXPECT_THAT(end.output, HasSubstr("A=b\n"));
+  EXPECT_THAT(end.output, ::testing::Not(HasSubstr("HOME=")));
   // 0 to 3, and that by which ls lists them.
-  EXPECT_THAT(end.words, ::testing::EndsWith("5\n"));
+  EXPECT_THAT(end.output, ::testing::EndsWith("5\n"));
 }
 
 TEST(ChildProcess, IsEndedWithItsWholeGroupWhenItsTimeIsOver) {
@@ -49,7 +49,7 @@ TEST(ChildProcess, IsEndedWithItsWholeGroupWhenItsTimeIsOver) {
   const ChildEnd end = run("sleep 100 & echo $!; sleep 100", 0.3);
   EXPECT_TRUE(end.is_out_of_time);
   EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
-  const int grandchild = std::stoi(end.words);
+  const int grandchild = std::stoi(end.output);
   for (int i = 0; i < 1000 && kill(grandchild, 0) == 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -62,7 +62,7 @@ TEST(ChildProcess, IsEndedWithItsWholeGroupWhenItsTimeIsOver) {
 TEST(ChildProcess, ThatTalksWithoutEndIsKeptShort) {
   const ChildEnd end = run("yes", 0.5);
   EXPECT_TRUE(end.is_out_of_time);
-  EXPECT_LT(end.words.size(), 100000U);
+  EXPECT_LT(end.output.size(), 100000U);
   const ChildEnd flood =
       run_child({"/bin/sh", {"-c", "yes >&3"}, {}, 20.0, 1ULL << 28});
   EXPECT_TRUE(flood.is_reply_too_long);
@@ -114,7 +114,7 @@ TEST(ChildProcess, DiesWithItsParent) {
     (void)run("sleep 100", 100.0);
     _exit(0);
   }
-  close(ends[1]);  // the child has it no more either: exec closed it
+  close(ends[1]);  // closed in the child, too, by exec
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const std::string children = "/proc/" + std::to_string(parent) + "/task/" +
                                std::to_string(parent) + "/children";

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/archive.hpp"
+#include "limber/common/records/archive.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "common/digest.hpp"
+#include "limber/common/records/digest.hpp"
 
 namespace limber {
 namespace {

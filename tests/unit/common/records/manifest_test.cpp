@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/manifest.hpp"
+#include "limber/common/records/manifest.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

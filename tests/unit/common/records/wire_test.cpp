@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/wire.hpp"
+#include "limber/common/records/wire.hpp"
 
 #include <gtest/gtest.h>
 

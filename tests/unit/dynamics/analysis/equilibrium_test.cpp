@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/equilibrium.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,12 +7,12 @@
 #include <functional>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
@@ -95,7 +95,7 @@ TEST(Equilibrium, OfAPendulumOnATorsionSpringIsTheClosedForm) {
     const double expected = bisect(-1.5, 0.0, [k](double angle) {
       return k * angle + 2.0 * kGravity * std::cos(angle);
     });
-    // The hinge itself gives way by its force over its stiffness.
+    // The hinge deflects by its force over its stiffness.
     EXPECT_NEAR(angle_of(found.state), expected, 1e-9 + 40.0 / stiffness);
     EXPECT_GE(found.load_steps, 1);
   }
@@ -132,8 +132,8 @@ TEST(Equilibrium, OfAFreePendulumIsFoundByRelaxation) {
   EXPECT_EQ(found.state.t, pendulum.state.t);
 }
 
-// Two springs of length 1 m at rest span 2 a and meet in a ball that is pushed
-// down from their apex: f = 2 k (1 - 1 / s) h with s = sqrt(a^2 + h^2).
+// Two springs of length 1 m at rest span 2 a and meet in a ball that is loaded
+// downwards from their apex: f = 2 k (1 - 1 / s) h with s = sqrt(a^2 + h^2).
 struct Truss {
   static constexpr double kHalfSpan = 0.9;
   static constexpr double kStiffness = 1e4;
@@ -150,7 +150,7 @@ struct Truss {
                                            Vector3(side * kHalfSpan, 0, 0)}),
           center);
     }
-    // Keeps the ball in the plane, and from turning.
+    // Keeps the ball in the plane, without rotation.
     joints::Bushing::Parameters guide;
     guide.translational_stiffness = Vector3(0, 1e3, 0).asDiagonal();
     guide.rotational_stiffness = 1e2 * Matrix3::Identity();

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "dynamics/equilibrium.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/lattice_chain.hpp"
 
 /// Equilibria of a body at level `full` that nothing but a joint holds.
@@ -35,7 +35,7 @@ struct HeldLattice {
     return find_tip(find_equilibrium(model, start, settings).state) -
            find_tip(start);
   }
-  int tip = 0;
+  AttachmentIndex tip;
   SystemModel model;
   SystemState start;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/level_advice.hpp"
+#include "limber/dynamics/analysis/level_advice.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "support/chain.hpp"
 
 namespace limber::dynamics {
@@ -53,7 +53,7 @@ TEST(DisplacementMeasure, IsTheLargestNodesOfItsOwnBody) {
               largest, kRoundoff * largest);
 }
 
-// A body that bends takes what it carries with its interface's rotation.
+// A flexible body moves the bodies that it carries by its interface's rotation.
 TEST(DisplacementMeasure, GrowsWithWhatTheBodyCarries) {
   const SystemModel model = make_chain_model(2);
   std::vector<double> reaches = find_reaches(model);
@@ -65,13 +65,14 @@ TEST(DisplacementMeasure, GrowsWithWhatTheBodyCarries) {
   const double own =
       DisplacementMeasure(model.bodies[0]).calc_displacement(eta);
   ASSERT_GT(carried, own);
-  EXPECT_NEAR(DisplacementMeasure(model, 0, reaches).calc_displacement(eta),
-              carried, kRoundoff * carried);
+  EXPECT_NEAR(
+      DisplacementMeasure(model, BodyIndex(0), reaches).calc_displacement(eta),
+      carried, kRoundoff * carried);
 }
 
 TEST(PeakDisplacement, PassesOverNoneThatIsAThousandthLarger) {
   const SystemModel model = make_chain_model(3);
-  const DisplacementMeasure measure(model, 1, find_reaches(model));
+  const DisplacementMeasure measure(model, BodyIndex(1), find_reaches(model));
   PeakDisplacement peak(measure);
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -196,7 +197,7 @@ TEST(LevelAdvice, KnowsTheEndOfTheLinearRange) {
   EXPECT_FALSE(is_beyond(1.01 * u));
 }
 
-// Nothing turns it, whatever the loads do.
+// No load rotates it.
 TEST(LevelAdvice, OfAClampedBodyIsAtMostUncoupled) {
   SystemModel model = make_chain_model(1);
   auto clamped =

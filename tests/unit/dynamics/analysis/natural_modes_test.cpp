@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/rotation.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/equilibrium.hpp"
-#include "dynamics/natural_frequencies.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/linked_bodies.hpp"
 
 namespace limber::dynamics {

@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/equations.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "support/draw_vector.hpp"
 #include "support/linked_bodies.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/coupler_motion.hpp"
+#include "limber/dynamics/equations/coupler_motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/rotation.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -60,10 +60,10 @@ TEST(CouplerMotion, EnergiesSumToThoseOfTheBalance) {
   const SystemModel model = make_model();
   const SystemState state = make_moved(model);
   double energy = 0.0;
-  for (int c = 0; c < std::ssize(model.couplers); ++c) {
+  for (CouplerIndex c(0); c < std::ssize(model.couplers); ++c) {
     energy += evaluate_coupler(model, state, c).response.energy;
   }
-  for (int t = 0; t < std::ssize(model.transmissions); ++t) {
+  for (TransmissionIndex t(0); t < std::ssize(model.transmissions); ++t) {
     energy += evaluate_transmission(model, state, t).response.energy;
   }
   EXPECT_GT(energy, 100.0);
@@ -77,11 +77,13 @@ TEST(CouplerMotion, EffortIsTheMomentAboutTheAxis) {
   const double z = 0.5 + 4.0 * EIGEN_PI;
   state.bodies[0].quat_WB = Quaternion(exp_rotation(Vector3(0.0, 0.0, 0.5)));
   state.memory[0].near[0] = 12.0;
-  const CoordinateReading along = evaluate_coordinate(model, state, 0, 0);
+  const CoordinateReading along =
+      evaluate_coordinate(model, state, CouplerIndex(0), 0);
   EXPECT_NEAR(along.motion.z, z, 1e-12);
   EXPECT_NEAR(along.response.force, -7.0 * z - 11.0 * (z - 0.9), 1e-10);
-  EXPECT_NEAR(evaluate_coupler(model, state, 0).response.wrench[5],
-              along.response.force, 1e-12 * std::abs(along.response.force));
+  EXPECT_NEAR(
+      evaluate_coupler(model, state, CouplerIndex(0)).response.wrench[5],
+      along.response.force, 1e-12 * std::abs(along.response.force));
 }
 
 TEST(CouplerMotion, TransmissionsMeasureLengthsAndSumsOfCoordinates) {
@@ -91,12 +93,14 @@ TEST(CouplerMotion, TransmissionsMeasureLengthsAndSumsOfCoordinates) {
   state.bodies[0].v_WB_W = Vector3(0.6, 0.8, 0.0);
   state.bodies[0].quat_WB = Quaternion(exp_rotation(Vector3(0.0, 0.0, 0.5)));
   state.bodies[1].p_WB = Vector3(6.0, 8.0, 0.0);
-  const CoordinateReading tendon = evaluate_transmission(model, state, 0);
+  const CoordinateReading tendon =
+      evaluate_transmission(model, state, TransmissionIndex(0));
   EXPECT_NEAR(tendon.motion.z, 10.0, 1e-12);
   EXPECT_NEAR(tendon.motion.rate, 0.0, 1e-12);  // along a straight line
   EXPECT_NEAR(tendon.response.force, -50.0, 1e-11);
-  EXPECT_NEAR(evaluate_transmission(model, state, 1).motion.z, 1.5 - 0.2,
-              1e-12);
+  EXPECT_NEAR(
+      evaluate_transmission(model, state, TransmissionIndex(1)).motion.z,
+      1.5 - 0.2, 1e-12);
 }
 
 }  // namespace

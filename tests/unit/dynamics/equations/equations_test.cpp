@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The equations of motion against Lagrange's, taken by differences from the
 // kinetic energy of the point masses themselves.
-#include "dynamics/equations.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
@@ -141,7 +141,7 @@ TEST(Equations, OfACoupledBodyAreDAlembertsOnItsMasses) {
     modal += phi.transpose() * (R.transpose() * inertial);
     scale += inertial.norm();
   }
-  modal += VectorX(model.bodies[0].lambda.array() * state.eta.array());
+  modal += VectorX(body.reduced.lambda.array() * state.eta.array());
   constexpr double kDifferences = 1e-8;
   EXPECT_LT(force.norm(), kDifferences * scale);
   EXPECT_LT(moment.norm(), kDifferences * scale);
@@ -201,9 +201,9 @@ TEST(Equations, RigidLevelFollowsEuler) {
 TEST(Equations, CouplersExertNoNetForceOrMoment) {
   const PointMassBody body = make_point_mass_body(30, kModes, 5.0, 2.0, 9.0, 7);
   SystemBuilder builder;
-  std::vector<int> ends;
+  std::vector<AttachmentIndex> ends;
   for (int i = 0; i < 2; ++i) {
-    const int b = builder.add_flexible_body(
+    const auto b = builder.add_flexible_body(
         "b" + std::to_string(i), testing::share(body), Fidelity::coupled, {});
     const auto interface = testing::make_interface(body, 5 * i, 5 * i + 6);
     ends.push_back(builder.attach_interface(

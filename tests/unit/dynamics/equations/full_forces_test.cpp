@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/equations.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/full_lattice.hpp"
 
 /// Energies, momenta and forces of one body at level `full`, a network of
@@ -119,8 +119,8 @@ TEST(FullLoad, TurnsWithTheBodyOrStaysInTheWorld) {
     for (const LoadFrame frame : {LoadFrame::body, LoadFrame::world}) {
       Lattice lattice;
       const Vector3 origin(0.02, 0.01, 0.2);
-      const int place = lattice.builder.attach_nodes(
-          name, 0, find_node_set(*lattice.full, name),
+      const auto place = lattice.builder.attach_nodes(
+          name, BodyIndex(0), find_node_set(*lattice.full, name),
           {exp_rotation(Vector3(1, 0, 0)), origin});
       const Vector3 force(1.0, -2.0, 3.0);
       const Vector3 moment(0.3, 0.1, -0.2);
@@ -150,8 +150,8 @@ TEST(FullLoad, OfNodesTurnsWithTheBodyAndDoesItsWork) {
   Lattice lattice;
   const VectorX pattern = make_field(3 * lattice.network.size(), 1.0, 4);
   lattice.builder.add_nodal_load(
-      "nodal", 0, flexbody::reduce_nodal_load(*lattice.reduced, {0.0}, pattern),
-      pattern);
+      "nodal", BodyIndex(0),
+      flexbody::reduce_nodal_load(*lattice.reduced, {0.0}, pattern), pattern);
   const SystemModel model = lattice.builder.build();
   const SystemState state = stir(model);
   const SystemTerms terms = find_terms(model, state);

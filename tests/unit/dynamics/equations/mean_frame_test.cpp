@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/mean_frame.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/node_motion.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/full_lattice.hpp"
 
 namespace limber::dynamics {
@@ -116,7 +116,7 @@ TEST(MeanFrame, OfADeformationInTheModesIsTheUndeformedOne) {
   EXPECT_LT((state.bodies[0].p_WB - before.p_WB).norm(), 1e-14);
   EXPECT_LT((state.bodies[0].v_WB_W - before.v_WB_W).norm(), 1e-13);
   MatrixX u_B(Phi.rows(), 1);
-  calc_node_deformations(model, 0, {&state, 1}, u_B);
+  calc_node_deformations(model, BodyIndex(0), {&state, 1}, u_B);
   EXPECT_LT((u_B - Phi * eta).norm(), 1e-14);
   // A reduced body spins about the same axes: H etadot is not in w.
   const VectorX back = Phi.transpose() * make_lattice().mass() * u_B.col(0);
@@ -146,7 +146,7 @@ TEST(MeanFrame, OfAClampedBodyRests) {
   EXPECT_LT((state.bodies[0].p_WB - Vector3(1, 2, 3)).norm(), 1e-15);
   EXPECT_EQ(state.bodies[0].w_WB_B, Vector3::Zero());
   MatrixX u_B(Phi.rows(), 1);
-  calc_node_deformations(model, 0, {&state, 1}, u_B);
+  calc_node_deformations(model, BodyIndex(0), {&state, 1}, u_B);
   EXPECT_LT((u_B.col(0) - state.u_H).norm(), 1e-15);
 }
 

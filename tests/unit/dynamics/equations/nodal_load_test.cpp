@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/nodal_load.hpp"
+#include "limber/flexbody/model/nodal_load.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/errors.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
@@ -31,12 +32,12 @@ class NodalLoad : public ::testing::Test {
   [[nodiscard]] SystemState run(Fidelity fidelity, bool as_nodes,
                                 EnergyBalance& last) const {
     SystemBuilder builder;
-    const int b = builder.add_flexible_body("b", share(body_), fidelity, {});
+    const auto b = builder.add_flexible_body("b", share(body_), fidelity, {});
     if (as_nodes) {
       builder.add_nodal_load("f", b, nodal());
     } else {
       const auto table = make_interface(body_, 0, kNodes);
-      const int where = builder.attach_interface(
+      const auto where = builder.attach_interface(
           "i", b, table, {Matrix3::Identity(), table.p_B});
       builder.add_load("f", where, force_, Vector3::Zero(), LoadFrame::body,
                        Pulse{PulseShape::rectangular, 0.0, 0.01});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/node_motion.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/errors.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
@@ -81,7 +81,7 @@ class NodeMotion : public ::testing::Test {
 };
 
 TEST_F(NodeMotion, OfManyStatesIsThatOfEachNodeByItself) {
-  for (const BodyIndex body : {1, 2, 3}) {
+  for (const BodyIndex body : {BodyIndex(1), BodyIndex(2), BodyIndex(3)}) {
     MatrixX answer = make_answer();
     calc_node_deformations(model_, body, states_, answer);
     expect(answer, [&](std::size_t j, Eigen::Index n) {
@@ -98,19 +98,22 @@ TEST_F(NodeMotion, DisplacementIsFromTheUndeformedBodyAtItsStart) {
   const Pose start{states_[5].bodies[1].quat_WB.toRotationMatrix(),
                    states_[5].bodies[1].p_WB};
   MatrixX answer = make_answer();
-  calc_node_displacements(model_, 1, states_, start, answer);
+  calc_node_displacements(model_, BodyIndex(1), states_, start, answer);
   expect(answer, [&](std::size_t j, Eigen::Index n) {
-    return Vector3(position(j, 1, n) -
+    return Vector3(position(j, BodyIndex(1), n) -
                    start * Vector3(body_.reduced.rows.x_B.col(n)));
   });
 }
 
 TEST_F(NodeMotion, RefusesABodyWithoutNodesAndAnswersOfOtherSizes) {
   MatrixX answer = make_answer();
-  EXPECT_THROW(calc_node_positions(model_, 0, states_, answer), ContractError);
-  EXPECT_THROW(calc_node_positions(model_, 9, states_, answer), ContractError);
+  EXPECT_THROW(calc_node_positions(model_, BodyIndex(0), states_, answer),
+               ContractError);
+  EXPECT_THROW(calc_node_positions(model_, BodyIndex(9), states_, answer),
+               ContractError);
   MatrixX narrow = answer.leftCols(3);
-  EXPECT_THROW(calc_node_positions(model_, 1, states_, narrow), ContractError);
+  EXPECT_THROW(calc_node_positions(model_, BodyIndex(1), states_, narrow),
+               ContractError);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tendons, gears and driven joints against closed forms.
-#include "dynamics/transmission.hpp"
+#include "limber/dynamics/equations/transmission.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "support/sliding_masses.hpp"
 
 namespace limber::dynamics {
@@ -42,7 +42,7 @@ ScalarSpring make_spring(double stiffness, double damping, double rest) {
 }
 
 TEST(Tendon, ThroughAMovingPulleyPullsItTwice) {
-  // Ground, pulley, ground: the pulley feels twice the tension.
+  // Ground, pulley, ground: the pulley carries twice the tension.
   SystemBuilder builder;
   const Mass pulley = add_mass(builder, "pulley", 4.0);
   add_rail(builder, pulley, "rail");
@@ -81,7 +81,7 @@ TEST(Tendon, ThatIsStiffTiesTwoMassesOverAPost) {
       model, state, {.end_time = 2.0, .step = 1e-2, .output_times = {}});
   EXPECT_NEAR(r.state.bodies[1].p_WB.x(), 2.0, 1e-6);
   EXPECT_NEAR(r.state.bodies[0].p_WB.x(), 3.0, 1e-6);
-  // Newton's method takes no more for stiffness.
+  // Newton's iterations do not increase with stiffness.
   EXPECT_LT(static_cast<double>(r.statistics.newton_iterations) /
                 static_cast<double>(r.statistics.steps),
             4.0);

@@ -3,10 +3,10 @@
 // worth of malloc of its own; not built under sanitizers, which replace it too.
 #include <gtest/gtest.h>
 
-#include "dynamics/energy_conserving.hpp"
-#include "dynamics/generalized_alpha.hpp"
-#include "dynamics/runge_kutta.hpp"
-#include "dynamics/splitting.hpp"
+#include "limber/dynamics/integrators/energy_conserving.hpp"
+#include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/integrators/runge_kutta.hpp"
+#include "limber/dynamics/integrators/splitting.hpp"
 #include "support/chain.hpp"
 
 extern "C" {

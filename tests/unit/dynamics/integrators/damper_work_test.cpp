@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/damper_work.hpp"
+#include "limber/dynamics/integrators/damper_work.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "dynamics/equations.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
@@ -87,8 +88,8 @@ TEST(DamperWork, IsThatOfTheMeanForceAlongThePath) {
 TEST(DamperWork, OfStiffDampersOnTurningBodiesIsNoMoreThanTheyTake) {
   SystemBuilder builder;
   const Matrix3 J = Vector3(1.0, 2.0, 2.5).asDiagonal();
-  const int a = builder.add_rigid_body("a", {1.0, J});
-  const int b = builder.add_rigid_body("b", {2.0, 0.5 * J});
+  const auto a = builder.add_rigid_body("a", {1.0, J});
+  const auto b = builder.add_rigid_body("b", {2.0, 0.5 * J});
   builder.add_coupler(
       "weld",
       joints::make_joint_bushing(joints::JointKind::fixed, Vector3::UnitX(),

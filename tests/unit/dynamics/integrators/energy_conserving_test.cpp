@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/energy_conserving.hpp"
+#include "limber/dynamics/integrators/energy_conserving.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/cayley.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/newton/cayley.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/free_chain.hpp"
 #include "support/linked_bodies.hpp"
@@ -186,8 +187,8 @@ TEST(EnergyConserving, ConvergesOnATopThatTurnsByRadiansAStep) {
   }
 }
 
-// A turn that runs away is hardly any of the rotation: it must not be taken for
-// convergence.
+// A diverging rotation increment hardly changes the rotation, which must not be
+// mistaken for convergence.
 TEST(EnergyConserving, KeepsEnergyInEveryStepThatItCallsASuccess) {
   int successes = 0;
   for (const double stiffness : {1e3, 1e6, 1e9}) {
@@ -202,7 +203,7 @@ TEST(EnergyConserving, KeepsEnergyInEveryStepThatItCallsASuccess) {
           ++successes;
         }
       } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
-        // A refusal is no wrong answer.
+        // An error is acceptable, a wrong result is not.
       }
       EXPECT_NEAR(calc_energy(chain.model, state).total(), energy,
                   1e-8 * energy)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/exact_modes.hpp"
+#include "limber/dynamics/integrators/exact_modes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "dynamics/modal_loads.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/integrators/modal_loads.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
@@ -50,8 +50,8 @@ struct Scene {
   flexbody::InterfaceTable table;
   SystemBuilder builder;
   int loads = 0;
-  BodyIndex body = 0;
-  AttachmentIndex tip = 0;
+  BodyIndex body;
+  AttachmentIndex tip;
   Vector3 force{30.0, -20.0, 50.0};
   Vector3 moment{2.0, 7.0, -3.0};
 };
@@ -120,7 +120,7 @@ TEST(ExactModes, GravityOnAClampedBodyMakesItSwingAboutItsSag) {
               1e-13 * std::abs(F[0]) / 2500.0);
 }
 
-// Fine Runge-Kutta steps of the same equations are the other answer.
+// Compared with fine Runge-Kutta steps of the same equations.
 TEST(ExactModes, SpinningFreeBodyUnderEveryClosedLoadIsTheLimitOfSmallSteps) {
   Scene scene(make_body(4, false), Fidelity::uncoupled,
               {.rayleigh_mass = 0.8, .ratios = {0.01}});
@@ -192,9 +192,9 @@ TEST(ExactModes, LeaveTheBodiesThatNeedStepsAlone) {
   testing::Chain without = testing::make_chain({.bodies = 3});
   const PointMassBody points = make_body(2, false);
   const auto table = make_interface(points, 0, 6);
-  const int extra = with.builder.add_flexible_body("extra", share(points),
-                                                   Fidelity::uncoupled, {});
-  const int tip = with.builder.attach_interface(
+  const auto extra = with.builder.add_flexible_body("extra", share(points),
+                                                    Fidelity::uncoupled, {});
+  const auto tip = with.builder.attach_interface(
       "tip", extra, table, {Matrix3::Identity(), table.p_B});
   with.builder.add_load("push", tip, {1.0, 2.0, 3.0}, Vector3::Zero(),
                         LoadFrame::body, Constant{});
@@ -250,7 +250,7 @@ TEST(ExactModes, AreNotUsedWhereALoadDependsOnTheMotion) {
     EXPECT_FALSE(is_exact(sloped));
   }
   Scene tied(points);
-  const int wall = tied.builder.attach_world("wall", {});
+  const auto wall = tied.builder.attach_world("wall", {});
   tied.builder.add_coupler(
       "spring",
       joints::make_joint_bushing(joints::JointKind::fixed, Vector3::UnitX(),
@@ -266,9 +266,9 @@ TEST(ExactModes, AreThereAtTheLastGoodTimeAfterTheRestBlewUp) {
   testing::Chain chain = testing::make_chain({.bodies = 2, .stiffness = 1e16});
   const PointMassBody points = make_body(1, true);
   const auto table = make_interface(points, 0, 6);
-  const int extra = chain.builder.add_flexible_body("held", share(points),
-                                                    Fidelity::uncoupled, {});
-  const int tip = chain.builder.attach_interface(
+  const auto extra = chain.builder.add_flexible_body("held", share(points),
+                                                     Fidelity::uncoupled, {});
+  const auto tip = chain.builder.attach_interface(
       "tip", extra, table, {Matrix3::Identity(), table.p_B});
   chain.builder.add_load("push", tip, {1.0, 2.0, 3.0}, Vector3::Zero(),
                          LoadFrame::body, Constant{});

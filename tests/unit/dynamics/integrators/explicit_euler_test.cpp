@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/explicit_euler.hpp"
+#include "limber/dynamics/integrators/explicit_euler.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
@@ -48,7 +48,7 @@ TEST(ExplicitEuler, AsymmetricTopConvergesAtFirstOrderToTheClosedForm) {
 TEST(ExplicitEuler, IsExactForModesUnderAConstantLoad) {
   const auto body = make_point_mass_body(12, 3, 5.0, 1.0, 50.0, 4);
   SystemBuilder builder;
-  const int b =
+  const auto b =
       builder.add_flexible_body("b", share(body), Fidelity::uncoupled, {});
   MatrixX forces = MatrixX::Zero(36, 1);
   forces(5, 0) = 700.0;
@@ -67,7 +67,7 @@ TEST(ExplicitEuler, IsExactForModesUnderAConstantLoad) {
   }
 }
 
-// Constant force: p = F t^2 / (2 m), whatever the step.
+// Constant force: p = F t^2 / (2 m), for any step.
 TEST(ExplicitEuler, IsExactForTranslationUnderAConstantForce) {
   SystemBuilder builder;
   builder.add_rigid_body("b", {4.0, Matrix3::Identity()});

@@ -9,8 +9,8 @@
 #include <ostream>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 
 /// Heavy symmetric tops by our integrators against elliptic functions.
 namespace limber::dynamics {
@@ -27,9 +27,9 @@ constexpr double kTilt = 0.5;     // [rad]
 /// fixed point does, whose inertia I1 is about that point.
 SystemModel make_top() {
   SystemBuilder builder;
-  const int body = builder.add_rigid_body(
+  const auto body = builder.add_rigid_body(
       "top", {1.0, Matrix3(Vector3(kI1, kI1, kI3).asDiagonal())});
-  const int where =
+  const auto where =
       builder.attach_frame("load", body, {Matrix3::Identity(), {0, 0, kArm}});
   builder.add_load("weight", where, {0, 0, -kWeight}, Vector3::Zero(),
                    LoadFrame::world, Constant{});
@@ -123,7 +123,7 @@ struct Scheme {
 };
 
 void PrintTo(const Scheme& scheme, std::ostream* out) {
-  *out << integrator_names()[static_cast<std::size_t>(scheme.kind)];
+  *out << to_string(scheme.kind);
 }
 
 class HeavyTopScheme : public ::testing::TestWithParam<Scheme> {};

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 using testing::Chain;
+using testing::make_loaded_chain;
 
 /// Distances of two states, each over all bodies.
 struct Distance {
@@ -75,26 +76,11 @@ struct Problem {
   }
 };
 
-/// Three flexible bodies on hinges, under gravity and a load that swings with
-/// the last one.
-Chain make_loaded_chain(double stiffness, double damping, double phase) {
-  Chain chain = testing::make_chain({.bodies = 3,
-                                     .modes = 4,
-                                     .stiffness = stiffness,
-                                     .damping = damping,
-                                     .joint = joints::JointKind::revolute,
-                                     .lowest = 20.0});
-  chain.builder.set_gravity({0, 0, -2});
-  chain.builder.add_load("push", chain.last_interfaces.back(), {0, 8, 1},
-                         {0.5, 0, 0.2}, LoadFrame::body,
-                         Sinusoid{.frequency = 1.0, .phase = phase});
-  return chain;
-}
-
 // --- A smooth problem -------------------------------------------------------
 
 Problem make_smooth() {
-  const Chain chain = make_loaded_chain(2e3, 2.0, 0.4);
+  const Chain chain =
+      make_loaded_chain(2e3, 2.0, Sinusoid{.frequency = 1.0, .phase = 0.4});
   Problem problem{chain.builder.build(), chain.state};
   const Vector3 w(1.0, 0.4, 0.3);
   for (BodyState& body : problem.start.bodies) {
@@ -114,12 +100,11 @@ struct Scheme {
 };
 
 void PrintTo(const Scheme& scheme, std::ostream* out) {
-  *out << integrator_names()[static_cast<std::size_t>(scheme.kind)];
+  *out << to_string(scheme.kind);
 }
 
 std::string name_of(const ::testing::TestParamInfo<Scheme>& info) {
-  std::string name =
-      integrator_names()[static_cast<std::size_t>(info.param.kind)];
+  std::string name = to_string(info.param.kind);
   std::erase(name, '-');
   return name;
 }
@@ -131,6 +116,7 @@ TEST_P(IntegratorOrder, IsMetByRotationTranslationAndModes) {
   const SystemState reference =
       problem.run(IntegratorKind::runge_kutta_4, 1e-4);
   const Orders& expected = GetParam().orders;
+  EXPECT_EQ(traits_of(GetParam().kind).order, expected.rotation);
   for (const Orders& found :
        problem.find_orders_of(GetParam().kind, GetParam().step, reference)) {
     EXPECT_NEAR(found.rotation, expected.rotation, 0.2);
@@ -156,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
 // From unstrained hinges and velocities that do not strain them, so that slow
 // motion alone is called for.
 Problem make_stiff(double stiffness) {
-  const Chain chain = make_loaded_chain(stiffness, 0.0, 0.0);
+  const Chain chain =
+      make_loaded_chain(stiffness, 0.0, Sinusoid{.frequency = 1.0});
   Problem problem{chain.builder.build(), chain.state, 0.9};
   std::vector<BodyState>& bodies = problem.start.bodies;
   bodies[0].w_WB_B = Vector3(1.0, 0.4, 0.3);
@@ -179,7 +166,7 @@ class StiffHinges : public ::testing::TestWithParam<double> {};
 TEST_P(StiffHinges, CostNoImplicitSchemeItsOrderInSlowMotion) {
   const Problem problem = make_stiff(GetParam());
   const joints::RelativeMotion first =
-      find_relative_motion(problem.model, problem.start, 1);
+      find_relative_motion(problem.model, problem.start, CouplerIndex(1));
   ASSERT_LT(first.p_FM_F.norm() + first.v_FM_F.norm(), 1e-12);
   const SystemState reference =
       problem.run(IntegratorKind::generalized_alpha, 1e-4);

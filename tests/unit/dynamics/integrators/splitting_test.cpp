@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/splitting.hpp"
+#include "limber/dynamics/integrators/splitting.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/stable_step.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "common/errors.hpp"
-#include "dynamics/central_differences.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/point_spring.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/integrators/central_differences.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/point_spring.hpp"
 #include "support/point_mass_body.hpp"
 #include "support/spring_network.hpp"
 
@@ -22,8 +22,8 @@ constexpr double kReducedMass = 2.0 * 5.0 / (2.0 + 5.0);  // [kg]
 /// Two rigid bodies and a spring of no length with a damper along all axes.
 SystemModel make_pair_of_masses(double stiffness, double damping) {
   SystemBuilder builder;
-  const int a = builder.add_rigid_body("a", {2.0, Matrix3::Identity()});
-  const int b = builder.add_rigid_body("b", {5.0, Matrix3::Identity()});
+  const auto a = builder.add_rigid_body("a", {2.0, Matrix3::Identity()});
+  const auto b = builder.add_rigid_body("b", {5.0, Matrix3::Identity()});
   builder.add_coupler(
       "spring",
       joints::PointSpring({.stiffness = stiffness, .damping = damping}),
@@ -41,7 +41,7 @@ bool is_stable(const SystemModel& model, double step) {
   state.bodies[0].p_WB = Vector3(1e-3, 0, 0);
   state.bodies[0].v_WB_W = Vector3(1e-3, 0, 0);
   CentralDifferences scheme(model);
-  scheme.start(state);
+  scheme.start(state, step);
   for (int i = 1; i <= 1000; ++i) scheme.step(state, step, i * step);
   return (state.bodies[0].p_WB - state.bodies[1].p_WB).norm() < 1.0;
 }

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/rotation.hpp"
-#include "dynamics/generalized_alpha.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
@@ -34,7 +34,7 @@ joints::Joint make_stiff_joint(JointKind kind, double stiffness,
 // A body whose joint in the world is at `arm` of it.
 SystemBuilder hang(const joints::Joint& joint, const Vector3& arm) {
   SystemBuilder builder;
-  const int b =
+  const auto b =
       builder.add_rigid_body("body", {2.0, 0.3 * Matrix3::Identity()});
   builder.add_coupler(
       "joint", joint,
@@ -80,7 +80,8 @@ TEST(StiffJoint, LeavesAFreeMotionItsVelocity) {
   }
 }
 
-// Angle that is left when a pendulum, let go at 1 rad, should hang straight.
+// Remaining angle of a pendulum, released at 1 rad, when it should hang
+// straight.
 double find_angle_at_quarter_period(double stiffness, double damping,
                                     int steps) {
   constexpr double kArm = 0.5;
@@ -140,12 +141,12 @@ Chain make_spinning_chain(double stiffness, double damping, double spin) {
   const joints::Joint hinge =
       make_stiff_joint(JointKind::revolute, stiffness, damping);
   SystemBuilder builder;
-  int last = -1;
+  AttachmentIndex last;
   for (int i = 0; i < 3; ++i) {
-    const int b = builder.add_flexible_body("link" + std::to_string(i), reduced,
-                                            Fidelity::coupled, {});
-    const int root = builder.attach_interface("root", b, near,
-                                              {Matrix3::Identity(), near.p_B});
+    const auto b = builder.add_flexible_body("link" + std::to_string(i),
+                                             reduced, Fidelity::coupled, {});
+    const auto root = builder.attach_interface("root", b, near,
+                                               {Matrix3::Identity(), near.p_B});
     if (i > 0) {
       builder.add_coupler("hinge" + std::to_string(i), hinge, last, root);
     }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/top_drift.hpp"
 
 /// Free tops over ten million steps.
@@ -32,10 +32,10 @@ Drift find_drift(const Vector3& inertia, IntegratorKind kind, double rate) {
   return testing::find_drift(model, state, settings, 1000);
 }
 
-// Of a motion at rate w Runge-Kutta keeps |R(i w h)|^2 = 1 - (w h)^6 / 72 a
-// step; w in the body is no faster than the spin for these inertias. The
-// direction of the momentum is wrong by the local error, (w h)^5 / 120 a step.
-// Steps are summed with their round-off, so none adds up.
+// For a motion at rate w the energy factor of Runge-Kutta is |R(i w h)|^2 = 1 -
+// (w h)^6 / 72 a step; w in the body is at most the spin for these inertias.
+// The error of the momentum's direction is the local error, (w h)^5 / 120 a
+// step. Compensated summation prevents accumulation of round-off.
 TEST(TenMillionSteps, OfRungeKuttaLoseWhatItsOrderSaysAndNoMore) {
   struct Top {
     Vector3 inertia;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <ostream>
 
-#include "dynamics/runge_kutta.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/dynamics/integrators/runge_kutta.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/free_top.hpp"
 #include "support/top_drift.hpp"
 
@@ -97,7 +97,7 @@ TEST(RungeKutta4, TopMeetsTheClosedFormTo1e9AfterAHundredFlips) {
   EXPECT_EQ(compared, 7);
 }
 
-// A caller who moves the body starts a new sum; one who does not goes on.
+// Moving the body restarts the compensated sum; otherwise it continues.
 TEST(RungeKutta4, CarriesRoundOffOnlyForTheStateThatItLeft) {
   const SystemModel model = make_body({1, 2, 3});
   RungeKutta4 used(model);
@@ -118,7 +118,7 @@ struct Scheme {
 };
 
 void PrintTo(const Scheme& scheme, std::ostream* out) {
-  *out << integrator_names()[static_cast<std::size_t>(scheme.kind)];
+  *out << to_string(scheme.kind);
 }
 
 class TopScheme : public ::testing::TestWithParam<Scheme> {};
@@ -209,8 +209,8 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(static_cast<int>(std::get<1>(test.param).kind));
     });
 
-// Both are quadratic forms that the scheme's equations keep; what is left is
-// round-off, which a step of an arithmetic mean does not add up.
+// Both are quadratic invariants of the scheme; the rest is round-off, which
+// does not accumulate.
 TEST(EnergyConserving, KeepsATopsEnergyAndMomentumToRoundOffAtAnyTurn) {
   for (const double angle : {1e-4, 0.02, 0.5}) {
     const Drift drift =

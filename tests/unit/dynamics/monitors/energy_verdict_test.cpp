@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said of energy that runs make or lose.
-#include "dynamics/energy_verdict.hpp"
+// Warnings and errors about energy that runs gain or lose.
+#include "limber/dynamics/monitors/energy_verdict.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "dynamics/run_record.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
 #include "support/sliding_masses.hpp"
 
 namespace limber::dynamics {
@@ -20,17 +20,16 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-struct Told {
+struct Monitored {
   SimulationStatistics statistics;
   RunRecord record;
 };
-Told run_from(const SystemModel& model, const SystemState& start,
-              const SimulationSettings& settings) {
-  Told told;
+Monitored run_from(const SystemModel& model, const SystemState& start,
+                   const SimulationSettings& settings) {
+  Monitored run;
   SystemState state = start;
-  simulate(model, state, settings, {}, {}, told.statistics, {}, {},
-           told.record);
-  return told;
+  simulate(model, state, settings, {}, {}, run.statistics, {}, {}, run.record);
+  return run;
 }
 
 // A light mass and a heavy one on springs of their own.
@@ -74,11 +73,11 @@ TEST(EnergyVerdict, TellsSizeTimeAndPlaceOfALossBeyondAPercent) {
   SimulationSettings settings =
       settings_of(IntegratorKind::generalized_alpha, 0.1, 10.0);
   settings.rho_inf = 0.0;
-  const Told told = run_from(scene.model, scene.state, settings);
+  const Monitored run = run_from(scene.model, scene.state, settings);
   // The heavy mass, at 60 steps a period, loses 2 %.
-  EXPECT_NEAR(find_open_share(told.record.energy), 0.5 / 5.5, 0.02);
-  EXPECT_LT(told.record.energy.drift.value, 0.0);
-  EXPECT_THAT(told.statistics.warnings,
+  EXPECT_NEAR(find_open_share(run.record.energy), 0.5 / 5.5, 0.02);
+  EXPECT_LT(run.record.energy.drift.value, 0.0);
+  EXPECT_THAT(run.statistics.warnings,
               Contains(AllOf(HasSubstr("lost by t = "), HasSubstr("light"))));
 }
 
@@ -88,11 +87,11 @@ TEST(EnergyVerdict, SaysNothingWhereStepsResolveTheMotion) {
        {IntegratorKind::generalized_alpha, IntegratorKind::runge_kutta_4,
         IntegratorKind::central_differences, IntegratorKind::splitting,
         IntegratorKind::energy_conserving}) {
-    const Told told =
+    const Monitored run =
         run_from(scene.model, scene.state, settings_of(kind, 5e-3, 10.0));
-    EXPECT_THAT(told.statistics.warnings, IsEmpty());
-    EXPECT_LT(find_open_share(told.record.energy), 0.01);
-    EXPECT_NEAR(told.record.energy.throughput, 5.5, 0.01);
+    EXPECT_THAT(run.statistics.warnings, IsEmpty());
+    EXPECT_LT(find_open_share(run.record.energy), 0.01);
+    EXPECT_NEAR(run.record.energy.throughput, 5.5, 0.01);
   }
 }
 
@@ -100,12 +99,12 @@ TEST(EnergyVerdict, SaysNothingWhereStepsResolveTheMotion) {
 // step.
 TEST(EnergyVerdict, WarnsOfWhatImplicitEulerDampsAndLetsItRun) {
   const Pair scene = make_pair_of_oscillators(1.0);
-  const Told told =
+  const Monitored run =
       run_from(scene.model, scene.state,
                settings_of(IntegratorKind::implicit_euler, 0.1, 10.0));
   const double left = std::pow(1.0 + 0.01, -100.0);
-  EXPECT_NEAR(find_open_share(told.record.energy), 1.0 - left, 0.02);
-  EXPECT_THAT(told.statistics.warnings,
+  EXPECT_NEAR(find_open_share(run.record.energy), 1.0 - left, 0.02);
+  EXPECT_THAT(run.statistics.warnings,
               ElementsAre(AllOf(HasSubstr("implicit-euler damps"),
                                 HasSubstr("heavy"))));
 }
@@ -172,8 +171,8 @@ TEST(EnergyVerdict, TakesRoundOffForNothing) {
       body.quat_WB =
           Quaternion(Eigen::AngleAxisd(0.3, Vector3(1, 2, 3).normalized()));
     }
-    const Told told = run_from(model, state, settings_of(kind, 1e-5, 0.02));
-    EXPECT_THAT(told.statistics.warnings, IsEmpty());
+    const Monitored run = run_from(model, state, settings_of(kind, 1e-5, 0.02));
+    EXPECT_THAT(run.statistics.warnings, IsEmpty());
   }
 }
 
@@ -186,14 +185,14 @@ TEST(StartWarnings, TellWhatAStopStoresBeyondWhichAJointStarts) {
   const SystemModel model = builder.build();
   SystemState state = make_state(model);
   state.bodies[0].p_WB.x() = 0.56;  // 0.36 beyond: 2e4 * 0.36^2 / 2 = 1296 J
-  const Told told = run_from(
+  const Monitored run = run_from(
       model, state, settings_of(IntegratorKind::generalized_alpha, 1e-4, 0.05));
-  EXPECT_THAT(told.statistics.warnings,
+  EXPECT_THAT(run.statistics.warnings,
               Contains(AllOf(HasSubstr("'rail'"), HasSubstr("0.36 beyond"),
                              HasSubstr("1.3e+03 J"))));
-  ASSERT_FALSE(told.statistics.events.empty());
-  EXPECT_EQ(told.statistics.events[0].what, "starts beyond a stop");
-  EXPECT_EQ(told.statistics.events[0].time, 0.0);
+  ASSERT_FALSE(run.statistics.events.empty());
+  EXPECT_EQ(run.statistics.events[0].what, "starts beyond a stop");
+  EXPECT_EQ(run.statistics.events[0].time, 0.0);
 }
 
 // A spring of a drive that pulls 10 N/m x 1 m at the start and may give 5 N:
@@ -209,19 +208,19 @@ TEST(LimitWatch, TellsWhenAndWhereADriveReachesItsLargestEffort) {
   const SystemModel model = builder.build();
   SystemState state = make_state(model);
   state.bodies[0].v_WB_W.x() = std::sqrt(10.0);  // would swing to 1 m
-  const Told told = run_from(
+  const Monitored run = run_from(
       model, state, settings_of(IntegratorKind::generalized_alpha, 1e-3, 1.4));
   const double omega = std::sqrt(10.0);
   const double reached = std::asin(0.5) / omega;  // x = sin(omega t)
-  ASSERT_EQ(told.statistics.events.size(), 2U);
-  EXPECT_EQ(told.statistics.events[0].what, "effort limit reached");
-  EXPECT_EQ(told.statistics.events[0].source, "rail");
-  EXPECT_NEAR(told.statistics.events[0].time, reached, 1e-5);
-  EXPECT_EQ(told.statistics.events[1].what, "effort limit left");
+  ASSERT_EQ(run.statistics.events.size(), 2U);
+  EXPECT_EQ(run.statistics.events[0].what, "effort limit reached");
+  EXPECT_EQ(run.statistics.events[0].source, "rail");
+  EXPECT_NEAR(run.statistics.events[0].time, reached, 1e-5);
+  EXPECT_EQ(run.statistics.events[1].what, "effort limit left");
   // There 5 N take v = omega sqrt(1 - 0.25) away and give it back.
   const double held = 2.0 * omega * std::sqrt(0.75) / 5.0;
-  EXPECT_NEAR(told.statistics.events[1].time, reached + held, 1e-4);
-  EXPECT_THAT(told.statistics.warnings,
+  EXPECT_NEAR(run.statistics.events[1].time, reached + held, 1e-4);
+  EXPECT_THAT(run.statistics.warnings,
               ElementsAre(AllOf(HasSubstr("'rail'"), HasSubstr("effort of 5"),
                                 HasSubstr("coordinate is 0."))));
 }

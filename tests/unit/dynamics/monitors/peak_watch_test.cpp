@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Extremes over all steps, against closed forms.
-#include "dynamics/peak_watch.hpp"
+#include "limber/dynamics/monitors/peak_watch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "dynamics/run_record.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
 #include "support/point_mass_body.hpp"
 #include "support/sliding_masses.hpp"
 
@@ -71,7 +71,7 @@ std::vector<Extreme> run(const Kicked& scene,
 
 class PeaksOf : public ::testing::TestWithParam<IntegratorKind> {};
 
-// The two outputs see nothing of the motion at all.
+// The two outputs contain nothing of the motion.
 TEST_P(PeaksOf, AnOscillatorAreThoseOfItsClosedFormWhateverTheOutputs) {
   const Kicked scene = make_kicked(1.0);
   SimulationSettings settings;
@@ -148,7 +148,7 @@ ClosedRun run_in_closed_form(double end) {
                    LoadFrame::body, Constant{});
   const SystemModel model = builder.build();
   SystemState state = make_state(model);
-  const double lambda = model.bodies[0].lambda[0];
+  const double lambda = model.bodies[0].reduced->lambda[0];
   const double force =
       (table.Phi_B.transpose() * Vector3(30.0, -20.0, 50.0))[0];
   SimulationSettings settings;
@@ -181,7 +181,7 @@ TEST(Peaks, OfModesInClosedFormAreFoundBetweenOutputs) {
 }
 
 // Ten looks a period would be more than a million.
-TEST(Peaks, OfTooManyPeriodsInClosedFormAreToldToBeLow) {
+TEST(Peaks, OfTooManyPeriodsInClosedFormAreReportedToBeLow) {
   const double period = run_in_closed_form(1.0).period;
   EXPECT_TRUE(run_in_closed_form(9e4 * period).statistics.warnings.empty());
   const ClosedRun run = run_in_closed_form(2e5 * period);
@@ -220,7 +220,7 @@ TEST(Peaks, OfARunThatEndsEarlyAreThoseUpToThere) {
   const Kicked scene = make_kicked(1.0);
   SimulationSettings settings;
   settings.integrator = IntegratorKind::runge_kutta_4;
-  settings.step = 1e4;  // beyond stability, and beyond what is divided
+  settings.step = 1e4;  // beyond stability, and too long to be divided
   settings.end_time = 1e6;
   SimulationStatistics statistics;
   SystemState state = scene.state;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/block_lu.hpp"
+#include "limber/dynamics/newton/block_lu.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {

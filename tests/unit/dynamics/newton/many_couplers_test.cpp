@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "dynamics/energy.hpp"
-#include "dynamics/hubs.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/newton/hubs.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 
-/// Bodies that so many couplers hold that Newton's matrix keeps their motion
-/// among its unknowns. Hinges in one place are one hinge as stiff as all.
+/// Bodies with so many couplers that Newton's matrix keeps their motion among
+/// its unknowns. Hinges in one place are one hinge as stiff as all.
 namespace limber::dynamics {
 namespace {
 
@@ -42,8 +42,8 @@ struct Panels {
 /// One on hinges in the world, swinging, or two that turn about each other.
 Panels make_panels(bool is_free, int count, double stiffness) {
   SystemBuilder builder;
-  const int panel = builder.add_rigid_body("panel", make_inertia(2.0));
-  const int other =
+  const auto panel = builder.add_rigid_body("panel", make_inertia(2.0));
+  const BodyIndex other =
       is_free ? builder.add_rigid_body("other", make_inertia(3.0)) : kWorld;
   const Pose arm{Matrix3::Identity(), kStart};
   for (int i = 0; i < count; ++i) {
@@ -77,8 +77,8 @@ TEST(ManyCouplers, InOnePlaceAreOneAsStiffAsAllHoweverStiff) {
       }
       const BodyState& one = ends[0].bodies[0];
       const BodyState& many = ends[1].bodies[0];
-      // Towards the world nothing gives way but the hinges: the round-off of
-      // their stiffness, 0.01 N/m of 1e14, is on the panel.
+      // Relative to the world only the hinges deflect: the round-off of their
+      // stiffness, 0.01 N/m of 1e14, acts on the panel.
       const double error = is_free || stiffness < 1e13 ? 1e-10 : 1e-6;
       EXPECT_LT((many.p_WB - one.p_WB).norm(), error);
       EXPECT_LT(one.quat_WB.angularDistance(many.quat_WB), error);
@@ -97,10 +97,10 @@ double find_distance(const SystemState& a, const SystemState& b) {
 /// A free panel with flaps, the first of which turns.
 Panels make_flaps(double stiffness) {
   SystemBuilder builder;
-  const int panel = builder.add_rigid_body("panel", make_inertia(20.0));
+  const auto panel = builder.add_rigid_body("panel", make_inertia(20.0));
   constexpr int kCount = 40;
   for (int i = 0; i < kCount; ++i) {
-    const int flap =
+    const auto flap =
         builder.add_rigid_body(fmt::format("flap {}", i), make_inertia(1.0));
     builder.add_coupler(
         fmt::format("hinge {}", i), make_hinge(stiffness),

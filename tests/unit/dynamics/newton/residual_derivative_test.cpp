@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exact derivative of a step's residual, through the factors that it
 // completes, against central differences.
-#include "dynamics/residual_derivative.hpp"
+#include "limber/dynamics/newton/residual_derivative.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/equations.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
 #include "support/differences.hpp"
+#include "support/elastic_kinds.hpp"
 #include "support/linked_bodies.hpp"
 
 namespace limber::dynamics {
@@ -23,7 +25,7 @@ using testing::make_linked_bodies;
 using testing::Margin;
 
 constexpr double kGradient = 1e-8;
-// Of a step of 0.1 s: what the factors leave out weighs much.
+// For a step of 0.1 s: the terms neglected by the factors are large.
 constexpr NewtonMatrix::Coefficients kCoefficients{400.0, 20.0};
 
 class Random {
@@ -106,7 +108,7 @@ void evaluate(const SystemModel& model, const Point& point, SystemTerms& terms,
         point.wrenches[model.couplers.size() + i][0];
   }
   calc_terms(model, point.state, Side::left, terms, WrenchSource::iterate);
-  residual.setZero(NewtonMatrix::size(model));
+  residual.setZero(count_unknowns(model));
   calc_residual(model, point.acceleration, terms, residual);
 }
 
@@ -115,7 +117,7 @@ void evaluate(const SystemModel& model, const Point& point, SystemTerms& terms,
 void compare(const SystemModel& model, const Point& point, unsigned seed,
              Margin& margin, double& rest) {
   Random random(seed);
-  VectorX x = random.vector(NewtonMatrix::size(model));
+  VectorX x = random.vector(count_unknowns(model));
   const std::size_t links = model.couplers.size() + model.transmissions.size();
   std::vector<Vector6> dw(links);
   for (std::size_t i = 0; i < links; ++i) {
@@ -189,6 +191,19 @@ TEST_P(ResidualDerivativeOf, LinksIsThatOfDifferences) {
   EXPECT_GT(rest, 0.01);  // the factors alone are far from it
 }
 
+// The dense tangent stands in the factors.
+TEST_P(ResidualDerivativeOf, StiffeningBodiesIsThatOfDifferences) {
+  Margin margin;
+  double rest = 0.0;
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    LinkedBodies linked = make({true, false, true}, seed);
+    testing::stiffen(linked.model, linked.state.eta.cwiseAbs().maxCoeff());
+    compare(linked.model, make_point(linked.model, linked.state, seed),
+            seed + 50, margin, rest);
+  }
+  margin.expect_below(kGradient);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, ResidualDerivativeOf,
     ::testing::Range(0, static_cast<int>(make_all_links(0.0).size())),
@@ -198,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // On the far end of every body: forces and moments in either axes.
 void add_loads(const LinkedBodies& linked, SystemModel& model) {
-  for (int i = 0; i < static_cast<int>(linked.model.attachments.size()); ++i) {
+  for (AttachmentIndex i(0); i < std::ssize(linked.model.attachments); ++i) {
     model.loads.push_back({.name = "load",
                            .where = i,
                            .force = {3, -2, 4},
@@ -206,7 +221,7 @@ void add_loads(const LinkedBodies& linked, SystemModel& model) {
                            .in_world = i % 2 == 0,
                            .function = Constant{}});
   }
-  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
     const int m = model.bodies[static_cast<std::size_t>(b)].modes;
     Random random(7);
     flexbody::NodalLoad history;
@@ -257,26 +272,29 @@ TEST(ResidualDerivative, IsThatOfDifferencesAtEveryLevelUnderLoads) {
 // the unknowns: B, or A where enough hold it to the world; a gear on both.
 TEST(ResidualDerivative, OfBodiesThatManyCouplersHoldIsThatOfDifferences) {
   const auto make_links = [](int grounds) -> testing::Link {
-    return {"many",
-            [grounds](SystemBuilder& builder, const testing::BodyEnds& ends) {
-              const joints::Joint joint = testing::make_test_joint(
-                  joints::JointKind::revolute, 2.0, {});
-              for (int i = 0; i < 12; ++i) {
-                builder.add_coupler(fmt::format("first {}", i), joint,
-                                    ends.far[0], ends.near[1]);
-              }
-              builder.add_coupler("second", joint, ends.far[1], ends.near[2]);
-              for (int i = 0; i < grounds; ++i) {
-                builder.add_coupler(fmt::format("ground {}", i), joint,
-                                    builder.attach_world("world", {}),
-                                    ends.near[0]);
-              }
-              const joints::ScalarSpring spring(
-                  {.curve = joints::SpringCurve({.stiffness = 20.0}),
-                   .damping = 2.0});
-              builder.add_joint_sum("gear", {{{0, 0, 1.0}, {12, 0, -0.5}}, 0.1},
-                                    {spring});
-            }};
+    return {
+        "many",
+        [grounds](SystemBuilder& builder, const testing::BodyEnds& ends) {
+          const joints::Joint joint =
+              testing::make_test_joint(joints::JointKind::revolute, 2.0, {});
+          for (int i = 0; i < 12; ++i) {
+            builder.add_coupler(fmt::format("first {}", i), joint, ends.far[0],
+                                ends.near[1]);
+          }
+          builder.add_coupler("second", joint, ends.far[1], ends.near[2]);
+          for (int i = 0; i < grounds; ++i) {
+            builder.add_coupler(fmt::format("ground {}", i), joint,
+                                builder.attach_world("world", {}),
+                                ends.near[0]);
+          }
+          const joints::ScalarSpring spring(
+              {.curve = joints::SpringCurve({.stiffness = 20.0}),
+               .damping = 2.0});
+          builder.add_joint_sum(
+              "gear",
+              {{{CouplerIndex(0), 0, 1.0}, {CouplerIndex(12), 0, -0.5}}, 0.1},
+              {spring});
+        }};
   };
   for (const auto flexible :
        {std::array{true, true, true}, std::array{false, true, true},

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A step that cannot be solved for tells why, and not of the first body.
+// A singular step reports the cause, not the first body.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/errors.hpp"
-#include "dynamics/generalized_alpha.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -28,7 +28,7 @@ joints::Joint make_weld() {
 TEST(SingularMatrix, NamesTheCouplerWhereItIs) {
   SystemBuilder builder;
   const auto add = [&](const std::string& name, double x) {
-    const int b = builder.add_rigid_body(name, {1.0, Matrix3::Identity()});
+    const auto b = builder.add_rigid_body(name, {1.0, Matrix3::Identity()});
     builder.add_coupler(
         name + "_hold", make_weld(),
         builder.attach_world(name + "_ground",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/landmarks.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs that go on from a checkpoint are those that never stopped, to the bit.
-#include "dynamics/checkpoint.hpp"
+// Runs resumed from a checkpoint are bitwise equal to uninterrupted ones.
+#include "limber/dynamics/simulation/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "common/archive.hpp"
-#include "common/errors.hpp"
-#include "dynamics/archives.hpp"
-#include "dynamics/displacement_measure.hpp"
-#include "dynamics/run_record.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/displacement_measure.hpp"
+#include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
 #include "support/chain.hpp"
+#include "support/elastic_kinds.hpp"
 #include "support/lattice_chain.hpp"
 #include "support/sliding_masses.hpp"
 
@@ -163,12 +164,19 @@ TEST_P(EveryScheme, GoesOnFromACheckpointToTheBit) {
       make_settings(static_cast<IntegratorKind>(GetParam()), 0.12, 1e-4));
 }
 
+TEST_P(EveryScheme, GoesOnWithStiffeningBodiesToTheBit) {
+  Scene scene = make_spinning_chain();
+  testing::stiffen(scene.model, 0.05);
+  expect_runs_go_on(
+      scene,
+      make_settings(static_cast<IntegratorKind>(GetParam()), 0.12, 1e-4));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     , EveryScheme,
     ::testing::Range(0, static_cast<int>(integrator_names().size())),
     [](const auto& scheme) {
-      std::string name =
-          integrator_names()[static_cast<std::size_t>(scheme.param)];
+      std::string name = to_string(static_cast<IntegratorKind>(scheme.param));
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });
@@ -186,8 +194,8 @@ TEST(Checkpoint, KeepsWhatCouplersRememberAndWhatHasHappened) {
       scene, make_settings(IntegratorKind::generalized_alpha, 1.1, 1e-3));
 }
 
-// A body that starts far beyond linear elasticity is told of once, at the
-// start, whether or not it is bent as far when the run goes on.
+// A body that starts far beyond linear elasticity gives one warning, at the
+// start, whether or not it is still bent as far at the resumption.
 TEST(Checkpoint, KeepsTheWarningsThatWereGiven) {
   Scene scene = make_spinning_chain();
   BodyModel& body = scene.model.bodies[1];
@@ -227,7 +235,7 @@ TEST(Checkpoint, OfStepsToAToleranceGoesOnInItsPass) {
   expect_runs_go_on(make_spinning_chain(), settings);
 }
 
-// Each holds what it needs and logs what came since: none grows with the time.
+// Each contains the state and logs new results only: none grows with time.
 TEST(Checkpoint, OfALongRunIsNoLargerThanOfAShortOne) {
   SimulationSettings settings =
       make_settings(IntegratorKind::generalized_alpha, 2.0, 0.5);

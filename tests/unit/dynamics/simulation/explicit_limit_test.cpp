@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/explicit_limit.hpp"
+#include "limber/dynamics/simulation/explicit_limit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,14 @@
 #include <complex>
 #include <vector>
 
-#include "common/errors.hpp"
-#include "dynamics/runge_kutta.hpp"
-#include "dynamics/splitting.hpp"
-#include "dynamics/stable_step.hpp"
-#include "dynamics/system_builder.hpp"
-#include "joints/point_spring.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy_balance.hpp"
+#include "limber/dynamics/integrators/runge_kutta.hpp"
+#include "limber/dynamics/integrators/splitting.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/point_spring.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -33,8 +35,8 @@ constexpr double kStretch = 1e-3;                         // [m]
 /// relative velocities that fade with the rate `damping` [1/s].
 SystemModel make_pair_of_masses(double damping, double omega = kOmega) {
   SystemBuilder builder;
-  const int a = builder.add_rigid_body("a", {2.0, Matrix3::Identity()});
-  const int b = builder.add_rigid_body("b", {5.0, Matrix3::Identity()});
+  const auto a = builder.add_rigid_body("a", {2.0, Matrix3::Identity()});
+  const auto b = builder.add_rigid_body("b", {5.0, Matrix3::Identity()});
   builder.add_coupler(
       "spring",
       joints::PointSpring({.stiffness = kReducedMass * omega * omega,
@@ -184,8 +186,8 @@ TEST(ExplicitLimit, DividesEveryStepOfAScheduleThatIsTooLong) {
   EXPECT_NEAR(find_gap(state), kStretch * std::cos(12.0), 1e-3 * kStretch);
 }
 
-// Two bodies that start apart against a damper alone end together; the energy
-// of their relative motion is what it takes.
+// Two bodies with different initial velocities, connected by a damper only, end
+// with equal velocity; it dissipates the energy of their relative motion.
 TEST(ExplicitLimit, FollowsAStartAgainstAStiffDamper) {
   constexpr double kRate = 1e5;  // [1/s]
   constexpr double kSpeed = 2.0;

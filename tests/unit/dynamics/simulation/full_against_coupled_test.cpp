@@ -3,12 +3,11 @@
 
 #include <cmath>
 
-#include "dynamics/node_motion.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/lattice_chain.hpp"
 
-/// Level `full` and the coupled equations, which know the same body by
-/// different means.
+/// Level `full` against the coupled equations for the same body.
 namespace limber::dynamics {
 namespace {
 
@@ -20,7 +19,7 @@ std::vector<Vector3> strike(Fidelity fidelity, int modes, double force) {
   LatticeChain chain;
   chain.add(fidelity, modes);
   chain.join_world(1e6, 0.0);
-  const int tip = chain.last_end();
+  const AttachmentIndex tip = chain.last_end();
   chain.builder.add_load("strike", tip, {force, 0.5 * force, 0.0},
                          {0.0, 0.0, 0.01 * force}, LoadFrame::world,
                          Pulse{PulseShape::half_sine, 0.0, 0.005});
@@ -95,7 +94,8 @@ TEST(FullAgainstCoupled, TumblesAsItDoesWithAllModes) {
                 .step = 2e-5},
                {});
       const bool is_full = fidelity == Fidelity::full;
-      calc_node_deformations(model, 0, {&state, 1}, u_B.col(is_full ? 0 : 1));
+      calc_node_deformations(model, BodyIndex(0), {&state, 1},
+                             u_B.col(is_full ? 0 : 1));
       ends.push_back(state);
     }
     deformations.push_back((u_B.col(0) - u_B.col(1)).norm());

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <random>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/simulation.hpp"
-#include "dynamics/system_builder.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 #include "support/full_lattice.hpp"
 
 /// Motion of one body at level `full`, a network of springs.
@@ -134,7 +135,8 @@ TEST(FullMotion, DampedKeepsAngularMomentumToRoundOff) {
             1e-12 * before.linear_momentum.norm());
 }
 
-// Newton's matrix has the damping of the modes: strong damping costs no more.
+// Newton's matrix contains the damping of the modes: strong damping costs no
+// more iterations.
 TEST(FullMotion, ImplicitStepsConvergeUnderStrongDamping) {
   for (const double ratio : {0.3, 1.0, 2.0}) {
     const Lattice lattice({.is_clamped = true}, {.ratios = {ratio}});
@@ -207,8 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
                       SchemeOrder{IntegratorKind::runge_kutta_4, 4.0, 0.3},
                       SchemeOrder{IntegratorKind::implicit_euler, 1.0, 0.02}),
     [](const auto& i) {
-      std::string name =
-          integrator_names()[static_cast<std::size_t>(i.param.kind)];
+      std::string name = to_string(i.param.kind);
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });
@@ -227,7 +228,7 @@ TEST(FullFailure, NamesThePartTheBodyAndTheTimeAndKeepsTheLastState) {
     builder.set_gravity({0.0, 0.0, -1.0});
     builder.add_load(
         "crush",
-        builder.attach_nodes("node", 0,
+        builder.attach_nodes("node", BodyIndex(0),
                              find_node_set(*make_full(network), "node"), {}),
         {0.0, 0.0, -1e5}, Vector3::Zero(), LoadFrame::world,
         Constant{.from = 0.01});

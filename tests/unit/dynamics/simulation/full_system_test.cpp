@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/lattice_chain.hpp"
 
 /// Bodies at level `full` in systems, beside other levels.
@@ -162,8 +163,7 @@ TEST(MixedChain, ImplicitStepsConvergeToRungeKuttasAnswerAtTheirOrder) {
                         Case{IntegratorKind::implicit_euler, 1.0, 1e-6}}) {
     const double coarse = find_distance(run(c.kind, c.step), exact);
     const double fine = find_distance(run(c.kind, 0.5 * c.step), exact);
-    EXPECT_NEAR(std::log2(coarse / fine), c.order, 0.2)
-        << integrator_names()[static_cast<std::size_t>(c.kind)];
+    EXPECT_NEAR(std::log2(coarse / fine), c.order, 0.2) << to_string(c.kind);
   }
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs that are asked to end.
+// Runs that are interrupted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-#include "dynamics/interrupted.hpp"
-#include "dynamics/simulation.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 
 namespace limber::dynamics {
@@ -112,7 +112,7 @@ TEST(Interruption, KeepsWhatWasComputed) {
   EXPECT_LT(stopped.state.t, 0.2);
 }
 
-// Who has asked does not wait for 256 steps of a whole mesh.
+// An interruption takes effect before 256 steps of a whole mesh.
 TEST(Interruption, WaitsNoLongerThanASecondForABetterMoment) {
   std::optional<Checkpoint> kept;
   const Progress slow = [](std::string_view, double) {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "dynamics/interpolation.hpp"
-#include "dynamics/motion_scale.hpp"
-#include "dynamics/step_control.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/integrators/interpolation.hpp"
+#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/simulation/step_control.hpp"
 #include "support/chain.hpp"
 #include "support/sliding_masses.hpp"
 
@@ -222,7 +222,7 @@ TEST(Interpolation, IsOfFourthOrderOnTheGroupAndThirdInTheVelocities) {
 
 TEST(MotionScale, IsTheDistanceOfTheFarthestPoint) {
   SystemBuilder builder;
-  const int b = builder.add_rigid_body("rod", {1.0, Matrix3::Identity()});
+  const auto b = builder.add_rigid_body("rod", {1.0, Matrix3::Identity()});
   builder.attach_frame("tip", b, {Matrix3::Identity(), {0.0, 0.0, 3.0}});
   const SystemModel model = builder.build();
   const MotionScale scale(model);

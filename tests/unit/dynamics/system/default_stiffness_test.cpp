@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/default_stiffness.hpp"
+#include "limber/dynamics/system/default_stiffness.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-namespace limber::scene {
+namespace limber::dynamics {
 namespace {
 
 CouplerSide make_flexible(double translation, double rotation) {
@@ -60,4 +60,4 @@ TEST(DefaultStiffness, LeavesWhatIsGivenAlone) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::dynamics

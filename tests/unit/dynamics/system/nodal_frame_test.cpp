@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/nodal_frame.hpp"
+#include "limber/dynamics/system/nodal_frame.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "common/rotation.hpp"
-#include "dynamics/mean_frame.hpp"
-#include "dynamics/nodal_jacobian.hpp"
-#include "dynamics/system_builder.hpp"
-#include "flexbody/interface_motion.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/equations/nodal_jacobian.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/flexbody/model/interface_motion.hpp"
 #include "support/spring_network.hpp"
 
 namespace limber::dynamics {

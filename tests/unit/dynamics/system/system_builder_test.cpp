@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What SystemBuilder promises to refuse, and that it names the thing.
-#include "dynamics/system_builder.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "common/errors.hpp"
-#include "joints/joint_kind.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "support/full_lattice.hpp"
 #include "support/point_mass_body.hpp"
 
@@ -91,12 +91,13 @@ class SystemBuilderTest : public ::testing::Test {
 
   PointMassBody body_ = make_point_mass_body(12, 4, 2.0, 0.5, 100.0, 3);
   SystemBuilder builder_;
-  int rigid_ = builder_.add_rigid_body("rigid", {1.0, Matrix3::Identity()});
-  int flexible_ =
+  BodyIndex rigid_ =
+      builder_.add_rigid_body("rigid", {1.0, Matrix3::Identity()});
+  BodyIndex flexible_ =
       builder_.add_flexible_body("bar", share(body_), Fidelity::coupled, {});
-  int world_frame_ = builder_.attach_world("ground", {});
-  int rigid_frame_ = builder_.attach_frame("end", rigid_, {});
-  int joint_ =
+  AttachmentIndex world_frame_ = builder_.attach_world("ground", {});
+  AttachmentIndex rigid_frame_ = builder_.attach_frame("end", rigid_, {});
+  CouplerIndex joint_ =
       builder_.add_coupler("pivot", hinge(), world_frame_, rigid_frame_);
 };
 
@@ -132,7 +133,7 @@ TEST_F(SystemBuilderTest, RefusesANameThatIsTakenOrEmpty) {
         builder_.add_rigid_body("", {1.0, Matrix3::Identity()});
       },
       "body", "no name");
-  // What was refused is not there.
+  // Rejected objects are not added.
   EXPECT_EQ(builder_.build().bodies.size(), 2U);
   EXPECT_EQ(builder_.build().couplers.size(), 1U);
 }
@@ -226,15 +227,18 @@ TEST_F(SystemBuilderTest, RefusesFramesOfNoBody) {
   const flexbody::InterfaceTable table = make_interface(body_, 0, 4);
   for (const int odd : {-1, 2, 1000}) {
     const std::string why = "there is no body " + std::to_string(odd);
-    expect_contract_error([&] { builder_.attach_frame("f", odd, {}); },
-                          "frame 'f'", why);
     expect_contract_error(
-        [&] { builder_.attach_interface("f", odd, table, {}); }, "frame 'f'",
+        [&] { builder_.attach_frame("f", BodyIndex(odd), {}); }, "frame 'f'",
         why);
-    expect_contract_error([&] { builder_.attach_nodes("f", odd, {}, {}); },
-                          "frame 'f'", why);
-    expect_contract_error([&] { builder_.add_nodal_load("l", odd, {}); },
-                          "nodal load 'l'", why);
+    expect_contract_error(
+        [&] { builder_.attach_interface("f", BodyIndex(odd), table, {}); },
+        "frame 'f'", why);
+    expect_contract_error(
+        [&] { builder_.attach_nodes("f", BodyIndex(odd), {}, {}); },
+        "frame 'f'", why);
+    expect_contract_error(
+        [&] { builder_.add_nodal_load("l", BodyIndex(odd), {}); },
+        "nodal load 'l'", why);
   }
   EXPECT_EQ(builder_.build().attachments.size(), 2U);
 }
@@ -278,8 +282,9 @@ TEST_F(SystemBuilderTest, RefusesInterfaceTablesOfAnotherSize) {
 }
 
 TEST_F(SystemBuilderTest, RefusesCouplersOfNoFrameOrOfOneBody) {
-  for (const int odd : {-1, 2, 99}) {
-    const std::string why = "there is no frame " + std::to_string(odd);
+  for (const int number : {-1, 2, 99}) {
+    const AttachmentIndex odd(number);
+    const std::string why = "there is no frame " + std::to_string(number);
     expect_contract_error(
         [&] { builder_.add_coupler("c", hinge(), odd, rigid_frame_); },
         "coupler 'c'", why);
@@ -312,7 +317,7 @@ TEST_F(SystemBuilderTest, RefusesTransmissionsOfJointsThatDoNotExist) {
   for (const int odd : {-1, 1, 50}) {
     expect_contract_error(
         [&] {
-          add({{{odd, 0, 1.0}}, 0.0});
+          add({{{CouplerIndex(odd), 0, 1.0}}, 0.0});
         },
         "transmission 'gear'", "there is no coupler " + std::to_string(odd));
     expect_contract_error(
@@ -338,8 +343,8 @@ TEST_F(SystemBuilderTest, RefusesTransmissionsOfJointsThatDoNotExist) {
 }
 
 TEST_F(SystemBuilderTest, RefusesLoadsThatAreNotFiniteOrMoveNothing) {
-  const auto add = [&](int where, const Vector3& force, const Vector3& moment,
-                       const TimeFunction& function) {
+  const auto add = [&](AttachmentIndex where, const Vector3& force,
+                       const Vector3& moment, const TimeFunction& function) {
     builder_.add_load("l", where, force, moment, LoadFrame::body, function);
   };
   const Vector3 odd(0.0, kNaN, 0.0);
@@ -397,7 +402,7 @@ TEST(FullBodyBuilder, RefusesNodesThatItDoesNotHave) {
   SystemBuilder& builder = lattice.builder;
   const int count = static_cast<int>(lattice.full->node_count());
   const auto attach = [&](const flexbody::NodeSet& nodes) {
-    builder.attach_nodes("f", 0, nodes, {});
+    builder.attach_nodes("f", BodyIndex(0), nodes, {});
   };
   expect_refused<ContractError>(
       [&] {
@@ -415,12 +420,14 @@ TEST(FullBodyBuilder, RefusesNodesThatItDoesNotHave) {
       },
       "frame 'f'", "sum to 2");
   expect_refused<ContractError>(
-      [&] { builder.attach_interface("f", 0, {}, {}); }, "frame 'f'",
+      [&] { builder.attach_interface("f", BodyIndex(0), {}, {}); }, "frame 'f'",
       "at level full");
   const flexbody::NodalLoad history{
       {0.0}, Matrix3X::Zero(3, 1), Matrix3X::Zero(3, 1), {}, {}};
   expect_refused<ContractError>(
-      [&] { builder.add_nodal_load("l", 0, history, MatrixX::Zero(3, 1)); },
+      [&] {
+        builder.add_nodal_load("l", BodyIndex(0), history, MatrixX::Zero(3, 1));
+      },
       "nodal load 'l'", "3 x 1 nodal forces");
   flexbody::ReducedBody odd = *lattice.reduced;
   odd.rows.Phi_B.conservativeResize(Eigen::NoChange, 1);

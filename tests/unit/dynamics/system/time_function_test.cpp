@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/time_function.hpp"
+#include "limber/dynamics/system/time_function.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {

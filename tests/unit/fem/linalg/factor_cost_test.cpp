@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/factor_cost.hpp"
+#include "limber/fem/linalg/factor_cost.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "fem/assembly.hpp"
-#include "fem/cholesky.hpp"
+#include "limber/fem/linalg/cholesky.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -38,7 +38,7 @@ Cost find_cost(const Mesh& mesh) {
           factor.flops()};
 }
 
-// The pattern of the nodes tells the operations of all three components.
+// The pattern of the nodes determines the operations of all three components.
 TEST(FactorSeconds, GrowAsTheOperationsOfTheWholeMatrix) {
   const Cost coarse = find_cost(make_cube(3));
   const Cost fine = find_cost(make_cube(6));

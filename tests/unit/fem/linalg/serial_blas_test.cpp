@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/serial_blas.hpp"
+#include "limber/fem/linalg/serial_blas.hpp"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <latch>
 #include <thread>
 
-#include "fem/assembly.hpp"
-#include "fem/eigenmodes.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
 
 namespace limber::fem {
 namespace {
@@ -17,6 +17,8 @@ namespace {
 /// OpenBLAS's own number of threads, put back at the end.
 class BlasThreads : public ::testing::Test {
  protected:
+  // BLAS is loaded when it is first needed.
+  static void SetUpTestSuite() { const SerialBlas first; }
   BlasThreads() {
     if (get_ != nullptr) before_ = get_();
   }

@@ -5,11 +5,11 @@
 #include <limits>
 #include <vector>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "unit/fem/meshes.hpp"
 
-/// Every bad mesh is one InputError that names the file, what is wrong with
-/// its place or value, and what was expected.
+/// Every invalid mesh gives one InputError that names the file, the problem
+/// with its place or value, and what was expected.
 namespace limber::fem {
 namespace {
 
@@ -285,7 +285,7 @@ TEST(MeshErrors, ValuesOutOfRange) {
                 HasSubstr("expected 1, 2 or 3"));
 }
 
-TEST(MeshErrors, SeveralProblemsAreToldAtOnce) {
+TEST(MeshErrors, SeveralProblemsAreReportedAtOnce) {
   const auto file =
       write_file("box.geo", testing::box_geo(testing::BoxKind::tetrahedra));
   try {

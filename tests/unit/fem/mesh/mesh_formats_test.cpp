@@ -10,12 +10,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/gmsh_reader.hpp"
-#include "fem/gmsh_session.hpp"
-#include "fem/mesh_file_kind.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/gmsh/gmsh_reader.hpp"
+#include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/mesh/mesh_file_kind.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -137,7 +137,7 @@ TEST(MeshFileKind, AMedFileTellsWhatGmshWasBuiltWithout) {
 }
 
 /// A thin tube of curved elements that OpenCASCADE's surfaces invert.
-TEST(CurvedElements, ThatComeOutInvertedAreMadeStraightAndThatIsTold) {
+TEST(CurvedElements, ThatComeOutInvertedAreMadeStraightAndThatIsReported) {
   const auto file = write_file(
       "tube.geo",
       "SetFactory(\"OpenCASCADE\");\nCylinder(1) = {0,0,0, 0,0,0.5, 0.02};\n"

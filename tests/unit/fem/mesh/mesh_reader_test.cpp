@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesh_reader.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fem/assembly.hpp"
-#include "fem/gmsh_session.hpp"
+#include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesh_wire.hpp"
+#include "limber/fem/mesh/mesh_wire.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/mesh_checks.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -47,8 +47,7 @@ TEST(MeshWire, GivesBackProblemsWithoutAMesh) {
   EXPECT_EQ(unpack_reply(pack_reply(sent)).problems, sent.problems);
 }
 
-// Whatever a mesher that was taken over may send, it is refused, or a mesh
-// that all that follows can walk.
+// Any reply of a compromised mesher is rejected, or is a consistent mesh.
 TEST(MeshWire, SurvivesDamageAtAnyPlace) {
   const std::string bytes = pack_reply(make_reply());
   std::mt19937 random(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/mesher.hpp"
+#include "limber/fem/mesh/mesher.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/errors.hpp"
-#include "fem/mesh_reader.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_reader.hpp"
 #include "unit/fem/meshes.hpp"
 
 /// A geometry is a program of whoever wrote it. Here are those that do harm.
@@ -78,7 +78,7 @@ TEST(Mesher, RefusesAGeometryThatWritesAFile) {
         AnyOf(HasSubstr("tries to"), HasSubstr("Gmsh cannot")))
         << text;
   }
-  // What is there stays as it is.
+  // Existing files do not change.
   const auto victim = write_file("victim", "old");
   find_error(fmt::format("{}Printf(\"x\") > \"{}\";", kBox, victim.string()));
   EXPECT_EQ(std::filesystem::file_size(victim), 3U);
@@ -86,6 +86,7 @@ TEST(Mesher, RefusesAGeometryThatWritesAFile) {
 
 TEST(Mesher, RefusesAPipeOrADevice) {
   const std::string pipe = testing::make_test_folder() / "pipe";
+  std::filesystem::remove(pipe);  // that a killed test left
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& name : {pipe, std::string("/dev/zero")}) {
     EXPECT_THAT(find_error("Merge \"" + name + "\";"),

@@ -6,8 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "common/errors.hpp"
-#include "fem/node_weights.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/node_weights.hpp"
 #include "unit/fem/meshes.hpp"
 
 /// The skin of a box, and how a load on a part of it is shared.

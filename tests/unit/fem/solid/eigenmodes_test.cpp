@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/eigenmodes.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <random>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/parallel.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "support/eigenpairs.hpp"
 #include "unit/fem/meshes.hpp"
 
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Support, FreeAndClamped, ::testing::Bool(),
                            return p.param ? "Clamped" : "Free";
                          });
 
-/// A third of all modes is the most that is asked of Lanczos.
+/// Lanczos is used for at most a third of all modes.
 TEST_P(FreeAndClamped, EigenmodesAreThoseOfADenseSolver) {
   const ElasticInverse inverse = body_.inverse();
   const Eigen::Index dofs = body_.matrices.dof_count();
@@ -122,7 +122,7 @@ TEST_P(FreeAndClamped, ElasticInverseAnswersLoadsToRoundoff) {
   const MatrixX residual = multiply_stiffness(body_.matrices.K, X) - load;
   EXPECT_LT(residual.norm() / load.norm(), 1e-9);
   EXPECT_LE((MR.transpose() * X).norm(), 1e-12 * MR.norm() * X.norm());
-  // Betti: the work of one load on another's answer does not depend on which.
+  // Betti: the work of one load on the response to another is symmetric.
   const MatrixX work = F.transpose() * X;
   EXPECT_LT((work - work.transpose()).norm() / work.norm(), 1e-11);
 }

@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
-#include "fem/assembly.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
-/// Mass and stiffness of every element shape and order against what is known
+/// Mass and stiffness of every element shape and order against known properties
 /// of any elastic box: no figure here comes from this project.
 namespace limber::fem {
 namespace {

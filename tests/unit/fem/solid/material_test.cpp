@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/material.hpp"
+#include "limber/fem/solid/material.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -89,7 +89,7 @@ TEST(Material, ValuesOutOfRangeAreRefused) {
                       HasSubstr("expected above -1 and below 0.5")));
 }
 
-TEST(Material, AllProblemsAreToldAtOnce) {
+TEST(Material, AllProblemsAreReportedAtOnce) {
   try {
     static_cast<void>(
         assign_materials(one_volume(), {{"boody", {-1.0, 0.5, -1.0}}}));

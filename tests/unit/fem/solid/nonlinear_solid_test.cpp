@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/nonlinear_solid.hpp"
+#include "limber/fem/solid/nonlinear_solid.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <random>
 #include <tuple>
 
-#include "common/errors.hpp"
-#include "common/rotation.hpp"
-#include "fem/assembly.hpp"
-#include "fem/element_matrices.hpp"
-#include "fem/nodal_mass.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
+#include "limber/fem/solid/nodal_mass.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bars up to 1000 times as long as thick: their matrices, modes and answers.
+// Bars up to 1000 times as long as thick: their matrices, modes and solutions.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <cmath>
 #include <random>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/conditioning.hpp"
-#include "fem/eigenmodes.hpp"
-#include "fem/stiffness_product.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/conditioning.hpp"
+#include "limber/fem/solid/eigenmodes.hpp"
+#include "limber/fem/solid/stiffness_product.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -54,7 +54,7 @@ std::filesystem::path write_bar(const Bar& bar) {
           bar.layers));
 }
 
-/// A bar, free or held at its root, and its answers.
+/// A bar, free or clamped at its root, and its solutions.
 class Slender {
  public:
   Slender(const Bar& bar, bool is_clamped)
@@ -150,7 +150,7 @@ TEST(SlenderBar, ABladeHasTheBendingModesOfABeam) {
                          is_clamped, 0.04);
 }
 
-/// Elements of first order lock: stiffer than a beam, but with an answer.
+/// Elements of first order lock: stiffer than a beam, but solvable.
 TEST(SlenderBar, OfFirstOrderIsStifferThanABeam) {
   const Bar bar{.layers = 200, .order = 1};
   const Slender body(bar, true);
@@ -176,14 +176,14 @@ TEST(SlenderBar, BendsUnderATipForceAsABeam) {
     EXPECT_NEAR(compliance(0, 0) / stretching, 1.0, 1e-3);
     EXPECT_NEAR(compliance(1, 1) / bending, 1.0, 3e-3);
     EXPECT_NEAR(compliance(2, 2) / bending, 1.0, 3e-3);
-    // By symmetry the answers do not mix.
+    // By symmetry the solutions are uncoupled.
     EXPECT_LT(std::abs(compliance(1, 2)), 1e-9 * bending);
     EXPECT_LT(std::abs(compliance(0, 2)), 1e-9 * bending);
     EXPECT_LT(std::abs(compliance(2, 0)), 1e-9 * bending);
   }
 }
 
-/// Other units round otherwise: what is left of that in the answers is their
+/// Other units round differently: the difference of the solutions is their
 /// roundoff. Eigenvalues go with 1/L^2, compliance with 1/L.
 TEST(SlenderBar, AnswersAreTheSameInAnyUnit) {
   for (const bool is_clamped : {false, true}) {

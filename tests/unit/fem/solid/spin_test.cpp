@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fem/spin.hpp"
+#include "limber/fem/solid/spin.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
-#include "common/errors.hpp"
-#include "fem/assembly.hpp"
-#include "fem/skin.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/skin.hpp"
 #include "support/eigenpairs.hpp"
 #include "unit/fem/meshes.hpp"
 

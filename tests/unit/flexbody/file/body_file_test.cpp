@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/body_file.hpp"
+#include "limber/flexbody/file/body_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/hdf5_exit.hpp"
+#include "limber/common/files/hdf5_exit.hpp"
 #include "unit/flexbody/files.hpp"
 #include "unit/flexbody/small_body.hpp"
 
@@ -121,7 +121,7 @@ TEST_F(BodyFile, TruncatedAnywhereIsAnInputErrorThatNamesTheFile) {
 TEST_F(BodyFile, AnyFlippedBitIsAnInputErrorThatNamesTheFile) {
   write_body(make_small_body(1), file());
   std::string bytes = read_bytes(file());
-  // Odd, so that all places in a word and all bits of a byte have their turn.
+  // Odd, so that all positions in a word and all bits of a byte are covered.
   const std::size_t step = bytes.size() / 600 | 1U;
   std::size_t count = 0;
   for (std::size_t at = 0; at < bytes.size(); at += at < kSealSize ? 1 : step) {
@@ -268,7 +268,7 @@ TEST_F(BodyFile, InAFolderThatDoesNotExistIsAnInputErrorThatNamesIt) {
 // For a child process: writes where no file may grow beyond `size` bytes, and
 // exits with 0 if that is an InputError that names the file. HDF5 leaks what it
 // cannot write, and must not crash on it at exit.
-// Before the first use of HDF5, as a program does that writes files.
+// Before the first use of HDF5, as in a program that writes files.
 [[maybe_unused]] const bool kIsLeftAlone = (leave_hdf5_alone_at_exit(), true);
 
 [[noreturn]] void write_on_full_disk(rlim_t size,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/decision_boundary.hpp"
+#include "limber/flexbody/modal/decision_boundary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -72,8 +72,8 @@ double largest_length(const VectorX& field) {
   return length;
 }
 
-// One node with m |b| = 10 and one with a negative mass that Eq. 31 as the
-// report computes it does not see.
+// One node with m |b| = 10 and one with a negative mass, which Eq. 31 as
+// computed in the report ignores.
 TEST(ReportBoundary, OfForceIsEquation31) {
   Matrix3X x(3, 2);
   x << 3, 0, 4, 0, 0, 20;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/fourier.hpp"
+#include "limber/flexbody/modal/fourier.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <string>
 
-#include "common/errors.hpp"
-#include "flexbody/modal_response.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 
 namespace limber::flexbody::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/modal_response_oscillator.hpp"
+#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::flexbody::test {
 namespace {
@@ -35,9 +35,8 @@ double find_balance(double lambda, double t) {
 }
 
 // The exponential that takes (eta / t^2, etadot / (t w), cos, sin) over t, by
-// scaling, Taylor and squaring. It knows nothing of regimes, roots or
-// resonance. The balance w keeps the number of squarings, and so its own
-// round-off, small.
+// scaling, Taylor and squaring. It has no regimes, roots or resonance. The
+// scaling w keeps the number of squarings, and so its round-off, small.
 Matrix calc_exponential(double lambda, double damping, double omega, double t) {
   const Real h = t;
   Matrix A{};
@@ -65,8 +64,8 @@ Matrix calc_exponential(double lambda, double damping, double omega, double t) {
   return sum;
 }
 
-// What the oscillator answers, without units: 4 free answers, then the
-// harmonic ones.
+// Results of the oscillator, without units: 4 free responses, then the harmonic
+// ones.
 struct Answers {
   std::array<double, 4> free;
   std::array<Complex, 2> harmonic;
@@ -103,7 +102,7 @@ struct Case {
   double t;
 };
 
-// Largest error relative to the largest answer of the last period, in units of
+// Largest error relative to the largest value in the last period, in units of
 // eps (1 + angles).
 double find_error(const Case& c) {
   const double angles = 1.0 + (std::sqrt(c.lambda) + c.omega + c.damping) * c.t;

@@ -1,89 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/modal_response.hpp"
+#include "limber/flexbody/modal/modal_response.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
-#include "common/errors.hpp"
+#include "unit/flexbody/modal/modal_cases.hpp"
 
 namespace limber::flexbody::test {
 namespace {
 
-using ::testing::HasSubstr;
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPi = std::numbers::pi;
-
-VectorX make_vector(std::initializer_list<double> values) {
-  VectorX vector(std::ssize(values));
-  std::copy(values.begin(), values.end(), vector.data());
-  return vector;
-}
-
-std::vector<double> make_grid(double from, double until, int intervals) {
-  std::vector<double> times;
-  for (int i = 0; i <= intervals; ++i)
-    times.push_back(from + (until - from) * i / intervals);
-  return times;
-}
-
-// One mode of each kind: free, damped free, undamped, under-, critically and
-// over-damped.
-struct Modes {
-  VectorX lambda = make_vector({0.0, 0.0, 9.0, 16.0, 25.0, 4.0});
-  VectorX damping = make_vector({0.0, 0.5, 0.0, 0.3, 10.0, 7.0});
-};
-
-ModalState make_state() {
-  return {0.25, make_vector({0.1, -0.2, 0.3, 0.5, -0.4, 0.6}),
-          make_vector({1.0, 0.4, -0.7, 0.2, 0.9, -1.1})};
-}
-
-StepLoad make_steps(Eigen::Index modes) {
-  StepLoad steps{{-1.0, 0.5, 0.53, 1.9, 4.0}, MatrixX(modes, 5)};
-  for (Eigen::Index k = 0; k < modes; ++k)
-    for (Eigen::Index j = 0; j < 5; ++j)
-      steps.values(k, j) = std::sin(1.0 + 3.0 * static_cast<double>(k) +
-                                    7.0 * static_cast<double>(j));
-  return steps;
-}
-
-SinusoidalLoad make_sinusoid(double omega, double from, double until) {
-  return {omega, make_vector({0.3, -0.5, 1.0, 0.2, 0.8, -0.9}),
-          make_vector({1.0, 0.7, -0.1, 0.6, 0.3, 0.2}), from, until};
-}
-
-ModalLoads make_loads() {
-  // 3 rad/s is the undamped mode's own frequency.
-  return {make_steps(6),
-          {make_sinusoid(3.0, 0.7, 3.1), make_sinusoid(11.0, -2.0, 1e300)}};
-}
 
 double find_difference(const ModalHistory& a, const ModalHistory& b) {
   return std::max((a.eta - b.eta).cwiseAbs().maxCoeff(),
                   (a.etadot - b.etadot).cwiseAbs().maxCoeff());
-}
-
-// The load as a function, written independently of the response.
-double find_load(const ModalLoads& loads, Eigen::Index k, double t) {
-  double f = 0.0;
-  for (std::size_t j = 0; j < loads.steps.times.size(); ++j)
-    if (loads.steps.times[j] <= t)
-      f = loads.steps.values(k, static_cast<Eigen::Index>(j));
-  for (const SinusoidalLoad& s : loads.sinusoids)
-    if (t >= s.from && t < s.until)
-      f += s.cosine[k] * std::cos(s.omega * (t - s.from)) +
-           s.sine[k] * std::sin(s.omega * (t - s.from));
-  return f;
 }
 
 // Classic Runge-Kutta in long double between two times without a load change:
@@ -246,7 +181,7 @@ TEST(ModalResponse, DividingAnIntervalChangesNothing) {
             2000.0 * kEps * history.eta.cwiseAbs().maxCoeff());
 }
 
-// The number of intervals is all that a response keeps: no time steps.
+// A response stores its intervals only: no time steps.
 TEST(ModalResponse, KeepsOneStatePerLoadChangeWhateverTheDuration) {
   const Modes modes;
   StepLoad steps = make_steps(6);
@@ -356,118 +291,6 @@ TEST_P(Equation37, TheSinusoidIsExactToRoundOff) {
 INSTANTIATE_TEST_SUITE_P(Frequencies, Equation37,
                          ::testing::Values(400.0, 1096.0));
 
-// Report, section 5.5.1: four steps that start and end with zero load, unit
-// initial velocity.
-class FourSteps : public ::testing::Test {
- protected:
-  ModalResponse response_{
-      make_vector({1096.0 * 1096.0}),
-      make_vector({0.0}),
-      {{{0.0, 0.02, 0.05, 0.08}, MatrixX{{0.0, 2e3, -1e3, 0.0}}}, {}},
-      {0.0, make_vector({0.0}), make_vector({1.0})}};
-};
-
-TEST_F(FourSteps, CorrectedEnergyIsConstantOverEachStep) {
-  constexpr double kTolerance = 1e-13;  // the issue's
-  for (const double start : response_.interval_starts()) {
-    std::vector<double> times;
-    for (int i = 0; i < 200; ++i) times.push_back(start + 1e-4 * i);
-    const ModalEnergies energies = response_.evaluate_energies(times);
-    const MatrixX corrected = energies.corrected();
-    const double scale = (energies.kinetic + energies.elastic).maxCoeff();
-    EXPECT_LT(corrected.maxCoeff() - corrected.minCoeff(), kTolerance * scale);
-    // Not because nothing moves.
-    EXPECT_GT(energies.kinetic.maxCoeff() - energies.kinetic.minCoeff(),
-              0.1 * scale);
-  }
-}
-
-TEST_F(FourSteps, EnergyGrowsByTheWork) {
-  const std::vector<double> times = make_grid(0.0, 0.15, 301);
-  const ModalEnergies energies = response_.evaluate_energies(times);
-  const MatrixX total = energies.kinetic + energies.elastic;
-  const MatrixX work = response_.evaluate_step_work(times);
-  const double scale = total.maxCoeff();
-  EXPECT_GT(work.cwiseAbs().maxCoeff(), 0.1 * scale);
-  for (Eigen::Index j = 0; j < total.cols(); ++j)
-    EXPECT_NEAR(total(0, j) - 0.5, work(0, j), 1e-13 * scale);
-}
-
-// Integral of f(t) over [from, until] by 8-point Gauss-Legendre on n panels;
-// nodes and weights from Abramowitz and Stegun, table 25.4.
-double integrate_gauss(const std::function<double(double)>& f, double from,
-                       double until, int n) {
-  constexpr std::array<double, 4> x{0.183434642495650, 0.525532409916329,
-                                    0.796666477413627, 0.960289856497536};
-  constexpr std::array<double, 4> w{0.362683783378362, 0.313706645877887,
-                                    0.222381034453374, 0.101228536290376};
-  double sum = 0.0;
-  const double half = 0.5 * (until - from) / n;
-  for (int p = 0; p < n; ++p) {
-    const double centre = from + half * (2 * p + 1);
-    for (std::size_t i = 0; i < 4; ++i)
-      sum += w[i] * (f(centre - half * x[i]) + f(centre + half * x[i])) * half;
-  }
-  return sum;
-}
-
-TEST(ModalResponse, WorkIsEnergyPlusDissipationInEveryKindOfMode) {
-  const Modes modes;
-  const ModalResponse response(modes.lambda, modes.damping, {make_steps(6), {}},
-                               make_state());
-  const std::vector<double>& starts = response.interval_starts();
-  const ModalEnergies energies = response.evaluate_energies(starts);
-  const MatrixX total = energies.kinetic + energies.elastic;
-  const MatrixX work = response.calc_interval_work();
-  const MatrixX cumulative = response.evaluate_step_work(starts);
-  for (Eigen::Index k = 0; k < 6; ++k) {
-    for (Eigen::Index j = 0; j + 1 < total.cols(); ++j) {
-      const auto at = static_cast<std::size_t>(j);
-      const double dissipated = integrate_gauss(
-          [&](double t) {
-            const double v = response.evaluate({t}).etadot(k, 0);
-            return modes.damping[k] * v * v;
-          },
-          starts[at], starts[at + 1], 16);
-      // The nodes have 15 digits.
-      EXPECT_NEAR(total(k, j + 1) - total(k, j) + dissipated, work(k, j), 1e-13)
-          << k << ' ' << j;
-      EXPECT_NEAR(cumulative(k, j + 1) - cumulative(k, j), work(k, j), 1e-14);
-    }
-  }
-}
-
-TEST(ModalResponse, StepWorkCountsTheMotionThatSinusoidsCause) {
-  const Modes modes;
-  const ModalLoads loads = make_loads();
-  const ModalResponse response(modes.lambda, modes.damping, loads,
-                               make_state());
-  const double end = 5.5;
-  const std::vector<double> breaks{0.25, 0.5, 0.53, 0.7, 1.9, 3.1, 4.0, end};
-  const MatrixX work = response.evaluate_step_work({end});
-  for (Eigen::Index k = 0; k < 6; ++k) {
-    double power = 0.0;
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-      power += integrate_gauss(
-          [&](double t) {
-            return find_load({loads.steps, {}}, k, t) *
-                   response.evaluate({t}).etadot(k, 0);
-          },
-          breaks[i], breaks[i + 1], 16);
-    EXPECT_NEAR(work(k, 0), power, 1e-12) << k;
-  }
-}
-
-// A difference of eta would leave no digit of this work.
-TEST(ModalResponse, WorkOfAShortIntervalKeepsItsDigits) {
-  const double h = 1e-14;
-  const ModalResponse response(make_vector({4.0}), make_vector({0.0}),
-                               {{{0.0, h}, MatrixX{{3.0, 0.0}}}, {}},
-                               {0.0, make_vector({100.0}), make_vector({2.0})});
-  EXPECT_NEAR(response.calc_interval_work()(0, 0) / (3.0 * 2.0 * h), 1.0,
-              4.0 * kEps + 100.0 * h);
-}
-
 TEST(ModalResponse, PhaseOverAMillionPeriodsIsExactToItsRoundOff) {
   const double omega = 1096.0;
   const SinusoidalLoad load{
@@ -483,106 +306,6 @@ TEST(ModalResponse, PhaseOverAMillionPeriodsIsExactToItsRoundOff) {
     EXPECT_NEAR(response.evaluate({t}).eta(0, 0), static_cast<double>(truth),
                 kEps * omega * t * scale);
   }
-}
-
-std::string find_refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing refused";
-}
-
-class ModalResponseRefuses : public ::testing::Test {
- protected:
-  [[nodiscard]] std::string refusal() const {
-    return find_refusal(
-        [&] { ModalResponse(lambda, damping, loads, initial); });
-  }
-  VectorX lambda = make_vector({1.0, 2.0});
-  VectorX damping = make_vector({0.0, 0.1});
-  ModalLoads loads{{{0.0, 1.0}, MatrixX::Ones(2, 2)},
-                   {{.omega = 1.0,
-                     .cosine = make_vector({1.0, 1.0}),
-                     .sine = make_vector({1.0, 1.0})}}};
-  ModalState initial;
-};
-
-TEST_F(ModalResponseRefuses, NothingWhenAllIsWell) {
-  EXPECT_EQ(refusal(), "nothing refused");
-}
-
-TEST_F(ModalResponseRefuses, CoefficientsThatAreNegativeOrNotFinite) {
-  lambda[1] = -1e-9;
-  damping[0] = kNan;
-  const std::string text = refusal();
-  EXPECT_THAT(text, HasSubstr("lambda of mode 1 is -1e-09 rad^2/s^2"));
-  EXPECT_THAT(text, HasSubstr("damping of mode 0 is nan 1/s"));
-}
-
-TEST_F(ModalResponseRefuses, AsManyDampingsAsAreNotEigenvalues) {
-  damping = make_vector({0.1});
-  EXPECT_THAT(refusal(), HasSubstr("2 eigenvalues but 1 damping"));
-}
-
-TEST_F(ModalResponseRefuses, InitialStatesOfOtherSizeOrNotFinite) {
-  initial.eta = make_vector({1.0});
-  initial.etadot = make_vector({1.0, kNan});
-  initial.time = kNan;
-  const std::string text = refusal();
-  EXPECT_THAT(text, HasSubstr("initial eta has 1 entries"));
-  EXPECT_THAT(text, HasSubstr("initial etadot is not finite"));
-  EXPECT_THAT(text, HasSubstr("initial time is not finite"));
-}
-
-TEST_F(ModalResponseRefuses, StepTimesThatDoNotIncrease) {
-  loads.steps.times[1] = 0.0;
-  EXPECT_THAT(refusal(), HasSubstr("time 1 is 0 s after 0 s"));
-}
-
-TEST_F(ModalResponseRefuses, StepsThatAreNotFinite) {
-  loads.steps.times[0] = kNan;
-  loads.steps.values(1, 1) = kNan;
-  const std::string text = refusal();
-  EXPECT_THAT(text, HasSubstr("step load: time 0 is not finite"));
-  EXPECT_THAT(text, HasSubstr("a value at time 1 is not finite"));
-}
-
-TEST_F(ModalResponseRefuses, StepsOfOtherSize) {
-  loads.steps.values = MatrixX::Ones(3, 2);
-  EXPECT_THAT(refusal(), HasSubstr("values are 3 x 2"));
-  loads.steps.values = MatrixX::Ones(2, 3);
-  EXPECT_THAT(refusal(), HasSubstr("values are 2 x 3"));
-}
-
-TEST_F(ModalResponseRefuses, SinusoidsWithoutAFrequencyOrATime) {
-  loads.sinusoids[0].omega = -1.0;
-  loads.sinusoids[0].until = 0.0;
-  const std::string text = refusal();
-  EXPECT_THAT(text, HasSubstr("sinusoid 0: frequency is -1 rad/s"));
-  EXPECT_THAT(text, HasSubstr("from 0 s until 0 s"));
-}
-
-TEST_F(ModalResponseRefuses, SinusoidsOfOtherSizeOrNotFinite) {
-  loads.sinusoids[0].sine = make_vector({1.0});
-  loads.sinusoids[0].cosine[1] = kNan;
-  const std::string text = refusal();
-  EXPECT_THAT(text, HasSubstr("2 cosine and 1 sine amplitudes"));
-  EXPECT_THAT(text, HasSubstr("an amplitude is not finite"));
-}
-
-TEST_F(ModalResponseRefuses, TimesBeforeTheStartOrNotFinite) {
-  const ModalResponse response(lambda, damping, loads, initial);
-  for (const double t : {-0.1, kNan}) {
-    EXPECT_THROW((void)response.evaluate({0.0, t}), InputError);
-    EXPECT_THROW((void)response.evaluate_energies({t}), InputError);
-    EXPECT_THROW((void)response.evaluate_step_work({t}), InputError);
-  }
-  EXPECT_THAT(find_refusal([&] {
-                (void)response.evaluate({0.0, -0.5});
-              }),
-              HasSubstr("time 1 is -0.5 s; expected a time from 0 s on"));
 }
 
 }  // namespace

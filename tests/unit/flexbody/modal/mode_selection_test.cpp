@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/mode_selection.hpp"
+#include "limber/flexbody/modal/mode_selection.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "support/eigenpairs.hpp"
 
 namespace limber::flexbody {

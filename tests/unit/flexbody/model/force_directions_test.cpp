@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/force_directions.hpp"
+#include "limber/flexbody/model/force_directions.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <random>
 
-#include "flexbody/load_modes_record.hpp"
+#include "limber/flexbody/model/load_modes_record.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -51,7 +51,7 @@ TEST(ForceDirections, LeaveOutWhatIsBelowTheTolerance) {
   EXPECT_EQ(find_force_directions(F, 1e-6, 100).Q.cols(), 3);
 }
 
-TEST(ForceDirections, BeyondTheMostAskedForAreTold) {
+TEST(ForceDirections, BeyondTheRequestedNumberAreReported) {
   const ForceDirections found =
       find_force_directions(make_random(60, 40), 1e-6, 8);
   EXPECT_EQ(found.Q.cols(), 8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/node_selection.hpp"
+#include "limber/flexbody/model/node_selection.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "common/errors.hpp"
+#include "limber/common/errors.hpp"
 #include "unit/flexbody/files.hpp"
 
 namespace limber::flexbody::test {
@@ -67,7 +67,7 @@ TEST(NodeSelection, WhatHasNoDirectionOrNoWallIsRefused) {
 
 std::vector<NodeSelection> list_unequal_selections() {
   const Vector3 p(0.1, 0.2, 0.3);
-  const Vector3 q = p + Vector3(0, 0, 1e-15);  // told apart to the last digit
+  const Vector3 q = p + Vector3(0, 0, 1e-15);  // one digit apart
   return {GroupNodes{"tip"},
           GroupNodes{"node:1"},
           GroupNodes{"tip:equal"},
@@ -104,7 +104,7 @@ TEST(NodeSelection, EqualOnesHaveEqualNames) {
   EXPECT_EQ(name_of(plane), name_of(same));
 }
 
-TEST(NodeSelection, IsToldWithItsNumbers) {
+TEST(NodeSelection, IsDescribedWithItsNumbers) {
   EXPECT_EQ(describe(make_plane({0, 0, 9}, {0, 0, 2}, 0.25)),
             "the plane through (0, 0, 9) m normal to (0, 0, 1) within 0.25 m");
   EXPECT_EQ(describe(make_cylinder({0, 0, 1}, {0, 0, 2}, 0.5, 0.25)),

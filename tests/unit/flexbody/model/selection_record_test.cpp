@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flexbody/selection_record.hpp"
+#include "limber/flexbody/model/selection_record.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/basis_choice.hpp"
+#include "limber/scene/build/basis_choice.hpp"
 
 #include <gmock/gmock.h>
 
-#include "scene/scene.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/build/scene.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {
@@ -84,7 +85,7 @@ TEST(BasisChoice, IsRefusedForASavedBody) {
   FlexibleLink flexible;
   flexible.reduced_file = "arm.h5";
   robot.links = {{"arm", {}, flexible}};
-  choose_bases({}, {}, robot);  // nothing is asked
+  choose_bases({}, {}, robot);  // nothing is requested
   BasisChoice choice;
   choice.eigenmodes = 5;
   EXPECT_THAT(input_error([&] { choose_bases({}, choice, robot); }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/body_plan.hpp"
+#include "limber/scene/build/body_plan.hpp"
 
 #include <gmock/gmock.h>
 

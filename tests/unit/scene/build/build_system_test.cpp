@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "flexbody/body_file.hpp"
+#include "limber/flexbody/file/body_file.hpp"
 #include "support/point_mass_body.hpp"
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
@@ -50,7 +50,7 @@ TEST(BuildSystem, ContinuousJointTurnsAnyNumberOfTimes) {
             fmt::format("[initial.joints]\nj = {{ velocity = {} }}\n", rate) +
             kProbe + "point = [1.0, 0.0, 0.0]\n");
     const auto p = simulate_probes(built);
-    // The joint gives way by m w^2 r / k, and the spin slows with it; the
+    // The joint deflects by m w^2 r / k, which reduces the spin; the
     // integrator's error is of second order in a step's angle.
     const double tolerance = rate * (10.0 * 2.0 * rate * rate / 1e13 +
                                      0.5 * std::pow(rate * step, 2));
@@ -226,7 +226,7 @@ TEST_F(SavedBody, TakesLoadsAndProbesAtItsInterfaces) {
       "time = { kind = 'constant' }\n"
       "[[probe]]\nname = 'p'\nlink = 'body'\ninterface = 'tip'\n"
       "quantity = 'deformation'\n");
-  // The impulse F t, whatever the body's inner motion.
+  // The impulse F t, for any internal motion of the body.
   dynamics::SystemState state = built.initial;
   dynamics::EnergyBalance end;
   dynamics::simulate(

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Default hinges between rigid links, by what a scene's own motion asks of
-// them.
-#include "scene/carried_load.hpp"
+// Default hinges between rigid links, by their estimated loads in a scene.
+#include "limber/scene/build/carried_load.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,7 +43,7 @@ double find_stiffness(const BuiltScene& built, std::size_t coupler = 0) {
 }
 
 double default_stiffness(double mass) {
-  return mass * std::pow(2.0 * std::numbers::pi * kRigidFrequency, 2);
+  return mass * std::pow(2.0 * std::numbers::pi * dynamics::kRigidFrequency, 2);
 }
 
 TEST(CarriedLoad, HoldsAFastCrankOnItsHinge) {
@@ -56,7 +55,8 @@ TEST(CarriedLoad, HoldsAFastCrankOnItsHinge) {
                                 "quantity = 'relative_position'\n");
   const auto gap = simulate_probes(built);
   const double opening = Vector3(gap[0], gap[1], gap[2]).norm();
-  // It rings about m w^2 r / k, by as much, for it starts without strain.
+  // It oscillates about m w^2 r / k with that amplitude, since it starts
+  // unstressed.
   EXPECT_LT(opening, 2.0 * kAllowed * kReach);
   EXPECT_GT(opening, 0.0);
 }

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/scene_checks.hpp"
+#include "limber/scene/build/scene_checks.hpp"
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-/// What a robot's and a scenario's words become in the system: laws, their
-/// numbers, frames and axes.
+/// Couplers built from a robot and a scenario: laws, their parameters, frames
+/// and axes.
 namespace limber::scene {
 namespace {
 
@@ -76,7 +76,7 @@ double default_damping(double stiffness, double mu) {
 // Stiffness with which 1 kg (1 kg m^2) swings at 50 Hz.
 constexpr double kUnitStop = 1e4 * kPi * kPi;
 
-TEST(CouplerAssembly, StopIsAsStiffAsTheMassThatHitsItUnlessToldOtherwise) {
+TEST(CouplerAssembly, StopIsAsStiffAsTheMassThatHitsItUnlessGivenOtherwise) {
   const SceneFolder folder;
   const BuiltScene built = folder.build(
       two_bodies("revolute", "prismatic") +
@@ -193,7 +193,7 @@ TEST(CouplerAssembly, DrivesAndReleasesNeedWhatTheyName) {
               HasSubstr("unknown latch 'grip'"));
 }
 
-TEST(CouplerAssembly, TendonIsAsLongAsItStartsUnlessToldOtherwise) {
+TEST(CouplerAssembly, TendonIsAsLongAsItStartsUnlessGivenOtherwise) {
   const SceneFolder folder;
   const std::string via =
       "><via link='world' point='3 4 0'/><via link='a'/>"
@@ -240,7 +240,7 @@ TEST(CouplerAssembly, GearIsAsStiffAsItsSofterJoint) {
   const double k_j = 0.1 * kUnitStiffness;  // of j, the softer
   EXPECT_NEAR(one.curve.parameters().stiffness, k_j, 1e-9 * k_j);
   EXPECT_NEAR(one.damping, default_damping(k_j, 0.1), 1e-9 * one.damping);
-  // As j feels it, k is softer by the ratio's square.
+  // Referred to j, k is softer by the square of the ratio.
   const double k_k = 0.3 * kUnitStiffness / 9.0;
   const auto [three, unused] = spring("ratio='3'");
   EXPECT_NEAR(three.curve.parameters().stiffness, k_k, 1e-9 * k_k);
@@ -269,7 +269,7 @@ TEST(CouplerAssembly, PointsOfABushingMeetAtTheStart) {
               ::testing::HasSubstr("'n': its ends are 1 m apart at the start"));
 }
 
-TEST(CouplerAssembly, GearThatStartsOutOfPlaceIsToldOnce) {
+TEST(CouplerAssembly, GearThatStartsOutOfPlaceGivesOneWarning) {
   const SceneFolder folder;
   const auto warnings = [&](const std::string& start) {
     return folder

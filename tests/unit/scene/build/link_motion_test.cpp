@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/link_motion.hpp"
+#include "limber/scene/build/link_motion.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "common/rotation.hpp"
+#include "limber/common/rotation.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {

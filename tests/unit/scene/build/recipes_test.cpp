@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/recipes.hpp"
+#include "limber/scene/build/recipes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

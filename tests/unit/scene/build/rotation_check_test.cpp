@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/rotation_check.hpp"
+#include "limber/scene/build/rotation_check.hpp"
 
 #include <gmock/gmock.h>
 
-#include "common/rotation.hpp"
-#include "flexbody/body_file.hpp"
-#include "joints/friction.hpp"
-#include "joints/joint_kind.hpp"
-#include "joints/latch.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/flexbody/file/body_file.hpp"
+#include "limber/joints/friction.hpp"
+#include "limber/joints/joint_kind.hpp"
+#include "limber/joints/latch.hpp"
 #include "support/point_mass_body.hpp"
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
@@ -43,9 +43,9 @@ flexbody::InterfaceTable make_point() {
   return table;
 }
 
-Matrix3 asked_by(JointKind kind, const Vector3& axis,
-                 double free_damping = 0.0) {
-  return find_asked_rotations(
+Matrix3 required_by(JointKind kind, const Vector3& axis,
+                    double free_damping = 0.0) {
+  return find_required_rotations(
              joints::make_joint_bushing(kind, axis,
                                         {.translational_stiffness = 1e9,
                                          .rotational_stiffness = 1e7,
@@ -56,37 +56,41 @@ Matrix3 asked_by(JointKind kind, const Vector3& axis,
 }
 
 std::string error_of(const flexbody::InterfaceTable& table,
-                     const Matrix3& asked) {
-  return input_error([&] { check_rotation(table, asked); });
+                     const Matrix3& required) {
+  return input_error([&] { check_rotation(table, required); });
 }
 
 TEST(RotationCheck, HingeAlongALineOfNodesIsHeld) {
-  EXPECT_EQ(error_of(make_line(), asked_by(JointKind::revolute, kZ)), "");
-  EXPECT_EQ(error_of(make_line(), asked_by(JointKind::planar, -kZ)), "");
+  EXPECT_EQ(error_of(make_line(), required_by(JointKind::revolute, kZ)), "");
+  EXPECT_EQ(error_of(make_line(), required_by(JointKind::planar, -kZ)), "");
   // pi / 2 rounded as URDF files do.
   const Vector3 rounded = exp_rotation(1.5708 * kX) * -Vector3::UnitY();
   ASSERT_GT((rounded + kZ).norm(), 1e-6);
-  EXPECT_EQ(error_of(make_line(), asked_by(JointKind::revolute, rounded)), "");
+  EXPECT_EQ(error_of(make_line(), required_by(JointKind::revolute, rounded)),
+            "");
 }
 
-TEST(RotationCheck, TellsTheNodesTheDirectionAndWhatMendsIt) {
-  for (const Matrix3& asked :
-       {asked_by(JointKind::revolute, kX), asked_by(JointKind::fixed, kX),
-        asked_by(JointKind::prismatic, kZ), Matrix3(kZ * kZ.transpose())}) {
-    EXPECT_EQ(error_of(make_line(), asked),
-              "interface 'edge': its 3 nodes are on one line along (0, 0, 1), "
-              "so it has no rotation about (0, 0, 1) (mesh axes), which is "
-              "asked of it. Take nodes that span a surface, or ask no rotation "
-              "about that direction");
+TEST(RotationCheck, GivesTheNodesTheDirectionAndTheRemedy) {
+  for (const Matrix3& required :
+       {required_by(JointKind::revolute, kX), required_by(JointKind::fixed, kX),
+        required_by(JointKind::prismatic, kZ), Matrix3(kZ * kZ.transpose())}) {
+    EXPECT_EQ(
+        error_of(make_line(), required),
+        "interface 'edge': its 3 nodes are on one line along (0, 0, 1), "
+        "so it has no rotation about (0, 0, 1) (mesh axes), which is "
+        "required. Take nodes that span a surface, or require no rotation "
+        "about that direction");
   }
 }
 
-TEST(RotationCheck, SoftAndDampedDirectionsAreAskedToo) {
-  EXPECT_NE(error_of(make_line(), asked_by(JointKind::revolute, kZ, 1e-6)), "");
+TEST(RotationCheck, SoftAndDampedDirectionsAreRequiredToo) {
+  EXPECT_NE(error_of(make_line(), required_by(JointKind::revolute, kZ, 1e-6)),
+            "");
   joints::Bushing::Parameters soft;
   soft.rotational_stiffness = Vector3(1e9, 1e9, 1e-2).asDiagonal();
   EXPECT_NE(
-      error_of(make_line(), find_asked_rotations(joints::Bushing(soft)).F), "");
+      error_of(make_line(), find_required_rotations(joints::Bushing(soft)).F),
+      "");
 }
 
 TEST(RotationCheck, CouplersWithoutRotationGoAnywhere) {
@@ -95,9 +99,10 @@ TEST(RotationCheck, CouplersWithoutRotationGoAnywhere) {
   bushing.translational_damping = 1e3 * Matrix3::Identity();
   const joints::PointSpring spring({.stiffness = 5.0});
   for (const auto& table : {make_line(), make_point()}) {
-    EXPECT_EQ(error_of(table, find_asked_rotations(joints::Bushing(bushing)).M),
-              "");
-    EXPECT_EQ(error_of(table, find_asked_rotations(spring).F), "");
+    EXPECT_EQ(
+        error_of(table, find_required_rotations(joints::Bushing(bushing)).M),
+        "");
+    EXPECT_EQ(error_of(table, find_required_rotations(spring).F), "");
   }
 }
 
@@ -106,9 +111,9 @@ const joints::JointParameters kHeld = {.translational_stiffness = 1e9,
                                        .translational_damping = 1e3,
                                        .rotational_damping = 1e2};
 
-AskedSides asked_by_joint(JointKind kind,
-                          std::vector<joints::JointElement> elements = {}) {
-  return find_asked_rotations(
+RequiredSides required_by_joint(
+    JointKind kind, std::vector<joints::JointElement> elements = {}) {
+  return find_required_rotations(
       joints::make_joint(kind, kZ, kX, kHeld, std::move(elements)));
 }
 
@@ -117,56 +122,62 @@ joints::JointElement make_friction(int coordinate) {
           joints::Friction({.coulomb = 1.0, .viscous = 0.0, .speed = 1e-3})};
 }
 
-TEST(RotationCheck, LawAlongAnAngleAsksForIt) {
-  EXPECT_EQ(error_of(make_line(), asked_by_joint(JointKind::revolute).M), "");
-  EXPECT_NE(error_of(make_line(),
-                     asked_by_joint(JointKind::revolute, {make_friction(0)}).M),
+TEST(RotationCheck, LawAlongAnAngleRequiresIt) {
+  EXPECT_EQ(error_of(make_line(), required_by_joint(JointKind::revolute).M),
             "");
+  EXPECT_NE(
+      error_of(make_line(),
+               required_by_joint(JointKind::revolute, {make_friction(0)}).M),
+      "");
   // Along a distance of a planar joint, then about its angle.
-  EXPECT_EQ(error_of(make_line(),
-                     asked_by_joint(JointKind::planar, {make_friction(1)}).F),
-            "");
-  EXPECT_NE(error_of(make_line(),
-                     asked_by_joint(JointKind::planar, {make_friction(2)}).F),
-            "");
+  EXPECT_EQ(
+      error_of(make_line(),
+               required_by_joint(JointKind::planar, {make_friction(1)}).F),
+      "");
+  EXPECT_NE(
+      error_of(make_line(),
+               required_by_joint(JointKind::planar, {make_friction(2)}).F),
+      "");
 }
 
 TEST(RotationCheck, UniversalJointHoldsNoRotationAboutEachSidesOwnAxis) {
   // The first axis, z, belongs to F and the second, x, to M.
-  const AskedSides asked = asked_by_joint(JointKind::universal);
-  EXPECT_EQ(error_of(make_line(), asked.F), "");
-  EXPECT_NE(error_of(make_line(), asked.M), "");
+  const RequiredSides required = required_by_joint(JointKind::universal);
+  EXPECT_EQ(error_of(make_line(), required.F), "");
+  EXPECT_NE(error_of(make_line(), required.M), "");
   flexbody::InterfaceTable along_x = make_line();
   along_x.rotation_axes = Matrix3::Identity().rightCols<2>();
-  EXPECT_NE(error_of(along_x, asked.F), "");
-  EXPECT_EQ(error_of(along_x, asked.M), "");
+  EXPECT_NE(error_of(along_x, required.F), "");
+  EXPECT_EQ(error_of(along_x, required.M), "");
 }
 
 TEST(RotationCheck, BallJointGoesAnywhereUntilALawActsInIt) {
-  EXPECT_EQ(error_of(make_point(), asked_by_joint(JointKind::ball).F), "");
+  EXPECT_EQ(error_of(make_point(), required_by_joint(JointKind::ball).F), "");
   EXPECT_NE(error_of(make_line(),
-                     asked_by_joint(JointKind::ball, {make_friction(0)}).F),
+                     required_by_joint(JointKind::ball, {make_friction(0)}).F),
             "");
 }
 
-TEST(RotationCheck, LatchAsksForAllRotationsUnlessItHoldsNone) {
+TEST(RotationCheck, LatchRequiresAllRotationsUnlessItHoldsNone) {
   joints::Latch::Parameters latch;
   latch.reach = 0.01;
   latch.bushing.translational_stiffness = 1e6 * Matrix3::Identity();
   EXPECT_EQ(
-      error_of(make_point(), find_asked_rotations(joints::Latch(latch)).F), "");
+      error_of(make_point(), find_required_rotations(joints::Latch(latch)).F),
+      "");
   latch.bushing.rotational_stiffness = 1e6 * Matrix3::Identity();
-  EXPECT_NE(error_of(make_line(), find_asked_rotations(joints::Latch(latch)).M),
-            "");
+  EXPECT_NE(
+      error_of(make_line(), find_required_rotations(joints::Latch(latch)).M),
+      "");
 }
 
 TEST(RotationCheck, PointHasNoRotationAtAll) {
   EXPECT_THAT(error_of(make_point(), kX * kX.transpose()),
               HasSubstr("'corner': it is one node, so it has no rotation about "
                         "(1, 0, 0)"));
-  EXPECT_THAT(error_of(make_point(), asked_by(JointKind::revolute, kX)),
+  EXPECT_THAT(error_of(make_point(), required_by(JointKind::revolute, kX)),
               HasSubstr("about directions normal to (1, 0, 0)"));
-  EXPECT_THAT(error_of(make_point(), asked_by(JointKind::fixed, kX)),
+  EXPECT_THAT(error_of(make_point(), required_by(JointKind::fixed, kX)),
               HasSubstr("about any direction"));
 }
 

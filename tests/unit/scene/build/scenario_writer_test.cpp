@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/scenario_writer.hpp"
+#include "limber/scene/build/scenario_writer.hpp"
 
 #include <gmock/gmock.h>
 
-#include "scene/scenario_reader.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {
@@ -26,7 +27,7 @@ Overrides choose(dynamics::Fidelity level, int modes, double step) {
   return overrides;
 }
 
-/// What is read from a scenario that was rewritten into another folder.
+/// The scenario read after it was rewritten to another folder.
 Scene rewrite(const fs::path& file, const Overrides& overrides) {
   const fs::path folder =
       fs::temp_directory_path() / ("limber-chosen-" + std::to_string(getpid()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_traits.hpp"
+#include "limber/scene/probes/coupler_traits.hpp"
 
 #include <gmock/gmock.h>
 
-#include "scene/coupler_probe.hpp"
+#include "limber/scene/probes/coupler_probe.hpp"
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
@@ -56,7 +56,7 @@ TEST(CouplerTraits, AreThoseOfTheCouplersThatAreMade) {
     SCOPED_TRACE(traits.name);
     const CouplerProbe of =
         make_coupler_probe({traits.name, CouplerQuantity::energy}, model);
-    EXPECT_EQ(of.is_transmission, !traits.has_frames);
+    EXPECT_EQ(of.transmission >= 0, !traits.has_frames);
     EXPECT_EQ(of.coordinates.size(),
               static_cast<std::size_t>(traits.coordinates));
     ++made;
@@ -85,9 +85,9 @@ TEST(CouplerTraits, ProbesOfWhatIsNotThereAreRefusedBeforeAnythingIsMade) {
   EXPECT_THAT(error("cord", "force"), HasSubstr("joins no two frames"));
 }
 
-// A drive, a stop and their probes by their words in files alone: a ramp to
-// 0.5 rad, stiff enough that the hinge follows it to d = M / k = 1e-3 rad
-// against a moment of 1 N m.
+// A drive, a stop and their probes, defined in files only: a ramp to 0.5 rad,
+// stiff enough that the hinge follows it to d = M / k = 1e-3 rad against a
+// moment of 1 N m.
 TEST(CouplerTraits, DriveOfAScenarioHoldsAgainstALoad) {
   const SceneFolder folder;
   const BuiltScene built = folder.build(

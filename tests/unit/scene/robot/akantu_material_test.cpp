@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/akantu_material.hpp"
+#include "limber/scene/robot/akantu_material.hpp"
 
 #include <gmock/gmock.h>
 

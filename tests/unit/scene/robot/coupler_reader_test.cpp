@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/robot_reader.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 /// Joints, loops, tendons, gears and latches as the robot's file gives them.
@@ -394,7 +394,7 @@ TEST(CouplerReader, RefusesCouplersThatMakeNoSense) {
        {coupler("", "<friction speed='1'/>"), {"needs 'coulomb'"}},
        {coupler("", "<spring/>"), {"needs 'stiffness'"}},
        {coupler("", "<spring table='1 2 3'/>"), {"pairs", "got 3"}},
-       {coupler("", "<spring table='1 2 0 3'/>"), {"table goes back"}},
+       {coupler("", "<spring table='1 2 0 3'/>"), {"table decreases"}},
        {coupler("", "<spring stiffness='1'/>", "planar"),
         {"needs 'coordinate', 1 to 3"}},
        {coupler("", "<spring stiffness='1' coordinate='2'/>"),

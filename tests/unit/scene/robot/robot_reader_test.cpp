@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/robot_reader.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/coupler_probe_reader.hpp"
+#include "limber/scene/scenario/coupler_probe_reader.hpp"
 
 #include <gmock/gmock.h>
 
-#include "scene/scenario_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {

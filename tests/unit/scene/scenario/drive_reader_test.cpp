@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/drive_reader.hpp"
+#include "limber/scene/scenario/drive_reader.hpp"
 
 #include <gmock/gmock.h>
 
-#include "scene/scenario_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {
@@ -149,7 +149,7 @@ TEST(DriveReader, RefusesGainsThatTheModeDoesNotHave) {
   EXPECT_THAT(error("mode='effort'\ndamping=1\n"),
               HasSubstr("no meaning in this mode"));
   EXPECT_THAT(error("mode='effort'\nmax_effort=0.5\n"),
-              HasSubstr("asks for an effort of 1; its limit is 0.5"));
+              HasSubstr("commands an effort of 1; its limit is 0.5"));
   EXPECT_THAT(error("mode='effort'\nmax_speed=0\n"), HasSubstr("max_speed"));
   EXPECT_THAT(error("mode='effort'\ncoordinate=4\n"), HasSubstr("coordinate"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/scenario_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/force_file.hpp"
+#include "limber/scene/text/force_file.hpp"
 
 #include <gmock/gmock.h>
 

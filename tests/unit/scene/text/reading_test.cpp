@@ -6,11 +6,11 @@
 #include <clocale>
 #include <locale>
 
-#include "scene/akantu_material.hpp"
-#include "scene/force_file.hpp"
-#include "scene/robot_reader.hpp"
-#include "scene/scenario_reader.hpp"
-#include "scene/series_file.hpp"
+#include "limber/scene/robot/akantu_material.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
+#include "limber/scene/text/force_file.hpp"
+#include "limber/scene/text/series_file.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {

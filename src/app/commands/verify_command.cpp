@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/commands/verify_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "limber/app/options/validators.hpp"
+
+namespace limber::app {
+
+void add_verify(CLI::App& app, Action& action, const Verify& verify) {
+  const auto options = std::make_shared<VerifyOptions>();
+  CLI::App* command = app.add_subcommand(
+      "verify", "Compare the level `rigid` with Simbody, body by body");
+  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
+      ->required();
+  command->add_option("--joints", options->joints,
+                      "What stands for joints in Simbody: bushings (default), "
+                      "linear-bushings, ideal");
+  command->add_option("--step", options->step, "Our longest step [s]")
+      ->check(make_positive());
+  command->add_option("--duration", options->duration, "End of both runs [s]")
+      ->check(make_positive());
+  command->add_option("--integrator", options->integrator,
+                      "Ours: generalized-alpha, runge-kutta-4, "
+                      "explicit-euler");
+  command->add_option("--accuracy", options->accuracy,
+                      "Of Simbody's integrator (default 1e-12)");
+  command
+      ->add_option("--refine", options->refine,
+                   "Halve our step this often; shows the order")
+      ->check(CLI::Range(0, 20));
+  command
+      ->add_option("--stiffen", options->stiffen,
+                   "Factors of the stiffness of all joints, as in 1,10,100: "
+                   "convergence to Simbody's ideal joints")
+      ->delimiter(',')
+      ->check(make_positive());
+  command->add_option("--out", options->out,
+                      "Folder for verification.json and, with --stiffen, "
+                      "stiffness.png (default: none)");
+  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->callback([&action, options, verify] {
+    action = [options, verify] { verify(*options); };
+  });
+}
+
+}  // namespace limber::app

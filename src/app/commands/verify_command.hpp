@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "limber/app/console/command_line.hpp"
+
+namespace limber::app {
+
+/// What the command line says.
+struct VerifyOptions {
+  std::string scenario;
+  std::string joints;
+  std::string integrator;
+  std::string cache;
+  double step = 0.0;            ///< [s]
+  double duration = 0.0;        ///< [s]
+  double accuracy = 1e-12;      ///< of Simbody's integrator [-]
+  int refine = 0;               ///< number of halvings of the step
+  std::vector<double> stiffen;  ///< factors of stiffness [-]
+  std::string out;
+  bool json = false;
+};
+
+using Verify = std::function<void(const VerifyOptions&)>;
+
+/// Adds `verify`; choosing it has `verify` called.
+void add_verify(CLI::App& app, Action& action, const Verify& verify);
+
+}  // namespace limber::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/console/percent.hpp"
+
+#include <fmt/format.h>
+
+namespace limber::app {
+
+std::string to_percent(std::optional<double> share) {
+  if (!share) return "none";
+  const double percent = 100.0 * *share;
+  return percent < 10.0 ? fmt::format("{:.2g} %", percent)
+                        : fmt::format("{:.3g} %", percent);
+}
+
+}  // namespace limber::app

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace limber::app {
+
+/// "1.2 %"; "none" without a value. @param share [-]
+[[nodiscard]] std::string to_percent(std::optional<double> share);
+
+}  // namespace limber::app

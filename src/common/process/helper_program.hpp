@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace limber {
+
+/// Whether this user may run the file as a program.
+[[nodiscard]] bool can_run(const std::filesystem::path& program);
+
+/// A program that Limber starts, by name: beside the running program, in
+/// ../libexec/limber from there, or where Limber was configured to be
+/// installed.
+/// @param what it is to the user, as "the mesher"
+/// @param remedy a sentence that ends the error
+/// @throws InputError if it is in none of these places
+[[nodiscard]] std::filesystem::path find_helper(const std::string& what,
+                                                const std::string& name,
+                                                const std::string& remedy);
+
+/// Has the program go on in place of this one: in the same process, with its
+/// streams, its signals' senders and its parent. Handlers of signals, threads
+/// and memory are gone.
+/// @param argv ended by a null pointer
+/// @throws InputError if it cannot be started
+[[noreturn]] void become(const std::filesystem::path& program, char** argv);
+
+}  // namespace limber

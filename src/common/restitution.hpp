@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Impacts of two bodies on an elastic law f(d) with the damping f b d'.
+namespace limber {
+
+/// How long a free body touches what has no stiffness of its own: end stops
+/// and contacts without a material are as stiff as this takes [s].
+inline constexpr double kImpactDuration = 0.01;
+
+/// The b with which a free body that arrives at `speed` leaves at
+/// `restitution` of it.
+///
+/// Equation   (1 + e) beta = ln((1 + beta) / (1 - e beta)), beta = b v:
+///            the first integral of m d'' = -f(d) (1 + b d'), whatever m and
+///            the law f(d) > 0, as the energy stored on the way in is that
+///            released on the way out. As beta < 1/e, nothing pulls.
+/// Source     [@hunt1975] for the law
+/// @param restitution e in (0, 1] [-]
+/// @param speed v > 0 [m/s or rad/s]
+/// @return b [s/m or s/rad]; 0 at e = 1, and 1 / (e v) to round-off at
+///         e < 0.02: there is none at e = 0.
+/// @throws ContractError for values outside their range.
+[[nodiscard]] double find_restitution_damping(double restitution, double speed);
+
+}  // namespace limber

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/law/hertz_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limber/common/errors.hpp"
+#include "limber/contact/law/check_value.hpp"
+
+namespace limber::contact {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+template <int n>
+constexpr double power(double x) {
+  double product = 1.0;
+  for (int i = 0; i < n; ++i) product *= x;
+  return product;
+}
+
+// x > 0 of (x/flat)^n + (x/line)^(n+1) = 1, for flat, line > 0, one of which
+// may be infinite. With u = x / min(flat, line) one coefficient is 1 and the
+// other at most 1: nothing overflows, u is between 2^(-1/n) and 1, and from 1
+// Newton's method decreases to u, as the left side is convex and increases.
+template <int n>
+double solve_series(double flat, double line) {
+  const double scale = std::min(flat, line);
+  const double a = flat > line ? power<n>(line / flat) : 1.0;
+  const double b = line > flat ? power<n + 1>(flat / line) : 1.0;
+  double u = 1.0;
+  for (int i = 0; i < 20; ++i) {
+    const double low = power<n - 1>(u);
+    const double excess = low * u * (a + b * u) - 1.0;
+    const double step = excess / (low * (n * a + (n + 1) * b * u));
+    u -= step;
+    if (!(step > 1e-9 * u)) break;  // the next one would be below round-off
+  }
+  return scale * u;
+}
+
+}  // namespace
+
+HertzLaw::HertzLaw(const Parameters& parameters) : parameters_(parameters) {
+  const Parameters& p = parameters;
+  check_value(p.residual >= 0.0, "residual flexibility [m/N]", p.residual,
+              ">= 0");
+  if (p.stiffness == kRigid) {
+    check_value(p.residual > 0.0, "residual flexibility [m/N]", p.residual,
+                "> 0 between surfaces that do not flatten");
+  } else {
+    check_value(p.stiffness > 0.0, "stiffness [N/m^1.5]", p.stiffness, "> 0");
+  }
+  cbrt_stiffness_ = std::cbrt(p.stiffness);
+  cbrt_residual_ = std::cbrt(p.residual);
+  compliance_ = 1.0 / (cbrt_stiffness_ * cbrt_stiffness_);
+}
+
+HertzLaw::Response HertzLaw::evaluate(double depth) const {
+  if (std::isnan(depth)) return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
+  if (!(depth > 0.0)) return {};
+  return evaluate_root(find_root(depth));
+}
+
+HertzLaw::StepResponse HertzLaw::evaluate_over_step(double depth0,
+                                                    double depth1) const {
+  const double d0 = depth0;
+  const double d1 = depth1;
+  if (std::isnan(d0) || std::isnan(d1)) return {kNaN, kNaN};
+  if (!(d0 > 0.0) && !(d1 > 0.0)) return {};
+  if (!(d1 > 0.0)) {  // it leaves
+    const double force = evaluate(d0).energy() / (d0 - d1);
+    return {force, force / (d0 - d1)};
+  }
+  const double s1 = find_root(d1);
+  if (!(d0 > 0.0)) {  // it touches
+    const Response end = evaluate_root(s1);
+    const double force = end.energy() / (d1 - d0);
+    return {force, (end.force - force) / (d1 - d0)};
+  }
+  // V1 - V0 and d1 - d0 are polynomials of s0 and s1; the factor s1 - s0 of
+  // both is divided out, and nothing cancels.
+  const double s0 = find_root(d0);
+  const double c = compliance_;
+  const double R = parameters_.residual;
+  const double cubic = (s1 + s0) * (s1 * s1 + s0 * s0);
+  const double quartic = s1 * cubic + s0 * s0 * s0 * s0;
+  const double quintic = s1 * quartic + s0 * s0 * s0 * s0 * s0;
+  const double work = 0.4 * c * quartic + 0.5 * R * quintic;
+  const double way = c * (s1 + s0) + R * (s1 * s1 + s1 * s0 + s0 * s0);
+  const double force = work / way;
+  if (s1 > 2.0 * s0 || 2.0 * s1 < s0) {
+    return {force, (s1 * s1 * s1 - force) / (d1 - d0)};
+  }
+  const double cubic_slope = 3.0 * s1 * s1 + 2.0 * s1 * s0 + s0 * s0;
+  const double quartic_slope = cubic + s1 * cubic_slope;
+  const double work_slope =
+      0.4 * c * quartic_slope + 0.5 * R * (quartic + s1 * quartic_slope);
+  const double way_slope = c + R * (2.0 * s1 + s0);
+  const double depth_slope = s1 * (2.0 * c + 3.0 * R * s1);
+  return {force, (work_slope - force * way_slope) / (way * depth_slope)};
+}
+
+HertzLaw::Response HertzLaw::find_state_of_energy(double energy) const {
+  LIMBER_EXPECT(energy >= 0.0);
+  if (energy == 0.0) return {};
+  const double flat = std::pow(energy / (0.4 * compliance_), 0.2);
+  const double line = std::pow(energy / (0.5 * parameters_.residual), 1.0 / 6);
+  return evaluate_root(solve_series<5>(flat, line));
+}
+
+double HertzLaw::find_root(double depth) const {
+  const double flat = std::sqrt(depth) * cbrt_stiffness_;
+  const double line = std::cbrt(depth) / cbrt_residual_;
+  return solve_series<2>(flat, line);
+}
+
+HertzLaw::Response HertzLaw::evaluate_root(double s) const {
+  const double c = compliance_;
+  const double R = parameters_.residual;
+  Response response;
+  response.force = s * s * s;
+  response.stiffness = 3.0 * s / (2.0 * c + 3.0 * R * s);
+  response.hertz_depth = c * s * s;
+  response.residual_depth = R * response.force;
+  response.hertz_energy = 0.4 * response.force * response.hertz_depth;
+  response.residual_energy = 0.5 * response.force * response.residual_depth;
+  return response;
+}
+
+}  // namespace limber::contact

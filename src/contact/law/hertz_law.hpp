@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+
+namespace limber::contact {
+
+/// Elastic normal force of one contact point: Hertz's flattening of the two
+/// surfaces in series with the flexibility that the bodies' bases leave out.
+///
+/// Equation   d = (f/k)^(2/3) + R f, with s = cbrt(f): d = c s^2 + R s^3,
+///            c = k^(-2/3); V = 2/5 c s^5 + R f^2 / 2 with dV/dd = f;
+///            dV/dR = -f^2 / 2 at constant d
+/// Source     Hertz: [@johnson1985, ch. 4]
+/// Limits     the area that touches stays small against the radii, and the
+///            contact lasts long against the time that waves take through
+///            the bodies' parts that R stands for
+class HertzLaw {
+ public:
+  /// k of surfaces that do not flatten: d = R f.
+  static constexpr double kRigid = std::numeric_limits<double>::infinity();
+  struct Parameters {
+    double stiffness = 0.0;  ///< k > 0, or kRigid [N/m^1.5]
+    double residual = 0.0;   ///< R >= 0; > 0 if k is kRigid [m/N]
+  };
+
+  struct Response {
+    double force = 0.0;            ///< f >= 0 [N]
+    double stiffness = 0.0;        ///< df/dd [N/m]
+    double hertz_depth = 0.0;      ///< (f/k)^(2/3) [m]
+    double residual_depth = 0.0;   ///< R f [m]
+    double hertz_energy = 0.0;     ///< 2/5 f (f/k)^(2/3) [J]
+    double residual_energy = 0.0;  ///< R f^2 / 2 [J]
+
+    [[nodiscard]] double energy() const {
+      return hertz_energy + residual_energy;
+    }
+  };
+
+  /// Over a step from a depth to another.
+  struct StepResponse {
+    double force = 0.0;      ///< (V(d1) - V(d0)) / (d1 - d0) [N]
+    double stiffness = 0.0;  ///< its derivative with respect to d1 [N/m]
+  };
+
+  /// @throws InputError for a value outside its range.
+  explicit HertzLaw(const Parameters& parameters);
+
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+
+  /// At a depth d [m], by Newton's method to round-off; all zero at d <= 0,
+  /// all NaN at NaN.
+  [[nodiscard]] Response evaluate(double depth) const;
+
+  /// The force that balances the energies of a step exactly, to round-off;
+  /// f(d) and half of f'(d) as d0 and d1 meet. NaN where a depth is.
+  /// Source     discrete gradients: [@gonzalez1996]
+  [[nodiscard]] StepResponse evaluate_over_step(double depth0,
+                                                double depth1) const;
+
+  /// The state in which it stores `energy` [J] >= 0, such as the deepest point
+  /// of an impact; its depth is hertz_depth + residual_depth.
+  /// @throws ContractError for an energy < 0 or NaN.
+  [[nodiscard]] Response find_state_of_energy(double energy) const;
+
+ private:
+  /// cbrt(f) at a depth > 0.
+  [[nodiscard]] double find_root(double depth) const;
+  [[nodiscard]] Response evaluate_root(double s) const;
+
+  Parameters parameters_;
+  double cbrt_stiffness_ = 0.0;  // cbrt(k)
+  double cbrt_residual_ = 0.0;   // cbrt(R)
+  double compliance_ = 0.0;      // c
+};
+
+}  // namespace limber::contact

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/law/impact_estimate.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/restitution.hpp"
+
+namespace limber::contact {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// The integral of sin(x) / f(x) by the double-exponential rule, which the
+// integrand's root at x = 0 does not slow down.
+double integrate(const HertzLaw& law, double peak_energy) {
+  constexpr double kStep = 0.125;
+  constexpr int kHalfCount = 26;  // weights beyond are below round-off
+  double sum = 0.0;
+  for (int i = -kHalfCount; i <= kHalfCount; ++i) {
+    const double t = kStep * i;
+    const double share = 1.0 / (1.0 + std::exp(-kPi * std::sinh(t)));
+    const double rest = 1.0 / (1.0 + std::exp(kPi * std::sinh(t)));
+    const double weight = kPi * std::cosh(t) * share * rest;
+    const double sine = std::sin(0.5 * kPi * share);
+    const double force =
+        law.find_state_of_energy(peak_energy * sine * sine).force;
+    sum += weight * sine / force;
+  }
+  return 0.5 * kPi * kStep * sum;
+}
+
+}  // namespace
+
+ImpactEstimate estimate_impact(const HertzLaw& law, double mass, double speed) {
+  LIMBER_EXPECT(mass > 0.0 && std::isfinite(mass));
+  LIMBER_EXPECT(speed > 0.0 && std::isfinite(speed));
+  const double energy = 0.5 * mass * speed * speed;
+  const HertzLaw::Response peak = law.find_state_of_energy(energy);
+  return {.duration = 2.0 * mass * speed * integrate(law, energy),
+          .peak_force = peak.force,
+          .peak_depth = peak.hertz_depth + peak.residual_depth};
+}
+
+HertzLaw make_default_law(double mass) {
+  LIMBER_EXPECT(mass > 0.0 && std::isfinite(mass));
+  const double radian = kImpactDuration / kPi;
+  return HertzLaw(
+      {.stiffness = HertzLaw::kRigid, .residual = radian * radian / mass});
+}
+
+}  // namespace limber::contact

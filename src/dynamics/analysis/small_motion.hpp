@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+
+namespace limber::dynamics {
+
+/// Axes in which small motion is expressed: orientation R in the world at the
+/// state's time, angular velocity w.
+struct TurningAxes {
+  Matrix3 R = Matrix3::Identity();  ///< [-]
+  Vector3 w_W = Vector3::Zero();    ///< [rad/s]
+};
+
+/// Small motion of a system linearised about a reference motion.
+///
+/// Equation   M x'' + D x' + S x = 0,
+///            S = diag(lambda) + coupled + G' K G + rest,
+///            x: for each moving body the changes of position and orientation,
+///            expressed in the axes, and its modes. From the derivatives M, C,
+///            K_q of the equations of motion by accelerations, velocities,
+///            positions, with x'_v = x' + w x, W = skew(w) on positions and
+///            rotations and V = skew(w) on positions, skew(w - w_b) on
+///            rotations of a body at w_b:
+///            D = C + M (W + V),   S = K_q + C W + M V W
+/// Source     product rule; derivatives as ResidualDerivative has them
+/// Limits     no bodies at level `full`
+///
+/// Columns are of x: positions [m], rotations [rad], modes [kg^1/2 m]. Rows of
+/// M, D, `rest` and `noise` are forces [N], moments [N m] and modal forces
+/// [kg^-1/2 N].
+struct SmallMotion {
+  MatrixX M;  ///< symmetric, positive definite [row's s^2 / column's]
+  MatrixX D;  ///< dampers, and gyroscopic terms [row's s / column's]
+  /// Of modes that are independent oscillators; 0 of all others [1/s^2].
+  VectorX lambda;
+  /// Elastic tangent of a body whose elasticity couples its modes.
+  struct ModalBlock {
+    Eigen::Index first = 0;  ///< column of its first mode
+    MatrixX K;               ///< symmetric [1/s^2]
+  };
+  std::vector<ModalBlock> coupled;
+  /// Motion of couplers, then transmissions, then points of pairs, whose last
+  /// three are 0: six rows each [m or rad / column's].
+  MatrixX G;
+  std::vector<Matrix6>
+      K;  ///< stiffness of these, one per six rows [N/m, N/rad; N, N m/rad]
+  MatrixX rest;  ///< of rotating forces, and of inertia [row's / column's]
+  /// Round-off of `rest` due to couplers' wrenches [row's / column's].
+  MatrixX noise;
+  std::vector<Eigen::Index>
+      places;  ///< index of a body's first of six, -1: fixed
+  std::vector<Eigen::Index> modes;  ///< index of a body's first mode
+
+  [[nodiscard]] Eigen::Index size() const { return M.rows(); }
+  /// Q' S Q, evaluated to preserve the digits of soft motion in Q beside stiff
+  /// couplers.
+  [[nodiscard]] MatrixX project_stiffness(const MatrixX& Q) const;
+  /// Constraint directions, independent of stiffness: x is constrained if a row
+  /// times x is not 0.
+  [[nodiscard]] MatrixX find_holds() const;
+};
+
+/// About the motion of the system from `state`, with loads after a jump at its
+/// time.
+/// @throws InputError for a body at level `full`.
+[[nodiscard]] SmallMotion find_small_motion(const SystemModel& model,
+                                            const SystemState& state,
+                                            const TurningAxes& axes = {});
+
+}  // namespace limber::dynamics

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/instant.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+
+/// Contributions of pair interactions to the equations of motion.
+namespace limber::dynamics {
+
+/// For make_terms.
+[[nodiscard]] PairTerms make_pair_terms(const SystemModel& model);
+
+/// Both bodies of a pair, as set_pair_bodies left them.
+[[nodiscard]] joints::PairBodies find_bodies(const Pair& pair,
+                                             const PairTerms& terms);
+
+/// A pair's part of SystemState::pair_memory.
+template <typename State>
+[[nodiscard]] auto memory_of(const Pair& pair, State& state) {
+  return std::span(state.pair_memory)
+      .subspan(pair.first_memory, pair.law->memory_size());
+}
+
+/// Motion of the bodies that have pairs; `terms` refers to the coordinates of
+/// `state`. Needs R_WB.
+void set_pair_bodies(const SystemModel& model, const SystemState& state,
+                     SystemTerms& terms);
+
+/// Evaluates all pairs and adds their forces and powers. Needs R_WB.
+/// @throws NumericalError naming the pair and the time.
+void apply_pairs(const SystemModel& model, const SystemState& state,
+                 const Instant& now, SystemTerms& terms);
+
+/// @throws NumericalError if its force, energy or dissipation is not finite.
+void check_finite(const joints::PairResponse& response);
+
+/// Adds the residual of a force on B and its reaction on A at a point, rows as
+/// increments of NewtonMatrix.
+void add_residual(const SystemModel& model, const Pair& pair,
+                  const joints::PairPoint& point, const Vector3& force_W,
+                  const SystemTerms& terms, VectorX& residual);
+
+/// The laws' commit() at the end of an accepted step. Without a law that
+/// remembers something it does nothing.
+class PairCommit {
+ public:
+  explicit PairCommit(const SystemModel& model);
+  void operator()(SystemState& state);
+
+ private:
+  const SystemModel& model_;
+  std::vector<std::size_t> pairs_;  // that remember
+  joints::PairBody A_;
+  joints::PairBody B_;
+};
+
+/// @throws NumericalError with the pair's name and the time before the text.
+[[noreturn]] void throw_pair(const std::string& name, double t,
+                             const NumericalError& error);
+
+/// Runs `work`; adds the pair's name and the time to a NumericalError.
+template <typename Work>
+void name_pair(const std::string& name, double t, const Work& work) {
+  try {
+    work();
+  } catch (const NumericalError& error) {
+    throw_pair(name, t, error);
+  }
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+
+#include <cstddef>
+
+#include "limber/common/names.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// One for each IntegratorKind, in its order.
+const std::vector<IntegratorTraits>& all_traits() {
+  static const std::vector<IntegratorTraits> traits = {
+      {.name = "generalized-alpha",
+       .is_implicit = true,
+       .is_adaptive = true,
+       .has_spectral_radius = true,
+       .takes_full_bodies = true,
+       .leaves_end_terms = true},
+      {.name = "runge-kutta-4",
+       .order = 4,
+       .takes_full_bodies = true,
+       .limit = StepLimit::growth},
+      {.name = "explicit-euler", .order = 1, .takes_exact_modes = false},
+      {.name = "central-differences",
+       .takes_full_bodies = true,
+       .leaves_end_terms = true,
+       .limit = StepLimit::stability},
+      {.name = "implicit-euler",
+       .order = 1,
+       .is_implicit = true,
+       .takes_full_bodies = true,
+       .leaves_end_terms = true},
+      {.name = "energy-conserving",
+       .is_implicit = true,
+       .leaves_end_terms = true},
+      {.name = "splitting", .limit = StepLimit::growth}};
+  return traits;
+}
+
+}  // namespace
+
+const IntegratorTraits& traits_of(IntegratorKind kind) {
+  return all_traits()[static_cast<std::size_t>(kind)];
+}
+
+const std::vector<std::string>& integrator_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const IntegratorTraits& traits : all_traits()) {
+      all.push_back(traits.name);
+    }
+    return all;
+  }();
+  return names;
+}
+
+IntegratorKind parse_integrator(std::string_view name) {
+  return static_cast<IntegratorKind>(
+      find_name("integrator", name, integrator_names()));
+}
+
+const std::string& to_string(IntegratorKind kind) {
+  return traits_of(kind).name;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+
+namespace limber::dynamics {
+
+/// A change of the longest step at a time.
+struct StepChange {
+  double from = 0.0;  ///< [s]
+  double step = 0.0;  ///< > 0 [s]
+};
+
+struct SimulationSettings {
+  IntegratorKind integrator = IntegratorKind::generalized_alpha;
+  double end_time = 0.0;  ///< > start [s]
+  double step = 0.0;      ///< longest step, > 0 [s]
+  /// Largest error of any point's position at any output time, met by steps of
+  /// varying length up to `step` [m]; 0: fixed steps. For adaptive integrators
+  /// (IntegratorTraits::is_adaptive).
+  double tolerance = 0.0;
+  /// Largest number of steps to a tolerance, over all passes, including
+  /// repeated steps.
+  long most_steps = 5'000'000;
+  std::vector<StepChange> step_changes = {};  ///< at increasing times
+  std::vector<double> output_times = {};  ///< increasing, in [start, end] [s]
+  double rho_inf = 0.9;  ///< spectral radius at infinity, in [0, 1] [-]
+  /// Largest error of Newton's method relative to the step's motion [-]. 0: a
+  /// hundredth of the step's error; 1e-12 for energy_conserving and for
+  /// rho_inf = 1.
+  double newton_tolerance = 0.0;
+  int newton_iterations = 20;  ///< largest number per step
+  /// Modes of `uncoupled` bodies driven by known loads only are solved in
+  /// closed form, without steps (not by explicit_euler, which samples loads).
+  bool exact_modes = true;
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/dynamics/equations/workspace.hpp"
+
+/// The iterates of wrenches in Newton's method, as one vector: six per coupler
+/// [N, N m], then one per transmission [N or N m].
+namespace limber::dynamics {
+
+[[nodiscard]] Eigen::Index count_wrench_rows(const SystemTerms& terms);
+
+/// Reads those of `terms`, without allocation if the size fits.
+void get_applied(const SystemTerms& terms, VectorX& wrenches);
+
+void set_applied(const VectorX& wrenches, SystemTerms& terms);
+
+/// @param increments of NewtonMatrix
+void add_to_applied(const std::vector<Vector6>& increments, SystemTerms& terms);
+
+}  // namespace limber::dynamics

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/newton/lu_plan.hpp"
+
+#include "limber/common/index.hpp"
+#include "limber/dynamics/newton/hubs.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using Edges = std::vector<std::pair<int, int>>;
+
+void keep(const LinkGraph& graph, int body, bool is_early, LuPlan& plan) {
+  const int blocks = graph.blocks[index(body)];
+  plan.kept_of_body[index(body)] = static_cast<int>(plan.kept.size());
+  plan.kept.push_back(
+      {body, plan.rows, blocks, graph.sizes[index(body)], is_early});
+  plan.rows += blocks;
+}
+
+void join_links(const std::vector<int>& links, Edges& edges) {
+  for (const int i : links) {
+    for (const int j : links) {
+      if (i < j) edges.emplace_back(i, j);
+    }
+  }
+}
+
+void join_blocks(const KeptBody& body, const std::vector<int>& links,
+                 Edges& edges) {
+  for (int i = body.first; i < body.first + body.blocks; ++i) {
+    for (const int link : links) edges.emplace_back(link, i);
+    for (int j = body.first; j < i; ++j) edges.emplace_back(i, j);
+  }
+}
+
+void join_bodies(const KeptBody& a, const KeptBody& b, Edges& edges) {
+  for (int i = a.first; i < a.first + a.blocks; ++i) {
+    for (int j = b.first; j < b.first + b.blocks; ++j) edges.emplace_back(i, j);
+  }
+}
+
+}  // namespace
+
+LuPlan plan_lu(const LinkGraph& graph, const std::vector<BodyPair>& pairs) {
+  LuPlan plan;
+  plan.rows = graph.links;
+  plan.kept_of_body.assign(graph.links_of_body.size(), -1);
+  for (const int b : choose_hubs(graph.links_of_body, graph.blocks)) {
+    keep(graph, b, false, plan);
+  }
+  const int first_early = plan.rows;
+  for (const auto& [a, b] : pairs) {
+    for (const int body : {a, b}) {
+      if (body < 0 || plan.kept_of_body[index(body)] >= 0) continue;
+      keep(graph, body, true, plan);
+    }
+  }
+  Edges edges;
+  for (std::size_t b = 0; b < graph.links_of_body.size(); ++b) {
+    if (plan.kept_of_body[b] >= 0) continue;
+    join_links(graph.links_of_body[b], edges);
+  }
+  for (const KeptBody& body : plan.kept) {
+    join_blocks(body, graph.links_of_body[index(body.body)], edges);
+  }
+  for (const auto& [a, b] : pairs) {
+    if (a < 0 || b < 0) continue;
+    join_bodies(plan.kept[index(plan.kept_of_body[index(a)])],
+                plan.kept[index(plan.kept_of_body[index(b)])], edges);
+  }
+  plan.lu = BlockLu(plan.rows, edges, first_early);
+  return plan;
+}
+
+}  // namespace limber::dynamics

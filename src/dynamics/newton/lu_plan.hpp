@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "limber/dynamics/newton/block_lu.hpp"
+
+namespace limber::dynamics {
+
+/// A body whose increments are unknowns of the block LU of NewtonMatrix.
+struct KeptBody {
+  int body = 0;
+  int first = 0;  ///< its first row of the LU
+  int blocks = 0;
+  int size = 0;           ///< rigid motion and modes
+  bool is_early = false;  ///< before the links, as if it were eliminated
+};
+
+/// Couplers and transmissions (links) by the bodies that they end on.
+struct LinkGraph {
+  int links = 0;
+  std::vector<std::vector<int>> links_of_body;  ///< repeats allowed
+  std::vector<int> blocks;  ///< of each body; 0 if it cannot be kept
+  std::vector<int> sizes;   ///< of each body: rigid motion and modes
+};
+
+/// Unknowns of the block LU: six a link, then those of kept bodies.
+struct LuPlan {
+  std::vector<KeptBody> kept;
+  std::vector<int> kept_of_body;  ///< index into kept, -1: eliminated
+  int rows = 0;
+  BlockLu lu;
+};
+
+/// Two bodies whose increments a stiffness joins; world: -1.
+using BodyPair = std::pair<int, int>;
+
+/// Hubs are kept, after their links, and bodies of `pairs`, if they are none,
+/// before their links, so that no stiff link loses their inertia to round-off.
+/// Pattern: links that share an eliminated body, kept bodies with their links,
+/// and the bodies of a pair.
+[[nodiscard]] LuPlan plan_lu(const LinkGraph& graph,
+                             const std::vector<BodyPair>& pairs);
+
+}  // namespace limber::dynamics

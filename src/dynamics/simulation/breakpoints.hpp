@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/dynamics/integrators/simulation_settings.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+
+namespace limber::dynamics {
+
+/// A time that a step must end on.
+struct Breakpoint {
+  double time = 0.0;       ///< [s]
+  bool is_jump = false;    ///< a load or its slope jumps
+  bool is_output = false;  ///< an output time
+  bool is_sample = false;  ///< a controller is sampled
+};
+
+/// Times that differ by less are one breakpoint [s].
+[[nodiscard]] double find_same_time(double start,
+                                    const SimulationSettings& settings);
+
+/// All breakpoints after `start` [s], increasing; the last is the end. Times
+/// that differ by round-off only are merged.
+/// @throws InputError for steps or samples of controllers below the resolution
+/// of the time, or more than 1e7 samples.
+[[nodiscard]] std::vector<Breakpoint> find_breakpoints(
+    const SystemModel& model, double start, const SimulationSettings& settings);
+
+/// The same; steps to a tolerance end where something jumps, not on outputs.
+[[nodiscard]] std::vector<Breakpoint> find_step_breakpoints(
+    const SystemModel& model, double start, const SimulationSettings& settings);
+
+/// The output times after `start` [s].
+[[nodiscard]] std::vector<double> find_outputs_after(
+    double start, const SimulationSettings& settings);
+
+/// Number of steps that the settings give between two times [s].
+[[nodiscard]] double count_steps(const SimulationSettings& settings,
+                                 double from, double until);
+
+/// The longest step that the settings allow at time t [s].
+[[nodiscard]] double find_longest_step(const SimulationSettings& settings,
+                                       double t);
+/// The longest step that they allow at any time [s].
+[[nodiscard]] double find_longest_step(const SimulationSettings& settings);
+
+/// Times at which a simulation outputs its state [s]: the output times, but
+/// those that differ from another breakpoint by round-off only are that
+/// breakpoint's.
+[[nodiscard]] std::vector<double> find_visited_times(
+    const SystemModel& model, double start, const SimulationSettings& settings);
+
+}  // namespace limber::dynamics

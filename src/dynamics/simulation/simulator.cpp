@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/simulation/simulator.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
+#include "limber/dynamics/monitors/linear_limit.hpp"
+#include "limber/dynamics/simulation/explicit_limit.hpp"
+#include "limber/dynamics/simulation/settings_check.hpp"
+#include "limber/dynamics/simulation/start_warnings.hpp"
+#include "limber/dynamics/simulation/time_loop.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+SimulationSettings check(const SystemModel& model, const SystemState& state,
+                         const SimulationSettings& settings,
+                         SimulationStatistics& statistics) {
+  check_settings(model, state, settings);
+  add_start_warnings(model, state, statistics);
+  return limit_step(model, state, settings, statistics);
+}
+
+}  // namespace
+
+struct Simulator::Parts {
+  Parts(const SystemModel& its_model, const SystemState& start,
+        const SimulationSettings& asked)
+      : model(its_model),
+        state(start),
+        settings(check(model, state, asked, statistics)),
+        loop(model, settings, state, statistics, 1.0),
+        limit(model) {
+    show();
+  }
+
+  // The caller's state: frames of unreduced bodies follow their nodes.
+  void show() {
+    if (model.full_bodies.empty()) return;
+    framed = state;
+    update_mean_frames(model, framed);
+  }
+
+  // Warnings and checks at the end of a whole run.
+  void judge() {
+    RunRecord record;
+    loop.tell(record);
+    warn_of_energy(settings.integrator, record.energy, statistics.warnings);
+    check_energy(settings.integrator, record.energy);
+  }
+
+  const SystemModel& model;
+  SystemState state;
+  SystemState framed;
+  SimulationStatistics statistics;
+  SimulationSettings settings;
+  TimeLoop loop;
+  LinearLimit limit;
+};
+
+Simulator::Simulator(const SystemModel& model, const SystemState& start,
+                     const SimulationSettings& settings)
+    : parts_(std::make_unique<Parts>(model, start, settings)) {}
+
+Simulator::~Simulator() = default;
+
+bool Simulator::advance_to(double t, const std::stop_token& stop) {
+  const double now = parts_->state.t;
+  const double end = parts_->settings.end_time;
+  if (!(t >= now) || !(t <= end)) {
+    throw InputError(
+        fmt::format("advance_to: {:g} s; expected a time from {:g} s, that of "
+                    "the state, to {:g} s, the settings' end",
+                    t, now, end));
+  }
+  if (t == now) return true;
+  bool is_there = false;
+  try {
+    is_there = parts_->loop.run_to(t, parts_->state, stop);
+  } catch (const NumericalError&) {
+    parts_->show();
+    throw;
+  }
+  parts_->show();
+  parts_->limit.check(parts_->state, parts_->statistics.warnings);
+  if (parts_->state.t == end) parts_->judge();
+  return is_there;
+}
+
+const SystemState& Simulator::state() const {
+  return parts_->model.full_bodies.empty() ? parts_->state : parts_->framed;
+}
+
+EnergyBalance Simulator::calc_energy() const {
+  EnergyBalance balance = dynamics::calc_energy(parts_->model, state());
+  const Losses losses = parts_->loop.losses();
+  balance.work = losses.work;
+  balance.dissipated = losses.dissipated;
+  return balance;
+}
+
+const SimulationStatistics& Simulator::statistics() const {
+  return parts_->statistics;
+}
+
+Checkpoint Simulator::save() {
+  refuse_hidden_memory(parts_->model, "a checkpoint must continue alike");
+  Archive archive;
+  parts_->limit.exchange_memory(archive);
+  std::vector<double> numbers = parts_->loop.save(parts_->state).numbers;
+  archive(numbers);
+  return {parts_->state.t, archive.numbers()};
+}
+
+void Simulator::restore(const Checkpoint& checkpoint) {
+  refuse_hidden_memory(parts_->model, "a checkpoint must continue alike");
+  Archive archive(checkpoint.numbers);
+  parts_->limit.exchange_memory(archive);
+  Checkpoint inner{checkpoint.time, {}};
+  archive(inner.numbers);
+  parts_->loop.resume(inner, parts_->state);
+  parts_->show();
+}
+
+}  // namespace limber::dynamics

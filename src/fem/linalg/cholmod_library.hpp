@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// For sources of src/fem/linalg only: they alone see CHOLMOD's types.
+#include <cholmod.h>
+
+namespace limber::fem {
+
+/// CHOLMOD's functions, and with them BLAS: loaded when they are first asked
+/// for. A program that never factors a matrix starts without them, in half the
+/// time.
+struct CholmodLibrary {
+  decltype(&cholmod_start) start = nullptr;
+  decltype(&cholmod_finish) finish = nullptr;
+  decltype(&cholmod_metis) metis = nullptr;
+  decltype(&cholmod_amd) amd = nullptr;
+  decltype(&cholmod_analyze_p) analyze_p = nullptr;
+  decltype(&cholmod_factorize) factorize = nullptr;
+  decltype(&cholmod_solve2) solve2 = nullptr;
+  decltype(&cholmod_free_dense) free_dense = nullptr;
+  decltype(&cholmod_free_factor) free_factor = nullptr;
+};
+
+/// The library that is there for the process. Any thread may ask.
+/// @throws InputError if it cannot be loaded, with the loader's message
+[[nodiscard]] const CholmodLibrary& cholmod();
+
+}  // namespace limber::fem

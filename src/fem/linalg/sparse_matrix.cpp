@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/linalg/sparse_matrix.hpp"
+
+#include "limber/common/errors.hpp"
+#include "limber/fem/linalg/parallel.hpp"
+
+namespace limber::fem {
+
+MatrixX multiply_mass(const SparseMatrix& M_s, const MatrixX& X) {
+  LIMBER_EXPECT(X.rows() == 3 * M_s.cols());
+  MatrixX Y(X.rows(), X.cols());
+  // Column j of the symmetric M_s is its row j: each node gathers alone.
+  parallel_ranges(static_cast<std::size_t>(M_s.cols()),
+                  [&](std::size_t begin, std::size_t end) {
+                    MatrixX sum(3, X.cols());
+                    for (auto j = static_cast<Eigen::Index>(begin);
+                         j < static_cast<Eigen::Index>(end); ++j) {
+                      sum.setZero();
+                      for (SparseMatrix::InnerIterator it(M_s, j); it; ++it)
+                        sum += it.value() * X.middleRows<3>(3 * it.row());
+                      Y.middleRows<3>(3 * j) = sum;
+                    }
+                  });
+  return Y;
+}
+
+MatrixX multiply_stiffness(const SparseMatrix& K_lower, const MatrixX& X) {
+  LIMBER_EXPECT(X.rows() == K_lower.cols());
+  MatrixX Y(X.rows(), X.cols());
+  parallel_ranges(static_cast<std::size_t>(X.cols()), [&](std::size_t begin,
+                                                          std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin);
+    const auto count = static_cast<Eigen::Index>(end) - first;
+    Y.middleCols(first, count).noalias() =
+        K_lower.selfadjointView<Eigen::Lower>() * X.middleCols(first, count);
+  });
+  return Y;
+}
+
+SparseMatrix restrict_matrix(const SparseMatrix& full,
+                             const std::vector<int>& kept) {
+  std::vector<int> place(static_cast<std::size_t>(full.rows()), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    place[static_cast<std::size_t>(kept[i])] = static_cast<int>(i);
+  const auto size = static_cast<Eigen::Index>(kept.size());
+  SparseMatrix part(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    part.startVec(j);
+    for (SparseMatrix::InnerIterator it(full,
+                                        kept[static_cast<std::size_t>(j)]);
+         it; ++it) {
+      const int row = place[static_cast<std::size_t>(it.row())];
+      if (row >= 0) part.insertBack(row, j) = it.value();
+    }
+  }
+  part.finalize();
+  return part;
+}
+
+}  // namespace limber::fem

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/common/records/fields.hpp"
+#include "limber/flexbody/elasticity/modal_elasticity_kind.hpp"
+
+namespace limber::flexbody {
+
+/// Geometrically nonlinear elasticity: modal strains are quadratic in the modal
+/// coordinates, and the potential is their sum of squares, never negative.
+///
+/// Equation   V = sum_r e_r^2 / 2,  e_r = sqrt(lambda_r) q_r +
+///            sum_{i <= j} Q_r,ij q_i q_j for r, i, j in P, and without the sum
+///            for the other r. With D = de/dq: force D' e, tangent D' D +
+///            sum_r e_r d^2e_r/dq^2. Over a step D(q_0/2 + q_1/2)' (e_0 +
+///            e_1) / 2: e is quadratic, so that D at the middle times the
+///            increment is e_1 - e_0 exactly.
+/// Source     of the potential: modal strains of a body whose strains are of
+///            second degree in its displacements (Green-Lagrange); of the force
+///            over a step: [@simo1992], mean stress on the middle's strain
+/// Limits     kMostPaired modes in P
+class QuadraticStrain {
+ public:
+  static constexpr int kMostPaired = 256;
+  struct Parameters {
+    VectorX lambda;           ///< m, finite, >= 0 [rad^2/s^2]
+    std::vector<int> paired;  ///< P, increasing, each below m
+    /// |P| x |P| (|P| + 1) / 2: row r, a column for each pair i <= j of P in
+    /// the order 11, 12, .., 1P, 22, .. [kg^-1/2 m^-1 rad/s]
+    MatrixX Q;
+  };
+
+  /// @throws InputError for values out of range or a table of wrong size.
+  explicit QuadraticStrain(Parameters parameters);
+
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+  [[nodiscard]] Eigen::Index size() const { return parameters_.lambda.size(); }
+
+  [[nodiscard]] double energy(const ModesIn& q) const;
+  void calc_force(const ModesIn& q, ModesOut force) const;
+  void calc_tangent(const ModesIn& q, ModesSquare tangent) const;
+  void calc_force_over_step(const ModesIn& q0, const ModesIn& q1,
+                            ModesOut force) const;
+  void calc_tangent_over_step(const ModesIn& q0, const ModesIn& q1,
+                              ModesSquare tangent) const;
+
+  /// Those of modes without Q are not coupled.
+  [[nodiscard]] const VectorX* eigenvalues() const {
+    return rows_.empty() ? &parameters_.lambda : nullptr;
+  }
+  [[nodiscard]] bool is_linear() const { return rows_.empty(); }
+  [[nodiscard]] const VectorX& rest_stiffness() const {
+    return parameters_.lambda;
+  }
+  [[nodiscard]] static bool is_diagonal_at_rest() { return true; }
+  [[nodiscard]] double lowest_rest_stiffness() const;
+
+ private:
+  using Paired = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPaired, 1>;
+  // A row of Q that is not zero.
+  struct Row {
+    int place = 0;      // in P
+    double root = 0.0;  // sqrt(lambda)
+    MatrixX B;          // |P| x |P|, symmetric: e = root q + q_P' B q_P
+  };
+  [[nodiscard]] int mode(Eigen::Index place) const {
+    return parameters_.paired[static_cast<std::size_t>(place)];
+  }
+  [[nodiscard]] Paired gather(const ModesIn& q) const;
+  void scatter(double factor, const Paired& row, ModesOut force) const;
+  // Adds the outer product a b' + factor B.
+  void add_to_tangent(const Paired& a, const Paired& b, double factor,
+                      const MatrixX& B, ModesSquare tangent) const;
+  // Modes whose strain is linear.
+  void set_linear_tangent(ModesSquare tangent) const;
+
+  Parameters parameters_;
+  VectorX linear_;  // m: lambda, and 0 of modes that have a Row
+  std::vector<Row> rows_;
+};
+
+constexpr auto fields_of(const QuadraticStrain::Parameters*) {
+  return list_fields("quadratic strain", "eigenvalues [rad^2/s^2]",
+                     "paired modes", "Q [kg^-1/2 m^-1 rad/s]");
+}
+
+}  // namespace limber::flexbody

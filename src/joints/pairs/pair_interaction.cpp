@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+#include "limber/common/errors.hpp"
+
+namespace limber::joints {
+namespace {
+
+Vector3 combine(const Matrix3X& columns, const double* x) {
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    sum += columns.col(k) * x[k];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Vector3 find_arm(const PairBody& body, const PairPlace& place) {
+  return place.x_B + combine(place.Phi_B, body.eta);
+}
+
+Vector3 find_position(const PairBody& body, const PairPlace& place) {
+  return body.p_WB + body.R_WB * find_arm(body, place);
+}
+
+Vector3 find_velocity(const PairBody& body, const PairPlace& place) {
+  return body.v_WB_W + body.R_WB * (body.w_WB_B.cross(find_arm(body, place)) +
+                                    combine(place.Phi_B, body.etadot));
+}
+
+PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B)
+    : all_(most_points) {
+  for (PairPoint& point : all_) {
+    point.on_A.Phi_B = Matrix3X::Zero(3, modes_A);
+    point.on_B.Phi_B = Matrix3X::Zero(3, modes_B);
+  }
+}
+
+void PairResponse::clear() {
+  count_ = 0;
+  energy = dissipation = 0.0;
+}
+
+PairPoint& PairResponse::add() {
+  if (count_ == all_.size()) {
+    throw ContractError("PairResponse: more points than the law may have");
+  }
+  PairPoint& point = all_[count_++];
+  for (PairPlace* place : {&point.on_A, &point.on_B}) {
+    place->x_B.setZero();
+    place->Phi_B.setZero();
+  }
+  point.force_W.setZero();
+  point.stiffness.setZero();
+  point.damping.setZero();
+  return point;
+}
+
+void PairInteraction::evaluate_over_step(const PairStep& step,
+                                         std::span<const double> memory,
+                                         PairResponse& out) const {
+  evaluate(step.middle, {step.times.middle(), Side::right}, memory, out);
+}
+
+void describe(Manifest& out, std::string_view name,
+              const PairInteraction& law) {
+  out.within(name, [&] {
+    out.add("kind", law.kind());
+    law.describe_parameters(out);
+  });
+}
+
+}  // namespace limber::joints

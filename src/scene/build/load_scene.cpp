@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/scene/build/load_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "limber/scene/build/basis_choice.hpp"
+#include "limber/scene/build/scene_checks.hpp"
+#include "limber/scene/build/unused_keys.hpp"
+#include "limber/scene/robot/robot_reader.hpp"
+#include "limber/scene/scenario/scenario_reader.hpp"
+#include "limber/scene/text/toml_file.hpp"
+
+namespace limber::scene {
+
+namespace {
+
+// For rigid links every level except rigid has no effect.
+void warn_of_unused_level(dynamics::Fidelity level, Scene& scene) {
+  const auto& links = scene.robot.links;
+  if (level == dynamics::Fidelity::rigid ||
+      std::any_of(links.begin(), links.end(),
+                  [](const Link& link) { return link.flexible.has_value(); })) {
+    return;
+  }
+  scene.scenario.warnings.push_back(fmt::format(
+      "level '{}' was requested for all flexible links, but no link of '{}' is "
+      "flexible: it changes nothing; give a link a <flexible> element",
+      to_string(level), scene.scenario.robot.filename().string()));
+}
+
+void apply(const Overrides& overrides, Scene& scene) {
+  if (overrides.fidelity) {
+    warn_of_unused_level(*overrides.fidelity, scene);
+    scene.scenario.fidelity = *overrides.fidelity;
+    scene.scenario.fidelity_of_link.clear();
+  }
+  if (overrides.step) {
+    scene.scenario.settings.step = *overrides.step;
+    scene.scenario.settings.tolerance = 0.0;
+    scene.scenario.settings.step_changes.clear();
+  }
+  if (overrides.integrator) {
+    scene.scenario.settings.integrator = *overrides.integrator;
+  }
+  if (!overrides.rows) return;
+  for (Link& link : scene.robot.links) {
+    if (link.flexible) link.flexible->rows = *overrides.rows;
+  }
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file,
+                 const Overrides& overrides) {
+  Scene scene;
+  const toml::table table = parse_toml_file(file);
+  scene.scenario = read_scenario(table, file);
+  scene.robot = read_robot(scene.scenario.robot);
+  check_scenario(scene.scenario, scene.robot);
+  choose_bases(scene.scenario, overrides.basis, scene.robot);
+  apply(overrides, scene);
+  for (std::string& text : find_unused_keys(table, scene, overrides)) {
+    scene.scenario.warnings.push_back(std::move(text));
+  }
+  return scene;
+}
+
+}  // namespace limber::scene

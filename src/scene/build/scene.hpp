@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "limber/dynamics/integrators/integrator_kind.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/flexbody/model/recipe.hpp"
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+
+namespace limber::scene {
+
+/// A scenario and its robot. The scenario's choice of bases is already applied
+/// to the robot's links.
+struct Scene {
+  Scenario scenario;
+  Robot robot;
+};
+
+/// Values of the command line that override the file's.
+struct Overrides {
+  std::optional<dynamics::Fidelity> fidelity = {};  ///< for every flexible link
+  /// Over the file's [basis] for every flexible link, key by key.
+  BasisChoice basis = {};
+  /// Fixed step from the start to the end, in place of the file's steps or
+  /// tolerance [s]. Output times remain those of the file.
+  std::optional<double> step = {};
+  std::optional<dynamics::IntegratorKind> integrator = {};
+  std::optional<flexbody::KeptRows> rows = {};  ///< of every link with a mesh
+};
+
+}  // namespace limber::scene
