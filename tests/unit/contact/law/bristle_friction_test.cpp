@@ -309,8 +309,8 @@ History run_history(const BristleFriction& friction, unsigned seed, int count) {
   std::vector<Vector3> ways;
   std::vector<Vector3> turns;
   for (int i = 0; i < 4; ++i) {
-    ways.push_back(2e-3 * draw_vector(any));
-    turns.push_back(0.4 * draw_vector(any));
+    ways.emplace_back(2e-3 * draw_vector(any));
+    turns.emplace_back(0.4 * draw_vector(any));
   }
   const auto sum = [](const std::vector<Vector3>& terms, double t) {
     Vector3 total = Vector3::Zero();
