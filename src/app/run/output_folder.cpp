@@ -148,7 +148,7 @@ std::optional<fs::path> make_rescue_folder() {
 
 // Where the files were written instead; nothing if nowhere.
 std::optional<fs::path> rescue(const OutputFolder::Writer& writer) {
-  const std::optional<fs::path> folder = make_rescue_folder();
+  std::optional<fs::path> folder = make_rescue_folder();
   if (!folder) return std::nullopt;
   try {
     writer(*folder);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/fem/linalg/parallel.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/solid/hyperelastic.hpp"
@@ -125,7 +126,7 @@ ElementField StiffnessProduct::find_deformation(const Element& element,
   ElementField d = ElementField::Zero(4, element.node_count);
   for (int a = 1; a < element.node_count; ++a)
     for (int i = 0; i < 3; ++i) {
-      Real& component = edge[static_cast<std::size_t>(3 * a + i)];
+      Real& component = edge[index(3 * a + i)];
       component = at(a, i) - at(0, i);
       d(i, a) = static_cast<double>(component);
     }
@@ -137,7 +138,7 @@ ElementField StiffnessProduct::find_deformation(const Element& element,
     const Vector3 arm =
         elements_->x.col(element.nodes[a]) - elements_->x.col(element.nodes[0]);
     for (int i = 0; i < 3; ++i) {
-      Real rest = edge[static_cast<std::size_t>(3 * a + i)];
+      Real rest = edge[index(3 * a + i)];
       for (int j = 0; j < 3; ++j) rest -= Real{turn(i, j)} * arm[j];
       d(i, a) = static_cast<double>(rest);
     }
@@ -165,7 +166,7 @@ void StiffnessProduct::add_forces(const Element& element, const VectorX& u,
   for (int a = 0; a < element.node_count; ++a) {
     const int row = rows_[static_cast<std::size_t>(element.nodes[a])];
     for (int i = 0; i < 3 && row >= 0; ++i)
-      forces[static_cast<std::size_t>(3 * row + i)] += f(i, a);
+      forces[index(3 * row + i)] += f(i, a);
   }
 }
 

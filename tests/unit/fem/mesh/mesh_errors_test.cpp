@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "unit/fem/meshes.hpp"
 
 /// Every invalid mesh gives one InputError that names the file, the problem
@@ -185,13 +186,13 @@ TEST(MeshErrors, HangingNodes) {
       for (int i = 0; i < 3; ++i) {
         const bool is_shared = k == 0 && i != 1 && j != 1;
         const std::vector<int> top{large[4], large[5], large[7], large[6]};
-        fine.push_back(is_shared ? top[static_cast<std::size_t>(i / 2 + j)]
+        fine.push_back(is_shared ? top[index(i / 2 + j)]
                                  : corner(i, j, 2.0 + k));
       }
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i) {
       const auto node = [&](int a, int b, int c) {
-        return fine[static_cast<std::size_t>(9 * c + 3 * (j + b) + i + a)];
+        return fine[index(9 * c + 3 * (j + b) + i + a)];
       };
       text.add_element(
           MshText::kHexahedron,

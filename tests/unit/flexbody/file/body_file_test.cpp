@@ -22,6 +22,7 @@
 #include "unit/flexbody/small_body.hpp"
 
 // The leak sanitizer's, where it is linked.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" void __lsan_disable() __attribute__((weak));
 
 namespace limber::flexbody::test {
