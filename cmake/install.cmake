@@ -39,6 +39,8 @@ set(public_headers
   contact/law/impact_estimate.hpp
   contact/law/materials.hpp
   contact/law/torsional_friction.hpp
+  contact/shapes/shape_pair.hpp
+  contact/shapes/skin.hpp
   dynamics/analysis/equilibrium.hpp
   dynamics/analysis/level_advice.hpp
   dynamics/analysis/natural_frequencies.hpp

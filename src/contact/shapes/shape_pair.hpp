@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "limber/contact/shapes/meeting.hpp"
+#include "limber/contact/shapes/shape.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+namespace limber::contact {
+
+/// Where two shapes are closest. Immutable.
+///
+/// Their features are of a fixed number in a fixed order, so that a feature
+/// keeps its identity from step to step:
+///
+///     sphere with any other        1
+///     capsule with capsule         1
+///     half space with capsule      2, its ends
+///                     box          8, its corners
+///                     cylinder     6, three of each rim
+///                     skin         n, its nodes
+class ShapePair {
+ public:
+  /// @throws InputError as check_shape, or for a pair of kinds without a rule.
+  ShapePair(const Shape& A, const Shape& B);
+
+  [[nodiscard]] const Shape& A() const { return A_; }
+  [[nodiscard]] const Shape& B() const { return B_; }
+
+  /// Features.
+  [[nodiscard]] std::size_t most_points() const;
+
+  /// Fills `out`, one Meeting a feature. Allocates nothing.
+  /// @param reach >= 0: a feature whose surfaces are farther apart may have
+  /// the depth -infinity, which is found cheaply [m]
+  /// @param out of most_points()
+  void find(const joints::PairBodies& bodies, double reach,
+            std::span<Meeting> out) const;
+
+  /// A lower bound of the distance between both, near to it where they are
+  /// close; 0 if they touch [m].
+  [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
+
+ private:
+  Shape A_;
+  Shape B_;
+};
+
+}  // namespace limber::contact
