@@ -1,27 +1,89 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/shapes/shape_pair.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/shapes/placed_shape.hpp"
 
 namespace limber::contact {
+namespace {
+
+template <class Kind>
+bool is_a(const Shape& shape) {
+  return std::holds_alternative<Kind>(shape.kind);
+}
+
+}  // namespace
 
 ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
   check_shape(A_);
   check_shape(B_);
+  const bool is_sphere_B = is_a<Sphere>(B_);
+  if (is_a<Sphere>(A_) || is_sphere_B) {
+    rule_ = Rule::kSphere;
+    is_swapped_ = !is_a<Sphere>(A_);
+  } else if (is_a<HalfSpace>(A_) != is_a<HalfSpace>(B_)) {
+    rule_ = Rule::kHalfSpace;
+    is_swapped_ = is_a<HalfSpace>(B_);
+    most_points_ = count_half_space_features(is_swapped_ ? A_ : B_);
+  } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
+    rule_ = Rule::kCapsules;
+  } else {
+    throw InputError(fmt::format(
+        "contact: there is no rule for a {} with a {}; there are rules for a "
+        "sphere with any shape, a half space with any other, and two capsules",
+        name_kind(A_), name_kind(B_)));
+  }
 }
 
-std::size_t ShapePair::most_points() const { return 1; }
-
-void ShapePair::find(const joints::PairBodies& /*bodies*/, double /*reach*/,
+void ShapePair::find(const joints::PairBodies& bodies, double reach,
                      std::span<Meeting> out) const {
-  LIMBER_EXPECT(out.size() == most_points());
-  std::fill(out.begin(), out.end(), Meeting{});
+  LIMBER_EXPECT(out.size() == most_points_);
+  const PlacedShape A(A_, bodies.A);
+  const PlacedShape B(B_, bodies.B);
+  const PlacedShape& first = is_swapped_ ? B : A;
+  const PlacedShape& second = is_swapped_ ? A : B;
+  switch (rule_) {
+    case Rule::kSphere:
+      out[0] = meet_sphere(first, second, reach);
+      break;
+    case Rule::kHalfSpace:
+      meet_half_space(first, second, reach, out);
+      break;
+    case Rule::kCapsules:
+      out[0] = meet_capsules(first, second);
+      break;
+  }
+  if (!is_swapped_) return;
+  for (Meeting& meeting : out) {
+    meeting.normal_W = -meeting.normal_W;
+    std::swap(meeting.on_A, meeting.on_B);
+  }
 }
 
-double ShapePair::find_clearance(const joints::PairBodies& /*bodies*/) const {
-  return 0.0;
+double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
+  const PlacedShape A(A_, bodies.A);
+  const PlacedShape B(B_, bodies.B);
+  const PlacedShape& first = is_swapped_ ? B : A;
+  const PlacedShape& second = is_swapped_ ? A : B;
+  double distance = 0.0;
+  switch (rule_) {
+    case Rule::kSphere:
+      distance = find_sphere_clearance(first, second);
+      break;
+    case Rule::kHalfSpace:
+      distance = find_half_space_clearance(first, second);
+      break;
+    case Rule::kCapsules:
+      distance = -meet_capsules(first, second).depth;
+      break;
+  }
+  return distance > 0.0 ? distance : 0.0;
 }
 
 }  // namespace limber::contact

@@ -6,6 +6,7 @@
 
 #include "limber/contact/shapes/meeting.hpp"
 #include "limber/contact/shapes/shape.hpp"
+#include "limber/contact/shapes/shape_properties.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
@@ -30,7 +31,7 @@ class ShapePair {
   [[nodiscard]] const Shape& B() const { return B_; }
 
   /// Features.
-  [[nodiscard]] std::size_t most_points() const;
+  [[nodiscard]] std::size_t most_points() const { return most_points_; }
 
   /// Fills `out`, one Meeting a feature. Allocates nothing.
   /// @param reach >= 0: a feature whose surfaces are farther apart may have
@@ -44,8 +45,13 @@ class ShapePair {
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:
+  enum class Rule { kSphere, kHalfSpace, kCapsules };
+
   Shape A_;
   Shape B_;
+  Rule rule_ = Rule::kSphere;
+  bool is_swapped_ = false;  // B is the rule's first shape
+  std::size_t most_points_ = 1;
 };
 
 }  // namespace limber::contact

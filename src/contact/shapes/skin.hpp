@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "limber/common/types.hpp"
+#include "limber/contact/shapes/face_patch.hpp"
+#include "limber/contact/shapes/nearest_point.hpp"
+#include "limber/contact/shapes/shape.hpp"
+#include "limber/contact/shapes/skin_tree.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
 
 /// A surface of straight or quadratic triangles that deforms with its body's
-/// modes. Immutable; bodies with the same reduction share it.
+/// modes. Immutable; bodies with the same reduction share it. All in the body
+/// frame; no function but the constructor allocates memory.
+///
+/// Equation   x(u,v) = sum_i N_i(u,v) (x_B + Phi_B eta)_i on every face
+/// Limits     the surface is that of x_B + Phi_B eta, also where Phi_B is the
+///            mean motion of patches. A surface with a border, such as a group
+///            of faces, has no inside: see find_nearest.
 class Skin {
  public:
   /// @throws InputError, with the surface's name, for sizes that do not fit,
-  /// rows out of range, values that are not finite, or faces without area.
+  /// rows out of range, nodes without a face, values that are not finite, or
+  /// faces without area.
   explicit Skin(flexbody::ContactSurface surface);
 
   [[nodiscard]] const flexbody::ContactSurface& surface() const {
@@ -20,9 +38,154 @@ class Skin {
   [[nodiscard]] int mode_count() const {
     return static_cast<int>(surface_.Phi_B.cols());
   }
+  [[nodiscard]] std::size_t node_count() const { return owners_.size(); }
+  /// Whether no edge belongs to one face alone.
+  [[nodiscard]] bool is_closed() const { return is_closed_; }
+
+  struct Hit {
+    NearestPoint nearest;  ///< of the deformed surface
+    SurfacePlace place;
+  };
+  /// The point of the deformed faces nearest to a point p. Its distance is that
+  /// from the curved faces themselves; its sign follows from the face's normal,
+  /// on edges and corners from the normals of all faces there, weighted by
+  /// their angles.
+  ///
+  /// Source     [@baerentzen2005]
+  /// Limits     of a surface with a border: beyond the border all is outside,
+  ///            and what is behind the surface by more than `thickness` has no
+  ///            nearest point. Within a face the minimum next to that of its
+  ///            flat parts: p not beyond the centre of a hollow face.
+  /// @param reach points farther outside have none [m]
+  /// @param thickness see limits [m]
+  [[nodiscard]] std::optional<Hit> find_nearest(const Vector3& p,
+                                                const ModalView& eta,
+                                                double reach,
+                                                double thickness) const;
+
+  /// A lower bound of the distance between the surface and a sphere about p,
+  /// by the rules of find_nearest with its radius as thickness; the distance
+  /// itself unless it is far away; < 0 if they overlap [m].
+  [[nodiscard]] double find_clearance(const Vector3& p, double radius,
+                                      const ModalView& eta) const;
+
+  struct Plane {
+    Vector3 normal = Vector3::UnitZ();  ///< unit, out of the half space [-]
+    double offset = 0.0;                ///< of the plane along it [m]
+  };
+  struct NodeHit {
+    std::size_t node = 0;
+    double height = 0.0;          ///< above the plane [m]
+    Vector3 x = Vector3::Zero();  ///< deformed [m]
+    SurfacePlace place;
+    double curvature = 0.0;  ///< mean, of one of its faces [1/m]
+  };
+  /// Calls use(const NodeHit&) for every node up to `reach` above a plane, in a
+  /// fixed order. Nodes in the middle of edges count as others.
+  template <class Use>
+  void visit_nodes_below(const Plane& plane, const ModalView& eta, double reach,
+                         const Use& use) const;
+  /// The least height of a node above a plane [m].
+  [[nodiscard]] double find_lowest_height(const Plane& plane,
+                                          const ModalView& eta) const;
+
+  /// Weights of the face's nodes at a place, and the modes' rows there.
+  /// @param out 3 x mode_count() [kg^-1/2]
+  void set_shape_functions(const SurfacePlace& place, Matrix3X& out) const;
+  /// Of surface().residual, linear between corners [m/N].
+  [[nodiscard]] double find_residual(const SurfacePlace& place) const;
+  /// A bound of the distance of the deformed surface from Bo [m].
+  [[nodiscard]] double find_extent(const ModalView& eta) const;
+  /// A place of the surface as it is deformed [m].
+  [[nodiscard]] Vector3 find_position(const SurfacePlace& place,
+                                      const ModalView& eta) const;
 
  private:
+  using Face = std::array<int, 6>;
+  // Where a node is: in one of its faces, as its corner or middle node.
+  struct Owner {
+    int face = -1;
+    int corner = 0;
+  };
+  struct Candidate {
+    int face = -1;
+    FacePlace at;
+    double square = 0.0;  // of its distance
+  };
+  // A corner's weight, or that of the corner opposite to an edge, up to which a
+  // place counts as on the other corner or on the edge.
+  static constexpr double kOnEdge = 1e-9;
+
+  [[nodiscard]] const Face& face(int f) const {
+    return surface_.faces[index(f)];
+  }
+  [[nodiscard]] Vector3 deform(int node, const ModalView& eta) const;
+  [[nodiscard]] FacePatch deform_face(int f, const ModalView& eta) const;
+  [[nodiscard]] SurfacePlace make_place(int f, const FacePlace& at) const;
+  [[nodiscard]] NodeHit make_node_hit(int node, double height, const Vector3& x,
+                                      const ModalView& eta) const;
+  [[nodiscard]] std::span<const int> find_faces_of(int node) const;
+  [[nodiscard]] double find_deformation_bound(const ModalView& eta) const;
+  // The nearest of all faces within a distance.
+  [[nodiscard]] std::optional<Candidate> search(const Vector3& p,
+                                                const ModalView& eta,
+                                                double most_square) const;
+  // The normal that tells outside from inside, of any length; none on a border.
+  [[nodiscard]] std::optional<Vector3> find_pseudo_normal(
+      const Candidate& at, const FacePatch& patch, const ModalView& eta) const;
+  [[nodiscard]] Vector3 sum_corner_normals(int node,
+                                           const ModalView& eta) const;
+  [[nodiscard]] Vector3 sum_edge_normals(int f, int edge, const FacePlace& at,
+                                         const ModalView& eta) const;
+
+  void check() const;
+  void connect();
+  void mark_border();
+  void set_bounds();
+
   flexbody::ContactSurface surface_;
+  MatrixX modes_;  // m x 3n: all modes of a node's axis in a column
+  std::vector<Owner> owners_;
+  std::vector<int> faces_of_nodes_;  // of each corner, one after another
+  std::vector<int> first_faces_;     // n + 1: where those of a node begin
+  std::vector<std::array<bool, 3>> is_border_;  // edges 01, 12, 20 of faces
+  std::vector<bool> is_border_node_;
+  bool is_closed_ = true;
+  Vector3 centre_ = Vector3::Zero();  // of a sphere about the undeformed skin
+  double radius_ = 0.0;
+  VectorX largest_motions_;  // m, of any control point under each mode
+  SkinTree tree_;
 };
+
+/// Those of the body if the skin has modes, or else none.
+/// @throws ContractError if their numbers differ.
+[[nodiscard]] ModalView find_modal_coordinates(const Skin& skin,
+                                               const joints::PairBody& body);
+
+template <class Use>
+void Skin::visit_nodes_below(const Plane& plane, const ModalView& eta,
+                             double reach, const Use& use) const {
+  const double most = plane.offset + reach;
+  std::array<int, SkinTree::kMostLevels> stack{};
+  std::size_t size = 1;
+  while (size > 0) {
+    const int i = stack[--size];
+    if (tree_.find_box(i, eta).find_lowest(plane.normal) > most) continue;
+    const SkinTree::Node& node = tree_.node(i);
+    if (!node.is_leaf()) {
+      stack[size++] = node.right;
+      stack[size++] = i + 1;
+      continue;
+    }
+    for (const int f : tree_.find_faces(node)) {
+      for (const int n : face(f)) {
+        if (n < 0 || owners_[index(n)].face != f) continue;
+        const Vector3 x = deform(n, eta);
+        const double height = plane.normal.dot(x) - plane.offset;
+        if (height <= reach) use(make_node_hit(n, height, x, eta));
+      }
+    }
+  }
+}
 
 }  // namespace limber::contact

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/shapes/pair_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "limber/contact/shapes/nearest_point.hpp"
+#include "limber/contact/shapes/nearest_segments.hpp"
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+namespace {
+
+using SkinPointer = std::shared_ptr<const Skin>;
+
+// A point of B's surface in B's frame, and the place that it is.
+struct Nearest {
+  NearestPoint point;
+  SurfacePlace place;
+};
+
+std::optional<Nearest> find_nearest_of(const PlacedShape& B, const Vector3& p,
+                                       double radius, double reach) {
+  return std::visit(
+      [&](const auto& shape) -> std::optional<Nearest> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>,
+                                     SkinPointer>) {
+          const auto hit =
+              shape->find_nearest(p, find_modal_coordinates(*shape, B.body),
+                                  reach + radius, radius);
+          if (!hit) return std::nullopt;
+          return Nearest{hit->nearest, hit->place};
+        } else {
+          const NearestPoint point = find_nearest(shape, p);
+          return Nearest{point, B.make_place(point.point)};
+        }
+      },
+      B.shape.kind);
+}
+
+Segment place_segment(const PlacedShape& capsule) {
+  return {capsule.X_WS.p, capsule.X_WS.R.col(2),
+          std::get<Capsule>(capsule.shape.kind).half_length};
+}
+
+// Of axes that cross.
+Vector3 find_normal_of_crossing(const PlacedShape& A, const PlacedShape& B) {
+  constexpr double kParallel = 1e-12;
+  const Vector3 normal_W = A.X_WS.R.col(2).cross(B.X_WS.R.col(2));
+  const double sine = normal_W.norm();
+  return sine > kParallel ? Vector3(normal_W / sine) : A.X_WS.R.col(0);
+}
+
+}  // namespace
+
+Meeting meet_sphere(const PlacedShape& A, const PlacedShape& B, double reach) {
+  const double radius = std::get<Sphere>(A.shape.kind).radius;
+  const Vector3 centre = B.X_WS.inverse() * A.X_WS.p;
+  const auto nearest = find_nearest_of(B, centre, radius, reach);
+  if (!nearest) return {};
+  const NearestPoint& on_B = nearest->point;
+  const Vector3 normal_W = -(B.X_WS.R * on_B.normal);
+  const double depth = radius - on_B.distance;
+  return {.depth = depth,
+          .normal_W = normal_W,
+          .p_W = B.X_WS * (on_B.point - 0.5 * depth * on_B.normal),
+          .on_A = A.make_place(radius * (A.X_WS.R.transpose() * normal_W)),
+          .on_B = nearest->place,
+          .curvature = std::max(0.0, 1.0 / radius + on_B.curvature)};
+}
+
+double find_sphere_clearance(const PlacedShape& A, const PlacedShape& B) {
+  const double radius = std::get<Sphere>(A.shape.kind).radius;
+  if (const auto* skin = std::get_if<SkinPointer>(&B.shape.kind)) {
+    return (*skin)->find_clearance(B.X_WS.inverse() * A.X_WS.p, radius,
+                                   find_modal_coordinates(**skin, B.body));
+  }
+  return -meet_sphere(A, B, 0.0).depth;
+}
+
+Meeting meet_capsules(const PlacedShape& A, const PlacedShape& B) {
+  const Segment a = place_segment(A);
+  const Segment b = place_segment(B);
+  const double radius_A = std::get<Capsule>(A.shape.kind).radius;
+  const double radius_B = std::get<Capsule>(B.shape.kind).radius;
+  const NearestOfSegments at = find_nearest(a, b);
+  const Vector3 centre = a.centre + at.s * a.axis;
+  const Vector3 arm = b.centre + at.t * b.axis - centre;
+  const double distance = arm.norm();
+  const Vector3 normal_W =
+      distance > 0.0 ? Vector3(arm / distance) : find_normal_of_crossing(A, B);
+  const auto find_curvature = [](const Segment& segment, double s,
+                                 double radius) {
+    return (std::abs(s) < segment.half_length ? 0.5 : 1.0) / radius;
+  };
+  const Vector3 on_A =
+      Vector3(0.0, 0.0, at.s) + radius_A * (A.X_WS.R.transpose() * normal_W);
+  const Vector3 on_B =
+      Vector3(0.0, 0.0, at.t) - radius_B * (B.X_WS.R.transpose() * normal_W);
+  const double depth = radius_A + radius_B - distance;
+  return {.depth = depth,
+          .normal_W = normal_W,
+          .p_W = centre + (radius_A - 0.5 * depth) * normal_W,
+          .on_A = A.make_place(on_A),
+          .on_B = B.make_place(on_B),
+          .curvature = find_curvature(a, at.s, radius_A) +
+                       find_curvature(b, at.t, radius_B)};
+}
+
+}  // namespace limber::contact

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/shapes/shape_properties.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
+#include "limber/contact/law/check_value.hpp"
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+namespace {
+
+using SkinPointer = std::shared_ptr<const Skin>;
+
+void check_size(const char* what, double value) {
+  check_value(value > 0.0, what, value, "> 0");
+}
+
+void check_kind(const ShapeKind& kind) {
+  std::visit(Overloaded{[](const Sphere& sphere) {
+                          check_size("sphere's radius [m]", sphere.radius);
+                        },
+                        [](const Capsule& capsule) {
+                          check_size("capsule's radius [m]", capsule.radius);
+                          check_size("capsule's half length [m]",
+                                     capsule.half_length);
+                        },
+                        [](const Cylinder& cylinder) {
+                          check_size("cylinder's radius [m]", cylinder.radius);
+                          check_size("cylinder's half length [m]",
+                                     cylinder.half_length);
+                        },
+                        [](const Box& box) {
+                          for (const double size : box.half_size) {
+                            check_size("box's half size [m]", size);
+                          }
+                        },
+                        [](const HalfSpace&) {},
+                        [](const SkinPointer& skin) {
+                          if (skin != nullptr) return;
+                          throw InputError("contact: its skin is missing");
+                        }},
+             kind);
+}
+
+// Of the shape's points from the origin of its frame.
+double find_size(const ShapeKind& kind, const joints::PairBody& body) {
+  return std::visit(
+      Overloaded{[](const Sphere& sphere) { return sphere.radius; },
+                 [](const Capsule& capsule) {
+                   return capsule.half_length + capsule.radius;
+                 },
+                 [](const Cylinder& cylinder) {
+                   return std::hypot(cylinder.half_length, cylinder.radius);
+                 },
+                 [](const Box& box) { return box.half_size.norm(); },
+                 [](const HalfSpace&) {
+                   return std::numeric_limits<double>::infinity();
+                 },
+                 [&body](const SkinPointer& skin) {
+                   return skin->find_extent(
+                       find_modal_coordinates(*skin, body));
+                 }},
+      kind);
+}
+
+}  // namespace
+
+std::string name_kind(const Shape& shape) {
+  return std::visit(Overloaded{[](const Sphere&) { return "sphere"; },
+                               [](const Capsule&) { return "capsule"; },
+                               [](const Cylinder&) { return "cylinder"; },
+                               [](const Box&) { return "box"; },
+                               [](const HalfSpace&) { return "half space"; },
+                               [](const SkinPointer&) { return "skin"; }},
+                    shape.kind);
+}
+
+void check_shape(const Shape& shape) {
+  check_kind(shape.kind);
+  constexpr double kRoundOff = 1e-9;
+  const Matrix3& R = shape.X_BS.R;
+  const double error = (R.transpose() * R - Matrix3::Identity()).norm();
+  if (!(error < kRoundOff) || !(R.determinant() > 0.0) ||
+      !shape.X_BS.p.allFinite()) {
+    throw InputError(
+        fmt::format("contact: the pose of its {} is no rotation and finite "
+                    "position",
+                    name_kind(shape)));
+  }
+  const bool is_at_body =
+      shape.X_BS.p.isZero(0.0) && (R - Matrix3::Identity()).isZero(0.0);
+  if (std::holds_alternative<SkinPointer>(shape.kind) && !is_at_body) {
+    throw InputError(
+        "contact: its skin has a pose of its own; expected that of its body, "
+        "whose frame its nodes are in");
+  }
+}
+
+int count_modes(const Shape& shape) {
+  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
+  return skin == nullptr ? 0 : (*skin)->mode_count();
+}
+
+void set_shape_functions(const Shape& shape, const SurfacePlace& place,
+                         Matrix3X& out) {
+  if (count_modes(shape) == 0) {
+    out.setZero();
+    return;
+  }
+  std::get<SkinPointer>(shape.kind)->set_shape_functions(place, out);
+}
+
+double find_residual(const Shape& shape, const SurfacePlace& place) {
+  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
+  return skin == nullptr ? 0.0 : (*skin)->find_residual(place);
+}
+
+double find_extent(const Shape& shape, const joints::PairBody& body) {
+  return shape.X_BS.p.norm() + find_size(shape.kind, body);
+}
+
+}  // namespace limber::contact
