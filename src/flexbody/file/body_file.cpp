@@ -15,6 +15,7 @@
 #include "limber/common/files/input_file.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/common/records/digest.hpp"
+#include "limber/flexbody/file/body_file_contact.hpp"
 #include "limber/flexbody/file/body_file_reader.hpp"
 #include "limber/flexbody/file/body_file_records.hpp"
 
@@ -58,6 +59,12 @@ std::optional<int> version_of(const std::string& seal) {
     return std::nullopt;
   }
   return version;
+}
+
+// The oldest layout that has room for the body.
+int layout_of(const ReducedBody& body) {
+  return body.contact_surfaces.empty() ? kBodyFileVersion
+                                       : kContactBodyFileVersion;
 }
 
 using Reader = BodyFileReader;
@@ -132,7 +139,7 @@ void write_interfaces(Hdf5File& out, const ReducedBody& body) {
 
 void write_content(Hdf5File& out, const ReducedBody& body) {
   out.write("format", kFormat, "what this file is");
-  out.write("version", std::vector<std::int64_t>{kBodyFileVersion}, "1",
+  out.write("version", std::vector<std::int64_t>{layout_of(body)}, "1",
             "layout of this file");
   out.write("name", body.name, "body");
   out.write("content_key", body.content_key, "hash of all that went in");
@@ -170,6 +177,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_field(out, "initial/displacement/", body.initial.displacement,
               "kg^1/2 m");
   write_field(out, "initial/velocity/", body.initial.velocity, "kg^1/2 m/s");
+  write_contact_surfaces(out, body.contact_surfaces);
 }
 
 void read_rows(const Reader& reader, ReducedBody& body) {
@@ -223,7 +231,8 @@ void read_interfaces(const Reader& reader, std::size_t count,
 }
 
 // Before HDF5 opens the file, since it may crash on damaged structures.
-void check_seal(const std::filesystem::path& file) {
+// Returns the layout's version.
+int check_seal(const std::filesystem::path& file) {
   const auto problem = [&](const std::string& what) {
     return InputError(fmt::format("'{}' {}", file.string(), what));
   };
@@ -235,11 +244,11 @@ void check_seal(const std::filesystem::path& file) {
     throw problem(
         "is not a reduced body of this program's; make one of its mesh");
   }
-  if (*version != kBodyFileVersion) {
-    throw problem(
-        fmt::format("has layout version {}; this program reads {}. Make the "
-                    "reduced body anew",
-                    *version, kBodyFileVersion));
+  if (*version != kBodyFileVersion && *version != kContactBodyFileVersion) {
+    throw problem(fmt::format(
+        "has layout version {}; this program reads {} and {}. Make the "
+        "reduced body anew",
+        *version, kBodyFileVersion, kContactBodyFileVersion));
   }
   const auto read = [&](char* out, std::size_t size) {
     return in.read(out, size);
@@ -249,14 +258,16 @@ void check_seal(const std::filesystem::path& file) {
         "is damaged (its digest does not match its content); make the reduced "
         "body anew");
   }
+  return *version;
 }
 
-}  // namespace
-
-void seal_body_file(const std::filesystem::path& file) {
+// Writes the seal of a layout, or renews the present one.
+void write_seal(const std::filesystem::path& file, std::optional<int> version) {
   std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
-  stream.seekg(kSealSize);
-  if (!stream) {
+  std::string old(kSealSize, '\0');
+  stream.read(old.data(), kSealSize);
+  if (!version) version = version_of(old);
+  if (!stream || !version) {
     throw InputError(fmt::format("'{}' cannot be sealed; is it a reduced body?",
                                  file.string()));
   }
@@ -264,7 +275,7 @@ void seal_body_file(const std::filesystem::path& file) {
     stream.read(out, static_cast<std::streamsize>(size));
     return static_cast<std::size_t>(stream.gcount());
   };
-  const std::string seal = make_seal(kBodyFileVersion, calc_digest(read));
+  const std::string seal = make_seal(*version, calc_digest(read));
   stream.clear();  // the end-of-file state after the digest
   stream.seekp(0);
   stream.write(seal.data(), static_cast<std::streamsize>(seal.size()));
@@ -275,13 +286,19 @@ void seal_body_file(const std::filesystem::path& file) {
   }
 }
 
+}  // namespace
+
+void seal_body_file(const std::filesystem::path& file) {
+  write_seal(file, std::nullopt);
+}
+
 void write_body(const ReducedBody& body, const std::filesystem::path& file) {
   try {
     write_whole(file, [&](const std::filesystem::path& part) {
       Hdf5File out = Hdf5File::create(part, kSealSize);
       write_content(out, body);
       out.close();
-      seal_body_file(part);
+      write_seal(part, layout_of(body));
     });
   } catch (const std::exception& error) {
     throw InputError(fmt::format("the reduced body '{}' cannot be written: {}",
@@ -290,7 +307,7 @@ void write_body(const ReducedBody& body, const std::filesystem::path& file) {
 }
 
 ReducedBody read_body(const std::filesystem::path& file) {
-  check_seal(file);
+  const int version = check_seal(file);
   const Hdf5File in = Hdf5File::open(file);
   const Reader reader(in, file);
   ReducedBody body;
@@ -322,6 +339,9 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);
   body.initial.velocity = read_field(reader, "initial/velocity/", m);
+  if (version == kContactBodyFileVersion) {
+    body.contact_surfaces = read_contact_surfaces(reader, m);
+  }
   return body;
 }
 

@@ -7,8 +7,11 @@
 
 namespace limber::flexbody {
 
-/// Version of the layout that `write_body` writes.
+/// Version of the layout that `write_body` writes of a body without contact
+/// surfaces.
 inline constexpr int kBodyFileVersion = 7;
+/// The same of a body with contact surfaces.
+inline constexpr int kContactBodyFileVersion = 8;
 
 /// Writes one self-describing HDF5 file (every dataset carries its unit and
 /// meaning), atomically: a concurrent reader finds the old file or the new one,
@@ -23,7 +26,8 @@ void write_body(const ReducedBody& body, const std::filesystem::path& file);
 /// wrong size.
 [[nodiscard]] ReducedBody read_body(const std::filesystem::path& file);
 
-/// Updates the seal of a file that another tool has changed on purpose.
+/// Updates the seal of a file that another tool has changed on purpose; its
+/// layout remains.
 /// @throws InputError if it cannot be read or written.
 void seal_body_file(const std::filesystem::path& file);
 

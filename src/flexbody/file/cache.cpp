@@ -17,6 +17,8 @@ namespace {
 
 // Increment when the reduction changes, to invalidate old entries.
 constexpr int kReductionVersion = 4;
+// The same of contact surfaces, for bodies that have any.
+constexpr int kContactVersion = 1;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());
@@ -88,6 +90,11 @@ void add_request(const Recipe& recipe, Digest& digest) {
   digest.add(recipe.rows.extent);
   digest.add(recipe.rows.groups.size());
   for (const std::string& group : recipe.rows.groups) digest.add(group);
+  // Bodies without contact keep the keys that they had before there was any.
+  if (recipe.contact_groups.empty()) return;
+  digest.add(kContactVersion);
+  digest.add(recipe.contact_groups.size());
+  for (const std::string& group : recipe.contact_groups) digest.add(group);
 }
 
 std::filesystem::path find_place(const std::filesystem::path& folder,

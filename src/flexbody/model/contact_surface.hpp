@@ -10,26 +10,36 @@
 
 namespace limber::flexbody {
 
-/// The part of a body's surface that may touch others: nodes with the smoothed
-/// motion of a patch around each, and the flexibility that the basis leaves
-/// out there.
+/// The part of a body's surface that may touch others: its nodes with the
+/// smoothed motion of a patch around each, and the flexibility there that the
+/// basis leaves out.
+///
+/// Equation   u_p = n . Phi_B(p) eta + R_p f,  f a normal force on the patch
+///            under Hertz's pressure of radius b: w^T of the displacements,
+///            sum w = 1
+/// Source     docs/theory/contact_surfaces.md
+/// Limits     The patch and its pressure do not change with the force. No
+///            residual flexibility in tangential directions and between
+///            patches.
 struct ContactSurface {
   std::string name;  ///< the group, or "skin" for the whole surface
-  std::vector<std::size_t> tags;  ///< n node tags
-  Matrix3X x_B;   ///< 3 x n undeformed, body frame, from the c.m. [m]
-  MatrixX Phi_B;  ///< 3n x m: mean of the modes over the patch around each
-                  ///< node, w^T Phi [kg^-1/2]
-  /// n, displacement of each patch under a unit normal force on it that the
-  /// modes leave out, Hertz's own share taken away, >= 0; linear between the
-  /// corners of a face [m/N].
+  /// n Gmsh node tags; 0 where elements interpolate the middle of an edge, for
+  /// which they have no node.
+  std::vector<std::size_t> tags;
+  Matrix3X x_B;   ///< 3 x n undeformed, relative to the c.m. [m]
+  MatrixX Phi_B;  ///< 3n x m: w^T Phi, mean of the modes over the patch around
+                  ///< each node [kg^-1/2]
+  /// n: R_p of a unit normal force on the patch without Hertz's own share, >= 0
+  /// [m/N]. Zero also where the mesh is too coarse for Hertz's share.
+  /// Interpolate it linearly between the corners of a face.
   VectorX residual;
-  VectorX patch_radius;  ///< n [m]
-  /// Right-handed about the outward normal, rows of nodes: corners 0, 1, 2,
-  /// then the middle nodes of edges 01, 12, 20, which are -1 on straight
-  /// (first-order) faces. Quadrilaterals are split into triangles.
+  VectorX patch_radius;  ///< n: b [m]
+  /// Outward (right-hand) indices of nodes: the corners 0, 1, 2, then the
+  /// middle nodes of the edges 01, 12, 20; -1, -1, -1 of a straight face.
+  /// Quadrilateral faces are split into triangles.
   std::vector<std::array<int, 6>> faces;
   double youngs_modulus = 0.0;  ///< of the material under the surface [Pa]
-  double poisson_ratio = 0.0;   ///< [-]
+  double poisson_ratio = 0.0;   ///< of the same [-]
 };
 
 }  // namespace limber::flexbody

@@ -27,6 +27,12 @@ constexpr auto fields_of(const InterfaceTable*) {
                      "rotation axes", "nodes", "flexibility [m/N, rad/(N m)]");
 }
 
+constexpr auto fields_of(const ContactSurface*) {
+  return list_fields("contact surface", "name", "tags", "x_B [m]",
+                     "Phi_B [kg^-1/2]", "residual [m/N]", "patch radius [m]",
+                     "faces", "Young's modulus [Pa]", "Poisson's ratio [-]");
+}
+
 constexpr auto fields_of(const InertialLevers*) {
   return list_fields("levers", "lumped [kg m]", "consistent [kg m]",
                      "displacement [m s^2]");
@@ -42,11 +48,12 @@ constexpr auto fields_of(const InitialDeformation*) {
 
 // The records of how modes were chosen are for information only.
 constexpr auto fields_of(const ReducedBody*) {
-  return list_fields(
-      "reduced body", "name", "clamped", "mass [kg]", "centre of mass [m]",
-      "size [m]", "integrals", "levers", "eigenvalues [rad^2/s^2]", "rows",
-      "groups", "interfaces", "triangles", "mesh nodes", "mesh elements",
-      "mesh boundary nodes", nullptr, nullptr, "initial", "content key");
+  return list_fields("reduced body", "name", "clamped", "mass [kg]",
+                     "centre of mass [m]", "size [m]", "integrals", "levers",
+                     "eigenvalues [rad^2/s^2]", "rows", "groups", "interfaces",
+                     "triangles", "contact surfaces", "mesh nodes",
+                     "mesh elements", "mesh boundary nodes", nullptr, nullptr,
+                     "initial", "content key");
 }
 
 constexpr auto fields_of(const NodeSet*) {

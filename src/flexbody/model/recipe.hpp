@@ -136,6 +136,9 @@ struct Recipe {
   NodalField initial_velocity;      ///< [m/s]
   BasisOptions basis;
   KeptRows rows;
+  /// Surface groups that may touch other bodies, "skin" for the whole boundary;
+  /// each becomes a ContactSurface.
+  std::vector<std::string> contact_groups;
 };
 
 }  // namespace limber::flexbody

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
+#include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/flexbody/model/initial_deformation.hpp"
 #include "limber/flexbody/model/load_modes_record.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
@@ -99,6 +100,7 @@ struct ReducedBody {
   std::vector<InterfaceTable> interfaces;
   std::vector<std::array<std::size_t, 3>> triangles;  ///< surface, as row
                                                       ///< indices, outward
+  std::vector<ContactSurface> contact_surfaces;       ///< those asked for
   std::size_t mesh_nodes = 0;                         ///< count
   std::size_t mesh_elements = 0;                      ///< count
   std::size_t mesh_boundary_nodes = 0;                ///< count

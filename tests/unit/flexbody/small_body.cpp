@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
 #include <type_traits>
+#include <utility>
 
 namespace limber::flexbody::test {
 namespace {
@@ -148,6 +150,40 @@ void add_field(const std::optional<ProjectedField>& field,
   fields.add(name + " key", field->key);
 }
 
+void add_contact_surfaces(const ReducedBody& body, FieldList& fields) {
+  fields.add("contact surfaces", body.contact_surfaces.size());
+  for (const ContactSurface& surface : body.contact_surfaces) {
+    fields.add("contact name", surface.name);
+    fields.add("contact tags", surface.tags);
+    fields.add("contact x_B", MatrixX(surface.x_B));
+    fields.add("contact Phi_B", surface.Phi_B);
+    fields.add("contact residual", MatrixX(surface.residual));
+    fields.add("contact patch_radius", MatrixX(surface.patch_radius));
+    fields.add("contact faces", surface.faces.size());
+    for (const auto& face : surface.faces) {
+      fields.add("contact face", to_sizes({face.begin(), face.end()}));
+    }
+    fields.add("contact youngs_modulus", surface.youngs_modulus);
+    fields.add("contact poisson_ratio", surface.poisson_ratio);
+  }
+}
+
+ContactSurface make_surface(const std::string& name, Eigen::Index nodes,
+                            std::vector<std::array<int, 6>> faces,
+                            Numbers& numbers) {
+  ContactSurface surface;
+  surface.name = name;
+  surface.tags.assign(static_cast<std::size_t>(nodes), 13);
+  surface.x_B = numbers.matrix(3, nodes);
+  surface.Phi_B = numbers.matrix(3 * nodes, 2);
+  surface.residual = numbers.matrix(nodes, 1);
+  surface.patch_radius = numbers.matrix(nodes, 1);
+  surface.faces = std::move(faces);
+  surface.youngs_modulus = numbers.next();
+  surface.poisson_ratio = numbers.next();
+  return surface;
+}
+
 }  // namespace
 
 ReducedBody make_small_body(unsigned seed) {
@@ -201,7 +237,13 @@ ReducedBody make_small_body(unsigned seed) {
                      {"other.txt", 90, false, 3, 0.25}};
   body.initial.displacement =
       ProjectedField{numbers.matrix(m, 1), 0.25, numbers.next(), "a key"};
-  if (seed % 2 == 0) body.initial.velocity = body.initial.displacement;
+  if (seed % 2 == 0) {
+    body.initial.velocity = body.initial.displacement;
+    body.contact_surfaces = {
+        make_surface("skin", 6, {{{0, 1, 2, 3, 4, 5}, {2, 1, 0, 4, 3, 5}}},
+                     numbers),
+        make_surface("tip", 3, {{{0, 1, 2, -1, -1, -1}}}, numbers)};
+  }
   return body;
 }
 
@@ -233,6 +275,7 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   add_load_modes(body, fields);
   add_field(body.initial.displacement, "initial displacement", fields);
   add_field(body.initial.velocity, "initial velocity", fields);
+  add_contact_surfaces(body, fields);
   return fields.get();
 }
 

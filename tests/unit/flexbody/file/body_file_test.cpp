@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/flexbody/file/body_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -29,6 +30,7 @@ namespace limber::flexbody::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::size_t kSealSize = 512;  // HDF5's user block
 
@@ -152,6 +154,59 @@ TEST_F(BodyFile, OfAnotherVersionNamesBothVersions) {
   EXPECT_THAT(reading_error(), HasSubstr("version 9"));
   EXPECT_THAT(reading_error(),
               HasSubstr("reads " + std::to_string(kBodyFileVersion)));
+}
+
+// So that older programs read what they can, and say of the rest that they
+// cannot.
+TEST_F(BodyFile, HasTheOldLayoutUnlessThereAreContactSurfaces) {
+  ReducedBody body = make_small_body(2);
+  const auto has_layout = [&](int version) {
+    write_body(body, file());
+    return read_bytes(file()).find(fmt::format("\nlayout {}\n", version)) <
+           kSealSize;
+  };
+  EXPECT_TRUE(has_layout(kContactBodyFileVersion));
+  seal_body_file(file());
+  EXPECT_EQ(find_difference(read_body(file()), body), "");
+  body.contact_surfaces.clear();
+  EXPECT_TRUE(has_layout(kBodyFileVersion));
+  EXPECT_THAT(read_bytes(file()), Not(HasSubstr("contact")));
+  EXPECT_EQ(find_difference(read_body(file()), body), "");
+}
+
+TEST_F(BodyFile, WithAContactSurfaceThatDoesNotFitNamesTheDataset) {
+  const std::vector<
+      std::pair<std::string, std::function<void(ContactSurface&)>>>
+      damages = {
+          {"'contact/0001/faces' names a node that does not exist",
+           [](ContactSurface& s) { s.faces[0][1] = 3; }},
+          {"'contact/0001/faces' names a node that does not exist",
+           [](ContactSurface& s) { s.faces[0][1] = -2; }},
+          {"'contact/0001/faces' has a face without a node",
+           [](ContactSurface& s) { s.faces[0][1] = -1; }},
+          {"'contact/0001/faces' has a face without a node",
+           [](ContactSurface& s) { s.faces[0][4] = 1; }},
+          {"'contact/0001/x_B'",
+           [](ContactSurface& s) { s.tags.push_back(1); }},
+          {"'contact/0001/Phi_B'",
+           [](ContactSurface& s) { s.Phi_B = MatrixX::Zero(9, 3); }},
+          {"'contact/0001/residual' is not finite",
+           [](ContactSurface& s) {
+             s.residual[0] = std::numeric_limits<double>::infinity();
+           }},
+          {"'contact/0001/patch_radius'",
+           [](ContactSurface& s) { s.patch_radius = VectorX::Ones(2); }},
+          {"'contact/0001/material' is not finite",
+           [](ContactSurface& s) {
+             s.youngs_modulus = std::numeric_limits<double>::quiet_NaN();
+           }},
+      };
+  for (const auto& [name, damage] : damages) {
+    ReducedBody body = make_small_body(2);
+    damage(body.contact_surfaces[1]);
+    write_body(body, file());
+    EXPECT_THAT(reading_error(), HasSubstr(name));
+  }
 }
 
 TEST_F(BodyFile, ThatIsSomethingElseIsSaidToBeNoBody) {

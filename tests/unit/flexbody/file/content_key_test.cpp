@@ -87,6 +87,12 @@ Changes list_load_and_basis_changes() {
       {"all rows", [](Recipe& r) { r.rows = parse_rows({"all"}); }},
       {"few rows", [](Recipe& r) { r.rows = parse_rows({"interfaces"}); }},
       {"a group's rows", [](Recipe& r) { r.rows = parse_rows({"side"}); }},
+      {"contact", [](Recipe& r) { r.contact_groups = {"side"}; }},
+      {"contact of all", [](Recipe& r) { r.contact_groups = {"skin"}; }},
+      {"contact twice",
+       [](Recipe& r) {
+         r.contact_groups = {"si", "de"};
+       }},
   };
 }
 

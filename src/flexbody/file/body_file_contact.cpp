@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/flexbody/file/body_file_contact.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace limber::flexbody {
+namespace {
+
+constexpr std::size_t kFaceNodes = 6;
+
+void write_surface(Hdf5File& out, const std::string& at,
+                   const ContactSurface& surface) {
+  out.write(at + "name", surface.name, "group, or skin");
+  out.write(at + "tags",
+            std::vector<std::int64_t>(surface.tags.begin(), surface.tags.end()),
+            "1", "Gmsh node tags; 0: interpolated middle of an edge");
+  out.write(at + "x_B", surface.x_B, "m",
+            "undeformed positions from the centre of mass, 3 x n");
+  out.write(at + "Phi_B", surface.Phi_B, "kg^-1/2",
+            "mode shapes, mean over the patch around each node, 3n x m");
+  out.write(at + "residual", MatrixX(surface.residual), "m/N",
+            "normal flexibility of each patch that neither modes nor Hertz's "
+            "law have");
+  out.write(at + "patch_radius", MatrixX(surface.patch_radius), "m",
+            "radius of Hertz's pressure on each patch");
+  std::vector<std::int64_t> faces;
+  for (const auto& face : surface.faces) {
+    faces.insert(faces.end(), face.begin(), face.end());
+  }
+  out.write(at + "faces", faces, "1",
+            "triangles, six indices of nodes each: corners, outward, middles "
+            "of edges 01, 12, 20 or -1");
+  out.write(
+      at + "material",
+      MatrixX(Eigen::Vector2d(surface.youngs_modulus, surface.poisson_ratio)),
+      "Pa, 1", "Young's modulus, Poisson's ratio");
+}
+
+// Corners exist; of the middles either all or none.
+bool is_face(const std::array<int, kFaceNodes>& face, std::size_t count) {
+  const auto exists = [&](int node) {
+    return node >= 0 && static_cast<std::size_t>(node) < count;
+  };
+  return std::all_of(face.begin(), face.begin() + 3, exists) &&
+         (std::all_of(face.begin() + 3, face.end(), exists) ||
+          std::all_of(face.begin() + 3, face.end(),
+                      [](int node) { return node == -1; }));
+}
+
+std::vector<std::array<int, kFaceNodes>> read_faces(
+    const BodyFileReader& reader, const std::string& name, std::size_t count) {
+  const std::vector<std::int64_t> nodes = reader.in().read_integers(name);
+  if (nodes.size() % kFaceNodes != 0) {
+    reader.fail(fmt::format("'{}' is cut short", name));
+  }
+  std::vector<std::array<int, kFaceNodes>> faces(nodes.size() / kFaceNodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::int64_t node = nodes[i];
+    if (node < -1 || node >= static_cast<std::int64_t>(count)) {
+      reader.fail(fmt::format("'{}' names a node that does not exist", name));
+    }
+    faces[i / kFaceNodes][i % kFaceNodes] = static_cast<int>(node);
+  }
+  for (const auto& face : faces) {
+    if (!is_face(face, count)) {
+      reader.fail(fmt::format("'{}' has a face without a node", name));
+    }
+  }
+  return faces;
+}
+
+ContactSurface read_surface(const BodyFileReader& reader, const std::string& at,
+                            Eigen::Index m) {
+  ContactSurface surface;
+  surface.name = reader.in().read_text(at + "name");
+  surface.tags = reader.sizes(at + "tags", -1);
+  const auto n = static_cast<Eigen::Index>(surface.tags.size());
+  surface.x_B = reader.matrix(at + "x_B", 3, n);
+  surface.Phi_B = reader.matrix(at + "Phi_B", 3 * n, m);
+  surface.residual = reader.matrix(at + "residual", n, 1);
+  surface.patch_radius = reader.matrix(at + "patch_radius", n, 1);
+  surface.faces = read_faces(reader, at + "faces", surface.tags.size());
+  const MatrixX material = reader.matrix(at + "material", 2, 1);
+  surface.youngs_modulus = material(0, 0);
+  surface.poisson_ratio = material(1, 0);
+  return surface;
+}
+
+}  // namespace
+
+void write_contact_surfaces(Hdf5File& out,
+                            const std::vector<ContactSurface>& surfaces) {
+  if (surfaces.empty()) return;
+  out.write("contact/count", std::vector<std::int64_t>{std::ssize(surfaces)},
+            "1", "contact surfaces");
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    write_surface(out, fmt::format("contact/{:04}/", i), surfaces[i]);
+  }
+}
+
+std::vector<ContactSurface> read_contact_surfaces(const BodyFileReader& reader,
+                                                  Eigen::Index m) {
+  const std::size_t count = reader.sizes("contact/count", 1)[0];
+  std::vector<ContactSurface> surfaces;
+  for (std::size_t i = 0; i < count; ++i) {
+    surfaces.push_back(
+        read_surface(reader, fmt::format("contact/{:04}/", i), m));
+  }
+  return surfaces;
+}
+
+}  // namespace limber::flexbody
