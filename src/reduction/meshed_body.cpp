@@ -7,6 +7,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/assembly.hpp"
+#include "limber/reduction/contact_groups.hpp"
 
 namespace limber::flexbody {
 fem::TracedMesh read_source(const MeshSource& source,
@@ -51,6 +52,8 @@ Support assemble_support(const fem::Mesh& mesh, const Recipe& recipe,
   for (const auto* names : {&recipe.clamped_groups, &recipe.rows.groups})
     for (const std::string& name : *names)
       static_cast<void>(fem::find_group(mesh, name));
+  static_cast<void>(
+      find_contact_groups(mesh, recipe.contact_groups, materials));
   fem::StructuralMatrices matrices = fem::assemble(mesh, materials, progress);
   M_s = matrices.M_s;
   return make_support(mesh, recipe, std::move(matrices));

@@ -6,6 +6,7 @@
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/flexbody/model/shape_integrals.hpp"
+#include "limber/reduction/contact_surface.hpp"
 #include "limber/reduction/initial_rows.hpp"
 #include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/rows.hpp"
@@ -63,6 +64,8 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();
   keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
   add_tables(meshed.interfaces, modes, Phi, body);
+  body.contact_surfaces = make_contact_surfaces(meshed, recipe, basis, Phi,
+                                                inertia.center, progress);
   report(progress, "reduced", 1.0);
   return body;
 }

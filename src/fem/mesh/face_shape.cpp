@@ -44,11 +44,30 @@ MatrixX find_places(const ReferenceElement& element, std::size_t face) {
   return (axes.transpose() * axes).inverse() * axes.transpose() * from_corner;
 }
 
-/// Three points of a triangle, exact for second degree (Strang and Fix, 1973).
-void add_cell(const Eigen::Matrix<double, 2, 3>& corners,
-              std::vector<Eigen::Vector2d>& places) {
-  for (int k = 0; k < 3; ++k)
-    places.emplace_back(corners.rowwise().sum() / 6.0 + corners.col(k) / 2.0);
+/// Places and weights on the reference face.
+struct Rule {
+  std::vector<Eigen::Vector2d> places;
+  std::vector<double> weights;
+};
+
+/// Three points, exact for second degree (Strang and Fix, 1973).
+void add_triangle(const Eigen::Matrix<double, 2, 3>& corners, double area,
+                  Rule& rule) {
+  for (int k = 0; k < 3; ++k) {
+    rule.places.emplace_back(corners.rowwise().sum() / 6.0 +
+                             corners.col(k) / 2.0);
+    rule.weights.push_back(area / 3.0);
+  }
+}
+
+/// Gauss, two by two, which is as symmetric as the square.
+void add_square(const Eigen::Vector2d& corner, double size, Rule& rule) {
+  const double inner = 0.5 * (1.0 - 1.0 / std::sqrt(3.0));
+  for (const double u : {inner, 1.0 - inner})
+    for (const double v : {inner, 1.0 - inner}) {
+      rule.places.emplace_back(corner + size * Eigen::Vector2d(u, v));
+      rule.weights.push_back(size * size / 4.0);
+    }
 }
 
 double power(double x, int n) { return n > 0 ? x * power(x, n - 1) : 1.0; }
@@ -99,25 +118,30 @@ FaceTable FaceShape::tabulate(const MatrixX& places) const {
 }
 
 FaceTable FaceShape::make_rule(int divisions) const {
-  std::vector<Eigen::Vector2d> places;
+  const double size = 1.0 / divisions;
   const auto corner = [&](int i, int j) {
-    return Eigen::Vector2d(Eigen::Vector2d(i, j) / divisions);
+    return Eigen::Vector2d(size * Eigen::Vector2d(i, j));
   };
+  Rule rule;
   Eigen::Matrix<double, 2, 3> cell;
   for (int i = 0; i < divisions; ++i)
     for (int j = 0; j < (corners_ == 4 ? divisions : divisions - i); ++j) {
+      if (corners_ == 4) {
+        add_square(corner(i, j), size, rule);
+        continue;
+      }
       cell << corner(i, j), corner(i + 1, j), corner(i, j + 1);
-      add_cell(cell, places);
-      if (corners_ == 3 && i + j + 2 > divisions) continue;
+      add_triangle(cell, 0.5 * size * size, rule);
+      if (i + j + 2 > divisions) continue;
       cell << corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1);
-      add_cell(cell, places);
+      add_triangle(cell, 0.5 * size * size, rule);
     }
-  MatrixX all(2, static_cast<Eigen::Index>(places.size()));
-  for (std::size_t q = 0; q < places.size(); ++q)
-    all.col(static_cast<Eigen::Index>(q)) = places[q];
-  FaceTable table = tabulate(all);
-  table.weights =
-      VectorX::Constant(all.cols(), 1.0 / (6.0 * divisions * divisions));
+  const auto count = static_cast<Eigen::Index>(rule.places.size());
+  MatrixX places(2, count);
+  for (Eigen::Index q = 0; q < count; ++q)
+    places.col(q) = rule.places[static_cast<std::size_t>(q)];
+  FaceTable table = tabulate(places);
+  table.weights = Eigen::Map<const VectorX>(rule.weights.data(), count);
   return table;
 }
 

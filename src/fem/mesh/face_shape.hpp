@@ -35,7 +35,7 @@ class FaceShape {
   [[nodiscard]] const MatrixX& places() const { return places_; }
   /// Functions and derivatives at 2 x k places; weights are not set.
   [[nodiscard]] FaceTable tabulate(const MatrixX& places) const;
-  /// The same at a three-point rule on each of `divisions`^2 equal cells.
+  /// The same at a rule of second degree on each of `divisions`^2 equal cells.
   [[nodiscard]] FaceTable make_rule(int divisions) const;
 
  private:

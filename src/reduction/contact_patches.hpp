@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/fem/mesh/surface.hpp"
+
+/// Patches of contact around the nodes of a surface. Part of limber_reduction.
+namespace limber::flexbody {
+
+/// A normal load on the surface around a point.
+struct ContactPatch {
+  Vector3 normal = Vector3::Zero();  ///< unit, outward
+  double radius = 0.0;               ///< b [m]
+  std::vector<int> nodes;            ///< of the mesh, sorted
+  VectorX weights;                   ///< sum to one [-]
+};
+
+/// The patch around each point of a surface.
+///
+/// Equation   w_n = int p N_n dA / int p dA, p = sqrt(1 - r^2 / b^2), r the
+///            distance in space
+/// Source     Hertz's pressure [@johnson1985, sec. 3.4]; b as large as an
+///            element, below which the mesh has no flexibility to offer
+/// Limits     Only where the surface is within 60 degrees of the patch's
+///            normal, so that no patch reaches through a plate or around a
+///            sharp edge; on a tip that has no such place, all of it.
+/// @param surface of `mesh`; @param normals 3 x n, unit, outward
+/// @param radii n, > 0 [m]
+[[nodiscard]] std::vector<ContactPatch> find_patches(
+    const fem::Mesh& mesh, const fem::Surface& surface, const Matrix3X& normals,
+    const VectorX& radii);
+
+}  // namespace limber::flexbody
