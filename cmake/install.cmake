@@ -33,6 +33,7 @@ set(public_headers
   limber.hpp
   common/errors.hpp
   common/rotation.hpp
+  contact/contact_pair.hpp
   contact/law/bristle_friction.hpp
   contact/law/contact_damping.hpp
   contact/law/hertz_law.hpp

@@ -59,6 +59,23 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
 
 }  // namespace
 
+joints::PairBody find_pair_body(const SystemModel& model,
+                                const SystemState& state, BodyIndex body) {
+  joints::PairBody out;
+  if (body == kWorld) return out;
+  const std::size_t b = index(body);
+  set_body(model, state, b, state.bodies[b].quat_WB.toRotationMatrix(), out);
+  return out;
+}
+
+joints::PairResponse make_response(const SystemModel& model, const Pair& pair) {
+  const auto modes_of = [&](BodyIndex b) {
+    return b == kWorld ? 0 : model.bodies[index(b)].modes;
+  };
+  return {pair.law->most_points(), modes_of(pair.body_A),
+          modes_of(pair.body_B)};
+}
+
 PairTerms make_pair_terms(const SystemModel& model) {
   PairTerms terms;
   if (model.pairs.empty()) return terms;
@@ -68,11 +85,7 @@ PairTerms make_pair_terms(const SystemModel& model) {
     for (const BodyIndex b : {pair.body_A, pair.body_B}) {
       is_in[slot_of(b, terms)] = true;
     }
-    const auto modes_of = [&](BodyIndex b) {
-      return b == kWorld ? 0 : model.bodies[index(b)].modes;
-    };
-    terms.responses.emplace_back(pair.law->most_points(), modes_of(pair.body_A),
-                                 modes_of(pair.body_B));
+    terms.responses.push_back(make_response(model, pair));
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (is_in[b]) terms.members.push_back(b);
@@ -149,22 +162,18 @@ void add_residual(const SystemModel& model, const Pair& pair,
 
 PairCommit::PairCommit(const SystemModel& model) : model_(model) {
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
-    if (model.pairs[i].law->memory_size() > 0) pairs_.push_back(i);
+    if (model.pairs[i].law->memory_size() == 0) continue;
+    pairs_.push_back(i);
+    scratch_.push_back(make_response(model, model.pairs[i]));
   }
 }
 
 void PairCommit::operator()(SystemState& state) {
-  for (const std::size_t i : pairs_) {
-    const Pair& pair = model_.pairs[i];
-    const auto set = [&](BodyIndex body, joints::PairBody& out) {
-      out = {};
-      if (body == kWorld) return;
-      set_body(model_, state, index(body),
-               state.bodies[index(body)].quat_WB.toRotationMatrix(), out);
-    };
-    set(pair.body_A, A_);
-    set(pair.body_B, B_);
-    pair.law->commit({A_, B_}, state.t, memory_of(pair, state));
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Pair& pair = model_.pairs[pairs_[i]];
+    const joints::PairBody A = find_pair_body(model_, state, pair.body_A);
+    const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
+    pair.law->commit({A, B}, state.t, memory_of(pair, state), scratch_[i]);
   }
 }
 

@@ -30,6 +30,15 @@ template <typename State>
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms);
 
+/// A body's motion, or the world's, at a state.
+[[nodiscard]] joints::PairBody find_pair_body(const SystemModel& model,
+                                              const SystemState& state,
+                                              BodyIndex body);
+
+/// A response that a pair's law fills, of its size.
+[[nodiscard]] joints::PairResponse make_response(const SystemModel& model,
+                                                 const Pair& pair);
+
 /// Evaluates all pairs and adds their forces and powers. Needs R_WB.
 /// @throws NumericalError naming the pair and the time.
 void apply_pairs(const SystemModel& model, const SystemState& state,
@@ -53,9 +62,8 @@ class PairCommit {
 
  private:
   const SystemModel& model_;
-  std::vector<std::size_t> pairs_;  // that remember
-  joints::PairBody A_;
-  joints::PairBody B_;
+  std::vector<std::size_t> pairs_;             // that remember
+  std::vector<joints::PairResponse> scratch_;  // one each
 };
 
 /// @throws NumericalError with the pair's name and the time before the text.

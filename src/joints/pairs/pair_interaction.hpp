@@ -107,6 +107,8 @@ struct PairStep {
   StepTimes times;
 };
 
+class Touching;
+
 /// Forces between two bodies, or a body and the world, at points that come and
 /// go. Immutable; one virtual call a pair and evaluation.
 ///
@@ -154,8 +156,13 @@ class PairInteraction {
                                   PairResponse& out) const;
 
   /// Changes the memory at the end of an accepted step; nowhere else.
+  /// @param scratch of the law's size
   virtual void commit(const PairBodies& /*bodies*/, double /*t*/,
-                      std::span<double> /*memory*/) const {}
+                      std::span<double> /*memory*/,
+                      PairResponse& /*scratch*/) const {}
+
+  /// What it offers if its bodies touch and part; null: no such thing.
+  [[nodiscard]] virtual const Touching* touching() const { return nullptr; }
 };
 
 /// Its kind and parameters.

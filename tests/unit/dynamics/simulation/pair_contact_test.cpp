@@ -174,7 +174,8 @@ class Creep final : public joints::PairInteraction {
     point.stiffness = 50.0 * Matrix3::Identity();
   }
   void commit(const joints::PairBodies& bodies, double t,
-              std::span<double> memory) const override {
+              std::span<double> memory,
+              joints::PairResponse& /*scratch*/) const override {
     for (int i = 0; i < 3; ++i) {
       double& rest = memory[static_cast<std::size_t>(i)];
       rest += 1e-4 * (bodies.B.p_WB[i] - rest);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/law/materials.hpp"
+#include "limber/contact/law/point_law.hpp"
+#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
+#include "limber/joints/pairs/touching.hpp"
+
+namespace limber::contact {
+
+/// One of the two bodies of a contact.
+struct ContactSide {
+  Shape shape;
+  std::optional<SurfaceMaterial> material;  ///< none: rigid
+  double mass = 0.0;  ///< of the body; infinity of the world [kg]
+};
+
+/// Contact of two shapes: at each of their features a normal force, which
+/// stores energy and is damped to a restitution, and friction.
+///
+/// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth,
+///            k of 1/R_e = the sum of both curvatures, R = R_A + R_B of what
+///            the bases leave out at both places; t a bristle within mu f
+/// Source     docs/theory/contact_laws.md
+/// Limits     the normal is held within a Newton iteration's tangent; what
+///            turns about the normal meets no friction
+class ContactPair final : public joints::PairInteraction,
+                          public joints::Touching {
+ public:
+  /// @throws InputError, without the pair's name, for a value outside its
+  /// range, shapes that have no rule for each other, and two sides of which
+  /// neither has a finite mass.
+  ContactPair(ContactSide side_A, ContactSide side_B,
+              const ContactParameters& parameters);
+
+  [[nodiscard]] std::string_view kind() const override { return "contact"; }
+  void describe_parameters(Manifest& out) const override;
+  [[nodiscard]] std::size_t most_points() const override;
+  [[nodiscard]] std::size_t memory_size() const override;
+  void check(int modes_A, int modes_B) const override;
+  void evaluate(const joints::PairBodies& bodies, const Instant& now,
+                std::span<const double> memory,
+                joints::PairResponse& out) const override;
+  void evaluate_over_step(const joints::PairStep& step,
+                          std::span<const double> memory,
+                          joints::PairResponse& out) const override;
+  void commit(const joints::PairBodies& bodies, double t,
+              std::span<double> memory,
+              joints::PairResponse& scratch) const override;
+  [[nodiscard]] const joints::Touching* touching() const override {
+    return this;
+  }
+
+  [[nodiscard]] joints::PairTouch find_touch(
+      const joints::PairBodies& bodies,
+      joints::PairResponse& scratch) const override;
+  [[nodiscard]] double find_clearance(
+      const joints::PairBodies& bodies) const override;
+  [[nodiscard]] double find_speed_bound(
+      const joints::PairBodies& bodies) const override;
+  [[nodiscard]] double find_size() const override { return size_; }
+  double begin_touch(const joints::PairBodies& bodies, double t,
+                     std::span<double> memory,
+                     joints::PairResponse& scratch) const override;
+  [[nodiscard]] joints::TouchReading read(
+      const joints::PairBodies& bodies, const Instant& now,
+      std::span<const double> memory,
+      joints::PairResponse& scratch) const override;
+
+ private:
+  [[nodiscard]] PointMotion place(const joints::PairBodies& bodies,
+                                  const Meeting& meeting,
+                                  const PointMemory& memory, double t,
+                                  joints::PairPoint& point) const;
+  [[nodiscard]] HertzLaw find_law(const Meeting& meeting) const;
+  // The elastic force over a step that balances the energies of both ends.
+  [[nodiscard]] ElasticForce find_step_force(const joints::PairStep& step,
+                                             const PointMotion& motion,
+                                             const joints::PairPoint& point,
+                                             const Meeting& begin,
+                                             const Meeting& end) const;
+
+  ContactSide A_;
+  ContactSide B_;
+  ContactParameters parameters_;
+  ShapePair shapes_;
+  PointLaw law_;
+  double size_;
+  VectorX mode_reach_A_;
+  VectorX mode_reach_B_;
+};
+
+}  // namespace limber::contact

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "limber/common/types.hpp"
+#include "limber/contact/law/contact_damping.hpp"
+#include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/law/hertz_law.hpp"
+#include "limber/contact/law/materials.hpp"
+#include "limber/contact/law/point_memory.hpp"
+
+namespace limber::contact {
+
+/// Motion at one contact point, world frame; n from body A to body B, relative
+/// quantities those of B's material point less A's.
+struct PointMotion {
+  Vector3 normal_W = Vector3::Zero();     ///< n, unit [-]
+  double depth = 0.0;                     ///< d > 0 [m]
+  double curvature = 0.0;                 ///< 1/R_e >= 0 [1/m]
+  double residual = 0.0;                  ///< R >= 0 [m/N]
+  Vector3 velocity_W = Vector3::Zero();   ///< [m/s]
+  Vector3 increment_W = Vector3::Zero();  ///< since the last commit [m]
+  Matrix3 R_WB = Matrix3::Identity();     ///< of body B, the slave
+  double time = 0.0;                      ///< [s]
+
+  /// d', as if the normal stood still [m/s].
+  [[nodiscard]] double rate() const { return -normal_W.dot(velocity_W); }
+};
+
+/// What acts on B at one contact point.
+struct PointResponse {
+  Vector3 force_W = Vector3::Zero();     ///< normal force and friction [N]
+  double normal_force = 0.0;             ///< [N]
+  Vector3 friction_W = Vector3::Zero();  ///< [N]
+  bool slips = false;
+  double energy = 0.0;                  ///< stored [J]
+  double dissipation = 0.0;             ///< [W]
+  double area = 0.0;                    ///< that touches, Hertz's [m^2]
+  Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
+  Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]
+  PointMemory next = {};                ///< but for its places
+};
+
+/// Normal force and friction of one contact point.
+///
+/// Equation   f n + t: HertzLaw, damp and BristleFriction, with
+///            k of the materials and R_e, or of neither's material the default
+///            law; k_t = k_t/k_n of the materials times the normal stiffness of
+///            an impact at the speed of touch, at least at kReferenceSpeed
+/// Limits     k_t is that of the touch: a later load does not change it
+class PointLaw {
+ public:
+  /// Slowest touch that k_t is of [m/s].
+  static constexpr double kReferenceSpeed = 0.01;
+
+  /// @param moduli of both sides; none: neither has a material
+  /// @param mass reduced mass of both bodies > 0 [kg]
+  /// @param size at least this 1/R_e counts: an edge, a corner or a flat face
+  /// is as round as half of the body [m]
+  /// @throws InputError as check(parameters).
+  PointLaw(const ContactParameters& parameters,
+           const std::optional<PairModuli>& moduli, double mass, double size);
+
+  [[nodiscard]] bool has_friction() const { return has_friction_; }
+
+  /// @param motion of a point that overlaps
+  [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
+                                       const PointMemory& memory) const;
+
+  /// With an elastic force from elsewhere, such as the mean over a step.
+  /// `energy` is then that of friction alone, `area` 0.
+  [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
+                                       const ElasticForce& elastic,
+                                       const PointMemory& memory) const;
+
+  /// Of the elastic force where the surfaces are as at `motion`.
+  [[nodiscard]] HertzLaw find_law(double curvature, double residual) const;
+  /// What a point remembers of a first touch at this rate of depth [m/s].
+  [[nodiscard]] PointMemory begin(const HertzLaw& law, double rate) const;
+  /// T_c of an impact of both bodies at a speed > 0 [s].
+  [[nodiscard]] double find_duration(const HertzLaw& law, double speed) const;
+
+ private:
+  void add_friction(const PointMotion& motion, const DampedForce& pressed,
+                    PointResponse& out) const;
+
+  ContactParameters parameters_;
+  std::optional<PairModuli> moduli_;
+  double mass_;  // [kg]
+  double size_;  // [m]
+  bool has_friction_;
+  double tangential_ratio_;  // k_t / k_n [-]
+};
+
+}  // namespace limber::contact

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/shape_measures.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "limber/contact/shapes/shape_properties.hpp"
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+namespace {
+
+using SkinPointer = std::shared_ptr<const Skin>;
+
+template <typename Array>
+std::vector<double> list_values(const Array& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+void describe_kind(Manifest& out, const Sphere& sphere) {
+  out.add("radius [m]", sphere.radius);
+}
+
+// Of a capsule or a cylinder.
+template <typename Rod>
+void describe_kind(Manifest& out, const Rod& rod) {
+  out.add("radius [m]", rod.radius);
+  out.add("half length [m]", rod.half_length);
+}
+
+void describe_kind(Manifest& out, const Box& box) {
+  out.add("half size [m]", list_values(box.half_size));
+}
+
+void describe_kind(Manifest& /*out*/, const HalfSpace& /*space*/) {}
+
+void describe_kind(Manifest& out, const SkinPointer& skin) {
+  const flexbody::ContactSurface& surface = skin->surface();
+  std::vector<double> faces;
+  for (const auto& face : surface.faces) {
+    faces.insert(faces.end(), face.begin(), face.end());
+  }
+  out.add("name", surface.name);
+  out.add("nodes [m]", list_values(surface.x_B));
+  out.add("modes", list_values(surface.Phi_B));
+  out.add("residual [m/N]", list_values(surface.residual));
+  out.add("patch radius [m]", list_values(surface.patch_radius));
+  out.add("faces", faces);
+}
+
+double find_own_roundness(const Shape& shape) {
+  return std::visit(
+      [](const auto& kind) {
+        using Kind = std::decay_t<decltype(kind)>;
+        if constexpr (std::is_same_v<Kind, Box>) {
+          return kind.half_size.minCoeff();
+        } else if constexpr (std::is_same_v<Kind, Cylinder>) {
+          return std::min(kind.radius, kind.half_length);
+        } else if constexpr (std::is_same_v<Kind, HalfSpace>) {
+          return 0.0;  // none
+        } else if constexpr (std::is_same_v<Kind, SkinPointer>) {
+          return kind->surface().patch_radius.maxCoeff();
+        } else {
+          return kind.radius;
+        }
+      },
+      shape.kind);
+}
+
+}  // namespace
+
+void describe(Manifest& out, std::string_view name, const Shape& shape) {
+  out.within(name, [&] {
+    out.add("kind", name_kind(shape));
+    std::visit([&](const auto& kind) { describe_kind(out, kind); }, shape.kind);
+    out.add("position [m]", list_values(shape.X_BS.p));
+    out.add("rotation", list_values(shape.X_BS.R));
+  });
+}
+
+double find_roundness(const Shape& A, const Shape& B) {
+  return std::max(find_own_roundness(A), find_own_roundness(B));
+}
+
+double find_size(const Shape& A, const Shape& B) {
+  const double size_A = find_own_roundness(A);
+  const double size_B = find_own_roundness(B);
+  if (size_A == 0.0 || size_B == 0.0) return std::max(size_A, size_B);
+  return std::min(size_A, size_B);
+}
+
+VectorX find_mode_reach(const Shape& shape) {
+  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
+  if (skin == nullptr) return VectorX::Zero(0);
+  const MatrixX& Phi = (*skin)->surface().Phi_B;
+  VectorX reach = VectorX::Zero(Phi.cols());
+  for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
+    for (Eigen::Index row = 0; row + 3 <= Phi.rows(); row += 3) {
+      reach[k] = std::max(reach[k], Phi.col(k).segment<3>(row).norm());
+    }
+  }
+  return reach;
+}
+
+}  // namespace limber::contact

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+#include "limber/common/records/manifest.hpp"
+#include "limber/contact/shapes/shape.hpp"
+
+namespace limber::contact {
+
+/// Kind, sizes and pose, of a Skin its nodes and tables.
+void describe(Manifest& out, std::string_view name, const Shape& shape);
+
+/// Largest radius of curvature that a contact of both counts with: the larger
+/// of both shapes' radii, or half of their shortest edges, or of a Skin the
+/// largest radius of its patches [m].
+[[nodiscard]] double find_roundness(const Shape& A, const Shape& B);
+
+/// The smaller of both shapes' roundnesses; a half space has none [m].
+[[nodiscard]] double find_size(const Shape& A, const Shape& B);
+
+/// Of each mode the largest displacement of a node of the shape, m entries
+/// [kg^-1/2].
+[[nodiscard]] VectorX find_mode_reach(const Shape& shape);
+
+}  // namespace limber::contact

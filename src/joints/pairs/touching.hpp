@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+namespace limber::joints {
+
+/// Whether two bodies touch, as a function of time.
+struct PairTouch {
+  double depth = 0.0;  ///< > 0 where they overlap, else minus a distance [m]
+  double rate = 0.0;   ///< of the depth [m/s]
+  Vector3 normal_W = Vector3::Zero();  ///< from A to B, unit [-]
+  Vector3 p_W = Vector3::Zero();       ///< midway between both [m]
+};
+
+/// What two bodies exert on each other while they touch, of all points
+/// together.
+struct TouchReading {
+  double normal_force = 0.0;           ///< sum of all points' [N]
+  double friction_force = 0.0;         ///< of the largest force [N]
+  Vector3 normal_W = Vector3::Zero();  ///< from A to B, of the largest
+                                       ///< force [-]
+  Vector3 p_W = Vector3::Zero();       ///< of the largest force [m]
+  Vector3 force_W = Vector3::Zero();   ///< resultant on B [N]
+  double depth = 0.0;                  ///< largest [m]
+  double area = 0.0;                   ///< of all points' [m^2]
+  double energy = 0.0;                 ///< stored [J]
+  int points = 0;                      ///< that touch, count
+  bool slips = false;                  ///< whether one does
+};
+
+/// What a pair interaction offers if its bodies touch and part: the times at
+/// which they do are located, steps are adapted and impacts are recorded.
+class Touching {
+ public:
+  Touching() = default;
+  Touching(const Touching&) = delete;
+  Touching& operator=(const Touching&) = delete;
+  virtual ~Touching() = default;
+
+  /// Of the deepest point, or, where all are apart, of the nearest one.
+  /// @param scratch of the law's size, here and below
+  [[nodiscard]] virtual PairTouch find_touch(const PairBodies& bodies,
+                                             PairResponse& scratch) const = 0;
+  /// A lower bound of the distance, 0 where they may touch; cheap [m].
+  [[nodiscard]] virtual double find_clearance(
+      const PairBodies& bodies) const = 0;
+  /// An upper bound of the speed at which the distance can change, at this
+  /// motion [m/s].
+  [[nodiscard]] virtual double find_speed_bound(
+      const PairBodies& bodies) const = 0;
+  /// Of the smaller body near the contact: what moves farther in a step may
+  /// pass through it [m].
+  [[nodiscard]] virtual double find_size() const = 0;
+  /// Changes the memory where both begin to touch.
+  /// @returns T_c of a free impact at this speed [s]
+  virtual double begin_touch(const PairBodies& bodies, double t,
+                             std::span<double> memory,
+                             PairResponse& scratch) const = 0;
+  [[nodiscard]] virtual TouchReading read(const PairBodies& bodies,
+                                          const Instant& now,
+                                          std::span<const double> memory,
+                                          PairResponse& scratch) const = 0;
+};
+
+}  // namespace limber::joints
