@@ -59,12 +59,10 @@ void StepAudit::include(const SystemState& state, const SystemTerms* terms,
   limits_.include(state, now, events);
 }
 
-std::vector<std::string> StepAudit::find_warnings() const {
-  std::vector<std::string> warnings = holds_.find_warnings();
-  for (std::string& text : limits_.find_warnings()) {
-    warnings.push_back(std::move(text));
+void StepAudit::add_warnings(std::vector<std::string>& warnings) const {
+  for (const auto& texts : {holds_.find_warnings(), limits_.find_warnings()}) {
+    warnings.insert(warnings.end(), texts.begin(), texts.end());
   }
-  return warnings;
 }
 
 void StepAudit::exchange_memory(Archive& archive) {

@@ -37,7 +37,7 @@ class StepAudit {
   [[nodiscard]] EnergyRecord find_energy() const {
     return ledger_.find_record();
   }
-  [[nodiscard]] std::vector<std::string> find_warnings() const;
+  void add_warnings(std::vector<std::string>& warnings) const;
 
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/simulation/event_stepper.hpp"
 
+#include <algorithm>
+
 namespace limber::dynamics {
 namespace {
 
@@ -9,6 +11,10 @@ constexpr int kMostCut = 32;
 // Fraction of a step within which an event is moved to its beginning or end
 // [-].
 constexpr double kSame = 1e-9;
+// Largest number of attempts to end a step where two bodies touch or part, and
+// least reduction of its length from one to the next [-].
+constexpr int kMostRepeats = 12;
+constexpr double kLeastReduction = 0.999;
 
 }  // namespace
 
@@ -18,6 +24,7 @@ EventStepper::EventStepper(const SystemModel& model,
     : model_(model),
       integrator_(make_integrator(model, settings)),
       watch_(model),
+      touches_(model),
       commit_pairs_(model),
       events_(events) {
   using Kind = joints::AxisCoordinate::Kind;
@@ -27,7 +34,8 @@ EventStepper::EventStepper(const SystemModel& model,
       if (coordinates[i].kind == Kind::angle) angles_.push_back({c, i});
     }
   }
-  keeps_before_ = settings.tolerance > 0.0 || !watch_.is_empty();
+  keeps_before_ =
+      settings.tolerance > 0.0 || !watch_.is_empty() || !touches_.is_empty();
   is_implicit_ = traits_of(settings.integrator).is_implicit;
 }
 
@@ -40,6 +48,7 @@ std::optional<DamperImpulse> EventStepper::start(SystemState& state, double h) {
     totals_.load_work += impulse->work;
     watch_.accept(state);
   }
+  touches_.start(state, events_);
   integrator_->start(state, h);
   if (keeps_before_) before_ = state;  // so that no step allocates
   return impulse;
@@ -73,6 +82,7 @@ void EventStepper::advance(SystemState& state, double h, double end) {
 }
 
 void EventStepper::attempt(SystemState& state, double h, double end) {
+  touches_.check_step(h, state.t);
   if (keeps_before_) before_ = state;
   last_ = {};
   h_ = h;
@@ -97,35 +107,76 @@ void EventStepper::pass_all_at_end(SystemState& state, double h) {
     pass(*crossing, state, h);
   }
   watch_.accept();
+  touches_.pass_all(state, events_);
+}
+
+// Repeats the attempted step up to a fraction of it. @returns whether it took
+// any time
+bool EventStepper::advance_to(double share, SystemState& state) {
+  take_back(state);
+  if (!(share > kSame)) {
+    last_.load_work = last_.dissipated = 0.0;
+    return false;
+  }
+  const double until = share * h_;
+  advance(state, until, state.t + until);
+  return true;
 }
 
 void EventStepper::settle(SystemState& state, double nominal_h) {
-  if (watch_.is_empty()) {
+  if (watch_.is_empty() && touches_.is_empty()) {
     add_last();
     return;
   }
   const auto crossing = watch_.find_first(state, h_);
-  if (!crossing || crossing->share > 1.0 - kSame || cut_ == kMostCut) {
+  const auto touch = touches_.find_first(before_, state);
+  const double share =
+      std::min(crossing ? crossing->share : 1.0, touch ? touch->share : 1.0);
+  if (share > 1.0 - kSame || cut_ == kMostCut) {
     cut_ = 0;
     add_last();
     pass_all_at_end(state, nominal_h);
+    touches_.accept(state);
     return;
   }
   ++cut_;
-  take_back(state);
-  if (crossing->share > kSame) {
-    const double until = crossing->share * h_;
-    advance(state, until, state.t + until);
-  } else {
-    last_.load_work = last_.dissipated = 0.0;
+  if (touch && touch->share == share) {
+    settle_touch(*touch, state, nominal_h);
+    return;
   }
+  advance_to(share, state);
   add_last();
   pass(*crossing, state, nominal_h);
+  touches_.accept(state);
+}
+
+// A step that ends deep in a contact, or after it, tells its beginning badly:
+// shorter ones tell better, until one ends there. One that ends before it is
+// taken as it is; the next goes on.
+void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
+                                SystemState& state, double nominal_h) {
+  double share = crossing.share;
+  for (int i = 0; i < kMostRepeats && advance_to(share, state); ++i) {
+    const double tolerance =
+        touches_.find_tolerance(crossing.index, state, nominal_h);
+    if (touches_.find_excess(crossing.index, state) <= tolerance) break;
+    const auto earlier = touches_.find_first(before_, state);
+    if (!earlier) break;
+    share *= std::min(earlier->share, kLeastReduction);
+  }
+  add_last();
+  const double excess = touches_.find_excess(crossing.index, state);
+  const double tolerance =
+      touches_.find_tolerance(crossing.index, state, nominal_h);
+  if (excess >= -tolerance) touches_.pass(crossing.index, state, events_);
+  watch_.accept(state);
+  touches_.accept(state);
 }
 
 void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   integrator_->exchange_memory(archive, state);
   watch_.exchange_memory(archive);
+  touches_.exchange_memory(archive);
   archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
           totals_.dissipated);
   if (keeps_before_) before_ = state;

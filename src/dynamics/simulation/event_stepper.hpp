@@ -8,12 +8,14 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/make_integrator.hpp"
 #include "limber/dynamics/monitors/event_watch.hpp"
+#include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/damper_impulse.hpp"
 
 namespace limber::dynamics {
 
-/// Takes steps, ends them at events of couplers, and updates the couplers'
-/// memory. Without switches and angles it adds no cost to a step.
+/// Takes steps, ends them at events of couplers and where pairs touch or part,
+/// and updates their memory. Without switches and angles it adds no cost to a
+/// step.
 ///
 /// Equation   a switch's effect on a law is constant within a step, so that the
 ///            motion is smooth, and changes where the step is cut.
@@ -57,6 +59,8 @@ class EventStepper {
   [[nodiscard]] const SystemState& before() const { return before_; }
   /// Sums over all steps so far.
   [[nodiscard]] const StepResult& totals() const { return totals_; }
+  /// Which pairs touch.
+  [[nodiscard]] TouchWatch& touches() { return touches_; }
 
   /// Approximately those of the last step's end, before its events.
   [[nodiscard]] const SystemTerms& terms() const {
@@ -80,11 +84,15 @@ class EventStepper {
   void advance(SystemState& state, double h, double end);
   void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
   void pass_all_at_end(SystemState& state, double h);
+  void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
+                    double nominal_h);
+  bool advance_to(double share, SystemState& state);
   void add_last();
 
   const SystemModel& model_;
   std::unique_ptr<Integrator> integrator_;
   EventWatch watch_;
+  TouchWatch touches_;
   std::vector<Angle> angles_;
   PairCommit commit_pairs_;
   std::vector<Event>& events_;

@@ -5,6 +5,7 @@
 
 #include "limber/common/progress.hpp"
 #include "limber/dynamics/integrators/simulation_settings.hpp"
+#include "limber/dynamics/monitors/contact_record.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
 #include "limber/dynamics/simulation/checkpoint.hpp"
@@ -18,6 +19,7 @@ namespace limber::dynamics {
 struct RunRecord {
   std::vector<Extreme> peaks;  ///< of the followed scalars, in their order
   EnergyRecord energy;
+  std::vector<ContactRecord> contacts;  ///< in the order of time
 };
 
 /// simulate() that also monitors scalars and energy at every step; `record` is

@@ -44,6 +44,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
                refinement),
       peaks_(model, followed),
       audit_(model, settings.integrator),
+      contacts_(model),
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
       within_(state),
@@ -61,6 +62,7 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
   watch_.exchange_memory(archive);
   peaks_.exchange_memory(archive);
   audit_.exchange_memory(archive);
+  contacts_.exchange_memory(archive);
   exchange_costs(archive, statistics_);
   archive(statistics_.events, statistics_.warnings);
 }
@@ -126,21 +128,21 @@ void TimeLoop::count_step(const StepResult& since) {
   watch_.add(now.load_work - since.load_work);
 }
 
-// @param events number of events before the step
-void TimeLoop::watch_step(const SystemState& state, std::size_t events) {
+void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
   peaks_.include(state);
-  const bool is_smooth = statistics_.events.size() == events;
-  audit_.include(state, is_smooth ? &stepper_.terms() : nullptr,
-                 stepper_.totals(), state.t == settings_.end_time,
-                 statistics_.events);
+  contacts_.include(state, stepper_.touches());
+  const SystemTerms* smooth =
+      statistics_.events.size() == events_before ? &stepper_.terms() : nullptr;
+  audit_.include(state, smooth, stepper_.totals(),
+                 state.t == settings_.end_time, statistics_.events);
 }
 
 void TimeLoop::tell(RunRecord& record) {
   record.peaks = peaks_.finish();
   record.energy = audit_.find_energy();
-  for (std::string& text : audit_.find_warnings()) {
-    statistics_.warnings.push_back(std::move(text));
-  }
+  record.contacts = contacts_.find_records();
+  audit_.add_warnings(statistics_.warnings);
+  contacts_.add_warnings(statistics_.warnings);
 }
 
 void TimeLoop::halve(const SystemState& state, double h,
@@ -207,6 +209,7 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
           stored, settings_.integrator == IntegratorKind::explicit_euler);
       clash_ = find_start_clash(model_, terms_, stored, h_);
       peaks_.start(state);
+      contacts_.include(state, stepper_.touches());
       audit_.start(state, terms_, stepper_.totals(), statistics_.events);
     }
     if (at_jump_) {
@@ -277,7 +280,8 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   const double left = mark - state.t;
   // Loads that are zero at both ends of a step are not missed.
   const double most = refinement_ * (mark - origin_) / kFewestStepsToAMark;
-  h_ = std::min(control_.propose(state, left), std::max(most, 0.0));
+  h_ = std::min({control_.propose(state, left), std::max(most, 0.0),
+                 refinement_ * stepper_.touches().find_longest_step(state.t)});
   if (left - h_ < kSame * h_) h_ = left;
   if (!(h_ > kShortest * (settings_.end_time - start_))) {
     fail(state, h_,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/dynamics/monitors/contact_log.hpp"
 #include "limber/dynamics/monitors/energy_watch.hpp"
 #include "limber/dynamics/monitors/peak_watch.hpp"
 #include "limber/dynamics/monitors/step_audit.hpp"
@@ -66,8 +67,8 @@ class TimeLoop {
 
   [[nodiscard]] Losses losses() const;
 
-  /// Adds the results of monitoring all steps so far: peaks, energy and
-  /// warnings.
+  /// Adds the results of monitoring all steps so far: peaks, energy, contacts
+  /// and warnings.
   void tell(RunRecord& record);
 
  private:
@@ -97,7 +98,7 @@ class TimeLoop {
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
   void count_step(const StepResult& since);
-  void watch_step(const SystemState& state, std::size_t events);
+  void watch_step(const SystemState& state, std::size_t events_before);
   void inspect(const SystemState& state);
   void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
                        bool is_last);
@@ -122,6 +123,7 @@ class TimeLoop {
   EnergyWatch watch_;
   PeakWatch peaks_;
   StepAudit audit_;
+  ContactLog contacts_;
   WorkBudget budget_;
   SystemTerms terms_;  // of the energy
   SystemState within_;

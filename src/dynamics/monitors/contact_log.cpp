@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/monitors/contact_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "limber/common/index.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+// Steps per T_c of an impact that tell its restitution, at least.
+constexpr double kFewestSteps = 4.0;
+
+Vector3 find_rigid_velocity(const SystemState& state, BodyIndex b,
+                            const Vector3& p_W) {
+  if (b == kWorld) return Vector3::Zero();
+  const BodyState& body = state.bodies[index(b)];
+  const Vector3 w_W = body.quat_WB * body.w_WB_B;
+  return body.v_WB_W + w_W.cross(p_W - body.p_WB);
+}
+
+bool is_coarse(const OngoingContact& pair) {
+  return pair.longest_step * kFewestSteps > pair.record.impact_duration &&
+         pair.record.impact_duration > 0.0;
+}
+
+}  // namespace
+
+ContactLog::ContactLog(const SystemModel& model) : model_(model) {}
+
+double ContactLog::find_approach(const Pair& pair, const SystemState& state,
+                                 const Vector3& p_W,
+                                 const Vector3& normal_W) const {
+  return normal_W.dot(find_rigid_velocity(state, pair.body_A, p_W) -
+                      find_rigid_velocity(state, pair.body_B, p_W));
+}
+
+void ContactLog::begin(std::size_t i, const SystemState& state,
+                       TouchWatch& touches) {
+  OngoingContact& pair = pairs_[i];
+  ContactRecord& record = pair.record;
+  pair.is_touching = true;
+  const double lasted = pair.left - record.time;
+  if (record.touches > 0 && state.t - pair.left <= lasted) {
+    ++record.touches;
+    return;
+  }
+  if (record.touches > 0) finished_.push_back(record);
+  const Pair& of = model_.pairs[touches.pair_of(i)];
+  const joints::PairTouch touch = touches.find_touch(i, state);
+  pair.normal_W = touch.normal_W;
+  pair.longest_step = 0.0;
+  record = {.pair = of.name, .time = state.t, .touches = 1};
+  record.impact_duration = touches.impact_duration(i);
+  record.touch_speed = find_approach(of, state, touch.p_W, touch.normal_W);
+}
+
+void ContactLog::include(std::size_t i, const SystemState& state,
+                         TouchWatch& touches, double h) {
+  OngoingContact& pair = pairs_[i];
+  ContactRecord& record = pair.record;
+  const bool touched = pair.is_touching;
+  const bool touches_now = touches.is_touching(i);
+  if (!touched && !touches_now) return;
+  joints::TouchReading now;
+  if (touches_now) now = touches.read(i, state);
+  if (!touched) begin(i, state, touches);
+  if (touched) {
+    record.impulse += 0.5 * h * (pair.force + now.normal_force);
+    pair.longest_step = std::max(pair.longest_step, h);
+  }
+  if (now.normal_force > record.peak_force) {
+    record.peak_force = now.normal_force;
+    record.peak_time = state.t;
+  }
+  record.peak_depth = std::max(record.peak_depth, now.depth);
+  pair.force = now.normal_force;
+  pair.is_touching = touches_now;
+  record.has_parted = !touches_now;
+  record.duration = state.t - record.time;
+  if (touches_now) return;
+  pair.left = state.t;
+  const joints::PairTouch touch = touches.find_touch(i, state);
+  record.parting_speed = -find_approach(model_.pairs[touches.pair_of(i)], state,
+                                        touch.p_W, pair.normal_W);
+}
+
+void ContactLog::include(const SystemState& state, TouchWatch& touches) {
+  pairs_.resize(touches.count());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    include(i, state, touches, state.t - time_);
+  }
+  time_ = state.t;
+}
+
+std::vector<ContactRecord> ContactLog::find_records() const {
+  std::vector<ContactRecord> records = finished_;
+  for (const OngoingContact& pair : pairs_) {
+    if (pair.record.touches > 0) records.push_back(pair.record);
+  }
+  std::stable_sort(records.begin(), records.end(),
+                   [](const ContactRecord& a, const ContactRecord& b) {
+                     return a.time < b.time;
+                   });
+  return records;
+}
+
+void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
+  for (const OngoingContact& pair : pairs_) {
+    if (!is_coarse(pair)) continue;
+    warnings.push_back(fmt::format(
+        "contact '{}': the impact at t = {:.6g} s lasts about {:.3g} s, the "
+        "steps are up to {:.3g} s long: its restitution and its peak force are "
+        "not resolved; steps of {:.2g} s would resolve them",
+        pair.record.pair, pair.record.time, pair.record.impact_duration,
+        pair.longest_step,
+        pair.record.impact_duration / TouchWatch::kStepsOfImpact));
+  }
+}
+
+void ContactLog::exchange_memory(Archive& archive) {
+  archive(pairs_, finished_, time_);
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/monitors/contact_record.hpp"
+#include "limber/dynamics/monitors/touch_watch.hpp"
+
+namespace limber::dynamics {
+
+/// Of a pair, between its first and its last touch.
+struct OngoingContact {
+  bool is_touching = false;
+  double force = 0.0;                  ///< normal, at the last state [N]
+  double left = 0.0;                   ///< time of the last leave [s]
+  Vector3 normal_W = Vector3::Zero();  ///< at the first touch [-]
+  double longest_step = 0.0;           ///< in which it touched [s]
+  ContactRecord record = {};           ///< of no touches: there is none
+};
+
+constexpr auto fields_of(const OngoingContact*) {
+  return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
+                     "normal_W", "longest step [s]", "record");
+}
+
+/// Records every impact from the ends of all accepted steps.
+///
+/// Equation   impulse by the trapezoidal rule
+class ContactLog {
+ public:
+  explicit ContactLog(const SystemModel& model);
+
+  /// At the start, and then after every accepted step.
+  void include(const SystemState& state, TouchWatch& touches);
+
+  /// In the order of time; those that touch last until the time of the last
+  /// state.
+  [[nodiscard]] std::vector<ContactRecord> find_records() const;
+  /// On steps too long for the impacts that they went through.
+  void add_warnings(std::vector<std::string>& warnings) const;
+
+  /// Saves or restores its state for checkpoints.
+  void exchange_memory(Archive& archive);
+
+ private:
+  void include(std::size_t index, const SystemState& state, TouchWatch& touches,
+               double h);
+  void begin(std::size_t index, const SystemState& state, TouchWatch& touches);
+  [[nodiscard]] double find_approach(const Pair& pair, const SystemState& state,
+                                     const Vector3& p_W,
+                                     const Vector3& normal_W) const;
+
+  const SystemModel& model_;
+  std::vector<OngoingContact> pairs_;  // in the order of TouchWatch
+  std::vector<ContactRecord> finished_;
+  double time_ = 0.0;  // of the last state [s]
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/monitors/event.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/joints/pairs/touching.hpp"
+
+namespace limber::dynamics {
+
+/// Monitors which pairs touch from step to step, and finds when they first
+/// touch and last leave each other.
+///
+/// Equation   between a step's ends positions are cubic, as of outputs between
+///            steps. A touch is found by conservative advancement: the time
+///            that the clearance lasts at the greatest speed passes without a
+///            touch, so that thin shapes are not missed
+/// Source     [@mirtich1996, ch. 2]
+/// Limits     a leave and a touch within one step are not seen; between two
+///            looks a body must not turn by more than half a turn
+class TouchWatch {
+ public:
+  /// Steps per T_c of an impact.
+  static constexpr double kStepsOfImpact = 16.0;
+
+  explicit TouchWatch(const SystemModel& model);
+
+  [[nodiscard]] bool is_empty() const { return pairs_.empty(); }
+
+  /// Pairs that overlap touch from the start on.
+  void start(SystemState& state, std::vector<Event>& events);
+
+  struct Crossing {
+    std::size_t index = 0;  ///< of the pair, among those watched
+    double share = 0.0;     ///< fraction of the step, in [0, 1] [-]
+  };
+  /// The first touch or leave in a step from `before` to `after`.
+  [[nodiscard]] std::optional<Crossing> find_first(const SystemState& before,
+                                                   const SystemState& after);
+
+  /// Refuses a step of h [s] from the state last accepted in which two that
+  /// touch could pass through each other.
+  /// @throws NumericalError naming the pair.
+  void check_step(double h, double t) const;
+  /// Steps go on from here.
+  void accept(const SystemState& state);
+
+  /// How far a pair is from the touch or leave that was found: < 0 before it,
+  /// > 0 after it [m].
+  [[nodiscard]] double find_excess(std::size_t index, const SystemState& state);
+  /// A distance that counts as none, of a pair that moves as at `state`, in
+  /// steps of h [s] [m].
+  [[nodiscard]] double find_tolerance(std::size_t index,
+                                      const SystemState& state, double h);
+
+  /// The pair touches, or has left, from here on.
+  void pass(std::size_t index, SystemState& state, std::vector<Event>& events);
+  /// All touch that overlap at `state`, and no others.
+  void pass_all(SystemState& state, std::vector<Event>& events);
+
+  /// Index into SystemModel::pairs of each pair watched.
+  [[nodiscard]] std::size_t pair_of(std::size_t index) const {
+    return pairs_[index].pair;
+  }
+  [[nodiscard]] std::size_t count() const { return pairs_.size(); }
+  [[nodiscard]] bool is_touching(std::size_t index) const {
+    return pairs_[index].is_touching;
+  }
+  /// T_c of a free impact at the last touch's speed [s].
+  [[nodiscard]] double impact_duration(std::size_t index) const {
+    return pairs_[index].impact_duration;
+  }
+  /// Longest step that resolves the impacts that go on; infinite if none does.
+  /// What still touches after eight times the expected duration rests [s].
+  [[nodiscard]] double find_longest_step(double t) const;
+  /// As it is at `state`.
+  [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
+                                             const SystemState& state);
+  [[nodiscard]] joints::TouchReading read(std::size_t index,
+                                          const SystemState& state);
+
+  /// Saves or restores its state for checkpoints.
+  void exchange_memory(Archive& archive);
+
+ private:
+  struct Watched {
+    std::size_t pair = 0;
+    const joints::Touching* law = nullptr;
+    bool is_touching = false;
+    double since = 0.0;            // of the touch [s]
+    double impact_duration = 0.0;  // [s]
+    double rate = 0.0;             // of the depth, while they touch [m/s]
+    joints::PairResponse scratch;
+  };
+  [[nodiscard]] std::optional<double> find_touch_share(
+      Watched& watched, const SystemState& before, const SystemState& after);
+  [[nodiscard]] double find_leave_share(Watched& watched,
+                                        const SystemState& before,
+                                        const SystemState& after);
+  [[nodiscard]] joints::PairTouch find_touch(Watched& watched,
+                                             const SystemState& state);
+
+  const SystemModel& model_;
+  std::vector<Watched> pairs_;
+  SystemState within_;  // between a step's ends
+};
+
+}  // namespace limber::dynamics

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/contact_pair.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+
+/// Impacts and rest of rigid bodies, against closed forms.
+namespace limber::contact {
+namespace {
+
+using dynamics::IntegratorKind;
+using dynamics::kWorld;
+using dynamics::RunRecord;
+using dynamics::SimulationSettings;
+using dynamics::SimulationStatistics;
+using dynamics::SystemBuilder;
+using dynamics::SystemModel;
+using dynamics::SystemState;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr SurfaceMaterial kSteel{2.1e11, 0.3};
+constexpr double kDensity = 7800.0;  // [kg/m^3]
+constexpr double kRadius = 0.01;     // [m]
+constexpr double kMass =
+    4.0 / 3.0 * kPi * kRadius * kRadius * kRadius * kDensity;  // [kg]
+
+struct Scene {
+  SystemModel model;
+  SystemState state;
+};
+
+dynamics::RigidInertia ball_inertia() {
+  return {kMass, 0.4 * kMass * kRadius * kRadius * Matrix3::Identity()};
+}
+
+ContactSide ball_side() { return {Shape{Sphere{kRadius}, {}}, kSteel, kMass}; }
+
+ContactSide floor_side(const Matrix3& R = Matrix3::Identity()) {
+  return {Shape{HalfSpace{}, {R, Vector3::Zero()}}, kSteel, kInfinity};
+}
+
+// A ball that flies against the floor, z upwards.
+Scene make_ball_and_floor(const ContactParameters& parameters, double gap,
+                          const Vector3& velocity) {
+  SystemBuilder builder;
+  const auto ball = builder.add_rigid_body("ball", ball_inertia());
+  builder.add_pair(
+      "floor/ball", kWorld, ball,
+      std::make_shared<ContactPair>(floor_side(), ball_side(), parameters));
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.bodies[0].p_WB = {0.1, 0.2, kRadius + gap};
+  scene.state.bodies[0].v_WB_W = velocity;
+  return scene;
+}
+
+// Two balls that fly against each other, obliquely in the world's axes.
+Scene make_two_balls(const ContactParameters& parameters, double speed) {
+  SystemBuilder builder;
+  const auto a = builder.add_rigid_body("a", ball_inertia());
+  const auto b = builder.add_rigid_body("b", ball_inertia());
+  builder.add_pair(
+      "a/b", a, b,
+      std::make_shared<ContactPair>(ball_side(), ball_side(), parameters));
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  const Vector3 way = Vector3(1.0, -2.0, 0.5).normalized();
+  scene.state.bodies[1].p_WB = (2.0 * kRadius + 1e-3) * way;
+  scene.state.bodies[0].v_WB_W = speed * way;
+  return scene;
+}
+
+RunRecord run(Scene& scene, const SimulationSettings& settings,
+              SimulationStatistics* costs = nullptr) {
+  SimulationStatistics statistics;
+  RunRecord record;
+  simulate(scene.model, scene.state, settings, {}, {}, statistics, {}, {},
+           record);
+  if (costs != nullptr) *costs = statistics;
+  return record;
+}
+
+// Hertz's impact of a mass on a stiffness k d^1.5 [@johnson1985, ch. 11].
+struct ClosedForm {
+  double depth, force, duration;
+};
+ClosedForm find_closed_form(double mass, double radius, double speed) {
+  const double modulus =
+      1.0 / (2.0 * (1.0 - kSteel.poisson_ratio * kSteel.poisson_ratio) /
+             kSteel.youngs_modulus);
+  const double k = 4.0 / 3.0 * modulus * std::sqrt(radius);
+  const double depth = std::pow(1.25 * mass * speed * speed / k, 0.4);
+  return {depth, k * std::pow(depth, 1.5), 2.9432 * depth / speed};
+}
+
+TEST(ContactPair, OfABallAndAHalfSpaceIsHertzsImpact) {
+  const ClosedForm exact = find_closed_form(kMass, kRadius, 1.0);
+  Scene scene = make_ball_and_floor({}, 1e-4, {0.0, 0.0, -1.0});
+  const RunRecord record =
+      run(scene, {.end_time = 4e-4, .step = exact.duration / 100.0});
+  ASSERT_EQ(record.contacts.size(), 1U);
+  const dynamics::ContactRecord& contact = record.contacts[0];
+  EXPECT_EQ(contact.touches, 1);
+  EXPECT_NEAR(contact.time, 1e-4, 1e-3 * exact.duration);
+  EXPECT_NEAR(contact.peak_force / exact.force, 1.0, 5e-3);
+  EXPECT_NEAR(contact.peak_depth / exact.depth, 1.0, 5e-3);
+  EXPECT_NEAR(contact.duration / exact.duration, 1.0, 5e-3);
+  EXPECT_NEAR(contact.impact_duration / exact.duration, 1.0, 1e-3);
+  EXPECT_NEAR(contact.impulse / (2.0 * kMass), 1.0, 1e-3);
+  ASSERT_TRUE(contact.restitution().has_value());
+  EXPECT_NEAR(*contact.restitution(), 1.0, 1e-3);
+}
+
+TEST(ContactPair, OfTwoBallsIsHertzsImpactAndKeepsMomentum) {
+  const ClosedForm exact = find_closed_form(0.5 * kMass, 0.5 * kRadius, 2.0);
+  Scene scene = make_two_balls({}, 2.0);
+  const Vector3 before = kMass * scene.state.bodies[0].v_WB_W;
+  const RunRecord record =
+      run(scene, {.end_time = 1e-3, .step = exact.duration / 100.0});
+  ASSERT_EQ(record.contacts.size(), 1U);
+  EXPECT_NEAR(record.contacts[0].peak_force / exact.force, 1.0, 5e-3);
+  EXPECT_NEAR(record.contacts[0].duration / exact.duration, 1.0, 5e-3);
+  const auto& bodies = scene.state.bodies;
+  const Vector3 after = kMass * (bodies[0].v_WB_W + bodies[1].v_WB_W);
+  EXPECT_LT((after - before).norm(), 1e-12 * before.norm());
+  EXPECT_LT(bodies[0].v_WB_W.norm(), 2e-3);  // the other has all
+}
+
+TEST(ContactPair, PartsAtItsRestitution) {
+  for (const double e : {0.9, 0.7, 0.5, 0.3, 0.1}) {
+    const ClosedForm exact = find_closed_form(kMass, kRadius, 1.0);
+    Scene scene =
+        make_ball_and_floor({.restitution = e}, 1e-4, {0.0, 0.0, -1.0});
+    const RunRecord record =
+        run(scene, {.end_time = 6e-4, .step = exact.duration / 200.0});
+    ASSERT_EQ(record.contacts.size(), 1U) << e;
+    ASSERT_TRUE(record.contacts[0].restitution().has_value()) << e;
+    EXPECT_NEAR(*record.contacts[0].restitution(), e, 3e-3) << e;
+    EXPECT_NEAR(record.contacts[0].impulse / (kMass * (1.0 + e)), 1.0, 3e-3)
+        << e;
+  }
+}
+
+// A ball of 1 mm on one of the same size flies 100 mm a step.
+TEST(ContactPair, IsNotMissedByAStepThatPassesThrough) {
+  Scene scene = make_two_balls({}, 100.0);
+  SimulationStatistics costs;
+  const RunRecord record = run(scene, {.end_time = 0.01, .step = 1e-3}, &costs);
+  ASSERT_EQ(record.contacts.size(), 1U);
+  EXPECT_NEAR(record.contacts[0].time, 1e-5, 2e-7);
+  EXPECT_GT(record.contacts[0].impulse, 0.4 * kMass * 100.0);
+  ASSERT_FALSE(costs.warnings.empty());
+  EXPECT_THAT(costs.warnings[0], ::testing::HasSubstr("not resolved"));
+}
+
+TEST(ContactPair, NeverGivesEnergyAtAnyStep) {
+  for (const double step : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    Scene scene = make_two_balls({.restitution = 0.8}, 3.0);
+    const double before = calc_energy(scene.model, scene.state).total();
+    run(scene, {.end_time = 0.01, .step = step});
+    EXPECT_LT(calc_energy(scene.model, scene.state).total(), 1.005 * before)
+        << step;
+  }
+}
+
+TEST(ContactPair, KeepsEnergyWithTheEnergyConservingScheme) {
+  for (const double step : {1e-6, 1e-5, 1e-4}) {
+    Scene scene = make_two_balls({}, 3.0);
+    const double before = calc_energy(scene.model, scene.state).total();
+    run(scene, {.integrator = IntegratorKind::energy_conserving,
+                .end_time = 0.01,
+                .step = step});
+    EXPECT_NEAR(calc_energy(scene.model, scene.state).total() / before, 1.0,
+                1e-9)
+        << step;
+  }
+}
+
+TEST(ContactPair, TakesStepsOfItsOwnToATolerance) {
+  const ClosedForm exact = find_closed_form(kMass, kRadius, 1.0);
+  Scene scene = make_ball_and_floor({}, 0.05, {0.0, 0.0, -1.0});
+  SimulationStatistics costs;
+  const RunRecord record =
+      run(scene, {.end_time = 0.1, .step = 0.01, .tolerance = 1e-6}, &costs);
+  ASSERT_EQ(record.contacts.size(), 1U);
+  EXPECT_NEAR(record.contacts[0].peak_force / exact.force, 1.0, 0.01);
+  EXPECT_NEAR(*record.contacts[0].restitution(), 1.0, 3e-3);
+  EXPECT_LT(costs.steps, 400);
+}
+
+// A ball on a slope: it rolls without slip at 5/7 of g sin(slope).
+TEST(ContactPair, LetsABallRollAtFiveSevenths) {
+  const double slope = 10.0 * kPi / 180.0;
+  Scene scene = make_ball_and_floor(
+      {.friction = {.sliding = 0.3}, .restitution = 0.1}, 0.0, Vector3::Zero());
+  scene.model.gravity_W =
+      9.81 * Vector3(std::sin(slope), 0.0, -std::cos(slope));
+  run(scene, {.end_time = 0.5, .step = 1e-3});
+  const double v = 5.0 / 7.0 * 9.81 * std::sin(slope) * 0.5;
+  const dynamics::BodyState& ball = scene.state.bodies[0];
+  EXPECT_NEAR(ball.v_WB_W.x() / v, 1.0, 2e-3);
+  EXPECT_NEAR((ball.quat_WB * ball.w_WB_B).y() * kRadius / v, 1.0, 2e-3);
+}
+
+// Bowling: it slides and rolls after 2 v / (7 mu g) at 5/7 v.
+TEST(ContactPair, LetsASlidingBallEndRollingAtFiveSeventhsOfItsSpeed) {
+  Scene scene = make_ball_and_floor(
+      {.friction = {.sliding = 0.3}, .restitution = 0.1}, 0.0, {1.0, 0.0, 0.0});
+  scene.model.gravity_W = {0.0, 0.0, -9.81};
+  run(scene, {.end_time = 0.3, .step = 1e-4});
+  EXPECT_NEAR(scene.state.bodies[0].v_WB_W.x(), 5.0 / 7.0, 2e-3);
+}
+
+// A block of 1 kg on a slope of 10 degrees, held by mu = 0.3.
+TEST(ContactPair, HoldsABlockOnASlope) {
+  const Vector3 half(0.05, 0.04, 0.03);
+  const double mass = 1.0;
+  const double slope = 10.0 * kPi / 180.0;
+  const Vector3 squares = half.cwiseProduct(half);
+  SystemBuilder builder;
+  const auto block = builder.add_rigid_body(
+      "block",
+      {mass, mass / 3.0 *
+                 Vector3(squares.y() + squares.z(), squares.x() + squares.z(),
+                         squares.x() + squares.y())
+                     .asDiagonal()
+                     .toDenseMatrix()});
+  builder.add_pair(
+      "floor/block", kWorld, block,
+      std::make_shared<ContactPair>(
+          floor_side(), ContactSide{Shape{Box{half}, {}}, kSteel, mass},
+          ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.1}));
+  builder.set_gravity(9.81 * Vector3(std::sin(slope), 0.0, -std::cos(slope)));
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.bodies[0].p_WB.z() = half.z();
+  run(scene, {.end_time = 1.0, .step = 1e-3});
+  const Vector3 after_one = scene.state.bodies[0].p_WB;
+  EXPECT_LT(after_one.head<2>().norm(), 3e-6);
+  run(scene, {.end_time = 10.0, .step = 1e-3});
+  const Vector3 after_ten = scene.state.bodies[0].p_WB;
+  EXPECT_LT((after_ten - after_one).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace limber::contact
