@@ -7,6 +7,7 @@
 
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -68,6 +69,7 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
                last.total(), last.work, last.dissipated, describe_drift(run));
   }
   fmt::print("{}", to_text(run.history.events));
+  fmt::print("{}", to_text(run.record.contacts));
   print_probes(run.history, run.record.peaks);
   fmt::print("results in {}\n", folder.string());
 }

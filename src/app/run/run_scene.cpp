@@ -8,6 +8,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/run/run_manifest.hpp"
 #include "limber/common/errors.hpp"
@@ -199,6 +200,9 @@ Json summarize(const Run& run) {
   json["bodies_cached"] = run.built.bodies_cached;
   json["energy"] = summarize_energy(run.history, run.record.energy);
   json["events"] = to_json(run.history.events);
+  if (!run.built.model.pairs.empty()) {
+    json["contacts"] = to_json(run.record.contacts);
+  }
   json["probes"] = summarize_probes(run.history, run.record.peaks);
   json["levels"] = Json::array();
   for (const BodyLevel& level : run.levels) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/app/console/json.hpp"
+#include "limber/dynamics/monitors/contact_record.hpp"
+
+namespace limber::app {
+
+/// Every impact: between, time, touches, impulse, peak_force, peak_time,
+/// peak_depth, duration, touch_speed, restitution (null while they touch at
+/// the end), all in SI units.
+[[nodiscard]] Json to_json(const std::vector<dynamics::ContactRecord>& records);
+
+/// A table with a line an impact; if there are more than twenty, the twenty
+/// with the largest impulse, in the order of time, and how many others there
+/// are. Empty without impacts.
+[[nodiscard]] std::string to_text(
+    const std::vector<dynamics::ContactRecord>& records);
+
+}  // namespace limber::app
