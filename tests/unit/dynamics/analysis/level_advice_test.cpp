@@ -9,6 +9,7 @@
 #include <random>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "support/chain.hpp"
 
 namespace limber::dynamics {
@@ -34,7 +35,7 @@ TEST(Reaches, OfAChainAreTheDiametersBeyond) {
   EXPECT_EQ(reaches.front(), 0.0);
   EXPECT_EQ(reaches.back(), 0.0);
   for (int joint = 0; joint < 3; ++joint) {
-    const auto tip = static_cast<std::size_t>(2 * joint + 1);
+    const auto tip = index(2 * joint + 1);
     EXPECT_NEAR(reaches[tip], (3 - joint) * diameter, kRoundoff);
     EXPECT_NEAR(reaches[tip + 1], (joint + 1) * diameter, kRoundoff);
   }
