@@ -135,7 +135,9 @@ void check_levels(const dynamics::SystemModel& model) {
   }
 }
 
-void check_couplers(const scene::Robot& robot) {
+void check_couplers(const scene::Scene& scene,
+                    const dynamics::SystemModel& model) {
+  const scene::Robot& robot = scene.robot;
   const auto refuse = [](const char* what, const auto& all) {
     if (all.empty()) return;
     throw InputError(
@@ -145,6 +147,8 @@ void check_couplers(const scene::Robot& robot) {
   refuse("latch", robot.latches);
   refuse("tendon", robot.tendons);
   refuse("gear", robot.gears);
+  refuse("projectile", scene.scenario.projectiles);
+  refuse("contact", model.pairs);
 }
 
 class Translator {
@@ -191,7 +195,7 @@ class Translator {
   }
 
   void set_root(MechanismBody& body) const {
-    const scene::BaseStart& base = scene_.scenario.base;
+    const scene::BodyStart& base = scene_.scenario.base;
     const auto& flexible = plans_.bodies.front().reduced;
     body.mobilizer = robot_.has_world_root() || (flexible && flexible->clamped)
                          ? Mobilizer::weld
@@ -348,7 +352,7 @@ class Translator {
 Mechanism make_mechanism(const scene::Scene& scene,
                          const scene::BuiltScene& built) {
   check_levels(built.model);
-  check_couplers(scene.robot);
+  check_couplers(scene, built.model);
   check_laws(built.model);
   return Translator(scene, built).run();
 }

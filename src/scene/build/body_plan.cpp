@@ -26,6 +26,9 @@ class Planner {
     add_body(0);
     plans_.bodies.front().is_world = robot_.has_world_root();
     for (std::size_t i = 0; i < robot_.joints.size(); ++i) add_joint(int(i));
+    for (std::size_t i = robot_.tree_size(); i < robot_.links.size(); ++i) {
+      add_body(static_cast<int>(i));
+    }
     for (BodyPlan& body : plans_.bodies) place(body);
     problems_.raise();
     return plans_;

@@ -104,22 +104,24 @@ void CarriedLoads::find_parts() {
   for (const BodyPlan& plan : plans_.bodies) {
     if (plan.is_world) continue;
     const int link = plan.links.front();
+    if (!is_of_tree(link)) continue;
     const Vector3 centre = find_centre(plan);
     const double a = w * w * find_radius(link, centre) + g;
     parts_.push_back({link, plan.mass * a, 0.0, centre});
   }
   for (const LoadSpec& load : scene_.scenario.loads) {
+    const int link = find_link(scene_.robot, load.where.link);
+    if (!is_of_tree(link)) continue;
     const double peak = find_peak(load.time);
-    parts_.push_back({find_link(scene_.robot, load.where.link),
-                      peak * load.force.norm(), peak * load.moment.norm(),
+    parts_.push_back({link, peak * load.force.norm(), peak * load.moment.norm(),
                       place(load.where)});
   }
 }
 
 double CarriedLoads::find_speed() const {
   double largest = 0.0;
-  for (const LinkMotion& link : start_) {
-    largest = std::max(largest, link.w_WL_W.norm());
+  for (std::size_t i = 0; i < scene_.robot.tree_size(); ++i) {
+    largest = std::max(largest, start_[i].w_WL_W.norm());
   }
   std::vector<double> driven(scene_.robot.links.size(), 0.0);
   for (std::size_t j = 0; j < scene_.robot.joints.size(); ++j) {
@@ -144,6 +146,11 @@ double CarriedLoads::find_speed() const {
 Vector3 CarriedLoads::place(const Place& where) const {
   const int link = find_link(scene_.robot, where.link);
   return start_[index(link)].X_WL * where.point.value_or(Vector3::Zero());
+}
+
+// Projectiles hang on no joint.
+bool CarriedLoads::is_of_tree(int link) const {
+  return index(link) < scene_.robot.tree_size();
 }
 
 bool CarriedLoads::is_beyond(int link, int joint) const {

@@ -23,8 +23,8 @@ using dynamics::CarriedLoad;
 ///            start or the largest sum of commanded drive speeds along a path
 ///            from the root
 /// Limits     an upper bound if all rotate as one, else an estimate: neglects
-///            speeds due to loads or effort drives, shocks, and loads of
-///            acceleration by drives.
+///            speeds due to loads or effort drives, shocks such as
+///            contacts', and loads of acceleration by drives.
 class CarriedLoads {
  public:
   CarriedLoads(const Scene& scene, const BodyPlans& plans,
@@ -46,6 +46,7 @@ class CarriedLoads {
   void find_parts();
   [[nodiscard]] double find_speed() const;
   [[nodiscard]] Vector3 place(const Place& where) const;
+  [[nodiscard]] bool is_of_tree(int link) const;
   [[nodiscard]] bool is_beyond(int link, int joint) const;
   [[nodiscard]] Vector3 find_centre(const BodyPlan& plan) const;
   [[nodiscard]] double find_radius(int link, const Vector3& centre) const;

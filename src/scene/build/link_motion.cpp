@@ -30,10 +30,10 @@ LinkMotion follow(const LinkMotion& parent, const Joint& joint,
   return {M.X_WF, M.v_WF_W, M.w_WF_W};
 }
 
-LinkMotion root_motion(const BaseStart& base) {
-  return {{rotation_rpy(base.orientation_rpy), base.position},
-          base.velocity,
-          base.angular_velocity};
+LinkMotion free_motion(const BodyStart& start) {
+  return {{rotation_rpy(start.orientation_rpy), start.position},
+          start.velocity,
+          start.angular_velocity};
 }
 
 const Joint* named_joint(const Robot& robot, const std::string& name) {
@@ -67,7 +67,7 @@ void check_starts(const Robot& robot, const Scenario& scenario) {
   for (const auto& [name, start] : scenario.joints) {
     check_start(robot, name, start, problems);
   }
-  const BaseStart& base = scenario.base;
+  const BodyStart& base = scenario.base;
   const double motion = base.position.norm() + base.orientation_rpy.norm() +
                         base.velocity.norm() + base.angular_velocity.norm();
   if (robot.has_world_root() && motion > 0.0) {
@@ -79,15 +79,19 @@ void check_starts(const Robot& robot, const Scenario& scenario) {
 }
 
 std::vector<LinkMotion> place_links(
-    const Robot& robot, const BaseStart& base,
+    const Robot& robot, const Scenario& scenario,
     const std::map<std::string, JointStart>& starts) {
   std::vector<LinkMotion> motions(robot.links.size());
-  motions.front() = root_motion(base);
+  motions.front() = free_motion(scenario.base);
   for (const Joint& joint : robot.joints) {
     const auto start = starts.find(joint.name);
     motions[static_cast<std::size_t>(joint.child)] =
         follow(motions[static_cast<std::size_t>(joint.parent)], joint,
                start == starts.end() ? JointStart{} : start->second);
+  }
+  for (std::size_t i = robot.tree_size(); i < robot.links.size(); ++i) {
+    motions[i] =
+        free_motion(scenario.projectiles.at(i - robot.tree_size()).start);
   }
   return motions;
 }
@@ -143,12 +147,12 @@ std::map<std::string, JointStart> find_joint_starts(const Robot& robot,
 std::vector<LinkMotion> find_link_motions(const Robot& robot,
                                           const Scenario& scenario) {
   check_starts(robot, scenario);
-  return place_links(robot, scenario.base, find_joint_starts(robot, scenario));
+  return place_links(robot, scenario, find_joint_starts(robot, scenario));
 }
 
 std::vector<LinkMotion> find_motions_at_zero(const Robot& robot,
                                              const Scenario& scenario) {
-  return place_links(robot, scenario.base, {});
+  return place_links(robot, scenario, {});
 }
 
 }  // namespace limber::scene

@@ -18,7 +18,8 @@ struct LinkMotion {
   Vector3 w_WL_W = Vector3::Zero();  ///< [rad/s]
 };
 
-/// Forward kinematics of the undeformed robot: one entry per link.
+/// Forward kinematics of the undeformed robot: one entry per link. Projectiles
+/// are at their start.
 /// @throws InputError for joints that do not exist, wrong numbers of
 /// coordinates, or a base motion of a robot fixed to the world.
 [[nodiscard]] std::vector<LinkMotion> find_link_motions(

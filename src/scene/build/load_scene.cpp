@@ -10,6 +10,8 @@
 #include "limber/scene/build/basis_choice.hpp"
 #include "limber/scene/build/scene_checks.hpp"
 #include "limber/scene/build/unused_keys.hpp"
+#include "limber/scene/contacts/projectiles.hpp"
+#include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/robot/robot_reader.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/toml_file.hpp"
@@ -52,6 +54,27 @@ void apply(const Overrides& overrides, Scene& scene) {
   }
 }
 
+// Takes the bodies that touch, and what their reductions keep for it.
+void add_contacts(Scene& scene) {
+  TouchingPairs touching = find_touching_pairs(scene.scenario, scene.robot);
+  for (const TouchingPair& pair : touching.pairs) {
+    for (const Toucher& side : {pair.A, pair.B}) {
+      if (side.is_obstacle) continue;
+      Link& link = scene.robot.links[side.index];
+      if (!link.flexible) continue;
+      link.flexible->contact_groups = find_surfaces(link);
+    }
+  }
+  for (const std::size_t idle : touching.idle) {
+    scene.scenario.warnings.push_back(fmt::format(
+        "[[contact]] {} changes nothing: others decide all its pairs; those "
+        "that name both bodies come before those with patterns, and of these "
+        "the first",
+        idle + 1));
+  }
+  scene.touching = std::move(touching.pairs);
+}
+
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file,
@@ -60,7 +83,9 @@ Scene load_scene(const std::filesystem::path& file,
   const toml::table table = parse_toml_file(file);
   scene.scenario = read_scenario(table, file);
   scene.robot = read_robot(scene.scenario.robot);
+  add_projectiles(scene.scenario, scene.robot);
   check_scenario(scene.scenario, scene.robot);
+  add_contacts(scene);
   choose_bases(scene.scenario, overrides.basis, scene.robot);
   apply(overrides, scene);
   for (std::string& text : find_unused_keys(table, scene, overrides)) {

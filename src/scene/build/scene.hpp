@@ -2,20 +2,23 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/flexbody/model/recipe.hpp"
+#include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/robot/robot.hpp"
 #include "limber/scene/scenario/scenario.hpp"
 
 namespace limber::scene {
 
-/// A scenario and its robot. The scenario's choice of bases is already applied
-/// to the robot's links.
+/// A scenario and its robot. The scenario's choice of bases, its projectiles
+/// and the surfaces that its contacts need are already the robot's.
 struct Scene {
   Scenario scenario;
   Robot robot;
+  std::vector<TouchingPair> touching = {};
 };
 
 /// Values of the command line that override the file's.

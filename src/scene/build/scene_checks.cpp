@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "limber/common/names.hpp"
+#include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/probes/coupler_probe.hpp"
 #include "limber/scene/text/problems.hpp"
 
@@ -46,10 +49,33 @@ class Checker {
     for (const auto& [latch, time] : scenario_.releases) {
       find_named("[[release]]", "latch", latch, robot_.latches);
     }
+    check_added_names();
+    try {
+      (void)find_touching_pairs(scenario_, robot_);
+    } catch (const InputError& error) {
+      problems_.add(error, 0);
+    }
     problems_.raise();
   }
 
  private:
+  void check_added_names() {
+    std::set<std::string> taken = {"world"};
+    for (std::size_t i = 0; i < robot_.tree_size(); ++i) {
+      taken.insert(robot_.links[i].name);
+    }
+    const auto check = [&](const char* kind, const auto& all) {
+      for (const auto& one : all) {
+        if (taken.insert(one.name).second) continue;
+        problems_.add(0, fmt::format("{} '{}' is called like another link, "
+                                     "projectile or obstacle; rename it",
+                                     kind, one.name));
+      }
+    };
+    check("projectile", scenario_.projectiles);
+    check("obstacle", scenario_.obstacles);
+  }
+
   const Link* find(const std::string& name) const {
     for (const Link& link : robot_.links) {
       if (link.name == name) return &link;

@@ -7,7 +7,9 @@
 namespace limber::scene {
 
 /// Checks a scenario against its robot: links exist, places fit their link,
-/// levels only for flexible links.
+/// levels only for flexible links, names of added bodies are their own, and
+/// contacts find theirs.
+/// @param robot with the projectiles
 /// @throws InputError with every problem found.
 void check_scenario(const Scenario& scenario, const Robot& robot);
 

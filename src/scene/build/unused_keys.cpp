@@ -18,6 +18,7 @@ class Finder {
       : file_(file),
         scenario_(scene.scenario),
         links_(scene.robot.links),
+        touching_(scene.touching),
         overrides_(overrides) {}
 
   std::vector<std::string> find() {
@@ -26,6 +27,9 @@ class Finder {
     look_at_flexible_links();
     for (std::size_t i = 0; i < scenario_.loads.size(); ++i) look_at_load(i);
     look_at_releases();
+    look_at_contact_defaults();
+    look_at_stribeck_speeds();
+    look_at_obstacles();
     return std::move(texts_);
   }
 
@@ -151,9 +155,56 @@ class Finder {
     }
   }
 
+  void look_at_contact_defaults() {
+    const toml::table* defaults = file_["contact_default"].as_table();
+    if (defaults == nullptr) return;
+    const std::size_t count = scenario_.contacts.size();
+    if (count == 0) {
+      tell("[contact_default]", "there is no [[contact]]");
+      return;
+    }
+    for (const auto& [key, node] : *defaults) {
+      const std::string name(key.str());
+      bool is_used = false;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto own = file_["contact"][i];
+        const bool is_replaced = own[name].node() != nullptr ||
+                                 (name == "damping" && own["restitution"]) ||
+                                 (name == "restitution" && own["damping"]);
+        is_used = is_used || !is_replaced;
+      }
+      if (!is_used) {
+        tell("[contact_default] " + name, "every [[contact]] has its own");
+      }
+    }
+  }
+
+  void look_at_stribeck_speeds() {
+    for (std::size_t i = 0; i < scenario_.contacts.size(); ++i) {
+      const ContactOptions& options = scenario_.contacts[i].options;
+      if (!options.stribeck_speed || options.static_friction) continue;
+      tell(fmt::format("stribeck_speed of [[contact]] {}", i + 1),
+           "there is no static_friction");
+    }
+  }
+
+  void look_at_obstacles() {
+    for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) {
+      const Toucher obstacle = {true, i};
+      const bool touches = std::any_of(
+          touching_.begin(), touching_.end(), [&](const TouchingPair& pair) {
+            return pair.A == obstacle || pair.B == obstacle;
+          });
+      if (touches) continue;
+      tell("obstacle '" + scenario_.obstacles[i].name + "'",
+           "no [[contact]] names it");
+    }
+  }
+
   const toml::table& file_;
   const Scenario& scenario_;
   const std::vector<Link>& links_;
+  const std::vector<TouchingPair>& touching_;
   const Overrides& overrides_;
   std::vector<std::string> texts_;
 };

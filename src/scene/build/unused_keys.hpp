@@ -11,7 +11,7 @@
 namespace limber::scene {
 
 /// Keys of a scenario file without effect on its scene, each with the reason,
-/// and loads and releases that never act.
+/// and loads, releases and obstacles that never act.
 /// @param file as parsed, without errors
 /// @param scene with its overrides; with `overrides.fidelity` the file's levels
 /// are not checked

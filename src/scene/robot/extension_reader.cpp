@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "limber/common/names.hpp"
+#include "limber/scene/robot/collision_reader.hpp"
 #include "limber/scene/robot/coupler_reader.hpp"
 #include "limber/scene/robot/flexible_reader.hpp"
 #include "limber/scene/text/xml_element.hpp"
@@ -68,8 +69,9 @@ class ExtensionReader {
                        add_pair(e, read_latch(e), robot_.latches);
                      }},
                     {"tendon", [this](XmlElement& e) { add_tendon(e); }}});
-    // Read last, since they refer to joints and loops.
-    read_all(root, {{"gear", [this](XmlElement& e) { add_gear(e); }}});
+    // Read last, since they refer to others.
+    read_all(root, {{"gear", [this](XmlElement& e) { add_gear(e); }},
+                    {"contact", [this](XmlElement& e) { add_contact(e); }}});
   }
 
  private:
@@ -147,6 +149,32 @@ class ExtensionReader {
     robot_.tendons.push_back(tendon);
   }
 
+  void add_contact(XmlElement& element) {
+    const std::string name = element.required_text("link");
+    const LinkContact contact = read_link_contact(element);
+    Link* link = find_link(name);
+    if (link == nullptr) {
+      element.fail(describe_unknown("link", name, links_));
+      return;
+    }
+    if (!touching_.insert(name).second) {
+      element.fail("for link '" + name + "' is given twice");
+    }
+    if (link->flexible && contact.material) {
+      element.fail(
+          fmt::format("link '{}' is flexible; its material is that of "
+                      "its <flexible>, leave it out here",
+                      name));
+    }
+    if (!link->flexible && !contact.surfaces.empty()) {
+      element.fail(
+          fmt::format("link '{}' is rigid; its shapes are those of "
+                      "its <collision>, leave 'surface' out",
+                      name));
+    }
+    link->contact = contact;
+  }
+
   void add_gear(XmlElement& element) {
     const Gear gear = read_gear(element);
     check_name(element, gear.name);
@@ -196,7 +224,8 @@ class ExtensionReader {
   std::vector<std::string> links_;
   std::vector<std::string> joints_;
   std::set<std::string> couplers_;
-  std::set<std::string> tuned_;  ///< joints with a <coupler>
+  std::set<std::string> tuned_;     ///< joints with a <coupler>
+  std::set<std::string> touching_;  ///< links with a <contact>
 };
 
 }  // namespace

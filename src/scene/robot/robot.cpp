@@ -28,6 +28,11 @@ std::vector<ConnectorEnd> find_ends(const Robot& robot) {
   return ends;
 }
 
+std::vector<std::string> find_surfaces(const Link& link) {
+  if (link.contact.surfaces.empty()) return {"skin"};
+  return link.contact.surfaces;
+}
+
 int find_link(const Robot& robot, const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < robot.links.size(); ++i) {

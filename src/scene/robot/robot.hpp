@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limber/common/pose.hpp"
+#include "limber/contact/law/materials.hpp"
 #include "limber/dynamics/system/default_stiffness.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/flexbody/model/recipe.hpp"
@@ -18,6 +19,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "limber/joints/point_spring.hpp"
 #include "limber/joints/scalar_spring.hpp"
+#include "limber/scene/robot/geometry.hpp"
 #include "limber/scene/robot/place.hpp"
 
 /// A robot as described by its URDF file with Limber's extension. Plain values;
@@ -43,12 +45,30 @@ struct FlexibleLink {
   std::vector<std::string> clamped_groups;
   std::vector<flexbody::InterfaceRequest> interfaces;
   std::map<std::string, std::string> interface_of_joint;
+  /// Groups whose surfaces the scenario's contacts need, "skin" for the whole.
+  std::vector<std::string> contact_groups = {};
+};
+
+/// <collision> of a rigid link.
+struct Collision {
+  Pose X_LS;  ///< shape's frame in the link's
+  Geometry geometry;
+};
+
+/// <contact link="...">: what contacts of the link are like.
+struct LinkContact {
+  /// Of a rigid link; none: rigid there, too.
+  std::optional<contact::SurfaceMaterial> material;
+  /// Of a flexible link: the groups that touch; empty: its whole surface.
+  std::vector<std::string> surfaces;
 };
 
 struct Link {
   std::string name;
   std::optional<LinkInertia> inertia;
   std::optional<FlexibleLink> flexible;
+  std::vector<Collision> collisions = {};
+  LinkContact contact = {};
 };
 
 /// Options of <coupler joint="...">.
@@ -154,7 +174,8 @@ struct Gear {
 };
 
 /// A tree of links. Links are ordered so that a parent comes before its
-/// children, and `joints[i]` leads to `links[i + 1]`.
+/// children, and `joints[i]` leads to `links[i + 1]`. Links after those are
+/// free bodies that a scenario adds.
 struct Robot {
   std::string name;
   std::filesystem::path file;
@@ -171,6 +192,8 @@ struct Robot {
   [[nodiscard]] bool has_world_root() const {
     return !links.empty() && links.front().name == "world";
   }
+  /// Number of links of the tree.
+  [[nodiscard]] std::size_t tree_size() const { return joints.size() + 1; }
 };
 
 /// Number of coordinates for a kind's actions and drives: 0 to 3.
@@ -178,6 +201,10 @@ struct Robot {
 
 /// All ends of a robot's couplers except those of its joints.
 [[nodiscard]] std::vector<ConnectorEnd> find_ends(const Robot& robot);
+
+/// The surfaces of a flexible link that may touch: groups, or "skin" for the
+/// whole.
+[[nodiscard]] std::vector<std::string> find_surfaces(const Link& link);
 
 /// Index of a link. @throws InputError naming the nearest.
 [[nodiscard]] int find_link(const Robot& robot, const std::string& name);

@@ -8,6 +8,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
+#include "limber/scene/robot/collision_reader.hpp"
 #include "limber/scene/robot/extension_reader.hpp"
 #include "limber/scene/robot/urdf_joints.hpp"
 #include "limber/scene/robot/urdf_names.hpp"
@@ -249,8 +250,9 @@ Robot read_robot(const std::filesystem::path& file) {
   robot.name = root.Attribute("name") != nullptr ? root.Attribute("name") : "";
   if (robot.name.empty()) problems.add(root.Row(), "<robot> needs a 'name'");
   problems.raise();
-  read_standard_part(xml, robot, problems);
+  read_standard_part(remove_collisions(document, xml), robot, problems);
   problems.raise();
+  read_collisions(root, robot, problems);
   read_extension(root, robot, problems);
   problems.raise();
   return robot;

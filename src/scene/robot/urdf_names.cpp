@@ -22,6 +22,21 @@ struct ElementNames {
   bool may_repeat = false;
 };
 
+ElementNames describe_collision() {
+  return {"collision",
+          {"name"},
+          {{"origin", {"xyz", "rpy"}},
+           {"geometry",
+            {},
+            {{"sphere", {"radius"}},
+             {"box", {"size"}},
+             {"cylinder", {"radius", "length"}},
+             {"capsule", {"radius", "length"}},
+             {"mesh", {"filename", "scale"}}}}},
+          {"contact_coefficients", "gazebo", "material"},
+          true};
+}
+
 ElementNames describe_link() {
   return {"link",
           {"name"},
@@ -29,8 +44,9 @@ ElementNames describe_link() {
             {},
             {{"origin", {"xyz", "rpy"}},
              {"mass", {"value"}},
-             {"inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}}}}},
-          {"visual", "collision", "sensor", "gazebo", "contact", "material"},
+             {"inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}}}},
+           describe_collision()},
+          {"visual", "sensor", "gazebo", "contact", "material"},
           true};
 }
 
@@ -49,9 +65,9 @@ ElementNames describe_joint() {
 }
 
 const std::vector<std::string>& own_elements() {
-  static const std::vector<std::string> names = {"flexible", "coupler", "loop",
-                                                 "spring",   "bushing", "latch",
-                                                 "tendon",   "gear"};
+  static const std::vector<std::string> names = {
+      "flexible", "coupler", "loop", "spring", "bushing",
+      "latch",    "tendon",  "gear", "contact"};
   return names;
 }
 

@@ -20,6 +20,7 @@
 #include "limber/joints/drive.hpp"
 #include "limber/joints/joint_motion.hpp"
 #include "limber/scene/robot/place.hpp"
+#include "limber/scene/scenario/contact_spec.hpp"
 
 /// Contents of a scenario file. Plain values; docs/formats/scenario.md is the
 /// manual page.
@@ -105,14 +106,6 @@ struct LinkStart {
   std::filesystem::path velocity;
 };
 
-/// Motion of the root link at the start, world frame.
-struct BaseStart {
-  Vector3 position = Vector3::Zero();          ///< [m]
-  Vector3 orientation_rpy = Vector3::Zero();   ///< [rad]
-  Vector3 velocity = Vector3::Zero();          ///< of its origin [m/s]
-  Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
-};
-
 /// Overrides of a link's <basis>; unset values are unchanged.
 struct BasisChoice {
   std::optional<int>
@@ -153,10 +146,13 @@ struct Scenario {
   std::vector<LoadSpec> loads;
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
   std::map<std::string, JointStart> joints;
-  BaseStart base;
+  BodyStart base;  ///< of the root link
   std::map<std::string, LinkStart> link_starts;
   /// Starts at rest from the static equilibrium near the above.
   std::optional<dynamics::EquilibriumMethod> equilibrium;
+  std::vector<ProjectileSpec> projectiles;
+  std::vector<ObstacleSpec> obstacles;
+  std::vector<ContactSpec> contacts;
   std::vector<DriveSpec> drives;
   std::map<std::string, double> releases;  ///< of latches, at these times [s]
   std::vector<ProbeSpec> probes;

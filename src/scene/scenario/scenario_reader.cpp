@@ -7,7 +7,9 @@
 #include <set>
 
 #include "limber/scene/robot/place_reader.hpp"
+#include "limber/scene/scenario/added_body_reader.hpp"
 #include "limber/scene/scenario/basis_reader.hpp"
+#include "limber/scene/scenario/contact_reader.hpp"
 #include "limber/scene/scenario/coupler_probe_reader.hpp"
 #include "limber/scene/scenario/drive_reader.hpp"
 #include "limber/scene/scenario/time_function_reader.hpp"
@@ -96,17 +98,6 @@ ProbeSpec read_probe(TomlTable& table) {
   return {name, read_point_probe(table)};
 }
 
-BaseStart read_base(TomlTable& table) {
-  BaseStart base;
-  base.position = table.vector("position").value_or(Vector3::Zero());
-  base.orientation_rpy =
-      table.vector("orientation_rpy").value_or(Vector3::Zero());
-  base.velocity = table.vector("velocity").value_or(Vector3::Zero());
-  base.angular_velocity =
-      table.vector("angular_velocity").value_or(Vector3::Zero());
-  return base;
-}
-
 JointStart read_joint_start(TomlTable& table) {
   return {table.number_or_numbers("position"),
           table.number_or_numbers("velocity")};
@@ -155,8 +146,12 @@ bool has_velocities(const Scenario& scenario) {
   const auto moves = [](const std::vector<double>& v) {
     return std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; });
   };
-  return !scenario.base.velocity.isZero(0.0) ||
-         !scenario.base.angular_velocity.isZero(0.0) ||
+  const auto is_moving = [](const BodyStart& start) {
+    return !start.velocity.isZero(0.0) || !start.angular_velocity.isZero(0.0);
+  };
+  return is_moving(scenario.base) ||
+         std::any_of(scenario.projectiles.begin(), scenario.projectiles.end(),
+                     [&](const auto& p) { return is_moving(p.start); }) ||
          std::any_of(scenario.joints.begin(), scenario.joints.end(),
                      [&](const auto& j) { return moves(j.second.velocity); }) ||
          std::any_of(scenario.link_starts.begin(), scenario.link_starts.end(),
@@ -186,7 +181,7 @@ void read_equilibrium(TomlTable& table, Scenario& scenario) {
 void read_initial(TomlTable& table, Scenario& scenario) {
   if (const toml::table* base = table.table("base")) {
     TomlTable values(*base, "initial.base", table.problems());
-    scenario.base = read_base(values);
+    scenario.base = read_body_start(values);
     values.finish();
   }
   read_starts(table, "joints", scenario.joints, read_joint_start);
@@ -257,6 +252,11 @@ void read_root(TomlTable& root, Scenario& scenario) {
     scenario.gravity = t.vector("acceleration").value_or(Vector3::Zero());
     if (!t.has("acceleration")) t.fail("needs 'acceleration'");
   });
+  scenario.projectiles =
+      read_items<ProjectileSpec>(root, "projectile", read_projectile);
+  scenario.obstacles =
+      read_items<ObstacleSpec>(root, "obstacle", read_obstacle);
+  read_contacts(root, scenario);
   read_section(root, "initial",
                [&](TomlTable& t) { read_initial(t, scenario); });
   read_section(root, "output",

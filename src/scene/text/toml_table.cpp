@@ -56,17 +56,44 @@ std::optional<std::string> TomlTable::text(const std::string& key) {
     fail_type(key, *node, "a string");
     return std::nullopt;
   }
-  std::string value = *node->value<std::string>();
+  return text_of(key, *node, key == "name");
+}
+
+std::optional<std::string> TomlTable::text_of(const std::string& key,
+                                              const toml::node& node,
+                                              bool is_name) const {
+  std::string value = *node.value<std::string>();
   if (has_control(value)) {
     fail(key, fmt::format("'{}' holds a control character, which no name has",
                           echo(value)));
-  } else if (key == "name" && value.size() > kMostNameBytes) {
+  } else if (is_name && value.size() > kMostNameBytes) {
     fail(key, fmt::format("'{}' is too long; a name has {} bytes at most",
                           echo(value), kMostNameBytes));
   } else {
     return value;
   }
   return std::nullopt;
+}
+
+std::optional<std::vector<std::string>> TomlTable::texts(
+    const std::string& key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (!node->is_array()) {
+    fail_type(key, *node, "an array of names");
+    return std::nullopt;
+  }
+  std::vector<std::string> values;
+  for (const toml::node& item : *node->as_array()) {
+    if (!item.is_string()) {
+      fail_type(key, item, "names");
+      return std::nullopt;
+    }
+    const std::optional<std::string> value = text_of(key, item, true);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
 }
 
 std::string TomlTable::required_text(const std::string& key) {

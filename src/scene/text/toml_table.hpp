@@ -46,14 +46,23 @@ class TomlTable {
   /// A number or an array of numbers.
   [[nodiscard]] std::vector<double> number_or_numbers(const std::string& key);
   [[nodiscard]] std::optional<Vector3> vector(const std::string& key);
+  /// An array of names.
+  [[nodiscard]] std::optional<std::vector<std::string>> texts(
+      const std::string& key);
   [[nodiscard]] const toml::table* table(const std::string& key);
   [[nodiscard]] std::vector<const toml::table*> tables(const std::string& key);
+
+  /// Marks a key as known.
+  void skip(const std::string& key) { known_.insert(key); }
 
   /// Call after reading: unknown keys are problems.
   void finish() const;
 
  private:
   const toml::node* find(const std::string& key);
+  std::optional<std::string> text_of(const std::string& key,
+                                     const toml::node& node,
+                                     bool is_name) const;
   std::optional<double> number_of(const std::string& key,
                                   const toml::node& node, const Range& range);
   void fail_type(const std::string& key, const toml::node& node,

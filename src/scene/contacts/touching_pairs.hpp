@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "limber/scene/robot/robot.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+
+namespace limber::scene {
+
+/// A body that contacts name: a link of the robot, projectiles included, or an
+/// obstacle.
+struct Toucher {
+  bool is_obstacle = false;
+  std::size_t index = 0;  ///< into Robot::links or Scenario::obstacles
+
+  bool operator==(const Toucher&) const = default;
+  auto operator<=>(const Toucher&) const = default;
+};
+
+[[nodiscard]] const std::string& name_of(const Toucher& body,
+                                         const Robot& robot,
+                                         const Scenario& scenario);
+
+struct TouchingPair {
+  std::size_t contact = 0;  ///< index of the one that decides how they touch
+  Toucher A;                ///< of its first name
+  Toucher B;
+};
+
+struct TouchingPairs {
+  std::vector<TouchingPair> pairs;  ///< in the order of contacts and bodies
+  /// Contacts whose every pair others decide.
+  std::vector<std::size_t> idle;
+};
+
+/// Which bodies touch, each pair once. A contact that names both bodies decides
+/// over those with patterns, and of these the first. A pattern stands for the
+/// bodies that have a shape. Pairs of patterns leave out bodies that are fixed
+/// to each other or in the world, and links that a joint (not a floating one)
+/// or a loop connects directly.
+/// @param robot with the projectiles
+/// @throws InputError with every problem, without the file: unknown names,
+/// patterns without bodies, contacts without pairs, pairs that cannot be, two
+/// contacts that name the same bodies, links without shapes or with meshes for
+/// shapes.
+[[nodiscard]] TouchingPairs find_touching_pairs(const Scenario& scenario,
+                                                const Robot& robot);
+
+}  // namespace limber::scene

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "limber/common/types.hpp"
+
+/// Shapes of bodies that touch, as robots and scenarios give them.
+namespace limber::scene {
+
+/// All lengths > 0 [m].
+struct SphereGeometry {
+  double radius = 0.0;
+};
+struct BoxGeometry {
+  Vector3 size = Vector3::Zero();  ///< whole edges, along x, y, z
+};
+struct CylinderGeometry {
+  double radius = 0.0;
+  double length = 0.0;  ///< along z, the origin in its middle
+};
+/// All within `radius` of a segment.
+struct CapsuleGeometry {
+  double radius = 0.0;
+  double length = 0.0;  ///< of the segment, along z, the origin in its middle
+};
+/// z <= 0
+struct PlaneGeometry {};
+/// What robots have and contacts cannot take, such as a mesh.
+struct OtherGeometry {
+  std::string tag;
+};
+using Geometry = std::variant<SphereGeometry, BoxGeometry, CylinderGeometry,
+                              CapsuleGeometry, PlaneGeometry, OtherGeometry>;
+
+}  // namespace limber::scene

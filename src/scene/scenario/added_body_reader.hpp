@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/scene/scenario/contact_spec.hpp"
+#include "limber/scene/text/toml_table.hpp"
+
+/// Readers of the bodies that a scenario adds to its robot.
+namespace limber::scene {
+
+/// `position`, `orientation_rpy`, `velocity`, `angular_velocity`.
+[[nodiscard]] BodyStart read_body_start(TomlTable& table);
+
+/// A [[projectile]].
+[[nodiscard]] ProjectileSpec read_projectile(TomlTable& table);
+
+/// An [[obstacle]].
+[[nodiscard]] ObstacleSpec read_obstacle(TomlTable& table);
+
+}  // namespace limber::scene

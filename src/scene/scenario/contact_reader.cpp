@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/scene/scenario/contact_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limber::scene {
+namespace {
+
+constexpr const char* kDefault = "contact_default";
+
+ContactOptions read_options(TomlTable& table) {
+  ContactOptions options;
+  options.friction = table.number("friction", kNonNegative);
+  options.static_friction = table.number("static_friction", kNonNegative);
+  options.stribeck_speed = table.number("stribeck_speed", kPositive);
+  options.restitution = table.number("restitution", {0.0, 1.0, false, false});
+  options.damping = table.number("damping", kNonNegative);
+  options.radius = table.number("radius", kPositive);
+  options.stiffness = table.number("stiffness", kPositive);
+  if (options.restitution && options.damping) {
+    table.fail("has both 'restitution' and 'damping'; keep one");
+  }
+  return options;
+}
+
+/// `own` with what it leaves out from `otherwise`.
+ContactOptions merge(const ContactOptions& own,
+                     const ContactOptions& otherwise) {
+  ContactOptions options = own;
+  const auto fill = [](std::optional<double>& value,
+                       const std::optional<double>& other) {
+    if (!value) value = other;
+  };
+  fill(options.friction, otherwise.friction);
+  fill(options.static_friction, otherwise.static_friction);
+  fill(options.stribeck_speed, otherwise.stribeck_speed);
+  fill(options.radius, otherwise.radius);
+  fill(options.stiffness, otherwise.stiffness);
+  // Both say how much energy is lost.
+  if (!own.damping) fill(options.restitution, otherwise.restitution);
+  if (!own.restitution) fill(options.damping, otherwise.damping);
+  return options;
+}
+
+void check_friction(const TomlTable& table, const ContactOptions& options) {
+  const double sliding = options.friction.value_or(0.0);
+  if (!options.static_friction || *options.static_friction >= sliding) return;
+  table.fail(fmt::format(
+      "static_friction is {}, less than friction, {}; it is at least that",
+      *options.static_friction, sliding));
+}
+
+ContactSpec read_contact(TomlTable& table, const ContactOptions& otherwise) {
+  ContactSpec contact;
+  const auto names = table.texts("between");
+  if (names && names->size() == 2) {
+    contact.between = {(*names)[0], (*names)[1]};
+  } else if (names || !table.has("between")) {
+    table.fail("needs 'between', the names of two bodies");
+  }
+  contact.options = merge(read_options(table), otherwise);
+  check_friction(table, contact.options);
+  return contact;
+}
+
+/// A notice of the contacts that leave a value out, if there are any.
+template <typename Leaves>
+void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
+                  const char* key, const char* means,
+                  std::vector<std::string>& notices) {
+  constexpr std::size_t kMostListed = 10;
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (leaves_out(contacts[i].options))
+      numbers.push_back(fmt::format("{}", i + 1));
+  }
+  if (numbers.empty()) return;
+  if (numbers.size() > kMostListed) {
+    numbers.resize(kMostListed);
+    numbers.emplace_back("...");
+  }
+  notices.push_back(
+      fmt::format("no '{}' is given for [[contact]] {}: {}; give it there or "
+                  "in [{}]",
+                  key, fmt::join(numbers, ", "), means, kDefault));
+}
+
+}  // namespace
+
+void read_contacts(TomlTable& root, Scenario& scenario) {
+  ContactOptions otherwise;
+  if (const toml::table* table = root.table(kDefault)) {
+    TomlTable section(*table, kDefault, root.problems());
+    otherwise = read_options(section);
+    section.finish();
+  }
+  for (const toml::table* table : root.tables("contact")) {
+    TomlTable element(*table,
+                      fmt::format("contact {}", scenario.contacts.size() + 1),
+                      root.problems());
+    scenario.contacts.push_back(read_contact(element, otherwise));
+    element.finish();
+  }
+  tell_default(
+      scenario.contacts,
+      [](const ContactOptions& o) { return !o.friction && !o.static_friction; },
+      "friction", "it slides without friction (0)", scenario.warnings);
+  tell_default(
+      scenario.contacts,
+      [](const ContactOptions& o) { return !o.restitution && !o.damping; },
+      "restitution", "it loses no energy (1)", scenario.warnings);
+}
+
+}  // namespace limber::scene
