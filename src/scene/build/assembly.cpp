@@ -7,6 +7,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/joint_state.hpp"
+#include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/coupler_assembly.hpp"
 #include "limber/scene/build/interface_tables.hpp"
 #include "limber/scene/build/link_start.hpp"
@@ -78,6 +79,16 @@ void Assembly::add_loads() {
       load.nodal_forces.empty() ? add_load(load) : add_nodal_load(load);
     });
   }
+}
+
+void Assembly::add_contacts() {
+  touching_ = ContactAssembly(scene_, sites_, builder_).add_all();
+}
+
+void Assembly::check_start(const dynamics::SystemModel& model,
+                           const dynamics::SystemState& initial) const {
+  with_context(scene_.scenario.file.string(),
+               [&] { check_overlaps(touching_, model, initial); });
 }
 
 void Assembly::add_nodal_load(const LoadSpec& load) {

@@ -9,6 +9,7 @@
 #include "limber/scene/build/body_plan.hpp"
 #include "limber/scene/build/link_motion.hpp"
 #include "limber/scene/build/scene.hpp"
+#include "limber/scene/contacts/start_overlap.hpp"
 #include "limber/scene/probes/probe.hpp"
 
 namespace limber::scene {
@@ -22,6 +23,7 @@ class Assembly {
   void add_bodies();
   void add_couplers();
   void add_loads();
+  void add_contacts();
   /// @param model the result of build()
   [[nodiscard]] std::vector<Probe> make_probes(
       const dynamics::SystemModel& model) const;
@@ -30,6 +32,9 @@ class Assembly {
   [[nodiscard]] dynamics::SystemModel build() const;
   [[nodiscard]] dynamics::SystemState make_initial_state(
       const dynamics::SystemModel& model) const;
+  /// @throws InputError if bodies in contact overlap too deep at the start.
+  void check_start(const dynamics::SystemModel& model,
+                   const dynamics::SystemState& initial) const;
   [[nodiscard]] const std::vector<std::string>& warnings() const {
     return warnings_;
   }
@@ -50,6 +55,7 @@ class Assembly {
   std::vector<dynamics::BodyIndex> body_index_;  ///< one per plan
   AttachmentSites sites_;
   dynamics::SystemBuilder builder_;
+  std::vector<PlacedPair> touching_;
   std::vector<std::string> warnings_;
 };
 

@@ -6,6 +6,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/scene/build/assembly.hpp"
+#include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
 #include "limber/scene/text/error_context.hpp"
 
@@ -34,6 +35,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
                         const FullMaker& make_full, const KnownBodies& known) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
+  check_levels(scene);
   const std::vector<LinkMotion> motions =
       find_link_motions(scene.robot, scene.scenario);
   const Reductions reductions = find_reductions(scene, reducer, cache, known);
@@ -43,9 +45,11 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   assembly.add_bodies();
   assembly.add_couplers();
   assembly.add_loads();
+  assembly.add_contacts();
   BuiltScene built;
   built.model = assembly.build();
   built.initial = assembly.make_initial_state(built.model);
+  assembly.check_start(built.model, built.initial);
   if (scene.scenario.equilibrium) settle(scene, built);
   built.probes = assembly.make_probes(built.model);
   for (Probe& probe : built.probes) {

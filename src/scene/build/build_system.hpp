@@ -32,7 +32,8 @@ struct BuiltScene {
 /// builds the system and finds its initial state: body frames from the joint
 /// coordinates of the undeformed links, velocities consistent with the joints'
 /// rates, and flexible links deformed as the scenario specifies; or, if
-/// requested, the static equilibrium near that. Couplers are unstressed in the
+/// requested, the static equilibrium near that. Bodies in contact must not
+/// overlap deep there. Couplers are unstressed in the
 /// undeformed configuration. `make_full` is needed only for links at level
 /// `full`.
 /// @param known takes precedence over the cache for equal recipes

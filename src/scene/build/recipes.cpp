@@ -129,6 +129,7 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   recipe.interfaces = flexible.interfaces;
   recipe.basis = flexible.basis;
   recipe.rows = flexible.rows;
+  recipe.contact_groups = flexible.contact_groups;
   if (scenario.level_of(link.name) == dynamics::Fidelity::full) {
     recipe.rows = flexbody::parse_rows({"all"});
   }

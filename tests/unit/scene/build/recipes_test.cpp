@@ -163,5 +163,13 @@ TEST(Recipes, HoldNodalForcesAsLoadCasesAndForStaticModes) {
   }
 }
 
+TEST(Recipes, KeepTheSurfacesThatContactsNeed) {
+  Robot robot = make_robot(false);
+  EXPECT_TRUE(make_recipe(robot, 0, {}).contact_groups.empty());
+  robot.links[0].flexible->contact_groups = {"tip", "pad"};
+  EXPECT_THAT(make_recipe(robot, 0, {}).contact_groups,
+              testing::ElementsAre("tip", "pad"));
+}
+
 }  // namespace
 }  // namespace limber::scene

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/scene/build/contact_assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/common/names.hpp"
+#include "limber/contact/shapes/skin.hpp"
+#include "limber/scene/contacts/contact_shapes.hpp"
+#include "limber/scene/text/error_context.hpp"
+
+namespace limber::scene {
+namespace {
+
+constexpr double kFixed = std::numeric_limits<double>::infinity();
+
+double find_mass(const BodyPlan& plan) {
+  return plan.is_world ? kFixed : plan.mass;
+}
+
+/// @throws InputError if the body has no such surface, or it is empty.
+const flexbody::ContactSurface& find_surface(const flexbody::ReducedBody& body,
+                                             const std::string& name) {
+  std::vector<std::string> known;
+  for (const flexbody::ContactSurface& surface : body.contact_surfaces) {
+    known.push_back(surface.name);
+    if (surface.name != name) continue;
+    if (!surface.faces.empty()) return surface;
+    throw InputError(fmt::format("surface '{}' has no faces", name));
+  }
+  throw InputError(describe_unknown("surface", name, known) +
+                   "; a saved body has those that it was reduced with");
+}
+
+std::string describe(const Scene& scene, const TouchingPair& pair) {
+  return fmt::format("{}: [[contact]] {} between '{}' and '{}'",
+                     scene.scenario.file.string(), pair.contact + 1,
+                     name_of(pair.A, scene.robot, scene.scenario),
+                     name_of(pair.B, scene.robot, scene.scenario));
+}
+
+}  // namespace
+
+void check_levels(const Scene& scene) {
+  for (const TouchingPair& pair : scene.touching) {
+    for (const Toucher& side : {pair.A, pair.B}) {
+      if (side.is_obstacle) continue;
+      const Link& link = scene.robot.links[side.index];
+      if (!link.flexible ||
+          scene.scenario.level_of(link.name) != dynamics::Fidelity::full) {
+        continue;
+      }
+      throw InputError(fmt::format(
+          "{}: link '{}' is at level 'full', which contacts do not support "
+          "yet; choose 'coupled' for it",
+          describe(scene, pair), link.name));
+    }
+  }
+}
+
+std::vector<PlacedPair> ContactAssembly::add_all() {
+  std::vector<PlacedPair> placed;
+  for (const TouchingPair& pair : scene_.touching) {
+    with_context(describe(scene_, pair), [&] {
+      const Sides& all_A = get_sides(pair.A);
+      const Sides& all_B = get_sides(pair.B);
+      for (const Side& A : all_A) {
+        for (const Side& B : all_B) add_pair(pair, A, B, placed);
+      }
+    });
+  }
+  return placed;
+}
+
+const ContactAssembly::Sides& ContactAssembly::get_sides(const Toucher& body) {
+  const auto found = sides_.find(body);
+  if (found != sides_.end()) return found->second;
+  const auto make = [&] {
+    if (body.is_obstacle) {
+      return make_obstacle(scene_.scenario.obstacles[body.index]);
+    }
+    const int link = static_cast<int>(body.index);
+    return scene_.robot.links[body.index].flexible ? make_flexible(link)
+                                                   : make_rigid(link);
+  };
+  return sides_.emplace(body, make()).first->second;
+}
+
+ContactAssembly::Sides ContactAssembly::make_obstacle(
+    const ObstacleSpec& obstacle) const {
+  return {{obstacle.name,
+           dynamics::kWorld,
+           {{make_shape(obstacle.geometry), obstacle.X_WS},
+            obstacle.material,
+            kFixed}}};
+}
+
+ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
+  const Link& source = scene_.robot.links[index(link)];
+  Sides sides;
+  for (const Collision& collision : source.collisions) {
+    const AttachmentSite site = sites_.find_site(link, collision.X_LS, {});
+    const std::string number = source.collisions.size() > 1
+                                   ? fmt::format(".{}", sides.size() + 1)
+                                   : "";
+    sides.push_back({source.name + number,
+                     site.body,
+                     {{make_shape(collision.geometry), site.X_BF},
+                      source.contact.material,
+                      find_mass(sites_.plan_of(link))}});
+  }
+  return sides;
+}
+
+ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
+  const Link& source = scene_.robot.links[index(link)];
+  const BodyPlan& plan = sites_.plan_of(link);
+  const std::vector<std::string> surfaces = find_surfaces(source);
+  Sides sides;
+  for (const std::string& name : surfaces) {
+    with_context(fmt::format("link '{}'", source.name), [&] {
+      const auto skin = get_skin(plan, name);
+      const flexbody::ContactSurface& surface = skin->surface();
+      sides.push_back(
+          {surfaces.size() > 1 ? source.name + "." + name : source.name,
+           sites_.body_of(link),
+           {{skin, Pose{}},
+            contact::SurfaceMaterial{surface.youngs_modulus,
+                                     surface.poisson_ratio},
+            find_mass(plan)}});
+    });
+  }
+  return sides;
+}
+
+// At level `rigid` the modes are left out; what they leave out stays.
+std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
+    const BodyPlan& plan, const std::string& surface) {
+  const bool is_rigid =
+      scene_.scenario.level_of(plan.name) == dynamics::Fidelity::rigid;
+  auto& skin = skins_[{plan.reduced.get(), surface, is_rigid}];
+  if (skin) return skin;
+  flexbody::ContactSurface copy = find_surface(*plan.reduced, surface);
+  if (is_rigid) copy.Phi_B.resize(copy.Phi_B.rows(), 0);
+  skin = std::make_shared<const contact::Skin>(std::move(copy));
+  return skin;
+}
+
+void ContactAssembly::add_pair(const TouchingPair& pair, const Side& A,
+                               const Side& B, std::vector<PlacedPair>& placed) {
+  const ContactOptions& options =
+      scene_.scenario.contacts[pair.contact].options;
+  const std::string name = A.name + "/" + B.name;
+  placed.push_back({name, A.body, B.body,
+                    contact::ShapePair(A.side.shape, B.side.shape),
+                    options.radius});
+  builder_.add_pair(name, A.body, B.body,
+                    std::make_shared<const contact::ContactPair>(
+                        A.side, B.side, make_parameters(options)));
+}
+
+}  // namespace limber::scene

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "limber/contact/contact_pair.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/scene/build/attachment_sites.hpp"
+#include "limber/scene/build/body_plan.hpp"
+#include "limber/scene/build/scene.hpp"
+#include "limber/scene/contacts/start_overlap.hpp"
+
+namespace limber::scene {
+
+/// @throws InputError for links in contacts at level `full`.
+void check_levels(const Scene& scene);
+
+/// Adds the pairs of bodies that touch to a system.
+class ContactAssembly {
+ public:
+  ContactAssembly(const Scene& scene, const AttachmentSites& sites,
+                  dynamics::SystemBuilder& builder)
+      : scene_(scene), sites_(sites), builder_(builder) {}
+
+  /// A pair for every two shapes, called "A/B" after their bodies, with the
+  /// shape's number ("A.2/B") or surface ("A.tip/B") where a body has several.
+  /// @throws InputError naming file and contact.
+  [[nodiscard]] std::vector<PlacedPair> add_all();
+
+ private:
+  struct Side {
+    std::string name;
+    dynamics::BodyIndex body = dynamics::kWorld;
+    contact::ContactSide side;
+  };
+  using Sides = std::vector<Side>;
+
+  const Sides& get_sides(const Toucher& body);
+  [[nodiscard]] Sides make_obstacle(const ObstacleSpec& obstacle) const;
+  [[nodiscard]] Sides make_rigid(int link) const;
+  [[nodiscard]] Sides make_flexible(int link);
+  std::shared_ptr<const contact::Skin> get_skin(const BodyPlan& plan,
+                                                const std::string& surface);
+  void add_pair(const TouchingPair& pair, const Side& A, const Side& B,
+                std::vector<PlacedPair>& placed);
+
+  const Scene& scene_;
+  const AttachmentSites& sites_;
+  dynamics::SystemBuilder& builder_;
+  std::map<Toucher, Sides> sides_;
+  /// By the body's reduction, the surface, and whether modes are left out.
+  std::map<std::tuple<const flexbody::ReducedBody*, std::string, bool>,
+           std::shared_ptr<const contact::Skin>>
+      skins_;
+};
+
+}  // namespace limber::scene

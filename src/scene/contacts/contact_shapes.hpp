@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/shapes/shape.hpp"
+#include "limber/scene/robot/geometry.hpp"
+#include "limber/scene/scenario/contact_spec.hpp"
+
+/// From what files say to what contacts compute with.
+namespace limber::scene {
+
+/// @param geometry any but OtherGeometry
+[[nodiscard]] contact::ShapeKind make_shape(const Geometry& geometry);
+
+[[nodiscard]] contact::ContactParameters make_parameters(
+    const ContactOptions& options);
+
+}  // namespace limber::scene

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+
+namespace limber::scene {
+
+/// Two shapes on bodies of a system.
+struct PlacedPair {
+  std::string name;
+  dynamics::BodyIndex body_A = dynamics::kWorld;
+  dynamics::BodyIndex body_B = dynamics::kWorld;
+  contact::ShapePair shapes;
+  std::optional<double> radius;  ///< R_e in place of that of the shapes [m]
+};
+
+/// Refuses bodies that overlap at the start by more than 3 % of R_e, or 0.1 mm
+/// where they are flat, since they would leap apart.
+/// @throws InputError with every such pair, its depth and place (10 at most).
+void check_overlaps(const std::vector<PlacedPair>& pairs,
+                    const dynamics::SystemModel& model,
+                    const dynamics::SystemState& state);
+
+}  // namespace limber::scene
