@@ -230,9 +230,9 @@ void read_interfaces(const Reader& reader, std::size_t count,
   }
 }
 
-// Before HDF5 opens the file, since it may crash on damaged structures.
-// Returns the layout's version.
-int check_seal(const std::filesystem::path& file) {
+// Before HDF5 opens the file, since it may crash on damaged structures. Another
+// whole file may replace this one before that.
+void check_seal(const std::filesystem::path& file) {
   const auto problem = [&](const std::string& what) {
     return InputError(fmt::format("'{}' {}", file.string(), what));
   };
@@ -258,7 +258,6 @@ int check_seal(const std::filesystem::path& file) {
         "is damaged (its digest does not match its content); make the reduced "
         "body anew");
   }
-  return *version;
 }
 
 // Writes the seal of a layout, or renews the present one.
@@ -307,7 +306,7 @@ void write_body(const ReducedBody& body, const std::filesystem::path& file) {
 }
 
 ReducedBody read_body(const std::filesystem::path& file) {
-  const int version = check_seal(file);
+  check_seal(file);
   const Hdf5File in = Hdf5File::open(file);
   const Reader reader(in, file);
   ReducedBody body;
@@ -339,7 +338,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);
   body.initial.velocity = read_field(reader, "initial/velocity/", m);
-  if (version == kContactBodyFileVersion) {
+  if (reader.integer("version") == kContactBodyFileVersion) {
     body.contact_surfaces = read_contact_surfaces(reader, m);
   }
   return body;
