@@ -11,9 +11,6 @@
 namespace limber::dynamics {
 namespace {
 
-// Steps per T_c of an impact that tell its restitution, at least.
-constexpr double kFewestSteps = 4.0;
-
 Vector3 find_rigid_velocity(const SystemState& state, BodyIndex b,
                             const Vector3& p_W) {
   if (b == kWorld) return Vector3::Zero();
@@ -23,7 +20,8 @@ Vector3 find_rigid_velocity(const SystemState& state, BodyIndex b,
 }
 
 bool is_coarse(const OngoingContact& pair) {
-  return pair.longest_step * kFewestSteps > pair.record.impact_duration &&
+  return pair.longest_step * TouchWatch::kFewestSteps >
+             pair.record.impact_duration &&
          pair.record.impact_duration > 0.0;
 }
 

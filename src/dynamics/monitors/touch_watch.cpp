@@ -26,6 +26,8 @@ constexpr double kLeastAdvance = 1.0 / 64.0;
 
 // Touches that last longer, in T_c, are no impacts [-].
 constexpr double kRest = 8.0;
+// Steps of an impact that is shorter than them.
+constexpr int kStepsOfCoarseImpact = 3;
 // Way in one step relative to the bodies' size there, at most [-].
 constexpr double kMostWay = 0.25;
 
@@ -114,6 +116,13 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   return share;
 }
 
+// A pair that has just touched may still be apart by round-off of the place
+// where it did, but goes on to approach.
+bool TouchWatch::has_left(Watched& watched, const SystemState& after) {
+  const joints::PairTouch touch = find_touch(watched, after);
+  return !(touch.depth > 0.0) && touch.rate <= 0.0;
+}
+
 // By bisection: the pair touches before and is apart after.
 double TouchWatch::find_leave_share(Watched& watched, const SystemState& before,
                                     const SystemState& after) {
@@ -136,12 +145,22 @@ std::optional<TouchWatch::Crossing> TouchWatch::find_first(
     std::optional<double> share;
     if (!watched.is_touching) {
       share = find_touch_share(watched, before, after);
-    } else if (!(find_touch(watched, after).depth > 0.0)) {
+    } else if (has_left(watched, after)) {
       share = find_leave_share(watched, before, after);
     }
     if (share && (!first || *share < first->share)) first = Crossing{i, *share};
   }
   return first;
+}
+
+bool TouchWatch::is_coarse(double h, double t) const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Watched& watched) {
+    const double lasts = kRest * watched.impact_duration;
+    const bool is_impact =
+        t - watched.since <= lasts || watched.steps < kStepsOfCoarseImpact;
+    return watched.is_touching && is_impact &&
+           h * kFewestSteps > watched.impact_duration;
+  });
 }
 
 void TouchWatch::check_step(double h, double t) const {
@@ -160,7 +179,9 @@ void TouchWatch::check_step(double h, double t) const {
 
 void TouchWatch::accept(const SystemState& state) {
   for (Watched& watched : pairs_) {
-    if (watched.is_touching) watched.rate = find_touch(watched, state).rate;
+    if (!watched.is_touching) continue;
+    watched.rate = find_touch(watched, state).rate;
+    ++watched.steps;
   }
 }
 
@@ -190,6 +211,7 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
   const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
   watched.since = state.t;
   watched.rate = touch.rate;
+  watched.steps = 0;
   watched.impact_duration = watched.law->begin_touch(
       {A, B}, state.t, memory_of(pair, state), watched.scratch);
 }
@@ -214,7 +236,7 @@ void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {
 void TouchWatch::exchange_memory(Archive& archive) {
   for (Watched& watched : pairs_) {
     archive(watched.is_touching, watched.since, watched.impact_duration,
-            watched.rate);
+            watched.rate, watched.steps);
   }
 }
 

@@ -27,6 +27,8 @@ class TouchWatch {
  public:
   /// Steps per T_c of an impact.
   static constexpr double kStepsOfImpact = 16.0;
+  /// Fewest steps per T_c that tell its restitution.
+  static constexpr double kFewestSteps = 4.0;
 
   explicit TouchWatch(const SystemModel& model);
 
@@ -78,6 +80,9 @@ class TouchWatch {
   /// Longest step that resolves the impacts that go on; infinite if none does.
   /// What still touches after eight times the expected duration rests [s].
   [[nodiscard]] double find_longest_step(double t) const;
+  /// Whether an impact goes on that steps of h [s] do not resolve: from a touch
+  /// on for three steps, or eight times the expected duration.
+  [[nodiscard]] bool is_coarse(double h, double t) const;
   /// As it is at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);
@@ -95,10 +100,12 @@ class TouchWatch {
     double since = 0.0;            // of the touch [s]
     double impact_duration = 0.0;  // [s]
     double rate = 0.0;             // of the depth, while they touch [m/s]
+    int steps = 0;                 // accepted since the touch
     joints::PairResponse scratch;
   };
   [[nodiscard]] std::optional<double> find_touch_share(
       Watched& watched, const SystemState& before, const SystemState& after);
+  [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);
   [[nodiscard]] double find_leave_share(Watched& watched,
                                         const SystemState& before,
                                         const SystemState& after);

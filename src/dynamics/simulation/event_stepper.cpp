@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "limber/dynamics/equations/energy.hpp"
+
 namespace limber::dynamics {
 namespace {
 
@@ -23,6 +25,7 @@ EventStepper::EventStepper(const SystemModel& model,
                            std::vector<Event>& events)
     : model_(model),
       integrator_(make_integrator(model, settings)),
+      terms_(make_terms(model)),
       watch_(model),
       touches_(model),
       commit_pairs_(model),
@@ -65,9 +68,23 @@ void EventStepper::add_last() {
   totals_.dissipated += last_.dissipated;
 }
 
+// An impact that the step does not resolve is damped, or it would gain energy;
+// what that loses is dissipated.
+StepResult EventStepper::take_step(SystemState& state, double h, double end) {
+  if (!integrator_->damp(touches_.is_coarse(h, state.t))) {
+    return integrator_->step(state, h, end);
+  }
+  const double before = calc_energy(model_, state, terms_).total();
+  StepResult result = integrator_->step(state, h, end);
+  const double after = calc_energy(model_, state, terms_).total();
+  const double lost = before + result.load_work - result.dissipated - after;
+  result.dissipated += std::max(lost, 0.0);
+  return result;
+}
+
 // Takes a step; costs of a reverted step remain in `last_`.
 void EventStepper::advance(SystemState& state, double h, double end) {
-  StepResult next = integrator_->step(state, h, end);
+  StepResult next = take_step(state, h, end);
   next.iterations += last_.iterations;
   next.factorizations += last_.factorizations;
   last_ = next;

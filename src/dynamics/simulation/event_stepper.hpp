@@ -82,6 +82,7 @@ class EventStepper {
     std::size_t coordinate;
   };
   void advance(SystemState& state, double h, double end);
+  StepResult take_step(SystemState& state, double h, double end);
   void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
   void pass_all_at_end(SystemState& state, double h);
   void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
@@ -91,6 +92,7 @@ class EventStepper {
 
   const SystemModel& model_;
   std::unique_ptr<Integrator> integrator_;
+  SystemTerms terms_;  // of energies
   EventWatch watch_;
   TouchWatch touches_;
   std::vector<Angle> angles_;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+#include "limber/contact/contact_pair.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+
+/// Impacts of random shapes, sizes, masses, speeds and steps.
+namespace limber::contact {
+namespace {
+
+using dynamics::SystemBuilder;
+using dynamics::SystemModel;
+using dynamics::SystemState;
+
+constexpr double kPi = std::numbers::pi;
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : generator_(seed) {}
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator_);
+  }
+  double log_between(double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  }
+  Vector3 vector() {
+    return {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)};
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+struct Impact {
+  SystemModel model;
+  SystemState state;
+  double step = 0.0;  // [s]
+  double time = 0.0;  // [s]
+  std::string words;
+};
+
+Shape draw_shape(Draw& draw, int kind, double size) {
+  const Pose pose{exp_rotation(draw.vector()), 0.1 * size * draw.vector()};
+  switch (kind) {
+    case 0:
+      return {Sphere{size}, pose};
+    case 1:
+      return {Box{size *
+                  Vector3(1.0, draw.between(0.5, 1.0), draw.between(0.5, 1.0))},
+              pose};
+    case 2:
+      return {Cylinder{size, size * draw.between(0.3, 2.0)}, pose};
+    default:
+      return {Capsule{size, size * draw.between(0.3, 2.0)}, pose};
+  }
+}
+
+// A ball flies at a body of any shape, which turns.
+Impact draw_impact(unsigned seed) {
+  Draw draw(seed);
+  Impact out;
+  const int kind = static_cast<int>(draw.between(0.0, 4.0));
+  const double size = draw.log_between(1e-3, 1.0);
+  const double radius = size * draw.log_between(0.1, 10.0);
+  const double mass = draw.log_between(1e-3, 10.0);
+  const double ball_mass = mass * draw.log_between(1e-4, 1e4);
+  const double speed = draw.log_between(1e-4, 100.0);
+  const ContactParameters parameters{
+      .friction = {.sliding = draw.between(0.0, 1.0)},
+      .restitution = draw.between(0.0, 1.0)};
+  const SurfaceMaterial soft{draw.log_between(1e6, 2e11), 0.3};
+  SystemBuilder builder;
+  const auto body = builder.add_rigid_body(
+      "body", {mass, mass * size * size * Matrix3::Identity()});
+  const auto ball = builder.add_rigid_body(
+      "ball",
+      {ball_mass, 0.4 * ball_mass * radius * radius * Matrix3::Identity()});
+  const auto contact = std::make_shared<ContactPair>(
+      ContactSide{draw_shape(draw, kind, size), soft, mass},
+      ContactSide{Shape{Sphere{radius}, {}}, soft, ball_mass}, parameters);
+  builder.add_pair("body/ball", body, ball, contact);
+  out.model = builder.build();
+  out.state = make_state(out.model);
+  const Vector3 way = draw.vector().normalized();
+  out.state.bodies[0].w_WB_B = 0.1 * speed / size * draw.vector();
+  // A free impact's duration, and steps of a hundredth to thirty of it.
+  const double reduced = 1.0 / (1.0 / mass + 1.0 / ball_mass);
+  const double k = 4.0 / 3.0 * soft.youngs_modulus / (2.0 * 0.91) *
+                   std::sqrt(std::min(radius, size));
+  const double duration =
+      3.218 * std::pow(reduced * reduced / (k * k * speed), 0.2);
+  out.step = duration * draw.log_between(0.01, 30.0);
+  out.time = 10.0 * out.step + 10.0 * duration;
+  // Beyond the largest extent of any shape above, then as near as the ball
+  // flies in five steps.
+  double distance = 4.0 * size + radius + 5.0 * speed * out.step;
+  for (int i = 0; i < 100; ++i) {
+    joints::PairBody target;
+    joints::PairBody flying;
+    flying.p_WB = distance * way;
+    distance -=
+        contact->find_clearance({target, flying}) - 5.0 * speed * out.step;
+  }
+  out.state.bodies[1].p_WB = distance * way;
+  out.state.bodies[1].v_WB_W = -speed * way;
+  out.words = fmt::format(
+      "seed {}: kind {}, size {:.3g}, radius {:.3g}, masses {:.3g} {:.3g}, "
+      "speed {:.3g}, e {:.3g}, step {:.3g} of {:.3g}",
+      seed, kind, size, radius, mass, ball_mass, speed, parameters.restitution,
+      out.step, duration);
+  return out;
+}
+
+class RandomImpact : public ::testing::TestWithParam<unsigned> {};
+
+// Steps of up to thirty durations: at most a twentieth is refused in words,
+// where the ball would pass through the body or spin by radians a step.
+TEST_P(RandomImpact, GainsNoEnergyKeepsMomentumAndIsNotMissed) {
+  int refused = 0;
+  for (unsigned i = 0; i < 100; ++i) {
+    Impact impact = draw_impact(100 * GetParam() + i);
+    const double before = calc_energy(impact.model, impact.state).total();
+    const auto momentum = [&] {
+      Vector3 sum = Vector3::Zero();
+      for (std::size_t b = 0; b < 2; ++b) {
+        sum += impact.model.bodies[b].mass * impact.state.bodies[b].v_WB_W;
+      }
+      return sum;
+    };
+    const Vector3 p = momentum();
+    dynamics::SimulationStatistics statistics;
+    dynamics::RunRecord record;
+    try {
+      simulate(impact.model, impact.state,
+               {.end_time = impact.time, .step = impact.step}, {}, {},
+               statistics, {}, {}, record);
+    } catch (const NumericalError& error) {
+      ++refused;
+      EXPECT_FALSE(std::string(error.what()).empty());
+      continue;
+    }
+    const double after = calc_energy(impact.model, impact.state).total();
+    EXPECT_LT(after, 1.005 * before) << impact.words;
+    EXPECT_LT((momentum() - p).norm(), 1e-9 * p.norm()) << impact.words;
+    EXPECT_FALSE(record.contacts.empty()) << impact.words;
+  }
+  EXPECT_LE(refused, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of100, RandomImpact, ::testing::Range(0U, 10U));
+
+}  // namespace
+}  // namespace limber::contact
