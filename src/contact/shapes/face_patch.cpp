@@ -150,6 +150,8 @@ FacePlace FacePatch::find_nearest(const Vector3& p,
   // Newton's method converges quadratically: the step after one as small as
   // this is below round-off.
   constexpr double kSmallStep = 1e-8;
+  // Differences of distances after steps as small as this are round-off.
+  constexpr double kCloseStep = 1e-5;
   FacePlace at = start;
   Vector3 arm = find_point(at) - p;
   for (int i = 0; i < kMostSteps; ++i) {
@@ -167,19 +169,21 @@ FacePlace FacePatch::find_nearest(const Vector3& p,
       model.h_uv = f;
       model.h_vv = g;
     }
-    const FacePlace goal = minimise(model, at);
-    double du = goal.u - at.u;
-    double dv = goal.v - at.v;
-    FacePlace next = goal;
+    FacePlace next = minimise(model, at);
+    double du = next.u - at.u;
+    double dv = next.v - at.v;
+    const bool is_close = std::abs(du) + std::abs(dv) < kCloseStep;
     Vector3 next_arm = find_point(next) - p;
-    for (int k = 0;
-         k < kMostHalvings && next_arm.squaredNorm() > arm.squaredNorm(); ++k) {
+    const auto is_farther = [&arm, &next_arm] {
+      return next_arm.squaredNorm() > arm.squaredNorm();
+    };
+    for (int k = 0; k < kMostHalvings && !is_close && is_farther(); ++k) {
       du *= 0.5;
       dv *= 0.5;
       next = {at.u + du, at.v + dv};
       next_arm = find_point(next) - p;
     }
-    if (next_arm.squaredNorm() > arm.squaredNorm()) return at;
+    if (!is_close && is_farther()) return at;
     at = next;
     arm = next_arm;
     if (std::abs(du) + std::abs(dv) < kSmallStep) return at;

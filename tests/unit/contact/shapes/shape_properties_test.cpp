@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/shapes/shape_properties.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "limber/common/errors.hpp"
+#include "limber/contact/shapes/skin.hpp"
+#include "unit/contact/shapes/surfaces.hpp"
+
+namespace limber::contact {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+void expect_refused(const Shape& shape, const std::string& words) {
+  try {
+    check_shape(shape);
+    ADD_FAILURE() << "no error: " << words;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(words));
+  }
+}
+
+std::shared_ptr<const Skin> make_skin() {
+  auto surface = testing::make_ball_surface(0.8, 0, true);
+  testing::set_modes(surface, testing::make_fields());
+  surface.residual.setConstant(2e-9);
+  return std::make_shared<const Skin>(surface);
+}
+
+TEST(ShapeProperties, WrongSizesAndPosesAreRefused) {
+  expect_refused({Sphere{0.0}, {}}, "sphere's radius [m] is 0");
+  expect_refused({Sphere{kInf}, {}}, "sphere's radius");
+  expect_refused({Capsule{-1.0, 1.0}, {}}, "capsule's radius [m] is -1");
+  expect_refused({Capsule{1.0, 0.0}, {}}, "capsule's half length");
+  expect_refused({Cylinder{std::nan(""), 1.0}, {}}, "cylinder's radius");
+  expect_refused({Cylinder{1.0, -2.0}, {}}, "cylinder's half length");
+  expect_refused({Box{{1.0, 0.0, 1.0}}, {}}, "box's half size [m] is 0");
+  expect_refused({std::shared_ptr<const Skin>(), {}}, "skin is missing");
+  expect_refused({HalfSpace{}, {2.0 * Matrix3::Identity(), Vector3::Zero()}},
+                 "pose of its half space");
+  expect_refused({HalfSpace{}, {-Matrix3::Identity(), Vector3::Zero()}},
+                 "pose of its half space");
+  expect_refused({Sphere{1.0}, {Matrix3::Identity(), Vector3(0, 0, kInf)}},
+                 "pose of its sphere");
+  expect_refused({make_skin(), {Matrix3::Identity(), Vector3(0, 0, 1)}},
+                 "skin has a pose of its own");
+}
+
+TEST(ShapeProperties, RigidShapesHaveNoModesAndNoResidual) {
+  const Shape box{Box{{1, 1, 1}}, {}};
+  Matrix3X Phi = Matrix3X::Ones(3, 5);
+  set_shape_functions(box, {}, Phi);
+  EXPECT_TRUE(Phi.isZero(0.0));
+  EXPECT_EQ(count_modes(box), 0);
+  EXPECT_EQ(find_residual(box, {}), 0.0);
+}
+
+TEST(ShapeProperties, OfASkinAreThoseOfItsPlaces) {
+  const auto skin = make_skin();
+  const Shape shape{skin, {}};
+  const SurfacePlace place{.face = 4, .u = 0.2, .v = 0.7};
+  Matrix3X Phi(3, 4);
+  Matrix3X expected(3, 4);
+  set_shape_functions(shape, place, Phi);
+  skin->set_shape_functions(place, expected);
+  EXPECT_EQ(Phi, expected);
+  EXPECT_GT(Phi.norm(), 0.0);
+  EXPECT_EQ(count_modes(shape), 4);
+  EXPECT_DOUBLE_EQ(find_residual(shape, place), 2e-9);
+  Matrix3X wrong(3, 3);
+  EXPECT_THROW(set_shape_functions(shape, place, wrong), ContractError);
+}
+
+TEST(ShapeProperties, ExtentReachesItsFarthestPoint) {
+  const joints::PairBody body;
+  const auto away = [](const ShapeKind& kind) {
+    return Shape{kind, {Matrix3::Identity(), Vector3(0, 3, 4)}};
+  };
+  EXPECT_DOUBLE_EQ(find_extent(away(Sphere{2.0}), body), 7.0);
+  EXPECT_DOUBLE_EQ(find_extent(away(Capsule{2.0, 1.0}), body), 8.0);
+  EXPECT_DOUBLE_EQ(find_extent(away(Cylinder{3.0, 4.0}), body), 10.0);
+  EXPECT_DOUBLE_EQ(find_extent(away(Box{{2.0, 3.0, 6.0}}), body), 12.0);
+  EXPECT_EQ(find_extent(away(HalfSpace{}), body), kInf);
+}
+
+TEST(ShapeProperties, KindsHaveNames) {
+  EXPECT_EQ(name_kind({HalfSpace{}, {}}), "half space");
+  EXPECT_EQ(name_kind({make_skin(), {}}), "skin");
+}
+
+}  // namespace
+}  // namespace limber::contact

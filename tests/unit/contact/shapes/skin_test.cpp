@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/shapes/skin.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <tuple>
+
+#include "limber/common/errors.hpp"
+#include "unit/contact/shapes/surfaces.hpp"
+
+namespace limber::contact {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::view;
+
+flexbody::ContactSurface make_flexible_ball() {
+  auto surface = testing::make_ball_surface(0.8, 1, true);
+  testing::set_modes(surface, testing::make_fields());
+  return surface;
+}
+
+VectorX make_eta() {
+  VectorX eta(4);
+  eta << 0.1, -0.2, 0.05, 0.15;
+  return eta;
+}
+
+TEST(Skin, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
+  const auto surface = make_flexible_ball();
+  const Skin skin(surface);
+  const VectorX eta = make_eta();
+  constexpr std::array<FacePlace, 6> kNodes = {
+      {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
+  Matrix3X Phi(3, 4);
+  for (const int f : {0, 7, 79}) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      const int node = surface.faces[index(f)][i];
+      const SurfacePlace place{.face = f, .u = kNodes[i].u, .v = kNodes[i].v};
+      skin.set_shape_functions(place, Phi);
+      EXPECT_LT((Phi - surface.Phi_B.middleRows(3 * node, 3)).norm(), 1e-14);
+      EXPECT_LT((skin.find_position(place, view(eta)) - surface.x_B.col(node) -
+                 Phi * eta)
+                    .norm(),
+                1e-14);
+    }
+  }
+}
+
+TEST(Skin, ResidualIsLinearBetweenCorners) {
+  auto surface = testing::make_ball_surface(1.0, 0, true);
+  surface.residual.setConstant(100.0);  // of middle nodes, which do not count
+  const auto corners = surface.faces[3];
+  surface.residual[corners[0]] = 1.0;
+  surface.residual[corners[1]] = 2.0;
+  surface.residual[corners[2]] = 5.0;
+  const Skin skin(surface);
+  EXPECT_DOUBLE_EQ(skin.find_residual({.face = 3, .u = 0.5, .v = 0.25}),
+                   0.25 * 1.0 + 0.5 * 2.0 + 0.25 * 5.0);
+}
+
+TEST(Skin, ExtentHoldsEveryPointHoweverItDeforms) {
+  const Skin skin(make_flexible_ball());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> draw(-0.5, 0.5);
+  for (int trial = 0; trial < 20; ++trial) {
+    VectorX eta(4);
+    for (double& value : eta) value = draw(random);
+    double largest = 0.0;
+    for (int f = 0; f < 80; ++f) {
+      for (const double u : {0.0, 0.3, 0.6}) {
+        for (const double v : {0.0, 0.2, 0.4}) {
+          const Vector3 x =
+              skin.find_position({.face = f, .u = u, .v = v}, view(eta));
+          largest = std::max(largest, x.norm());
+        }
+      }
+    }
+    EXPECT_LE(largest, skin.find_extent(view(eta)));
+    EXPECT_LT(skin.find_extent(view(eta)), 4.0 * largest);
+  }
+}
+
+TEST(Skin, NodesBelowAPlaneAreThoseOfAllThatAre) {
+  const auto surface = make_flexible_ball();
+  const Skin skin(surface);
+  const VectorX eta = make_eta();
+  const MatrixX x =
+      surface.x_B + (surface.Phi_B * eta).reshaped(3, surface.x_B.cols());
+  const Skin::Plane plane{Vector3(1, 2, -2) / 3.0, -0.5};
+  constexpr double kReach = 0.1;
+  std::vector<int> counts(skin.node_count(), 0);
+  skin.visit_nodes_below(
+      plane, view(eta), kReach, [&](const Skin::NodeHit& hit) {
+        ++counts[hit.node];
+        const auto column = static_cast<Eigen::Index>(hit.node);
+        EXPECT_LT((hit.x - x.col(column)).norm(), 1e-14);
+        EXPECT_EQ(hit.place.x_B, surface.x_B.col(column));
+        EXPECT_LT((skin.find_position(hit.place, view(eta)) - hit.x).norm(),
+                  1e-14);
+        EXPECT_NEAR(hit.height, plane.normal.dot(hit.x) + 0.5, 1e-14);
+        EXPECT_GT(hit.curvature, 0.0);
+      });
+  const VectorX heights = (plane.normal.transpose() * x).array() + 0.5;
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    const bool is_below = heights[static_cast<Eigen::Index>(n)] <= kReach;
+    EXPECT_EQ(counts[n], is_below ? 1 : 0) << n;
+  }
+  EXPECT_NEAR(skin.find_lowest_height(plane, view(eta)), heights.minCoeff(),
+              1e-14);
+}
+
+void expect_refused(const flexbody::ContactSurface& surface,
+                    const std::string& words) {
+  try {
+    const Skin skin(surface);
+    ADD_FAILURE() << "no error: " << words;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("surface 'skin'"));
+    EXPECT_THAT(error.what(), HasSubstr(words));
+  }
+}
+
+TEST(Skin, WrongSurfacesAreRefusedByName) {
+  const auto good = make_flexible_ball();
+  auto bad = good;
+  bad.faces.clear();
+  expect_refused(bad, "no faces");
+  bad = good;
+  bad.residual.conservativeResize(3);
+  expect_refused(bad, "3 residual");
+  bad = good;
+  bad.Phi_B.conservativeResize(6, 4);
+  expect_refused(bad, "6 rows of modes");
+  bad = good;
+  bad.residual[2] = -1e-9;
+  expect_refused(bad, "-1e-09 m/N");
+  bad = good;
+  bad.Phi_B(5, 1) = std::nan("");
+  expect_refused(bad, "not finite");
+  bad = good;
+  bad.faces[3][1] = 1000;
+  expect_refused(bad, "node 1000 in face 3");
+  bad = good;
+  bad.faces[3][4] = -1;
+  expect_refused(bad, "node -1 in face 3");
+  bad = good;
+  bad.x_B.col(bad.faces[0][1]) = bad.x_B.col(bad.faces[0][0]);
+  expect_refused(bad, "without area");
+  bad = good;
+  bad.x_B.conservativeResize(3, bad.x_B.cols() + 1);
+  bad.x_B.rightCols(1).setZero();
+  bad.residual.setZero(bad.x_B.cols());
+  bad.Phi_B.setZero(3 * bad.x_B.cols(), 4);
+  expect_refused(bad, "in no face");
+}
+
+TEST(Skin, ModesOfTheBodyAreThoseOfTheSkin) {
+  const Skin flexible(make_flexible_ball());
+  const Skin rigid(testing::make_ball_surface(1.0, 0, false));
+  const VectorX eta = make_eta();
+  const joints::PairBody body{.modes = 4, .eta = eta.data()};
+  EXPECT_EQ(find_modal_coordinates(flexible, body), eta);
+  EXPECT_EQ(find_modal_coordinates(rigid, body).size(), 0);
+  EXPECT_THROW(std::ignore = find_modal_coordinates(flexible, {}),
+               ContractError);
+}
+
+}  // namespace
+}  // namespace limber::contact
