@@ -114,6 +114,31 @@ TEST(SkinNearest, ExactlyOverCornersAndEdgesOfABoxIsOutside) {
   }
 }
 
+// A box sheared to sharp edges and corners, where a point outside is behind
+// some of the faces that it is nearest to. What is inside the box follows from
+// undoing the shear.
+TEST(SkinNearest, SignOverSharpEdgesAndCornersIsThatOfAllTheirFaces) {
+  const Vector3 half(0.3, 0.3, 0.3);
+  auto surface = testing::make_box_surface(half, 2, true);
+  testing::set_modes(surface,
+                     {[](const Vector3& x) { return Vector3(x.z(), 0, 0); },
+                      [](const Vector3& x) { return Vector3(0, x.z(), 0); }});
+  const Skin skin(surface);
+  std::mt19937 random(8);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const VectorX eta = Eigen::Vector2d(3.0, i % 2 == 0 ? 2.0 : -1.0);
+    const Vector3 p = testing::draw_point(random, 1.5);
+    const Vector3 x = p - p.z() * Vector3(eta[0], eta[1], 0.0);
+    const bool is_inside = (x.cwiseAbs().array() < half.array()).all();
+    const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->nearest.distance < 0.0, is_inside) << p.transpose();
+    inside += is_inside ? 1 : 0;
+  }
+  EXPECT_GT(inside, 10);
+}
+
 // The distance from any surface changes by at most the way of the point.
 TEST(SkinNearest, DistanceAndNormalHaveNoJumpAlongPathsOverBordersOfFaces) {
   constexpr double kStep = 1e-3;
