@@ -136,7 +136,7 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
   return sides;
 }
 
-// At level `rigid` the modes are left out; what they leave out stays.
+// At level `rigid` there are no modes, nor what they leave out.
 std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     const BodyPlan& plan, const std::string& surface) {
   const bool is_rigid =
@@ -144,7 +144,10 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
   auto& skin = skins_[{plan.reduced.get(), surface, is_rigid}];
   if (skin) return skin;
   flexbody::ContactSurface copy = find_surface(*plan.reduced, surface);
-  if (is_rigid) copy.Phi_B.resize(copy.Phi_B.rows(), 0);
+  if (is_rigid) {
+    copy.Phi_B.resize(copy.Phi_B.rows(), 0);
+    copy.residual.setZero();
+  }
   skin = std::make_shared<const contact::Skin>(std::move(copy));
   return skin;
 }

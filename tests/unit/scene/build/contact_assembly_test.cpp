@@ -316,6 +316,24 @@ TEST_F(TouchingBody, LosesTheModesOfItsSkinAtLevelRigid) {
   EXPECT_NO_THROW(built.model.pairs[0].law->check(0, 0));
 }
 
+// R is what modes leave out, so it goes with them.
+TEST_F(TouchingBody, HasNoResidualFlexibilityAtLevelRigid) {
+  const auto describe_pairs = [&](const std::string& level) {
+    const BuiltScene built =
+        build(Vector3(0.0, 0.0, 2.0), "",
+              "[fidelity]\nlinks = { body = '" + level + "' }\n");
+    Manifest manifest;
+    describe(manifest, "", built.model.pairs);
+    return manifest.text();
+  };
+  const std::string coupled = describe_pairs("coupled");
+  const std::string rigid = describe_pairs("rigid");
+  for (auto& surface : body_.contact_surfaces) surface.residual *= 2.0;
+  flexbody::write_body(body_, folder_.path() / "body.h5");
+  EXPECT_NE(describe_pairs("coupled"), coupled);
+  EXPECT_EQ(describe_pairs("rigid"), rigid);
+}
+
 TEST_F(TouchingBody, IsRefusedAtLevelFull) {
   EXPECT_THAT(error_of(Vector3(0.0, 0.0, 2.0), "",
                        "[fidelity]\nlinks = { body = 'full' }\n"),
