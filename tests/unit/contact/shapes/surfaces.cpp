@@ -98,7 +98,7 @@ flexbody::ContactSurface make_box_surface(const Vector3& half_size, int cells,
           x[axis] = side;
           x[(axis + 1) % 3] = side * (2.0 * i / cells - 1.0);  // outward
           x[(axis + 2) % 3] = 2.0 * j / cells - 1.0;
-          nodes.push_back(x.cwiseProduct(half_size));
+          nodes.emplace_back(x.cwiseProduct(half_size));
         }
       }
     }
