@@ -40,12 +40,10 @@ VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
   residual.head(corners) = calc_residual_flexibility(
       body, basis, patches, fmt::format("contact surface '{}'", group.name),
       progress);
-  for (Eigen::Index p = 0; p < corners; ++p)
-    residual[p] =
-        std::max(residual[p] - calc_hertz_share(
-                                   group.material,
-                                   patches[static_cast<std::size_t>(p)].radius),
-                 0.0);
+  for (Eigen::Index p = 0; p < corners; ++p) {
+    residual[p] -= calc_hertz_share(
+        group.material, patches[static_cast<std::size_t>(p)].radius);
+  }
   for (Eigen::Index p = corners; p < residual.size(); ++p) {
     const std::array<int, 2>& ends =
         surface.points[static_cast<std::size_t>(p)].ends;

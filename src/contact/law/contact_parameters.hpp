@@ -10,13 +10,13 @@ namespace limber::contact {
 
 /// What a user chooses of a contact.
 struct ContactParameters {
-  FrictionLimit friction = {};      ///< none
-  double restitution = 1.0;         ///< of a free impact, in [0, 1] [-]
-  std::optional<double> radius;     ///< R_e > 0 in place of the shapes' [m]
-  std::optional<double> stiffness;  ///< Hertz's k > 0 in place of that of the
-                                    ///< materials and R_e [N/m^1.5]
-  std::optional<double> damping;    ///< b >= 0 in place of that of the
-                                    ///< restitution [s/m]
+  FrictionLimit friction = {};        ///< none
+  double restitution = 1.0;           ///< of a free impact, in [0, 1] [-]
+  std::optional<double> radius = {};  ///< R_e > 0 in place of the shapes' [m]
+  std::optional<double> stiffness = {};  ///< Hertz's k > 0 in place of that of
+                                         ///< the materials and R_e [N/m^1.5]
+  std::optional<double> damping = {};  ///< b >= 0 in place of that of the
+                                       ///< restitution [s/m]
 };
 
 constexpr auto fields_of(const ContactParameters*) {

@@ -19,6 +19,8 @@ constexpr double power(double x) {
   return product;
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 // x > 0 of (x/flat)^n + (x/line)^(n+1) = 1, for flat, line > 0, one of which
 // may be infinite. With u = x / min(flat, line) one coefficient is 1 and the
 // other at most 1: nothing overflows, u is between 2^(-1/n) and 1, and from 1
@@ -39,12 +41,30 @@ double solve_series(double flat, double line) {
   return scale * u;
 }
 
+// x in (0, limit] of (x/flat)^n - (x/line)^(n+1) = 1. Up to the limit the left
+// side increases and is convex: from x = flat, where it is less, Newton's
+// method goes beyond x once, and from there decreases to it.
+template <int n>
+double solve_difference(double flat, double line, double limit) {
+  double x = std::min(flat, limit);
+  for (int i = 0; i < 50; ++i) {
+    const double low = power<n - 1>(x / flat) / flat;
+    const double high = power<n>(x / line) / line;
+    const double excess = x * (low - high) - 1.0;
+    const double next =
+        std::min(x - excess / (n * low - (n + 1) * high), limit);
+    const double step = std::abs(next - x);
+    x = next;
+    if (!(step > 1e-9 * x)) break;  // as above
+  }
+  return x;
+}
+
 }  // namespace
 
 HertzLaw::HertzLaw(const Parameters& parameters) : parameters_(parameters) {
   const Parameters& p = parameters;
-  check_value(p.residual >= 0.0, "residual flexibility [m/N]", p.residual,
-              ">= 0");
+  check_value(true, "residual flexibility [m/N]", p.residual, "a number");
   if (p.stiffness == kRigid) {
     check_value(p.residual > 0.0, "residual flexibility [m/N]", p.residual,
                 "> 0 between surfaces that do not flatten");
@@ -54,11 +74,16 @@ HertzLaw::HertzLaw(const Parameters& parameters) : parameters_(parameters) {
   cbrt_stiffness_ = std::cbrt(p.stiffness);
   cbrt_residual_ = std::cbrt(p.residual);
   compliance_ = 1.0 / (cbrt_stiffness_ * cbrt_stiffness_);
+  root_limit_ = depth_limit_ = kInfinity;
+  if (p.residual >= 0.0) return;
+  root_limit_ = -compliance_ / (3.0 * p.residual);
+  depth_limit_ = 2.0 / 3.0 * compliance_ * root_limit_ * root_limit_;
 }
 
 HertzLaw::Response HertzLaw::evaluate(double depth) const {
   if (std::isnan(depth)) return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
   if (!(depth > 0.0)) return {};
+  if (depth > depth_limit_) return extend(depth - depth_limit_);
   return evaluate_root(find_root(depth));
 }
 
@@ -68,6 +93,7 @@ HertzLaw::StepResponse HertzLaw::evaluate_over_step(double depth0,
   const double d1 = depth1;
   if (std::isnan(d0) || std::isnan(d1)) return {kNaN, kNaN};
   if (!(d0 > 0.0) && !(d1 > 0.0)) return {};
+  if (std::max(d0, d1) > depth_limit_) return evaluate_beyond(d0, d1);
   if (!(d1 > 0.0)) {  // it leaves
     const double force = evaluate(d0).energy() / (d0 - d1);
     return {force, force / (d0 - d1)};
@@ -104,15 +130,61 @@ HertzLaw::StepResponse HertzLaw::evaluate_over_step(double depth0,
 HertzLaw::Response HertzLaw::find_state_of_energy(double energy) const {
   LIMBER_EXPECT(energy >= 0.0);
   if (energy == 0.0) return {};
+  const double R = parameters_.residual;
   const double flat = std::pow(energy / (0.4 * compliance_), 0.2);
-  const double line = std::pow(energy / (0.5 * parameters_.residual), 1.0 / 6);
-  return evaluate_root(solve_series<5>(flat, line));
+  const double line = std::pow(energy / (0.5 * std::abs(R)), 1.0 / 6);
+  if (R >= 0.0) return evaluate_root(solve_series<5>(flat, line));
+  const Response limit = evaluate_root(root_limit_);
+  const double more = energy - limit.energy();
+  if (more <= 0.0) {
+    return evaluate_root(solve_difference<5>(flat, line, root_limit_));
+  }
+  // more = f x - x^2 / (2 R)
+  const double f = limit.force;
+  return extend(2.0 * more / (f + std::sqrt(f * f - 2.0 * more / R)));
 }
 
 double HertzLaw::find_root(double depth) const {
   const double flat = std::sqrt(depth) * cbrt_stiffness_;
-  const double line = std::cbrt(depth) / cbrt_residual_;
-  return solve_series<2>(flat, line);
+  const double line = std::cbrt(depth) / std::abs(cbrt_residual_);
+  return parameters_.residual < 0.0
+             ? solve_difference<2>(flat, line, root_limit_)
+             : solve_series<2>(flat, line);
+}
+
+HertzLaw::Response HertzLaw::extend(double beyond) const {
+  const Response limit = evaluate_root(root_limit_);
+  const double stiffness = -1.0 / parameters_.residual;
+  const double energy =
+      limit.energy() + beyond * (limit.force + 0.5 * stiffness * beyond);
+  Response response;
+  response.force = limit.force + stiffness * beyond;
+  response.stiffness = stiffness;
+  const double s = std::cbrt(response.force);
+  response.hertz_depth = compliance_ * s * s;
+  response.residual_depth = depth_limit_ + beyond - response.hertz_depth;
+  response.hertz_energy = 0.4 * response.force * response.hertz_depth;
+  response.residual_energy = energy - response.hertz_energy;
+  return response;
+}
+
+// The mean over both parts of the way.
+HertzLaw::StepResponse HertzLaw::evaluate_beyond(double d0, double d1) const {
+  const double stiffness = -1.0 / parameters_.residual;
+  const double limit = depth_limit_;
+  const double force = evaluate_root(root_limit_).force;
+  const auto mean = [&](double from, double to) {
+    return force + 0.5 * stiffness * (from + to - 2.0 * limit);
+  };
+  const double way = d1 - d0;
+  if (d0 > limit && d1 > limit) return {mean(d0, d1), 0.5 * stiffness};
+  const double inner = d0 > limit
+                           ? evaluate_over_step(limit, d1).force * (d1 - limit)
+                           : evaluate_over_step(d0, limit).force * (limit - d0);
+  const double outer = d0 > limit ? mean(d0, limit) * (limit - d0)
+                                  : mean(limit, d1) * (d1 - limit);
+  const double whole = (inner + outer) / way;
+  return {whole, (evaluate(d1).force - whole) / way};
 }
 
 HertzLaw::Response HertzLaw::evaluate_root(double s) const {

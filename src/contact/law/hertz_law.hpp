@@ -10,7 +10,9 @@ namespace limber::contact {
 ///
 /// Equation   d = (f/k)^(2/3) + R f, with s = cbrt(f): d = c s^2 + R s^3,
 ///            c = k^(-2/3); V = 2/5 c s^5 + R f^2 / 2 with dV/dd = f;
-///            dV/dR = -f^2 / 2 at constant d
+///            dV/dR = -f^2 / 2 at constant d. R is negative where the modes
+///            have part of the flattening already; then this holds up to
+///            s = c / (3 |R|), where df/dd = 1 / |R|, and beyond it df/dd stays
 /// Source     Hertz: [@johnson1985, ch. 4]
 /// Limits     the area that touches stays small against the radii, and the
 ///            contact lasts long against the time that waves take through
@@ -21,16 +23,16 @@ class HertzLaw {
   static constexpr double kRigid = std::numeric_limits<double>::infinity();
   struct Parameters {
     double stiffness = 0.0;  ///< k > 0, or kRigid [N/m^1.5]
-    double residual = 0.0;   ///< R >= 0; > 0 if k is kRigid [m/N]
+    double residual = 0.0;   ///< R, of any sign; > 0 if k is kRigid [m/N]
   };
 
   struct Response {
     double force = 0.0;            ///< f >= 0 [N]
     double stiffness = 0.0;        ///< df/dd [N/m]
     double hertz_depth = 0.0;      ///< (f/k)^(2/3) [m]
-    double residual_depth = 0.0;   ///< R f [m]
+    double residual_depth = 0.0;   ///< the rest of d, R f [m]
     double hertz_energy = 0.0;     ///< 2/5 f (f/k)^(2/3) [J]
-    double residual_energy = 0.0;  ///< R f^2 / 2 [J]
+    double residual_energy = 0.0;  ///< the rest of V, R f^2 / 2 [J]
 
     [[nodiscard]] double energy() const {
       return hertz_energy + residual_energy;
@@ -64,14 +66,19 @@ class HertzLaw {
   [[nodiscard]] Response find_state_of_energy(double energy) const;
 
  private:
-  /// cbrt(f) at a depth > 0.
+  /// cbrt(f) at a depth > 0, up to depth_limit_.
   [[nodiscard]] double find_root(double depth) const;
   [[nodiscard]] Response evaluate_root(double s) const;
+  /// Beyond depth_limit_, by so much [m].
+  [[nodiscard]] Response extend(double beyond) const;
+  [[nodiscard]] StepResponse evaluate_beyond(double d0, double d1) const;
 
   Parameters parameters_;
   double cbrt_stiffness_ = 0.0;  // cbrt(k)
   double cbrt_residual_ = 0.0;   // cbrt(R)
   double compliance_ = 0.0;      // c
+  double root_limit_ = 0.0;      // cbrt(f) up to which the cubic holds
+  double depth_limit_ = 0.0;     // the depth there [m]
 };
 
 }  // namespace limber::contact

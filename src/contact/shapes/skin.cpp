@@ -50,10 +50,6 @@ void Skin::check() const {
   if (!s.x_B.allFinite() || !s.Phi_B.allFinite() || !s.residual.allFinite()) {
     refuse("has a position, mode or residual flexibility that is not finite");
   }
-  if (n > 0 && s.residual.minCoeff() < 0.0) {
-    refuse(fmt::format("has a residual flexibility of {:g} m/N; expected >= 0",
-                       s.residual.minCoeff()));
-  }
   for (std::size_t f = 0; f < s.faces.size(); ++f) {
     const Face& nodes = s.faces[f];
     const bool is_straight = nodes[3] < 0;

@@ -29,9 +29,9 @@ struct ContactSurface {
   Matrix3X x_B;   ///< 3 x n undeformed, relative to the c.m. [m]
   MatrixX Phi_B;  ///< 3n x m: w^T Phi, mean of the modes over the patch around
                   ///< each node [kg^-1/2]
-  /// n: R_p of a unit normal force on the patch without Hertz's own share, >= 0
-  /// [m/N]. Zero also where the mesh is too coarse for Hertz's share.
-  /// Interpolate it linearly between the corners of a face.
+  /// n: R_p of a unit normal force on the patch without Hertz's own share
+  /// [m/N]. Negative where the modes, or a compact body, leave out less than
+  /// that. Interpolate it linearly between the corners of a face.
   VectorX residual;
   VectorX patch_radius;  ///< n: b [m]
   /// Outward (right-hand) indices of nodes: the corners 0, 1, 2, then the

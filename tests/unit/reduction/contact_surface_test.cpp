@@ -77,7 +77,6 @@ TEST(ContactSurface, HasThePlacesAndTagsOfTheMeshsNodes) {
 TEST(ContactSurface, BetweenCornersHasTheirMeanResidual) {
   EXPECT_GT(free_bar().contact_surfaces[1].residual.maxCoeff(), 0.0);
   for (const ContactSurface& surface : free_bar().contact_surfaces) {
-    EXPECT_TRUE((surface.residual.array() >= 0.0).all());
     EXPECT_GT(surface.patch_radius.minCoeff(), 0.0);
     for (const auto& face : surface.faces) {
       for (std::size_t k = 0; k < 3; ++k) {

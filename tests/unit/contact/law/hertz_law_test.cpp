@@ -260,11 +260,14 @@ TEST(HertzLaw, BadValuesAreRefused) {
   for (const double bad : {0.0, -1.0, kNaN, -kInf}) {
     expect_refused({.stiffness = bad}, "its stiffness [N/m^1.5] is");
   }
-  for (const double bad : {-1e-30, kNaN, kInf}) {
+  for (const double bad : {kNaN, kInf, -kInf}) {
     expect_refused({.stiffness = 1.0, .residual = bad},
                    "its residual flexibility [m/N] is");
   }
-  expect_refused({.stiffness = HertzLaw::kRigid}, "that do not flatten");
+  for (const double bad : {0.0, -1e-9}) {
+    expect_refused({.stiffness = HertzLaw::kRigid, .residual = bad},
+                   "that do not flatten");
+  }
 }
 
 }  // namespace
