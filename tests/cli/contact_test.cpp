@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Impacts as scenarios ask for them and as the command reports them.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace limber::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The ball of examples/ball_on_link.toml, R = 10 mm at 1 m/s, on the bar.
+void write_ball(const Workspace& place, const std::string& more,
+                const std::string& contact = "") {
+  place.write("ball.toml",
+              "robot = '" LIMBER_SOURCE_DIR
+              "/models/struck_bar.urdf'\n[output]\npictures = false\n"
+              "[[projectile]]\nname = 'ball'\nradius = 0.01\ndensity = 7850\n"
+              "position = [0.0, 0.0, 0.01501]\nvelocity = [0.0, 0.0, -1.0]\n"
+              "[[contact]]\nbetween = ['bar', 'ball']\n" +
+                  contact + more);
+}
+
+json run(const Workspace& place) {
+  const CommandResult result = place.limber("run ball.toml --out o --json");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(result.out, nullptr, false);
+}
+
+constexpr const char* kFine =
+    "[time]\nduration = 2e-4\nstep = 2e-7\noutput_interval = 1e-5\n";
+
+// Finite elements of the whole bar, graded to 0.16 mm under the ball, with
+// contact at nodes: 1692.6 N, 49.20 us, 0.04368 N s.
+TEST(BallOnLink, IsStruckAsWholeFiniteElementsSay) {
+  const Workspace place;
+  write_ball(place, std::string(kFine) + "[basis]\neigenmodes = 40\n");
+  const json contacts = run(place)["contacts"];
+  ASSERT_EQ(contacts.size(), 1U);
+  const json& impact = contacts[0];
+  EXPECT_EQ(impact["between"], (json{"bar", "ball"}));
+  EXPECT_EQ(impact["touches"], 1);
+  EXPECT_NEAR(impact["peak_force"].get<double>() / 1692.6, 1.0, 0.01);
+  EXPECT_NEAR(impact["duration"].get<double>() / 49.20e-6, 1.0, 0.02);
+  EXPECT_NEAR(impact["impulse"].get<double>() / 0.04368, 1.0, 0.01);
+  // What the impulse does to two free bodies that do not rotate.
+  const double mass = 7850.0 * 4.0 / 3.0 * std::numbers::pi * 1e-6;
+  const double reduced = 1.0 / (1.0 / mass + 1.0 / (7850.0 * 4e-5));
+  EXPECT_NEAR(impact["restitution"].get<double>(),
+              impact["impulse"].get<double>() / reduced - 1.0, 2e-3);
+}
+
+// Without modes: Hertz's closed form.
+TEST(BallOnLink, OfARigidLinkIsHertzs) {
+  const Workspace place;
+  write_ball(place, std::string(kFine) + "[fidelity]\ndefault = 'rigid'\n");
+  const json impact = run(place)["contacts"][0];
+  const double mass = 7850.0 * 4.0 / 3.0 * std::numbers::pi * 1e-6;
+  const double reduced = 1.0 / (1.0 / mass + 1.0 / (7850.0 * 4e-5));
+  const double k = 4.0 / 3.0 * 210e9 / 0.91 * 0.1;
+  const double depth = std::pow(1.25 * reduced / k, 0.4);
+  EXPECT_NEAR(impact["peak_force"].get<double>() / (k * std::pow(depth, 1.5)),
+              1.0, 5e-3);
+  EXPECT_NEAR(impact["duration"].get<double>() / (2.9433 * depth), 1.0, 5e-3);
+  EXPECT_NEAR(impact["restitution"].get<double>(), 1.0, 2e-3);
+}
+
+TEST(BallOnLink, TellsThatStepsAreTooLongForTheImpact) {
+  const Workspace place;
+  write_ball(place, "[time]\nduration = 2e-3\nstep = 1e-4\n");
+  const CommandResult result = place.limber("run ball.toml --out o --json");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("not resolved"));
+  EXPECT_THAT(result.errors, HasSubstr("bar/ball"));
+}
+
+TEST(BallOnLink, TellsWhatItTakesForFrictionAndRestitution) {
+  const Workspace place;
+  write_ball(place, kFine);
+  const CommandResult result = place.limber("run ball.toml --out o --json");
+  EXPECT_THAT(result.errors, HasSubstr("restitution"));
+  EXPECT_THAT(result.errors, HasSubstr("friction"));
+}
+
+TEST(BallOnLink, RefusesWrongValuesInOneErrorWithStatus2) {
+  for (const auto& [value, words] :
+       std::vector<std::pair<std::string, std::string>>{
+           {"friction = -0.1\n", "friction"},
+           {"restitution = 1.5\n", "restitution"},
+           {"radius = 0.0\n", "radius"},
+           {"stifness = 1e9\n", "stifness"}}) {
+    const Workspace place;
+    write_ball(place, kFine, value);
+    const CommandResult result = place.limber("run ball.toml --out o");
+    EXPECT_EQ(result.status, 2) << value;
+    EXPECT_THAT(result.errors, HasSubstr(words)) << value;
+  }
+}
+
+}  // namespace
+}  // namespace limber::test
