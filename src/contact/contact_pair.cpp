@@ -315,6 +315,7 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
     ++reading.points;
     reading.normal_force += response.normal_force;
     reading.force_W += response.force_W;
+    reading.friction_W += response.friction_W;
     reading.energy += response.energy;
     reading.area += response.area;
     reading.depth = std::max(reading.depth, meeting.depth);

@@ -29,6 +29,8 @@ struct TouchReading {
   double energy = 0.0;                 ///< stored [J]
   int points = 0;                      ///< that touch, count
   bool slips = false;                  ///< whether one does
+  /// The part of force_W that is friction [N].
+  Vector3 friction_W = Vector3::Zero();
 };
 
 /// What a pair interaction offers if its bodies touch and part: the times at
