@@ -152,12 +152,29 @@ std::vector<Probe> Assembly::make_probes(
                                    [&] { return make_point_probe(*point); })});
       continue;
     }
+    if (const auto* contact = std::get_if<ContactProbeSpec>(&spec.of)) {
+      probes.push_back({spec.name, with_context(who, [&] {
+                          return make_contact_probe(*contact, model);
+                        })});
+      continue;
+    }
     const auto& coupler = std::get<CouplerProbeSpec>(spec.of);
     probes.push_back({spec.name, with_context(who, [&] {
                         return make_coupler_probe(coupler, model);
                       })});
   }
   return probes;
+}
+
+ContactProbe Assembly::make_contact_probe(
+    const ContactProbeSpec& spec, const dynamics::SystemModel& model) const {
+  const ProbedContact found =
+      check_contact_probe(spec, scene_.touching, scene_.robot, scene_.scenario);
+  std::vector<dynamics::PairIndex> pairs;
+  for (const PlacedPair& placed : touching_) {
+    if (placed.touching == found.touching) pairs.push_back(placed.pair);
+  }
+  return scene::make_contact_probe(spec, found.is_turned, pairs, model);
 }
 
 PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {

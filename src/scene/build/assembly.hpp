@@ -45,6 +45,8 @@ class Assembly {
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;
+  ContactProbe make_contact_probe(const ContactProbeSpec& spec,
+                                  const dynamics::SystemModel& model) const;
   void deform(const dynamics::SystemModel& model,
               const dynamics::BodyModel& body, VectorX& u_B, VectorX& udot_B,
               dynamics::SystemState& state) const;

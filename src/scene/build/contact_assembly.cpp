@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
@@ -63,12 +64,13 @@ void check_levels(const Scene& scene) {
 
 std::vector<PlacedPair> ContactAssembly::add_all() {
   std::vector<PlacedPair> placed;
-  for (const TouchingPair& pair : scene_.touching) {
+  for (std::size_t i = 0; i < scene_.touching.size(); ++i) {
+    const TouchingPair& pair = scene_.touching[i];
     with_context(describe(scene_, pair), [&] {
       const Sides& all_A = get_sides(pair.A);
       const Sides& all_B = get_sides(pair.B);
       for (const Side& A : all_A) {
-        for (const Side& B : all_B) add_pair(pair, A, B, placed);
+        for (const Side& B : all_B) add_pair(i, A, B, placed);
       }
     });
   }
@@ -152,17 +154,18 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
   return skin;
 }
 
-void ContactAssembly::add_pair(const TouchingPair& pair, const Side& A,
+void ContactAssembly::add_pair(std::size_t touching, const Side& A,
                                const Side& B, std::vector<PlacedPair>& placed) {
   const ContactOptions& options =
-      scene_.scenario.contacts[pair.contact].options;
+      scene_.scenario.contacts[scene_.touching[touching].contact].options;
   const std::string name = A.name + "/" + B.name;
-  placed.push_back({name, A.body, B.body,
-                    contact::ShapePair(A.side.shape, B.side.shape),
-                    options.radius});
-  builder_.add_pair(name, A.body, B.body,
-                    std::make_shared<const contact::ContactPair>(
-                        A.side, B.side, make_parameters(options)));
+  contact::ShapePair shapes(A.side.shape, B.side.shape);
+  const dynamics::PairIndex pair =
+      builder_.add_pair(name, A.body, B.body,
+                        std::make_shared<const contact::ContactPair>(
+                            A.side, B.side, make_parameters(options)));
+  placed.push_back({name, A.body, B.body, std::move(shapes), options.radius,
+                    touching, pair});
 }
 
 }  // namespace limber::scene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -45,7 +46,7 @@ class ContactAssembly {
   [[nodiscard]] Sides make_flexible(int link);
   std::shared_ptr<const contact::Skin> get_skin(const BodyPlan& plan,
                                                 const std::string& surface);
-  void add_pair(const TouchingPair& pair, const Side& A, const Side& B,
+  void add_pair(std::size_t touching, const Side& A, const Side& B,
                 std::vector<PlacedPair>& placed);
 
   const Scene& scene_;

@@ -21,6 +21,18 @@ constexpr auto fields_of(const CouplerProbe*) {
                      "coordinates");
 }
 
+constexpr auto fields_of(const ContactProbeSpec*) {
+  return list_fields("what", "bodies", "quantity");
+}
+
+constexpr auto fields_of(const ContactProbe::Part*) {
+  return list_fields("part", "pair index", nullptr);
+}
+
+constexpr auto fields_of(const ContactProbe*) {
+  return list_fields("contact", "what", "turned", "parts");
+}
+
 constexpr auto fields_of(const Probe*) {
   return list_fields("probe", "name", "of");
 }

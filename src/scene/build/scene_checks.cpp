@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <set>
 
 #include "limber/common/names.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
+#include "limber/scene/probes/contact_probe.hpp"
 #include "limber/scene/probes/coupler_probe.hpp"
 #include "limber/scene/text/problems.hpp"
 
@@ -41,6 +43,7 @@ class Checker {
         check_flexible(who, load.where.link);
       }
     }
+    find_touching();
     for (const ProbeSpec& probe : scenario_.probes) {
       const std::string who = "probe '" + probe.name + "'";
       std::visit([&](const auto& of) { check_probe(who, of); }, probe.of);
@@ -50,15 +53,18 @@ class Checker {
       find_named("[[release]]", "latch", latch, robot_.latches);
     }
     check_added_names();
-    try {
-      (void)find_touching_pairs(scenario_, robot_);
-    } catch (const InputError& error) {
-      problems_.add(error, 0);
-    }
     problems_.raise();
   }
 
  private:
+  void find_touching() {
+    try {
+      touching_ = find_touching_pairs(scenario_, robot_).pairs;
+    } catch (const InputError& error) {
+      problems_.add(error, 0);
+    }
+  }
+
   void check_added_names() {
     std::set<std::string> taken = {"world"};
     for (std::size_t i = 0; i < robot_.tree_size(); ++i) {
@@ -119,6 +125,15 @@ class Checker {
   void check_probe(const std::string& who, const CouplerProbeSpec& probe) {
     try {
       check_coupler_probe(probe, find_coupler_traits(robot_));
+    } catch (const InputError& error) {
+      problems_.add(0, who + ": " + error.problems().front());
+    }
+  }
+
+  void check_probe(const std::string& who, const ContactProbeSpec& probe) {
+    if (!touching_) return;  // a problem of the contacts
+    try {
+      (void)check_contact_probe(probe, *touching_, robot_, scenario_);
     } catch (const InputError& error) {
       problems_.add(0, who + ": " + error.problems().front());
     }
@@ -190,6 +205,7 @@ class Checker {
   Problems problems_;
   std::vector<std::string> names_;
   std::vector<std::string> flexible_;
+  std::optional<std::vector<TouchingPair>> touching_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct PlacedPair {
   dynamics::BodyIndex body_B = dynamics::kWorld;
   contact::ShapePair shapes;
   std::optional<double> radius;  ///< R_e in place of that of the shapes [m]
+  std::size_t touching = 0;      ///< index of the bodies into Scene::touching
+  dynamics::PairIndex pair;
 };
 
 /// Refuses bodies that overlap at the start by more than 3 % of R_e, or 0.1 mm

@@ -2,31 +2,51 @@
 #include "limber/scene/probes/followed_probes.hpp"
 
 #include <limits>
+#include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/overloaded.hpp"
 
 namespace limber::scene {
 namespace {
 
+using dynamics::Course;
+
+Course find_course(const PointProbe& /*probe*/) { return Course::motion; }
+
 // A joint's coordinate follows from the bodies; forces of stiff couplers cannot
 // be evaluated at an interpolated state.
-dynamics::Course find_course(const Probe& probe) {
-  const auto* coupler = std::get_if<CouplerProbe>(&probe.of);
-  const bool is_motion =
-      coupler == nullptr ||
-      coupler->spec.quantity == CouplerQuantity::coordinate ||
-      coupler->spec.quantity == CouplerQuantity::coordinate_rate;
-  return is_motion ? dynamics::Course::motion : dynamics::Course::values;
+Course find_course(const CouplerProbe& probe) {
+  const CouplerQuantity quantity = probe.spec.quantity;
+  const bool is_motion = quantity == CouplerQuantity::coordinate ||
+                         quantity == CouplerQuantity::coordinate_rate;
+  return is_motion ? Course::motion : Course::values;
+}
+
+// No parabola goes through what jumps, such as places, when bodies touch.
+Course find_course(const ContactProbe& probe) {
+  switch (probe.spec.quantity) {
+    case ContactQuantity::place:
+    case ContactQuantity::depth:
+    case ContactQuantity::touching:
+    case ContactQuantity::slipping:
+      return Course::motion;
+    default:
+      return Course::values;
+  }
 }
 
 void append(const Probe& probe, const dynamics::SystemModel& model,
             const dynamics::SystemState& state, std::vector<double>& values) {
-  if (const auto* point = std::get_if<PointProbe>(&probe.of)) {
-    const Vector3 value = evaluate(*point, model, state);
-    values.insert(values.end(), value.data(), value.data() + 3);
-  } else {
-    append_values(std::get<CouplerProbe>(probe.of), model, state, values);
-  }
+  std::visit(Overloaded{[&](const PointProbe& point) {
+                          const Vector3 value = evaluate(point, model, state);
+                          values.insert(values.end(), value.data(),
+                                        value.data() + 3);
+                        },
+                        [&](const auto& other) {
+                          append_values(other, model, state, values);
+                        }},
+             probe.of);
 }
 
 }  // namespace
@@ -38,7 +58,7 @@ dynamics::Followed follow(const std::vector<Probe>& probes,
   for (const Probe& probe : probes) {
     followed.courses.resize(
         followed.courses.size() + column_names(probe).size(),
-        find_course(probe));
+        std::visit([](const auto& of) { return find_course(of); }, probe.of));
     ends.push_back(followed.courses.size());
   }
   followed.evaluate = [&probes, &model, ends](

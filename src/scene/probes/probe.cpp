@@ -32,8 +32,8 @@ std::vector<double> evaluate_all(const std::vector<Probe>& probes,
                               values.insert(values.end(), value.data(),
                                             value.data() + 3);
                             },
-                            [&](const CouplerProbe& coupler) {
-                              append_values(coupler, model, state, values);
+                            [&](const auto& other) {
+                              append_values(other, model, state, values);
                             }},
                  probe.of);
     } catch (const NumericalError& error) {

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "limber/scene/probes/contact_probe.hpp"
 #include "limber/scene/probes/coupler_probe.hpp"
 #include "limber/scene/probes/point_probe.hpp"
 
@@ -13,7 +14,7 @@ namespace limber::scene {
 /// What a run records at every output: one to three columns.
 struct Probe {
   std::string name;
-  std::variant<PointProbe, CouplerProbe> of;
+  std::variant<PointProbe, CouplerProbe, ContactProbe> of;
 };
 
 /// Name and unit of each of a probe's columns: "tip.ux" [m], ...

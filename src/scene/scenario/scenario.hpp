@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -89,9 +90,32 @@ struct CouplerProbeSpec {
   ProbeAxes axes = ProbeAxes::F;  ///< of vectors
 };
 
+/// Of all points where two bodies touch.
+enum class ContactQuantity {
+  force,           ///< resultant on the second body, world frame [N]
+  normal_force,    ///< sum of magnitudes [N]
+  friction_force,  ///< magnitude of the resultant [N]
+  place,           ///< of the largest normal force, world; 0 while apart [m]
+  depth,           ///< largest; while apart minus the distance [m]
+  area,            ///< sum [m^2]
+  energy,          ///< stored, sum [J]
+  touching,        ///< 0 or 1
+  slipping,        ///< 0 or 1: whether a point slips
+};
+[[nodiscard]] inline bool is_vector(ContactQuantity quantity) {
+  return quantity == ContactQuantity::force ||
+         quantity == ContactQuantity::place;
+}
+
+/// A probe of what two bodies exert on each other where they touch.
+struct ContactProbeSpec {
+  std::array<std::string, 2> bodies;  ///< links, projectiles or obstacles
+  ContactQuantity quantity = ContactQuantity::force;
+};
+
 struct ProbeSpec {
   std::string name;
-  std::variant<PointProbeSpec, CouplerProbeSpec> of;
+  std::variant<PointProbeSpec, CouplerProbeSpec, ContactProbeSpec> of;
 };
 
 /// Coordinates of one joint at the start.

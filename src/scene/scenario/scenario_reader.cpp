@@ -9,6 +9,7 @@
 #include "limber/scene/robot/place_reader.hpp"
 #include "limber/scene/scenario/added_body_reader.hpp"
 #include "limber/scene/scenario/basis_reader.hpp"
+#include "limber/scene/scenario/contact_probe_reader.hpp"
 #include "limber/scene/scenario/contact_reader.hpp"
 #include "limber/scene/scenario/coupler_probe_reader.hpp"
 #include "limber/scene/scenario/drive_reader.hpp"
@@ -94,6 +95,7 @@ PointProbeSpec read_point_probe(TomlTable& table) {
 
 ProbeSpec read_probe(TomlTable& table) {
   const std::string name = table.required_text("name");
+  if (table.has("contact")) return {name, read_contact_probe(table)};
   if (table.has("coupler")) return {name, read_coupler_probe(table)};
   return {name, read_point_probe(table)};
 }
