@@ -15,8 +15,8 @@ struct ContactParameters {
   std::optional<double> radius = {};  ///< R_e > 0 in place of the shapes' [m]
   std::optional<double> stiffness = {};  ///< Hertz's k > 0 in place of that of
                                          ///< the materials and R_e [N/m^1.5]
-  std::optional<double> damping = {};  ///< b >= 0 in place of that of the
-                                       ///< restitution [s/m]
+  std::optional<double> damping = {};    ///< b >= 0 in place of that of the
+                                         ///< restitution [s/m]
 };
 
 constexpr auto fields_of(const ContactParameters*) {
