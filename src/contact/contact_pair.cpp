@@ -22,6 +22,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Below this share of the change of depth the way along the normal does not
 // tell the force [-].
 constexpr double kLeastWay = 0.1;
+// Features that touch at once, such as the corners of a box that lands flat,
+// begin at once: at most as far behind the first, of the shapes' size [-].
+constexpr double kTogether = 1e-9;
 
 double find_reduced_mass(double mass_A, double mass_B) {
   return 1.0 / (1.0 / mass_A + 1.0 / mass_B);
@@ -38,8 +41,11 @@ SurfacePlace to_place(const PlaceMemory& memory) {
   return {memory.x_B, static_cast<int>(memory.face), memory.u, memory.v};
 }
 
-PlaceMemory to_memory(const SurfacePlace& place) {
-  return {place.x_B, static_cast<double>(place.face), place.u, place.v};
+// Of the material point where the force acts, so that increments since then are
+// those that the force does work on.
+PlaceMemory to_memory(const SurfacePlace& surface,
+                      const joints::PairPlace& place) {
+  return {place.x_B, static_cast<double>(surface.face), surface.u, surface.v};
 }
 
 // The material point of a body that is at p_W, moved as its surface there.
@@ -51,7 +57,7 @@ void set_place(const PairBody& body, const Shape& shape,
   out.x_B = body.R_WB.transpose() * (p_W - body.p_WB) - find_arm(body, out);
 }
 
-// Where a material point that touched at the last commit is now.
+// Where the material point at which the force acted at the last commit is now.
 Vector3 find_former(const PairBody& body, const Shape& shape,
                     const PlaceMemory& former, joints::PairPlace& scratch) {
   const SurfacePlace surface = to_place(former);
@@ -143,8 +149,7 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
                                  find_residual(B_.shape, meeting.on_B),
                      .R_WB = bodies.B.R_WB,
                      .time = t};
-  // At the commit both were opposite each other: what is tangential of their
-  // distance has come since.
+  // At the commit both were at one point: their distance has come since.
   if (law_.has_friction() && memory.is_touching()) {
     motion.increment_W =
         find_former(bodies.B, B_.shape, memory.on_B, point.on_B) -
@@ -243,8 +248,8 @@ void ContactPair::commit(const PairBodies& bodies, double t,
       const PointMemory before = load_memory(numbers);
       next =
           law_.evaluate(place(bodies, meeting, before, t, point), before).next;
-      next.on_A = to_memory(meeting.on_A);
-      next.on_B = to_memory(meeting.on_B);
+      next.on_A = to_memory(meeting.on_A, point.on_A);
+      next.on_B = to_memory(meeting.on_B, point.on_B);
     }
     save_memory(next, numbers);
   }
@@ -279,21 +284,26 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
                                 joints::PairResponse& scratch) const {
   Meetings meetings(most_points());
   shapes_.find(bodies, kInfinity, meetings.all());
-  const std::size_t i = meetings.find_deepest();
-  const Meeting& deepest = meetings[i];
-  scratch.clear();
-  const PointMotion motion = place(bodies, deepest, {}, t, scratch.add());
-  const HertzLaw law = find_law(deepest);
-  const std::span<double> numbers = numbers_of(i, memory);
-  // Of an earlier run that goes on.
-  const PointMemory before = load_memory(numbers);
-  if (before.is_touching()) return law_.find_duration(law, before.speed);
-  PointMemory next = law_.begin(law, motion.rate());
-  next.time = t;
-  next.on_A = to_memory(deepest.on_A);
-  next.on_B = to_memory(deepest.on_B);
-  save_memory(next, numbers);
-  return law_.find_duration(law, next.speed);
+  const std::size_t deepest = meetings.find_deepest();
+  const double least_depth = meetings[deepest].depth - kTogether * size_;
+  for (std::size_t i = 0; i < most_points(); ++i) {
+    const Meeting& meeting = meetings[i];
+    const std::span<double> numbers = numbers_of(i, memory);
+    // Where an earlier run goes on they touch already.
+    if (!(meeting.depth >= least_depth) || load_memory(numbers).is_touching()) {
+      continue;
+    }
+    scratch.clear();
+    joints::PairPoint& point = scratch.add();
+    const PointMotion motion = place(bodies, meeting, {}, t, point);
+    PointMemory next = law_.begin(find_law(meeting), motion.rate());
+    next.time = t;
+    next.on_A = to_memory(meeting.on_A, point.on_A);
+    next.on_B = to_memory(meeting.on_B, point.on_B);
+    save_memory(next, numbers);
+  }
+  return law_.find_duration(find_law(meetings[deepest]),
+                            load_memory(numbers_of(deepest, memory)).speed);
 }
 
 joints::TouchReading ContactPair::read(const PairBodies& bodies,

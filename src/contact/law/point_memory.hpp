@@ -8,9 +8,10 @@
 
 namespace limber::contact {
 
-/// Where on a shape a point was, as numbers; see SurfacePlace.
+/// The material point of a body at which a contact's force acted, moved as the
+/// place of the surface next to it; as numbers, see SurfacePlace.
 struct PlaceMemory {
-  Vector3 x_B = Vector3::Zero();  ///< [m]
+  Vector3 x_B = Vector3::Zero();  ///< undeformed, body frame [m]
   double face = -1.0;             ///< index
   double u = 0.0;                 ///< [-]
   double v = 0.0;                 ///< [-]
@@ -25,7 +26,7 @@ struct PointMemory {
   double tangential_stiffness = 0.0;  ///< k_t of that speed [N/m]
   double time = 0.0;                  ///< of the last commit [s]
   BristleMemory bristle = {};         ///< in the frame of body B
-  PlaceMemory on_A = {};              ///< where both touched at the last commit
+  PlaceMemory on_A = {};              ///< at the last commit one point
   PlaceMemory on_B = {};
 
   [[nodiscard]] bool is_touching() const { return speed > 0.0; }

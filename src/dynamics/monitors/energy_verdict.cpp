@@ -10,6 +10,9 @@
 namespace limber::dynamics {
 namespace {
 
+// Smaller shares of the drift do not tell where it comes from [-].
+constexpr double kNamedShare = 0.1;
+
 // "12 % of the energy ... are lost by t = ...".
 std::string describe(const EnergyRecord& energy) {
   const double drift = energy.drift.value;
@@ -18,7 +21,8 @@ std::string describe(const EnergyRecord& energy) {
       "the throughput of {:.3g} J",
       std::abs(drift), drift < 0.0 ? "lost" : "gained", energy.drift.time,
       100.0 * find_open_share(energy), energy.throughput);
-  if (!energy.place.empty()) {
+  if (!energy.place.empty() &&
+      std::abs(energy.share) > kNamedShare * std::abs(drift)) {
     text += fmt::format("; the largest share, {:.3g} J, in {}",
                         std::abs(energy.share), energy.place);
   }

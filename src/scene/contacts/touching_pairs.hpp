@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "limber/scene/robot/robot.hpp"
@@ -17,7 +18,10 @@ struct Toucher {
   std::size_t index = 0;  ///< into Robot::links or Scenario::obstacles
 
   bool operator==(const Toucher&) const = default;
-  auto operator<=>(const Toucher&) const = default;
+  bool operator<(const Toucher& other) const {
+    return std::tie(is_obstacle, index) <
+           std::tie(other.is_obstacle, other.index);
+  }
 };
 
 [[nodiscard]] const std::string& name_of(const Toucher& body,

@@ -51,7 +51,7 @@ Matrix3 read_normal(TomlTable& table) {
 
 Vector3 read_box_size(TomlTable& table) {
   if (!table.has("size")) table.fail("needs 'size', the edges [x, y, z]");
-  const Vector3 size = table.vector("size").value_or(Vector3::Ones());
+  Vector3 size = table.vector("size").value_or(Vector3::Ones());
   if (!(size.minCoeff() > 0.0)) {
     table.fail("size", "expected three numbers > 0");
   }

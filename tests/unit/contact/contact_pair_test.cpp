@@ -222,6 +222,43 @@ TEST(ContactPair, LetsASlidingBallEndRollingAtFiveSeventhsOfItsSpeed) {
   EXPECT_NEAR(scene.state.bodies[0].v_WB_W.x(), 5.0 / 7.0, 2e-3);
 }
 
+// So soft a ball that it sinks in by a third of its radius: friction acts well
+// above its lowest point, and does work on the motion there.
+TEST(ContactPair, BalancesTheWorkOfFrictionHoweverFarASpinningBallSinksIn) {
+  Scene scene = make_ball_and_floor(
+      {.friction = {.sliding = 0.3}, .restitution = 0.7, .stiffness = 3e4},
+      1e-5, {0.3, 0.0, -1.0});
+  scene.state.bodies[0].w_WB_B = {0.0, -50.0, 20.0};
+  const RunRecord record = run(scene, {.end_time = 0.02, .step = 1e-5});
+  ASSERT_EQ(record.contacts.size(), 1U);
+  EXPECT_TRUE(record.contacts[0].restitution().has_value());
+  const double throughput = record.energy.stored.value;
+  EXPECT_LT(std::abs(record.energy.drift.value), 5e-4 * throughput);
+}
+
+// Its corners touch at once, and are damped alike.
+TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
+  SystemBuilder builder;
+  const auto box = builder.add_rigid_body(
+      "box", {1.0, Vector3(1e-3, 2e-3, 2.5e-3).asDiagonal().toDenseMatrix()});
+  builder.add_pair(
+      "floor/box", kWorld, box,
+      std::make_shared<ContactPair>(
+          floor_side(),
+          ContactSide{Shape{Box{{0.05, 0.04, 0.03}}, {}}, kSteel, 1.0},
+          ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.5}));
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.bodies[0].p_WB.z() = 0.031;
+  scene.state.bodies[0].v_WB_W.z() = -1.0;
+  const RunRecord record = run(scene, {.end_time = 2e-3, .step = 2e-6});
+  ASSERT_EQ(record.contacts.size(), 1U);
+  EXPECT_NEAR(*record.contacts[0].restitution(), 0.5, 3e-3);
+  const dynamics::BodyState& after = scene.state.bodies[0];
+  EXPECT_LT(after.w_WB_B.norm(), 1e-9);
+  EXPECT_LT(after.p_WB.head<2>().norm(), 1e-12);
+}
+
 // A block of 1 kg on a slope of 10 degrees, held by mu = 0.3.
 TEST(ContactPair, HoldsABlockOnASlope) {
   const Vector3 half(0.05, 0.04, 0.03);

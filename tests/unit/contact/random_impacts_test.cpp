@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <string>
 
@@ -24,8 +23,6 @@ namespace {
 using dynamics::SystemBuilder;
 using dynamics::SystemModel;
 using dynamics::SystemState;
-
-constexpr double kPi = std::numbers::pi;
 
 class Draw {
  public:

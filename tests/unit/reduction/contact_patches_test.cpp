@@ -18,7 +18,7 @@ constexpr double kCell = 0.01;  // m
 const Vector3 kSize{0.08, 0.06, 0.02};
 
 std::filesystem::path write_plate(int order) {
-  const std::filesystem::path file =
+  std::filesystem::path file =
       std::filesystem::path(::testing::TempDir()) /
       ("contact_patches" + std::to_string(order) + ".geo");
   std::ofstream(file)

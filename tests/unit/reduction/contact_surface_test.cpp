@@ -128,7 +128,6 @@ TEST(ContactSurface, OfABodyWithoutModesHasAllFlexibilityButHertzsShare) {
       fem::make_surface(body.mesh, body.mesh.boundary_faces);
   const std::vector<ContactPatch> patches = find_patches(
       body.mesh, surface, find_normals(body.mesh, surface), skin.patch_radius);
-  int count = 0;
   for (std::size_t p = 0; p < 20; p += 3) {
     ASSERT_TRUE(surface.points[p].is_corner());
     VectorX f = VectorX::Zero(body.support.matrices.dof_count());
@@ -139,10 +138,8 @@ TEST(ContactSurface, OfABodyWithoutModesHasAllFlexibilityButHertzsShare) {
     const double whole = f.dot(body.inverse.solve(f).col(0));
     const auto n = static_cast<Eigen::Index>(p);
     const double rest = whole - calc_hertz_share(kSteel, skin.patch_radius[n]);
-    if (rest > 0.0) ++count;
-    EXPECT_NEAR(skin.residual[n], std::max(rest, 0.0), 2e-4 * whole);
+    EXPECT_NEAR(skin.residual[n], rest, 2e-4 * whole);
   }
-  EXPECT_GT(count, 3);
 }
 
 TEST(ContactSurface, ChangesNothingElseOfTheBody) {
