@@ -86,9 +86,12 @@ void Assembly::add_contacts() {
 }
 
 void Assembly::check_start(const dynamics::SystemModel& model,
-                           const dynamics::SystemState& initial) const {
-  with_context(scene_.scenario.file.string(),
-               [&] { check_overlaps(touching_, model, initial); });
+                           const dynamics::SystemState& initial) {
+  with_context(scene_.scenario.file.string(), [&] {
+    for (std::string& notice : check_overlaps(touching_, model, initial)) {
+      warnings_.push_back(std::move(notice));
+    }
+  });
 }
 
 void Assembly::add_nodal_load(const LoadSpec& load) {

@@ -32,9 +32,10 @@ class Assembly {
   [[nodiscard]] dynamics::SystemModel build() const;
   [[nodiscard]] dynamics::SystemState make_initial_state(
       const dynamics::SystemModel& model) const;
-  /// @throws InputError if bodies in contact overlap too deep at the start.
+  /// Adds warnings of bodies in contact that overlap at the start.
+  /// @throws InputError if they overlap too deep.
   void check_start(const dynamics::SystemModel& model,
-                   const dynamics::SystemState& initial) const;
+                   const dynamics::SystemState& initial);
   [[nodiscard]] const std::vector<std::string>& warnings() const {
     return warnings_;
   }

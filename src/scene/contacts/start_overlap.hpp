@@ -25,9 +25,11 @@ struct PlacedPair {
 
 /// Refuses bodies that overlap at the start by more than 3 % of R_e, or 0.1 mm
 /// where they are flat, since they would leap apart.
+/// @returns a notice of each smaller overlap, with the force that it begins
+/// with
 /// @throws InputError with every such pair, its depth and place (10 at most).
-void check_overlaps(const std::vector<PlacedPair>& pairs,
-                    const dynamics::SystemModel& model,
-                    const dynamics::SystemState& state);
+[[nodiscard]] std::vector<std::string> check_overlaps(
+    const std::vector<PlacedPair>& pairs, const dynamics::SystemModel& model,
+    const dynamics::SystemState& state);
 
 }  // namespace limber::scene

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <map>
 
 #include "limber/common/records/manifest.hpp"
@@ -150,6 +151,22 @@ TEST(ContactAssembly, TakesSmallOverlapsForTouching) {
             HasSubstr("up to 0.003 m is taken as touching")));
   EXPECT_EQ(build(0.0969, kOptions + "radius = 0.2\n"), "");
   EXPECT_THAT(build(-1.0, kOptions), HasSubstr("both overlap by 1.1 m"));
+}
+
+// Hertz's force of steel on steel at 1 um [@johnson1985, eq. 4.23].
+TEST(ContactAssembly, TellsTheForceOfASmallOverlap) {
+  const SceneFolder folder;
+  const std::string steel = "youngs_modulus = 2e11\npoisson_ratio = 0.3\n";
+  const BuiltScene built = folder.build(
+      kWorld, kTime + projectile("ball", "0.0, 0.0, 0.099999", steel) +
+                  floor_at(0.0) + steel + contact("ball", "floor"));
+  const double modulus = 1e11 / 0.91;
+  const double force =
+      4.0 / 3.0 * modulus * std::sqrt(0.1) * std::pow(1e-6, 1.5);
+  ASSERT_EQ(built.warnings.size(), 1U);
+  EXPECT_THAT(built.warnings[0],
+              AllOf(HasSubstr("both overlap by 1e-06 m"),
+                    HasSubstr(fmt::format("with {:.4g} N", force))));
 }
 
 TEST(ContactAssembly, TellsOfEveryOverlap) {
