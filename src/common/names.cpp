@@ -47,6 +47,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// Whether it is `name` without what comes before a dot, as a link's own name
+/// is of `robot.link`.
+bool is_end_of(std::string_view end, std::string_view name) {
+  return !end.empty() && name.size() > end.size() + 1 && name.ends_with(end) &&
+         name[name.size() - end.size() - 1] == '.';
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view unknown,
@@ -62,7 +69,11 @@ std::string nearest_name(std::string_view unknown,
       best_distance = distance;
     }
   }
-  return best;
+  if (best == unknown) return best;
+  const auto qualified = std::find_if(
+      known.begin(), known.end(),
+      [&](const std::string& name) { return is_end_of(unknown, name); });
+  return qualified == known.end() ? best : *qualified;
 }
 
 std::string describe_unknown(std::string_view kind, std::string_view name,

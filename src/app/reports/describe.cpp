@@ -121,15 +121,20 @@ Json describe_scenario(const std::filesystem::path& file) {
   for (const auto& drive : scenario.drives) drives.push_back(drive.name);
   std::vector<std::string> probes;
   for (const auto& probe : scenario.probes) probes.push_back(probe.name);
-  return Json{{"kind", "scenario"},
-              {"robot", scenario.robot.string()},
-              {"duration", scenario.settings.end_time},
-              {"step", scenario.settings.step},
-              {"outputs", scenario.settings.output_times.size()},
-              {"fidelity", std::string(dynamics::to_string(scenario.fidelity))},
-              {"loads", loads},
-              {"drives", drives},
-              {"probes", probes}};
+  Json robots = Json::object();
+  for (const auto& robot : scenario.robots) {
+    robots[robot.name] = robot.file.string();
+  }
+  return Json{
+      {"kind", "scenario"},
+      {"robot", robots.empty() ? Json(scenario.robot.string()) : robots},
+      {"duration", scenario.settings.end_time},
+      {"step", scenario.settings.step},
+      {"outputs", scenario.settings.output_times.size()},
+      {"fidelity", std::string(dynamics::to_string(scenario.fidelity))},
+      {"loads", loads},
+      {"drives", drives},
+      {"probes", probes}};
 }
 
 Json describe_robot(const std::filesystem::path& file) {

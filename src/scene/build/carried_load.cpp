@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
@@ -66,6 +67,26 @@ double find_turn(const DriveSpec& drive, joints::JointKind kind) {
   return 0.0;
 }
 
+// For each link one that joints and loops hold it together with, the same for
+// all of these; floating joints hold nothing.
+std::vector<int> find_trees(const Robot& robot) {
+  std::vector<int> trees(robot.links.size());
+  std::iota(trees.begin(), trees.end(), 0);
+  for (const Joint& joint : robot.joints) {
+    if (joint.kind == joints::JointKind::floating) continue;
+    trees[index(joint.child)] = trees[index(joint.parent)];
+  }
+  for (const Loop& loop : robot.loops) {
+    if (loop.from.where.link == "world" || loop.to.where.link == "world") {
+      continue;
+    }
+    const int kept = trees[index(find_link(robot, loop.from.where.link))];
+    const int joined = trees[index(find_link(robot, loop.to.where.link))];
+    std::replace(trees.begin(), trees.end(), joined, kept);
+  }
+  return trees;
+}
+
 }  // namespace
 
 CarriedLoads::CarriedLoads(const Scene& scene, const BodyPlans& plans,
@@ -73,7 +94,8 @@ CarriedLoads::CarriedLoads(const Scene& scene, const BodyPlans& plans,
     : scene_(scene),
       plans_(plans),
       start_(start),
-      frames_(plans.bodies.size()) {
+      frames_(plans.bodies.size()),
+      trees_(find_trees(scene.robot)) {
   find_frames();
   find_parts();
 }
@@ -99,13 +121,13 @@ void CarriedLoads::find_frames() {
 }
 
 void CarriedLoads::find_parts() {
-  const double w = find_speed();
   const double g = scene_.scenario.gravity.norm();
   for (const BodyPlan& plan : plans_.bodies) {
     if (plan.is_world) continue;
     const int link = plan.links.front();
     if (!is_of_tree(link)) continue;
     const Vector3 centre = find_centre(plan);
+    const double w = find_speed(trees_[index(link)]);
     const double a = w * w * find_radius(link, centre) + g;
     parts_.push_back({link, plan.mass * a, 0.0, centre});
   }
@@ -118,14 +140,16 @@ void CarriedLoads::find_parts() {
   }
 }
 
-double CarriedLoads::find_speed() const {
+double CarriedLoads::find_speed(int tree) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < scene_.robot.tree_size(); ++i) {
+    if (trees_[i] != tree) continue;
     largest = std::max(largest, start_[i].w_WL_W.norm());
   }
   std::vector<double> driven(scene_.robot.links.size(), 0.0);
   for (std::size_t j = 0; j < scene_.robot.joints.size(); ++j) {
     const Joint& joint = scene_.robot.joints[j];
+    if (trees_[index(joint.child)] != tree) continue;
     double& speed = driven[index(joint.child)];
     speed = driven[index(joint.parent)];
     for (const DriveSpec& drive : scene_.scenario.drives) {
@@ -134,6 +158,7 @@ double CarriedLoads::find_speed() const {
     largest = std::max(largest, speed);
   }
   for (const Loop& loop : scene_.robot.loops) {
+    if (!is_in(loop, tree)) continue;
     for (const DriveSpec& drive : scene_.scenario.drives) {
       if (drive.joint != loop.name) continue;
       largest = std::max(largest, find_turn(drive, loop.kind));
@@ -153,6 +178,14 @@ bool CarriedLoads::is_of_tree(int link) const {
   return index(link) < scene_.robot.tree_size();
 }
 
+bool CarriedLoads::is_in(const Loop& loop, int tree) const {
+  for (const ConnectorEnd* end : {&loop.from, &loop.to}) {
+    if (end->where.link == "world") continue;
+    return trees_[index(find_link(scene_.robot, end->where.link))] == tree;
+  }
+  return false;
+}
+
 bool CarriedLoads::is_beyond(int link, int joint) const {
   for (int l = link; l > 0; l = scene_.robot.joints[index(l - 1)].parent) {
     if (l - 1 == joint) return true;
@@ -168,6 +201,9 @@ Vector3 CarriedLoads::find_centre(const BodyPlan& plan) const {
 double CarriedLoads::find_radius(int link, const Vector3& centre) const {
   double radius = 0.0;
   for (int l = link; l > 0; l = scene_.robot.joints[index(l - 1)].parent) {
+    if (scene_.robot.joints[index(l - 1)].kind == joints::JointKind::floating) {
+      break;  // a root
+    }
     radius = std::max(radius, (centre - start_[index(l)].X_WL.p).norm());
   }
   return radius;
@@ -204,11 +240,20 @@ void CarriedLoads::add(const Part& part, const Vector3& at,
   sum.moment += part.moment + part.force * (part.at - at).norm();
 }
 
+bool CarriedLoads::is_carried(const Part& part, int joint) const {
+  const int tree = trees_[index(scene_.robot.joints[index(joint)].child)];
+  if (trees_[index(part.link)] != tree) return false;
+  for (const Loop& loop : scene_.robot.loops) {
+    if (is_in(loop, tree)) return true;
+  }
+  return is_beyond(part.link, joint);
+}
+
 CarriedLoad CarriedLoads::of_joint(int joint) const {
   const Joint& j = scene_.robot.joints[index(joint)];
   CarriedLoad sum{.size = std::min(find_size(j.parent), find_size(j.child))};
   for (const Part& part : parts_) {
-    if (scene_.robot.loops.empty() && !is_beyond(part.link, joint)) continue;
+    if (!is_carried(part, joint)) continue;
     add(part, start_[index(j.child)].X_WL.p, sum);
   }
   return sum;
@@ -223,7 +268,9 @@ CarriedLoad CarriedLoads::of_loop(const Loop& loop) const {
     sum.size =
         std::min(sum.size, find_size(find_link(scene_.robot, end->where.link)));
   }
-  for (const Part& part : parts_) add(part, at, sum);
+  for (const Part& part : parts_) {
+    if (is_in(loop, trees_[index(part.link)])) add(part, at, sum);
+  }
   return sum;
 }
 

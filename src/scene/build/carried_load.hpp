@@ -16,12 +16,12 @@ using dynamics::CarriedLoad;
 ///
 /// Equation   force  = sum_i m_i (w^2 r_i + g) + sum_l |f_l|,
 ///            moment = sum_i m_i (w^2 r_i + g) d_i + sum_l (|f_l| d_l + |t_l|),
-///            of the bodies i and loads l outboard of the joint, of all of them
-///            if the robot has loops; d the distance from the joint, r_i the
-///            largest distance of body i's centre of mass from a joint between
-///            it and the root; w the largest angular speed of a link at the
-///            start or the largest sum of commanded drive speeds along a path
-///            from the root
+///            of the bodies i and loads l outboard of the joint, of all that
+///            joints hold together if these have loops; d the distance from the
+///            joint, r_i the largest distance of body i's centre of mass from a
+///            joint between it and the root; w, of what joints hold together,
+///            the largest angular speed of a link at the start or the largest
+///            sum of commanded drive speeds along a path from the root
 /// Limits     an upper bound if all rotate as one, else an estimate: neglects
 ///            speeds due to loads or effort drives, shocks such as
 ///            contacts', and loads of acceleration by drives.
@@ -44,10 +44,12 @@ class CarriedLoads {
   };
   void find_frames();
   void find_parts();
-  [[nodiscard]] double find_speed() const;
+  [[nodiscard]] double find_speed(int tree) const;
   [[nodiscard]] Vector3 place(const Place& where) const;
   [[nodiscard]] bool is_of_tree(int link) const;
+  [[nodiscard]] bool is_in(const Loop& loop, int tree) const;
   [[nodiscard]] bool is_beyond(int link, int joint) const;
+  [[nodiscard]] bool is_carried(const Part& part, int joint) const;
   [[nodiscard]] Vector3 find_centre(const BodyPlan& plan) const;
   [[nodiscard]] double find_radius(int link, const Vector3& centre) const;
   [[nodiscard]] double find_size(int link) const;
@@ -57,6 +59,7 @@ class CarriedLoads {
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& start_;
   std::vector<std::vector<Vector3>> frames_;  // of couplers, one per plan
+  std::vector<int> trees_;  // one per link: a link of what it is held with
   std::vector<Part> parts_;
 };
 

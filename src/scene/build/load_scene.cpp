@@ -9,10 +9,10 @@
 
 #include "limber/scene/build/basis_choice.hpp"
 #include "limber/scene/build/scene_checks.hpp"
+#include "limber/scene/build/scene_robots.hpp"
 #include "limber/scene/build/unused_keys.hpp"
 #include "limber/scene/contacts/projectiles.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
-#include "limber/scene/robot/robot_reader.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/toml_file.hpp"
 
@@ -31,7 +31,7 @@ void warn_of_unused_level(dynamics::Fidelity level, Scene& scene) {
   scene.scenario.warnings.push_back(fmt::format(
       "level '{}' was requested for all flexible links, but no link of '{}' is "
       "flexible: it changes nothing; give a link a <flexible> element",
-      to_string(level), scene.scenario.robot.filename().string()));
+      to_string(level), scene.robot.file.filename().string()));
 }
 
 void apply(const Overrides& overrides, Scene& scene) {
@@ -82,7 +82,7 @@ Scene load_scene(const std::filesystem::path& file,
   Scene scene;
   const toml::table table = parse_toml_file(file);
   scene.scenario = read_scenario(table, file);
-  scene.robot = read_robot(scene.scenario.robot);
+  scene.robot = read_robots(scene.scenario);
   add_projectiles(scene.scenario, scene.robot);
   check_scenario(scene.scenario, scene.robot);
   add_contacts(scene);

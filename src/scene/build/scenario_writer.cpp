@@ -46,6 +46,9 @@ class Mover {
 /// Every key of docs/formats/scenario.md that names a file.
 void move_paths(toml::table& root, const Mover& mover) {
   mover.move(root, "robot");
+  if (toml::array* robots = root.get_as<toml::array>("robot")) {
+    for (toml::node& item : *robots) mover.move(*item.as_table(), "file");
+  }
   if (toml::array* loads = root.get_as<toml::array>("load")) {
     for (toml::node& item : *loads) {
       toml::table& load = *item.as_table();

@@ -67,6 +67,7 @@ class Checker {
 
   void check_added_names() {
     std::set<std::string> taken = {"world"};
+    for (const RobotSpec& robot : scenario_.robots) taken.insert(robot.name);
     for (std::size_t i = 0; i < robot_.tree_size(); ++i) {
       taken.insert(robot_.links[i].name);
     }
@@ -74,7 +75,8 @@ class Checker {
       for (const auto& one : all) {
         if (taken.insert(one.name).second) continue;
         problems_.add(0, fmt::format("{} '{}' is called like another link, "
-                                     "projectile or obstacle; rename it",
+                                     "robot, projectile or obstacle; rename "
+                                     "it",
                                      kind, one.name));
       }
     };

@@ -18,6 +18,7 @@ class Finder {
       : file_(file),
         scenario_(scene.scenario),
         links_(scene.robot.links),
+        robot_file_(scene.robot.file.filename().string()),
         touching_(scene.touching),
         overrides_(overrides) {}
 
@@ -105,8 +106,8 @@ class Finder {
 
   void look_at_flexible_links() {
     if (is_any_flexible()) return;
-    const std::string why = fmt::format("no link of '{}' is flexible",
-                                        scenario_.robot.filename().string());
+    const std::string why =
+        fmt::format("no link of '{}' is flexible", robot_file_);
     if (scenario_.fidelity != Fidelity::rigid && !overrides_.fidelity) {
       tell("fidelity", "default", why);
     }
@@ -204,6 +205,7 @@ class Finder {
   const toml::table& file_;
   const Scenario& scenario_;
   const std::vector<Link>& links_;
+  std::string robot_file_;
   const std::vector<TouchingPair>& touching_;
   const Overrides& overrides_;
   std::vector<std::string> texts_;

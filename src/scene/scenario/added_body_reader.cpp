@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/echo.hpp"
 #include "limber/common/roll_pitch_yaw.hpp"
 
 namespace limber::scene {
@@ -129,6 +130,23 @@ BodyStart read_body_start(TomlTable& table) {
   start.angular_velocity =
       table.vector("angular_velocity").value_or(Vector3::Zero());
   return start;
+}
+
+RobotSpec read_placed_robot(TomlTable& table,
+                            const std::filesystem::path& folder) {
+  RobotSpec robot;
+  robot.name = table.required_text("name");
+  // The name goes before a dot, and patterns stand for what has a wildcard.
+  if (table.has("name") &&
+      (robot.name.empty() || robot.name == "world" ||
+       robot.name.find_first_of(".*?") != std::string::npos)) {
+    table.fail("name", fmt::format("'{}' cannot name a robot; use a text "
+                                   "without '.', '*' and '?', not 'world'",
+                                   echo(robot.name)));
+  }
+  robot.file = (folder / table.required_text("file")).lexically_normal();
+  robot.start = read_body_start(table);
+  return robot;
 }
 
 ProjectileSpec read_projectile(TomlTable& table) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+
 #include "limber/scene/scenario/contact_spec.hpp"
 #include "limber/scene/text/toml_table.hpp"
 
@@ -9,6 +11,10 @@ namespace limber::scene {
 
 /// `position`, `orientation_rpy`, `velocity`, `angular_velocity`.
 [[nodiscard]] BodyStart read_body_start(TomlTable& table);
+
+/// A [[robot]]. @param folder to which its file name is relative
+[[nodiscard]] RobotSpec read_placed_robot(TomlTable& table,
+                                          const std::filesystem::path& folder);
 
 /// A [[projectile]].
 [[nodiscard]] ProjectileSpec read_projectile(TomlTable& table);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -9,7 +10,7 @@
 #include "limber/contact/law/materials.hpp"
 #include "limber/scene/robot/geometry.hpp"
 
-/// What may touch, and how, as scenarios give it.
+/// What moves and may touch, and how, as scenarios give it.
 namespace limber::scene {
 
 /// Motion of a free body at the start, world frame.
@@ -18,6 +19,13 @@ struct BodyStart {
   Vector3 orientation_rpy = Vector3::Zero();   ///< [rad]
   Vector3 velocity = Vector3::Zero();          ///< of its origin [m/s]
   Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
+};
+
+/// One of several robots.
+struct RobotSpec {
+  std::string name;
+  std::filesystem::path file;  ///< URDF
+  BodyStart start;             ///< of its root link
 };
 
 /// A free rigid solid sphere; its origin is its centre.

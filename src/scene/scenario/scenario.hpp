@@ -160,7 +160,8 @@ struct OutputSpec {
 struct Scenario {
   std::string name;  ///< the file's stem
   std::filesystem::path file;
-  std::filesystem::path robot;
+  std::filesystem::path robot;    ///< its only one; empty if there are several
+  std::vector<RobotSpec> robots;  ///< in its place
   dynamics::SimulationSettings settings;
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   std::map<std::string, dynamics::Fidelity> fidelity_of_link;
@@ -170,7 +171,7 @@ struct Scenario {
   std::vector<LoadSpec> loads;
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
   std::map<std::string, JointStart> joints;
-  BodyStart base;  ///< of the root link
+  BodyStart base;  ///< of the root link of the only robot
   std::map<std::string, LinkStart> link_starts;
   /// Starts at rest from the static equilibrium near the above.
   std::optional<dynamics::EquilibriumMethod> equilibrium;

@@ -152,6 +152,8 @@ bool has_velocities(const Scenario& scenario) {
     return !start.velocity.isZero(0.0) || !start.angular_velocity.isZero(0.0);
   };
   return is_moving(scenario.base) ||
+         std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                     [&](const auto& r) { return is_moving(r.start); }) ||
          std::any_of(scenario.projectiles.begin(), scenario.projectiles.end(),
                      [&](const auto& p) { return is_moving(p.start); }) ||
          std::any_of(scenario.joints.begin(), scenario.joints.end(),
@@ -185,6 +187,11 @@ void read_initial(TomlTable& table, Scenario& scenario) {
     TomlTable values(*base, "initial.base", table.problems());
     scenario.base = read_body_start(values);
     values.finish();
+    if (!scenario.robots.empty()) {
+      table.fail(
+          "base moves the only robot; of several, each [[robot]] has its own "
+          "'position', 'orientation_rpy', 'velocity' and 'angular_velocity'");
+    }
   }
   read_starts(table, "joints", scenario.joints, read_joint_start);
   read_starts(table, "links", scenario.link_starts, [&](TomlTable& values) {
@@ -239,9 +246,25 @@ std::vector<Item> read_items(TomlTable& root, const std::string& name,
   return items;
 }
 
+void read_robots(TomlTable& root, Scenario& scenario) {
+  const std::filesystem::path folder = scenario.file.parent_path();
+  if (!root.has("robot")) {
+    root.skip("robot");
+    root.fail("needs 'robot', the path of a URDF file, or [[robot]]s");
+  } else if (root.is_array("robot")) {
+    scenario.robots = read_items<RobotSpec>(root, "robot", [&](TomlTable& t) {
+      return read_placed_robot(t, folder);
+    });
+    if (scenario.robots.empty() && root.problems().empty()) {
+      root.fail("robot", "is empty; give one at least");
+    }
+  } else if (const auto file = root.text("robot")) {
+    scenario.robot = (folder / *file).lexically_normal();
+  }
+}
+
 void read_root(TomlTable& root, Scenario& scenario) {
-  scenario.robot = (scenario.file.parent_path() / root.required_text("robot"))
-                       .lexically_normal();
+  read_robots(root, scenario);
   if (!root.has("time")) root.fail("needs [time] with 'duration' and 'step'");
   read_section(root, "time", [&](TomlTable& t) {
     scenario.settings = read_time_settings(t);

@@ -29,6 +29,11 @@ bool TomlTable::has(const std::string& key) const {
   return table_.contains(key);
 }
 
+bool TomlTable::is_array(const std::string& key) const {
+  const toml::node* node = table_.get(key);
+  return node != nullptr && node->is_array();
+}
+
 void TomlTable::fail(const std::string& text) const {
   problems_.add(line(), path_.empty() ? text : "[" + path_ + "] " + text);
 }

@@ -29,6 +29,13 @@ TEST(Names, NothingIsNearAFarName) {
   EXPECT_EQ(nearest_name("anything", {}), "");
 }
 
+// A link of one of several robots without the robot's name.
+TEST(Names, NearestIsQualified) {
+  EXPECT_EQ(nearest_name("arm", {"arms", "left.arm"}), "left.arm");
+  EXPECT_EQ(nearest_name("arm", {"left.arm", "arm"}), "arm");
+  EXPECT_EQ(nearest_name("arm", {"left-arm", "leftarm"}), "");
+}
+
 TEST(Names, FirstOfEquallyNearNamesWins) {
   EXPECT_EQ(nearest_name("aa", {"ab", "ac"}), "ab");
 }

@@ -118,7 +118,7 @@ TEST(Projectile, NeedsANameOfItsOwn) {
       "[9.0, 0.0, 0.0]\n";
   EXPECT_THAT(error_of(kBall + wall),
               HasSubstr("obstacle 'ball' is called like another link, "
-                        "projectile or obstacle; rename it"));
+                        "robot, projectile or obstacle; rename it"));
   for (const char* name : {"base", "world"}) {
     EXPECT_THAT(error_of("[[projectile]]\nname = '" + std::string(name) +
                          "'\nradius = 0.5\nmass = 2.0\nposition = [1.0, 2.0, "

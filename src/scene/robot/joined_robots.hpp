@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/common/pose.hpp"
+#include "limber/scene/robot/robot.hpp"
+
+namespace limber::scene {
+
+/// One of several robots of a scene.
+struct NamedRobot {
+  std::string name;  ///< unique, without a dot
+  Robot robot;
+  Pose X_WR;  ///< of its root link at the start
+};
+
+/// Whether the world holds a robot: its root link stands for the world, or is
+/// clamped.
+[[nodiscard]] bool is_held(const Robot& robot);
+
+/// One tree of all robots: its root is the world, from which a joint called
+/// like the robot leads to the robot's root link, a fixed one if the robot is
+/// held, else a floating one without coordinates at the start. Links, joints
+/// and couplers of a robot are called NAME.OWN_NAME. "world" stays the world as
+/// the end of a coupler, unless it is the robot's root link.
+[[nodiscard]] Robot join_robots(const std::vector<NamedRobot>& robots);
+
+}  // namespace limber::scene
