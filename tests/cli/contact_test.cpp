@@ -106,5 +106,37 @@ TEST(BallOnLink, RefusesWrongValuesInOneErrorWithStatus2) {
   }
 }
 
+// What a comparison says of a run is what the run says itself.
+TEST(BallOnLink, IsComparedOverLevels) {
+  const Workspace place;
+  write_ball(place, std::string(kFine) + "[basis]\neigenmodes = 20\n");
+  const json alone = run(place)["contacts"][0];
+  const CommandResult result = place.limber(
+      "compare ball.toml --fidelity rigid,coupled --reference coupled "
+      "--repeat 1 --out c --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json all = json::parse(result.out, nullptr, false);
+  const json truth = all["reference"]["contacts"][0];
+  const json rigid = all["runs"][0]["contacts"][0];
+  const json coupled = all["runs"][1]["contacts"][0];
+  EXPECT_FALSE(truth.contains("error"));
+  for (const char* key : {"impulse", "peak_force", "duration"}) {
+    EXPECT_EQ(coupled[key], alone[key]) << key;
+    EXPECT_NEAR(rigid["error"][key].get<double>(),
+                rigid[key].get<double>() / truth[key].get<double>() - 1.0,
+                1e-12);
+    EXPECT_LT(std::abs(coupled["error"][key].get<double>()), 0.01) << key;
+  }
+  EXPECT_EQ(coupled["restitution"], alone["restitution"]);
+  // A bar that cannot bend takes more force.
+  EXPECT_GT(rigid["error"]["peak_force"].get<double>(), 0.05);
+  EXPECT_THAT(read_text(place.folder() / "c/comparison.json"),
+              HasSubstr("restitution"));
+  const CommandResult text = place.limber(
+      "compare ball.toml --fidelity rigid --reference coupled --repeat 1 "
+      "--out c");
+  EXPECT_THAT(text.out, HasSubstr("impulse [N s]"));
+}
+
 }  // namespace
 }  // namespace limber::test

@@ -164,6 +164,7 @@ class Runner {
     result.choice = choice;
     result.cost = find_cost(run);
     result.energy_drift = results::audit_energy(run.history).relative_largest();
+    result.contacts = sum_up(run.record.contacts);
     result.history.columns = run.history.columns;
     result.history.times = run.history.times;
     result.history.probe_rows = run.history.probe_rows;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/app/compare/comparison_plan.hpp"
+#include "limber/app/compare/contact_comparison.hpp"
 #include "limber/app/console/json.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/results/motion_error.hpp"
@@ -41,8 +42,9 @@ struct ComparedRun {
   std::optional<results::SystemMotionError> error;  ///< if it was completed
   std::optional<double> energy_drift;  ///< largest, of the throughput [-]
   std::map<std::string, ProbeDifference> probes;
-  std::string stopped;       ///< why and when it ended early, or empty
-  results::History history;  ///< probes only
+  std::vector<PairContact> contacts;  ///< until it ended
+  std::string stopped;                ///< why and when it ended early, or empty
+  results::History history;           ///< probes only
 };
 
 struct Comparison {

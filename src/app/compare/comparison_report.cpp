@@ -112,9 +112,20 @@ std::string align(const std::vector<Cells>& rows) {
   return text;
 }
 
+std::string list_contacts(const Comparison& comparison) {
+  std::vector<NamedContacts> runs;
+  for (const ComparedRun& run : comparison.runs) {
+    runs.push_back({describe(run.choice), run.contacts});
+  }
+  const std::string text =
+      to_text(runs, {"reference: " + describe(comparison.reference.choice),
+                     comparison.reference.contacts});
+  return text.empty() ? "" : "\n" + text + "\n";
+}
+
 }  // namespace
 
-Json to_json(const ComparedRun& run) {
+Json to_json(const ComparedRun& run, const ComparedRun* reference) {
   Json json{{"name", describe(run.choice)},
             {"fidelity", std::string(to_string(run.choice.level))},
             {"basis", to_json(run.choice.basis)},
@@ -136,6 +147,8 @@ Json to_json(const ComparedRun& run) {
       json["bodies"][body.name] = to_json(body.error, body.has_nodes);
     }
   }
+  json["contacts"] = to_json(
+      run.contacts, reference == nullptr ? nullptr : &reference->contacts);
   json["difference"] = Json::object();
   for (const auto& [name, d] : run.probes) {
     json["difference"][name] =
@@ -147,14 +160,14 @@ Json to_json(const ComparedRun& run) {
 Json to_json(const Comparison& comparison) {
   Json runs = Json::array();
   for (const ComparedRun& run : comparison.runs) {
-    runs.push_back(to_json(run));
+    runs.push_back(to_json(run, &comparison.reference));
     const double cost = run.cost.online;
     runs.back()["times_cheaper"] =
         cost > 0.0 ? Json(comparison.reference.cost.online / cost)
                    : Json(nullptr);
   }
   Json json{{"scenario", comparison.scenario.string()},
-            {"reference", to_json(comparison.reference)},
+            {"reference", to_json(comparison.reference, nullptr)},
             {"runs", runs}};
   if (!comparison.reference_note.empty()) {
     json["reference"]["note"] = comparison.reference_note;
@@ -176,6 +189,7 @@ std::string to_text(const Comparison& comparison) {
     if (run.stopped.empty()) continue;
     text += fmt::format("'{}' {}\n", describe(run.choice), run.stopped);
   }
+  text += list_contacts(comparison);
   if (!comparison.reference_note.empty()) {
     text += comparison.reference_note + "\n";
   }

@@ -7,7 +7,9 @@
 
 namespace limber::app {
 
-[[nodiscard]] Json to_json(const ComparedRun& run);
+/// @param reference null for the reference itself
+[[nodiscard]] Json to_json(const ComparedRun& run,
+                           const ComparedRun* reference);
 [[nodiscard]] Json to_json(const Comparison& comparison);
 
 /// A table with a line a run, the reference last.

@@ -14,17 +14,10 @@ using dynamics::ContactRecord;
 
 constexpr std::size_t kMostLines = 20;
 
-// A pair is called "A/B".
-Json split_name(const std::string& pair) {
-  const std::size_t slash = pair.find('/');
-  if (slash == std::string::npos) return Json::array({pair});
-  return Json::array({pair.substr(0, slash), pair.substr(slash + 1)});
-}
-
 Json to_json(const ContactRecord& record) {
   const std::optional<double> restitution = record.restitution();
   return Json{
-      {"between", split_name(record.pair)},
+      {"between", split_pair(record.pair)},
       {"time", record.time},
       {"touches", record.touches},
       {"impulse", record.impulse},
@@ -58,6 +51,12 @@ double find_least_shown(const std::vector<ContactRecord>& records) {
 }
 
 }  // namespace
+
+Json split_pair(const std::string& pair) {
+  const std::size_t slash = pair.find('/');
+  if (slash == std::string::npos) return Json::array({pair});
+  return Json::array({pair.substr(0, slash), pair.substr(slash + 1)});
+}
 
 Json to_json(const std::vector<ContactRecord>& records) {
   Json list = Json::array();

@@ -9,6 +9,9 @@
 
 namespace limber::app {
 
+/// The two bodies of a pair called "A/B".
+[[nodiscard]] Json split_pair(const std::string& pair);
+
 /// Every impact: between, time, touches, impulse, peak_force, peak_time,
 /// peak_depth, duration, touch_speed, restitution (null while they touch at
 /// the end), all in SI units.
