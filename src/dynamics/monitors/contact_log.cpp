@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/monitors/impact_spectrum.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -27,7 +29,8 @@ bool is_coarse(const OngoingContact& pair) {
 
 }  // namespace
 
-ContactLog::ContactLog(const SystemModel& model) : model_(model) {}
+ContactLog::ContactLog(const SystemModel& model, IntegratorKind scheme)
+    : model_(model), scheme_(scheme) {}
 
 double ContactLog::find_approach(const Pair& pair, const SystemState& state,
                                  const Vector3& p_W,
@@ -73,6 +76,7 @@ void ContactLog::include(std::size_t i, const SystemState& state,
   if (now.normal_force > record.peak_force) {
     record.peak_force = now.normal_force;
     record.peak_time = state.t;
+    keep_stiffest(state, record);
   }
   record.peak_depth = std::max(record.peak_depth, now.depth);
   pair.force = now.normal_force;
@@ -92,6 +96,14 @@ void ContactLog::include(const SystemState& state, TouchWatch& touches) {
     include(i, state, touches, state.t - time_);
   }
   time_ = state.t;
+}
+
+void ContactLog::keep_stiffest(const SystemState& state,
+                               const ContactRecord& record) {
+  if (traits_of(scheme_).is_implicit) return;
+  if (!(record.peak_force > strongest_.peak_force)) return;
+  stiffest_ = state;
+  strongest_ = record;
 }
 
 std::vector<ContactRecord> ContactLog::find_records() const {
@@ -117,6 +129,23 @@ void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
         pair.longest_step,
         pair.record.impact_duration / TouchWatch::kStepsOfImpact));
   }
+  for (const ImpactSpectrum& spectrum :
+       find_impact_spectra(model_, find_records())) {
+    if (!spectrum.is_enough()) warnings.push_back(describe(spectrum));
+  }
+  add_stable_step(warnings);
+}
+
+void ContactLog::add_stable_step(std::vector<std::string>& warnings) const {
+  if (!(strongest_.peak_force > 0.0)) return;
+  const bool is_known = scheme_ != IntegratorKind::explicit_euler;
+  const double longest = is_known ? find_stable_step(model_, stiffest_, scheme_)
+                                  : find_stable_step(model_, stiffest_);
+  warnings.push_back(fmt::format(
+      "contact '{}': {} is stable up to {:.3g} s at t = {:.6g} s, where its "
+      "force is largest, {:.4g} N",
+      strongest_.pair, is_known ? to_string(scheme_) : "an explicit scheme",
+      longest, strongest_.peak_time, strongest_.peak_force));
 }
 
 void ContactLog::exchange_memory(Archive& archive) {

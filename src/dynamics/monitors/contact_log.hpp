@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/monitors/contact_record.hpp"
 #include "limber/dynamics/monitors/touch_watch.hpp"
 
@@ -30,7 +31,7 @@ constexpr auto fields_of(const OngoingContact*) {
 /// Equation   impulse by the trapezoidal rule
 class ContactLog {
  public:
-  explicit ContactLog(const SystemModel& model);
+  ContactLog(const SystemModel& model, IntegratorKind scheme);
 
   /// At the start, and then after every accepted step.
   void include(const SystemState& state, TouchWatch& touches);
@@ -38,7 +39,9 @@ class ContactLog {
   /// In the order of time; those that touch last until the time of the last
   /// state.
   [[nodiscard]] std::vector<ContactRecord> find_records() const;
-  /// On steps too long for the impacts that they went through.
+  /// On steps too long for the impacts that they went through, on bases too
+  /// small for them (ImpactSpectrum), and on the stable step of an explicit
+  /// scheme where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
 
   /// Saves or restores its state for checkpoints.
@@ -52,7 +55,14 @@ class ContactLog {
                                      const Vector3& p_W,
                                      const Vector3& normal_W) const;
 
+  void keep_stiffest(const SystemState& state, const ContactRecord& record);
+  void add_stable_step(std::vector<std::string>& warnings) const;
+
   const SystemModel& model_;
+  IntegratorKind scheme_;
+  // Of an explicit scheme: where the force was largest; not in checkpoints.
+  SystemState stiffest_;
+  ContactRecord strongest_;
   std::vector<OngoingContact> pairs_;  // in the order of TouchWatch
   std::vector<ContactRecord> finished_;
   double time_ = 0.0;  // of the last state [s]

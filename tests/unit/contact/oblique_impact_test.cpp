@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "unit/contact/ball_on_floor.hpp"
+
+/// A ball that strikes the floor obliquely, against the textbook of rigid
+/// spheres: with v_t > 7/2 mu (1 + e) v_n it slides throughout.
+namespace limber::contact {
+namespace {
+
+using testing::BallOnFloor;
+using testing::kBallRadius;
+
+struct Rebound {
+  double v_t = 0.0;     ///< [m/s]
+  double v_n = 0.0;     ///< [m/s]
+  double w_rim = 0.0;   ///< of the rim, by the spin [m/s]
+  double energy = 0.0;  ///< kinetic, over the mass [J/kg]
+};
+
+Rebound strike(double friction, double restitution, double v_t) {
+  BallOnFloor scene(
+      {.friction = {.sliding = friction}, .restitution = restitution},
+      {v_t, 0.0, -1.0});
+  dynamics::SimulationSettings settings;
+  settings.end_time = 2e-4;
+  settings.step = 2e-7;
+  dynamics::simulate(scene.model, scene.state, settings, {});
+  const dynamics::BodyState& ball = scene.state.bodies[0];
+  const Vector3 w_W = ball.quat_WB * ball.w_WB_B;
+  return {ball.v_WB_W.x(), ball.v_WB_W.z(), w_W.y() * kBallRadius,
+          0.5 * ball.v_WB_W.squaredNorm() +
+              0.2 * kBallRadius * kBallRadius * w_W.squaredNorm()};
+}
+
+double find_limit(double friction, double restitution) {
+  return 3.5 * friction * (1.0 + restitution);
+}
+
+// v_t = v_t0 - mu (1 + e) v_n, and 2/5 R w = mu (1 + e) v_n but for the depth,
+// by which the floor is nearer to the centre.
+TEST(ObliqueImpact, SlidesThroughoutAtFlatAngles) {
+  for (const double restitution : {1.0, 0.7, 0.3}) {
+    for (const double friction : {0.1, 0.3}) {
+      for (const double share : {1.05, 1.5, 3.0}) {
+        const double v_t = share * find_limit(friction, restitution);
+        const double taken = friction * (1.0 + restitution);
+        const Rebound after = strike(friction, restitution, v_t);
+        EXPECT_NEAR(after.v_n, restitution, 1e-3);
+        EXPECT_NEAR(after.v_t, v_t - taken, 1e-3 * taken);
+        EXPECT_NEAR(after.w_rim, 2.5 * taken, 2e-3 * 2.5 * taken);
+      }
+    }
+  }
+}
+
+// At the limit it leaves rolling, with 5/7 v_t0.
+TEST(ObliqueImpact, LeavesRollingAtTheLimit) {
+  for (const double restitution : {1.0, 0.7, 0.3}) {
+    const double v_t = find_limit(0.3, restitution);
+    const Rebound after = strike(0.3, restitution, v_t);
+    EXPECT_NEAR(after.v_t / v_t, 5.0 / 7.0, 2e-3);
+    EXPECT_NEAR(after.w_rim / v_t, 5.0 / 7.0, 2e-3);
+  }
+}
+
+// Steeper it sticks for a while; what it touches with then swings back, as of
+// elastic spheres [Maw, Barber and Fawcett 1976], and not farther than it came.
+// Moments about the place of the impact are zero: v_t + 2/5 R w stays.
+TEST(ObliqueImpact, SticksAtSteepAngles) {
+  for (const double restitution : {1.0, 0.7, 0.3}) {
+    for (const double share : {0.05, 0.2, 0.4, 0.6, 0.8, 0.95}) {
+      const double v_t = share * find_limit(0.3, restitution);
+      const Rebound after = strike(0.3, restitution, v_t);
+      EXPECT_NEAR((after.v_t + 0.4 * after.w_rim) / v_t, 1.0, 2e-3);
+      EXPECT_LT(std::abs(after.v_t - after.w_rim), 0.5 * v_t);
+      EXPECT_LE(after.energy, 0.5 * (1.0 + v_t * v_t) * (1.0 + 1e-4));
+    }
+  }
+}
+
+// The mirror image.
+TEST(ObliqueImpact, IsTheSameFromTheOtherSide) {
+  const Rebound there = strike(0.3, 0.7, 1.2);
+  const Rebound back = strike(0.3, 0.7, -1.2);
+  EXPECT_NEAR(there.v_t, -back.v_t, 1e-9);
+  EXPECT_NEAR(there.w_rim, -back.w_rim, 1e-9);
+}
+
+}  // namespace
+}  // namespace limber::contact
