@@ -35,6 +35,7 @@ const std::map<std::string, Steps> kShortSteps = {
     {"joint_chain", {2e-5}},
     {"pendulum_chain", {5e-5}},
     {"report_beam", {4e-5}},
+    {"self_strike", {5e-5, {{0.07, 2.5e-6}, {0.09, 2e-5}}}},
     {"slew", {1e-4}},
     {"struck_finger", {5e-6, {{0.05, 1e-5}, {0.2, 2e-5}, {0.5, 4e-5}}}}};
 
