@@ -92,6 +92,17 @@ TEST_F(KilledRunOfASled, IsNotGoneOnFromWithAnotherDampingOrLoad) {
                  "load 'push', sinusoid, frequency: 2 -> 3 Hz");
 }
 
+TEST_F(KilledRunOfASled, IsNotGoneOnFromWithOtherSettings) {
+  for (const char* option :
+       {"--set load.push.time.frequency=3", "--set time.rho_inf=0.5",
+        "--set robot.spring.coil.stiffness=100"}) {
+    const CommandResult result =
+        place_.limber(std::string("run s.toml --out out --resume ") + option);
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.errors, HasSubstr("is of another run"));
+  }
+}
+
 TEST_F(KilledRunOfASled, IsNotGoneOnFromWithOtherProbes) {
   std::string scenario = scenario_;
   replace(scenario, "[[probe]]\nname = 'sled'", "[[probe]]\nname = 'other'");

@@ -10,6 +10,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 struct Options {
   std::string scenario;
+  SettingOptions settings_given;
   std::string fidelity;
   std::string out;
   std::string cache;
@@ -31,6 +33,7 @@ struct Options {
 
 scene::Scene load(const Options& options) {
   scene::Overrides overrides;
+  overrides.settings = to_settings(options.settings_given);
   if (!options.fidelity.empty()) {
     overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
   }
@@ -120,6 +123,7 @@ void add_advise(CLI::App& app, Action& action) {
       ->add_option("--force-limit", options->settings.force,
                    "Nodal inertial force to neglect [N] (default: none)")
       ->check(make_positive());
+  add_settings(*command, options->settings_given);
   command->add_option("--fidelity", options->fidelity,
                       "Level to judge, of every flexible link, in place of "
                       "the scenario's");

@@ -13,11 +13,14 @@
 #include "limber/app/compare/comparison_selection.hpp"
 #include "limber/app/console/percent.hpp"
 #include "limber/app/console/text_file.hpp"
+#include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/build/scenario_writer.hpp"
+#include "limber/scene/text/toml_file.hpp"
+#include "limber/scene/text/toml_settings.hpp"
 
 namespace limber::app {
 namespace {
@@ -26,6 +29,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string scenario;
+  SettingOptions settings;
   std::vector<std::string> levels;
   Axes axes;  ///< without levels
   std::string reference;
@@ -79,6 +83,7 @@ ComparisonSettings make_settings(const Options& options) {
           ? fs::path("out") /
                 (fs::path(options.scenario).stem().string() + "-compare")
           : fs::path(options.out);
+  settings.settings = to_settings(options.settings);
   settings.cache = options.cache;
   settings.repeats = options.repeats;
   // Levels alone give few runs; other axes multiply them.
@@ -86,6 +91,18 @@ ComparisonSettings make_settings(const Options& options) {
                                         options.axes.sources.empty() &&
                                         options.axes.steps.empty());
   return settings;
+}
+
+/// What the file does not hold, because it is of the robot.
+std::string describe_robot_settings(const ComparisonSettings& settings) {
+  std::string text;
+  const auto sorted = scene::sort_settings(
+      settings.settings, scene::parse_toml_file(settings.scenario));
+  for (const scene::RobotSetting& setting : sorted.robots) {
+    text += fmt::format("# Run it with {}, which it does not hold.\n",
+                        to_string(setting.setting));
+  }
+  return text;
 }
 
 void write_chosen(const ComparedRun& run, const Demand& demand,
@@ -96,10 +113,12 @@ void write_chosen(const ComparedRun& run, const Demand& demand,
       fmt::format(
           "# {}: the cheapest choice within {} that limber compare found,\n"
           "#   {}\n"
-          "# with an error of {}. The original's comments are lost.\n\n{}",
+          "# with an error of {}. The original's comments are lost.\n{}\n{}",
           settings.scenario.filename().string(), to_percent(demand.tolerance),
           describe(run.choice), to_percent(error),
-          scene::rewrite_scenario(settings.scenario, to_overrides(run.choice),
+          describe_robot_settings(settings),
+          scene::rewrite_scenario(settings.scenario,
+                                  to_overrides(run.choice, settings.settings),
                                   settings.folder)));
 }
 
@@ -116,14 +135,15 @@ Json chosen_to_json(const Demand& demand, const ComparedRun* chosen,
 }
 
 std::string describe_chosen(const Demand& demand, const ComparedRun& chosen,
-                            const Comparison& comparison,
-                            const fs::path& file) {
+                            const Comparison& comparison, const fs::path& file,
+                            const ComparisonSettings& settings) {
   return fmt::format(
       "Cheapest within {}: '{}', error {}, {:.3g} times cheaper than the "
-      "reference; {}\n",
+      "reference; {}\n{}",
       to_percent(demand.tolerance), describe(chosen.choice),
       to_percent(find_error(chosen.error->error, demand.measure)),
-      comparison.reference.cost.online / chosen.cost.online, file.string());
+      comparison.reference.cost.online / chosen.cost.online, file.string(),
+      describe_robot_settings(settings));
 }
 
 /// Text and pictures of the comparison.
@@ -159,7 +179,8 @@ class ComparisonWriter {
     }
     fmt::print("{}", to_text(comparison_));
     if (chosen_ != nullptr) {
-      fmt::print("{}", describe_chosen(*demand_, *chosen_, comparison_, file_));
+      fmt::print("{}", describe_chosen(*demand_, *chosen_, comparison_, file_,
+                                       settings_));
     }
     fmt::print("results in {}\n", settings_.folder.string());
   }
@@ -186,11 +207,13 @@ void compare(const Options& options) {
   const ReferenceWish wish = make_wish(options);
   const std::optional<Demand> demand = make_demand(options);
   const ComparisonSettings settings = make_settings(options);
-  const scene::Scene scene = scene::load_scene(options.scenario);
+  const scene::Scene scene =
+      scene::load_scene(options.scenario, {.settings = settings.settings});
   const ComparisonPlan plan = make_plan(axes, wish, scene);
   // Errors of the scene are found before anything is written.
   for (const Choice& choice : plan.runs) {
-    (void)scene::load_scene(options.scenario, to_overrides(choice));
+    (void)scene::load_scene(options.scenario,
+                            to_overrides(choice, settings.settings));
   }
   OutputFolder folder(settings.folder);
   folder.claim(find_run_folders(plan, settings));
@@ -271,6 +294,7 @@ void add_compare(CLI::App& app, Action& action) {
       "each costs and gives up");
   command->add_option("scenario", options->scenario, "Scenario file (TOML)")
       ->required();
+  add_settings(*command, options->settings);
   add_axes(*command, *options);
   add_reference(*command, *options);
   add_demand(*command, *options);

@@ -13,6 +13,7 @@
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/scene/build/build_system.hpp"
@@ -24,6 +25,7 @@ namespace {
 
 struct Options {
   std::string scenario;
+  SettingOptions settings_given;
   std::string fidelity;
   std::string cache;
   int count = 20;
@@ -182,6 +184,7 @@ void print_table(const Options& options, const Findings& f) {
 
 void find_frequencies(const Options& options) {
   scene::Overrides overrides;
+  overrides.settings = to_settings(options.settings_given);
   if (!options.fidelity.empty()) {
     overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
   }
@@ -213,6 +216,7 @@ void add_frequencies(CLI::App& app, Action& action) {
       "by its couplers and drives");
   command->add_option("scenario", options->scenario, "Scenario file (.toml)")
       ->required();
+  add_settings(*command, options->settings_given);
   command->add_option("--fidelity", options->fidelity,
                       "Level of every flexible link, in place of the file's");
   command->add_option("--count", options->count, "How many, from the lowest")

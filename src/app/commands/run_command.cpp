@@ -8,6 +8,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/run_scene.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 struct Options {
   std::string scenario;
+  SettingOptions settings_given;
   std::string fidelity;
   std::string out;
   std::string cache;
@@ -38,6 +40,7 @@ std::filesystem::path find_folder(const Options& options,
 
 void run(const Options& options) {
   scene::Overrides overrides;
+  overrides.settings = to_settings(options.settings_given);
   if (!options.fidelity.empty()) {
     overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
   }
@@ -71,6 +74,7 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
   command->add_option("scenario", options->scenario, "Scenario file (TOML)")
       ->required();
+  add_settings(*command, options->settings_given);
   command->add_option("--fidelity", options->fidelity,
                       "Level of every flexible link: rigid, uncoupled, "
                       "one-way, coupled, full");

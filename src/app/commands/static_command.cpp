@@ -9,6 +9,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/setting_options.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/reports/static_report.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 struct Options {
   std::string scenario;
+  SettingOptions settings_given;
   std::string fidelity;
   std::string method;
   std::string out;
@@ -47,6 +49,7 @@ struct StaticRun {
 
 scene::Scene load(const Options& options) {
   scene::Overrides overrides;
+  overrides.settings = to_settings(options.settings_given);
   if (!options.fidelity.empty()) {
     overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
   }
@@ -204,6 +207,7 @@ void add_static(CLI::App& app, Action& action) {
       "gravity, couplers, drives");
   command->add_option("scenario", options->scenario, "Scenario file (TOML)")
       ->required();
+  add_settings(*command, options->settings_given);
   command->add_option("--fidelity", options->fidelity,
                       "Level of every flexible link, in place of the file's");
   command->add_option("--method", options->method,

@@ -57,7 +57,8 @@ class Runner {
       total_ += estimate_cost(choice, plan.reference);
     }
     times_ = thin_times(
-        scene::load_scene(settings.scenario).scenario.settings.output_times,
+        scene::load_scene(settings.scenario, {.settings = settings.settings})
+            .scenario.settings.output_times,
         longest);
   }
 
@@ -93,7 +94,7 @@ class Runner {
   }
 
   Run simulate(const Choice& choice) {
-    scene::Overrides overrides = to_overrides(choice);
+    scene::Overrides overrides = to_overrides(choice, settings_.settings);
     overrides.rows = flexbody::KeptRows{flexbody::KeptRows::Extent::all, {}};
     scene::Scene scene = scene::load_scene(settings_.scenario, overrides);
     scene.scenario.settings.output_times = times_;

@@ -56,10 +56,11 @@ struct Comparison {
 
 struct ComparisonSettings {
   std::filesystem::path scenario;
-  std::filesystem::path folder;  ///< of results
-  std::filesystem::path cache;   ///< empty for the default one
-  bool keep_runs = false;        ///< a folder for each run
-  int repeats = 0;               ///< count; 0: until they take kEnough together
+  std::vector<scene::Setting> settings;  ///< applied to it in every run
+  std::filesystem::path folder;          ///< of results
+  std::filesystem::path cache;           ///< empty for the default one
+  bool keep_runs = false;                ///< a folder for each run
+  int repeats = 0;  ///< count; 0: until they take kEnough together
 };
 /// Runs shorter than this are repeated until they take this long together [s].
 inline constexpr double kEnough = 0.2;

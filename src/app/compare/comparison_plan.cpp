@@ -189,8 +189,10 @@ std::string describe_details(const Choice& choice) {
 
 }  // namespace
 
-scene::Overrides to_overrides(const Choice& choice) {
+scene::Overrides to_overrides(const Choice& choice,
+                              const std::vector<scene::Setting>& settings) {
   scene::Overrides overrides;
+  overrides.settings = settings;
   overrides.fidelity = choice.level;
   overrides.basis = choice.basis;
   overrides.step = choice.step;

@@ -20,8 +20,9 @@ struct Choice {
   bool operator==(const Choice&) const = default;
 };
 
-/// The scenario values that a choice replaces.
-[[nodiscard]] scene::Overrides to_overrides(const Choice& choice);
+/// The scenario values that a choice replaces, over those set by path.
+[[nodiscard]] scene::Overrides to_overrides(
+    const Choice& choice, const std::vector<scene::Setting>& settings = {});
 
 /// Values to combine; an empty axis means the scenario's value.
 struct Axes {

@@ -98,6 +98,15 @@ Json summarize_probes(const results::History& history,
   return json;
 }
 
+// path -> value as given; null: removed.
+Json describe_settings(const std::vector<scene::Setting>& settings) {
+  Json json = Json::object();
+  for (const scene::Setting& setting : settings) {
+    json[setting.path] = setting.value ? Json(*setting.value) : Json(nullptr);
+  }
+  return json;
+}
+
 Json summarize_selections(const Run& run) {
   Json json = Json::object();
   for (const dynamics::BodyModel& body : run.built.model.bodies) {
@@ -173,6 +182,9 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
 Json summarize(const Run& run) {
   Json json = Json::object();
   json["scenario"] = run.scene.scenario.file.string();
+  if (!run.scene.settings.empty()) {
+    json["settings"] = describe_settings(run.scene.settings);
+  }
   json["completed"] = run.failure == nullptr;
   json["bodies"] = run.built.model.bodies.size();
   json["modes"] = count_modes(run);

@@ -2,11 +2,13 @@
 #include "limber/scene/build/load_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "limber/common/errors.hpp"
 #include "limber/scene/build/basis_choice.hpp"
 #include "limber/scene/build/scene_checks.hpp"
 #include "limber/scene/build/scene_robots.hpp"
@@ -15,6 +17,7 @@
 #include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/toml_file.hpp"
+#include "limber/scene/text/toml_settings.hpp"
 
 namespace limber::scene {
 
@@ -54,6 +57,26 @@ void apply(const Overrides& overrides, Scene& scene) {
   }
 }
 
+// Problems that do not name the setting which made them may come from any.
+std::vector<std::string> name_settings(std::vector<std::string> problems,
+                                       const std::vector<Setting>& settings) {
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> texts;
+  for (const Setting& setting : settings) texts.push_back(to_string(setting));
+  if (texts.size() > kMostNamed) {
+    texts.resize(kMostNamed);
+    texts.emplace_back("...");
+  }
+  for (std::string& problem : problems) {
+    if (problem.find("--set ") != std::string::npos ||
+        problem.find("--unset ") != std::string::npos) {
+      continue;
+    }
+    problem += fmt::format(" (with {})", fmt::join(texts, " "));
+  }
+  return problems;
+}
+
 // Takes the bodies that touch, and what their reductions keep for it.
 void add_contacts(Scene& scene) {
   TouchingPairs touching = find_touching_pairs(scene.scenario, scene.robot);
@@ -75,14 +98,14 @@ void add_contacts(Scene& scene) {
   scene.touching = std::move(touching.pairs);
 }
 
-}  // namespace
-
-Scene load_scene(const std::filesystem::path& file,
-                 const Overrides& overrides) {
+Scene load(const std::filesystem::path& file, const Overrides& overrides) {
   Scene scene;
-  const toml::table table = parse_toml_file(file);
+  scene.settings = overrides.settings;
+  toml::table table = parse_toml_file(file);
+  const SortedSettings settings = sort_settings(overrides.settings, table);
+  apply_settings(settings.scenario, table);
   scene.scenario = read_scenario(table, file);
-  scene.robot = read_robots(scene.scenario);
+  scene.robot = read_robots(scene.scenario, settings.robots);
   add_projectiles(scene.scenario, scene.robot);
   check_scenario(scene.scenario, scene.robot);
   add_contacts(scene);
@@ -92,6 +115,18 @@ Scene load_scene(const std::filesystem::path& file,
     scene.scenario.warnings.push_back(std::move(text));
   }
   return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file,
+                 const Overrides& overrides) {
+  try {
+    return load(file, overrides);
+  } catch (const InputError& error) {
+    if (overrides.settings.empty()) throw;
+    throw InputError(name_settings(error.problems(), overrides.settings));
+  }
 }
 
 }  // namespace limber::scene

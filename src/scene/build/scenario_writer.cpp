@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "limber/scene/text/toml_file.hpp"
+#include "limber/scene/text/toml_settings.hpp"
 
 namespace limber::scene {
 namespace {
@@ -120,6 +121,7 @@ std::string rewrite_scenario(const std::filesystem::path& file,
                              const Overrides& overrides,
                              const std::filesystem::path& folder) {
   toml::table root = parse_toml_file(file);
+  apply_settings(sort_settings(overrides.settings, root).scenario, root);
   move_paths(root, Mover(file.parent_path(), folder));
   if (overrides.fidelity) {
     const std::string level(dynamics::to_string(*overrides.fidelity));

@@ -8,8 +8,9 @@
 
 namespace limber::scene {
 
-/// The scenario `file` as TOML with `overrides` applied ([fidelity], [basis],
-/// [time]; `rows` belong to the robot and are omitted), for a file in `folder`:
+/// The scenario `file` as TOML with `overrides` applied (its keys, [fidelity],
+/// [basis], [time]; `rows` and settings of the robot belong to that and are
+/// omitted), for a file in `folder`:
 /// paths are relative to it. Comments are lost. With a step, `output_interval`
 /// becomes at least that step, because steps end at outputs.
 /// @throws InputError if the file is not valid TOML.

@@ -10,6 +10,7 @@
 #include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/robot/robot.hpp"
 #include "limber/scene/scenario/scenario.hpp"
+#include "limber/scene/text/setting.hpp"
 
 namespace limber::scene {
 
@@ -19,10 +20,14 @@ struct Scene {
   Scenario scenario;
   Robot robot;
   std::vector<TouchingPair> touching = {};
+  /// What was set over the files, for results to tell.
+  std::vector<Setting> settings = {};
 };
 
 /// Values of the command line that override the file's.
 struct Overrides {
+  /// Keys of the scenario and the robot; the values below go over them.
+  std::vector<Setting> settings = {};
   std::optional<dynamics::Fidelity> fidelity = {};  ///< for every flexible link
   /// Over the file's [basis] for every flexible link, key by key.
   BasisChoice basis = {};

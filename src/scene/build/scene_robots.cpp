@@ -29,11 +29,22 @@ JointStart find_start(const BodyStart& start) {
   return {{}, {v[0], v[1], v[2], w[0], w[1], w[2]}};
 }
 
+std::vector<RobotSetting> select(const std::vector<RobotSetting>& settings,
+                                 const std::string& robot) {
+  std::vector<RobotSetting> own;
+  for (const RobotSetting& setting : settings) {
+    if (setting.robot == robot) own.push_back(setting);
+  }
+  return own;
+}
+
 /// The file's robot, or none and a problem.
-std::vector<NamedRobot> read_named(const RobotSpec& spec, Problems& problems) {
+std::vector<NamedRobot> read_named(const RobotSpec& spec,
+                                   const std::vector<RobotSetting>& settings,
+                                   Problems& problems) {
   NamedRobot named{spec.name, {}, find_pose(spec.start)};
   try {
-    named.robot = read_robot(spec.file);
+    named.robot = read_robot(spec.file, select(settings, spec.name));
   } catch (const InputError& error) {
     problems.add(error, 0);
     return {};
@@ -48,12 +59,13 @@ std::vector<NamedRobot> read_named(const RobotSpec& spec, Problems& problems) {
 
 }  // namespace
 
-Robot read_robots(Scenario& scenario) {
-  if (scenario.robots.empty()) return read_robot(scenario.robot);
+Robot read_robots(Scenario& scenario,
+                  const std::vector<RobotSetting>& settings) {
+  if (scenario.robots.empty()) return read_robot(scenario.robot, settings);
   Problems problems(scenario.file.string());
   std::vector<NamedRobot> all;
   for (const RobotSpec& spec : scenario.robots) {
-    for (NamedRobot& named : read_named(spec, problems)) {
+    for (NamedRobot& named : read_named(spec, settings, problems)) {
       all.push_back(std::move(named));
     }
     if (scenario.joints.contains(spec.name)) {

@@ -10,6 +10,7 @@
 #include "limber/common/files/input_file.hpp"
 #include "limber/scene/robot/collision_reader.hpp"
 #include "limber/scene/robot/extension_reader.hpp"
+#include "limber/scene/robot/robot_settings.hpp"
 #include "limber/scene/robot/urdf_joints.hpp"
 #include "limber/scene/robot/urdf_names.hpp"
 #include "limber/scene/robot/urdf_tree.hpp"
@@ -184,7 +185,7 @@ const TiXmlElement& parse_root(TiXmlDocument& document, const std::string& xml,
                  fmt::format("not well-formed XML: {}", document.ErrorDesc()));
     problems.raise();
   }
-  const TiXmlElement* root = document.RootElement();
+  TiXmlElement* root = document.RootElement();
   if (root == nullptr || root->ValueStr() != "robot") {
     problems.add(0, "expected a <robot> as the root element (URDF)");
     problems.raise();
@@ -231,15 +232,27 @@ void check_text(const TiXmlElement& root, Problems& problems) {
   }
 }
 
+/// Applies the settings; `xml` becomes the text with them.
+void apply(const std::vector<RobotSetting>& settings, TiXmlDocument& document,
+           std::string& xml) {
+  if (settings.empty()) return;
+  apply_settings(settings, *document.RootElement());
+  TiXmlPrinter printer;
+  document.Accept(&printer);
+  xml = printer.Str();
+}
+
 }  // namespace
 
-Robot read_robot(const std::filesystem::path& file) {
-  const std::string xml = read_text(file);
+Robot read_robot(const std::filesystem::path& file,
+                 const std::vector<RobotSetting>& settings) {
+  std::string xml = read_text(file);
   Problems problems(file.string());
   check_xml_depth(xml, problems);
   problems.raise();
   TiXmlDocument document;
   const TiXmlElement& root = parse_root(document, xml, problems);
+  apply(settings, document, xml);
   check_text(root, problems);
   check_urdf_tree(root, problems);
   problems.raise();

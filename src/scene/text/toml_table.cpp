@@ -17,8 +17,14 @@ std::string type_name(const toml::node& node) {
   return text.str();
 }
 
+// A node that a setting made has the setting as its source, and no line.
 int line_of(const toml::node& node) {
-  return static_cast<int>(node.source().begin.line);
+  return node.source().path ? 0 : static_cast<int>(node.source().begin.line);
+}
+
+std::string origin_of(const toml::node& node) {
+  const auto& setting = node.source().path;
+  return setting ? fmt::format(" ({})", *setting) : "";
 }
 
 }  // namespace
@@ -35,13 +41,15 @@ bool TomlTable::is_array(const std::string& key) const {
 }
 
 void TomlTable::fail(const std::string& text) const {
-  problems_.add(line(), path_.empty() ? text : "[" + path_ + "] " + text);
+  const std::string what = text + origin_of(table_);
+  problems_.add(line(), path_.empty() ? what : "[" + path_ + "] " + what);
 }
 
 void TomlTable::fail(const std::string& key, const std::string& text) const {
   const toml::node* node = table_.get(key);
   const std::string where = path_.empty() ? echo(key) : path_ + "." + echo(key);
-  problems_.add(node == nullptr ? line() : line_of(*node), where + ": " + text);
+  const toml::node& at = node == nullptr ? table_ : *node;
+  problems_.add(line_of(at), where + ": " + text + origin_of(at));
 }
 
 void TomlTable::fail_type(const std::string& key, const toml::node& node,
@@ -225,7 +233,8 @@ void TomlTable::finish() const {
     const std::string name(key.str());
     if (known_.count(name) != 0) continue;
     problems_.add(line_of(node), (path_.empty() ? "" : "[" + path_ + "] ") +
-                                     describe_unknown("key", name, known));
+                                     describe_unknown("key", name, known) +
+                                     origin_of(node));
   }
 }
 
