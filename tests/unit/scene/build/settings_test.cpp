@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"RobotFlexible",
                 {"robot.flexible.arm.basis.eigenmodes=3"},
                 "unknown flexible 'arm'"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& one) { return one.param.name; });
 
 TEST_F(SettingsOfAScene, TellsOfOthersThatMayHaveCausedAnError) {
   EXPECT_THAT(refusal({"load.push.link=leg"}),
@@ -230,6 +230,31 @@ TEST(SettingText, NeedsAKeyAndAnEqualsSign) {
   EXPECT_THROW((void)parse_setting("=1"), InputError);
   EXPECT_EQ(parse_setting("a.\"b=c\" = d = e"),
             (Setting{"a.\"b=c\"", "d = e"}));
+}
+
+TEST_F(SettingsOfAScene, AreOfOneOfSeveralRobotsByItsName) {
+  std::ofstream(folder_.path() / "scenario.toml") << R"(
+[time]
+duration = 1.0
+step = 0.1
+[[robot]]
+name = 'left'
+file = 'robot.urdf'
+[[robot]]
+name = 'right'
+file = 'robot.urdf'
+)";
+  const Scene scene = load({"robot.left.joint.hinge.origin.xyz.0=9",
+                            "robot.right.position=[0, 0, 5]"});
+  EXPECT_EQ(scene.robot.joints.at(1).X_PJ.p.x(), 9.0);
+  EXPECT_EQ(scene.robot.joints.at(4).X_PJ.p.x(), 1.0);
+  EXPECT_EQ(scene.scenario.robots.at(1).start.position.z(), 5.0);
+  EXPECT_THAT(refusal({"robot.lift.joint.hinge.origin.xyz.0=9"}),
+              AllOf(HasSubstr("unknown robot 'lift'"), HasSubstr("'left'")));
+  EXPECT_THAT(refusal({"robot.left.joint.hange.origin.xyz.0=9"}),
+              HasSubstr("'hinge'"));
+  EXPECT_THAT(refusal({"robot.joint.hinge.origin.xyz.0=9"}),
+              HasSubstr("unknown robot 'joint'"));
 }
 
 }  // namespace
