@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -136,6 +137,59 @@ TEST(BallOnLink, IsComparedOverLevels) {
       "compare ball.toml --fidelity rigid --reference coupled --repeat 1 "
       "--out c");
   EXPECT_THAT(text.out, HasSubstr("impulse [N s]"));
+}
+
+// 40 modes of the bar end above two periods in the impact, 10 below.
+TEST(BallOnLink, TellsIfItsBasisIsTooSmallForTheImpact) {
+  for (const bool is_small : {true, false}) {
+    const Workspace place;
+    write_ball(place, std::string(kFine) + "[basis]\neigenmodes = " +
+                          (is_small ? "10\n" : "40\n"));
+    const CommandResult result = place.limber("run ball.toml --out o --json");
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const auto words = HasSubstr("10 modes of body 'bar'");
+    const std::string warnings =
+        json::parse(result.out, nullptr, false)["warnings"].dump();
+    if (is_small) {
+      EXPECT_THAT(result.errors, words);
+      EXPECT_THAT(warnings, words);
+    } else {
+      EXPECT_THAT(warnings, testing::Not(HasSubstr("modes of body")));
+    }
+    const CommandResult advice =
+        place.limber("advise ball.toml --json --out a");
+    ASSERT_EQ(advice.status, 0) << advice.errors;
+    const json body = json::parse(advice.out, nullptr, false)["bodies"][0];
+    EXPECT_EQ(body["impacts"][0]["contact"], "bar/ball");
+    EXPECT_EQ(body["impacts"][0]["enough"], !is_small);
+    EXPECT_GT(body["left_out"]["rigid"].get<double>(), 1e-5);  // it must bend
+  }
+}
+
+// The bar of 200 x 20 mm in elements of 5 mm: 41 x 5 corners, 81 x 9 nodes.
+TEST(BallOnLink, LeavesASurfaceInTheFileOfItsBody) {
+  const Workspace place;
+  write_ball(place, "[time]\nduration = 1e-6\nstep = 2e-7\n");
+  const CommandResult result =
+      place.limber("run ball.toml --out o --cache c --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  json surfaces;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(place.folder() / "c")) {
+    if (entry.path().extension() != ".h5") continue;
+    const CommandResult info =
+        place.limber("info --json '" + entry.path().string() + "'");
+    ASSERT_EQ(info.status, 0) << info.errors;
+    surfaces = json::parse(info.out, nullptr, false)["contact_surfaces"];
+  }
+  ASSERT_EQ(surfaces.size(), 1U);
+  EXPECT_EQ(surfaces[0]["name"], "top");
+  EXPECT_EQ(surfaces[0]["nodes"], 81 * 9);
+  EXPECT_EQ(surfaces[0]["faces"], 40 * 4 * 2);
+  EXPECT_EQ(surfaces[0]["youngs_modulus"], 210e9);
+  for (const json& radius : surfaces[0]["patch_radius"]) {
+    EXPECT_NEAR(radius.get<double>(), 0.005, 1e-9);
+  }
 }
 
 }  // namespace

@@ -63,6 +63,25 @@ Json describe_gears(const scene::Robot& robot) {
   return gears;
 }
 
+Json find_range(const VectorX& values) {
+  if (values.size() == 0) return nullptr;
+  return Json::array({values.minCoeff(), values.maxCoeff()});
+}
+
+Json describe_surfaces(const flexbody::ReducedBody& body) {
+  Json surfaces = Json::array();
+  for (const flexbody::ContactSurface& surface : body.contact_surfaces) {
+    surfaces.push_back(Json{{"name", surface.name},
+                            {"nodes", surface.tags.size()},
+                            {"faces", surface.faces.size()},
+                            {"residual", find_range(surface.residual)},
+                            {"patch_radius", find_range(surface.patch_radius)},
+                            {"youngs_modulus", surface.youngs_modulus},
+                            {"poisson_ratio", surface.poisson_ratio}});
+  }
+  return surfaces;
+}
+
 Json describe_body(const std::filesystem::path& file) {
   const flexbody::ReducedBody body = flexbody::read_body(file);
   std::vector<std::string> interfaces;
@@ -84,7 +103,8 @@ Json describe_body(const std::filesystem::path& file) {
             {"modes", body.mode_count()},
             {"frequencies_hz", to_json(hz)},
             {"interfaces", interfaces},
-            {"groups", groups}};
+            {"groups", groups},
+            {"contact_surfaces", describe_surfaces(body)}};
   add_choices(body, json);
   return json;
 }

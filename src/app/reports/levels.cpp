@@ -170,6 +170,12 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
       flexible.model, *survey, find_asked(scene.scenario, flexible.model),
       scene.scenario.advice);
   find_bounds(levels);
+  for (const dynamics::ImpactSpectrum& spectrum :
+       dynamics::find_impact_spectra(flexible.model, record.contacts)) {
+    for (BodyLevel& level : levels) {
+      if (level.name == spectrum.body) level.impacts.push_back(spectrum);
+    }
+  }
   return levels;
 }
 

@@ -10,6 +10,7 @@
 #include "limber/app/console/json.hpp"
 #include "limber/dynamics/analysis/level_advice.hpp"
 #include "limber/dynamics/monitors/followed.hpp"
+#include "limber/dynamics/monitors/impact_spectrum.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/scene.hpp"
 
@@ -26,6 +27,8 @@ struct BodyLevel {
   std::vector<dynamics::RotationPoint> track;
   /// Of rotation; set only by find_bounds, since it is expensive.
   std::shared_ptr<const flexbody::InertialDisplacementBound> bound;
+  /// Of each pair in which it touches another body; set only by advise_scene.
+  std::vector<dynamics::ImpactSpectrum> impacts;
 
   /// Whether the level used neglects no more than the limits allow.
   [[nodiscard]] bool is_justified() const {

@@ -149,6 +149,18 @@ Json to_json(const BodyLevel& level) {
   json["left_out"] = {{"rigid", advice.errors.rigid},
                       {"uncoupled", advice.errors.uncoupled},
                       {"one-way", advice.errors.one_way}};
+  if (!level.impacts.empty()) json["impacts"] = Json::array();
+  for (const dynamics::ImpactSpectrum& impact : level.impacts) {
+    json["impacts"].push_back(
+        Json{{"contact", impact.pair},
+             {"duration", impact.duration},
+             {"highest_frequency_hz", impact.frequency},
+             {"periods", impact.share()},
+             {"enough", impact.is_enough()},
+             {"modes", impact.modes},
+             {"modes_needed",
+              impact.needed ? Json(*impact.needed) : Json(nullptr)}});
+  }
   return json;
 }
 
@@ -179,6 +191,9 @@ std::string to_text(const BodyLevel& level) {
         "  beware       {:.3g} m is beyond the linear range of {:.3g} m: only "
         "level full is right\n",
         peaks.deformation.value, level.limits.linear_limit);
+  }
+  for (const dynamics::ImpactSpectrum& impact : level.impacts) {
+    text += fmt::format("  impact       {}\n", describe(impact));
   }
   return text;
 }
