@@ -139,9 +139,9 @@ RobotSpec read_placed_robot(TomlTable& table,
   // The name goes before a dot, and patterns stand for what has a wildcard.
   if (table.has("name") &&
       (robot.name.empty() || robot.name == "world" ||
-       robot.name.find_first_of(".*?") != std::string::npos)) {
+       robot.name.find_first_of(".*?/") != std::string::npos)) {
     table.fail("name", fmt::format("'{}' cannot name a robot; use a text "
-                                   "without '.', '*' and '?', not 'world'",
+                                   "without '.', '*', '?' and '/', not 'world'",
                                    echo(robot.name)));
   }
   robot.file = (folder / table.required_text("file")).lexically_normal();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "limber/common/echo.hpp"
 #include "limber/scene/robot/place_reader.hpp"
 #include "limber/scene/scenario/added_body_reader.hpp"
 #include "limber/scene/scenario/basis_reader.hpp"
@@ -32,6 +33,16 @@ void read_full(TomlTable& table, Scenario& scenario) {
   full.mass = read_name(table, "mass", full.mass, &flexbody::parse_nodal_mass);
 }
 
+/// TOML takes a key with a dot for a table in a table.
+void fail_unquoted(TomlTable& table, const std::string& robot,
+                   const toml::table& inner) {
+  const std::string name(inner.begin()->first.str());
+  table.skip(robot);
+  table.fail(robot, fmt::format("is a table; a name with a dot is a key in "
+                                "quotes: \"{}.{}\"",
+                                echo(robot), echo(name)));
+}
+
 void read_fidelity(TomlTable& table, Scenario& scenario) {
   scenario.fidelity = read_level(table, "default", scenario.fidelity);
   const toml::table* links = table.table("links");
@@ -39,6 +50,10 @@ void read_fidelity(TomlTable& table, Scenario& scenario) {
   TomlTable levels(*links, "fidelity.links", table.problems());
   for (const auto& [key, node] : *links) {
     const std::string link(key.str());
+    if (node.is_table() && !node.as_table()->empty()) {
+      fail_unquoted(levels, link, *node.as_table());
+      continue;
+    }
     scenario.fidelity_of_link[link] =
         read_level(levels, link, scenario.fidelity);
   }
@@ -138,6 +153,11 @@ void read_starts(TomlTable& table, const std::string& section,
     const std::string name(key.str());
     const toml::table* item = by_name.table(name);
     if (item == nullptr) continue;
+    if (!item->empty() && item->begin()->second.is_table() &&
+        item->begin()->first.str() != "modes") {
+      fail_unquoted(by_name, name, *item);
+      continue;
+    }
     TomlTable values(*item, path + "." + name, table.problems());
     starts[name] = read(values);
     values.finish();
