@@ -49,12 +49,24 @@ struct Mark {
                                       const std::string& title,
                                       const History& history);
 
+/// Points and the triangles between them.
+struct Surface {
+  Matrix3X points;                                    ///< 3 x n [m]
+  std::vector<std::array<std::size_t, 3>> triangles;  ///< indices of points
+};
+/// What moves with the frame of a body.
+struct BodySurface {
+  dynamics::BodyIndex body;
+  Surface surface;  ///< body frame
+};
+
 /// The surfaces of all flexible bodies (and the frames of rigid ones) at the
-/// given states.
+/// given states. @param shapes of rigid bodies, drawn in addition
 [[nodiscard]] std::string draw_scene(
     const std::filesystem::path& file, const std::string& title,
     const dynamics::SystemModel& model,
-    const std::vector<dynamics::SystemState>& states);
+    const std::vector<dynamics::SystemState>& states,
+    const std::vector<BodySurface>& shapes = {});
 
 /// The same for an equilibrium and the start; the displacement between them is
 /// magnified by the factor `exaggeration` [-], for all bodies alike, so that
@@ -66,11 +78,6 @@ struct Mark {
                                             const dynamics::SystemState& state,
                                             double exaggeration);
 
-/// Points and the triangles between them.
-struct Surface {
-  Matrix3X points;                                    ///< 3 x n [m]
-  std::vector<std::array<std::size_t, 3>> triangles;  ///< indices of points
-};
 /// One body, undeformed and with displacements u (3 x n [m]) magnified by
 /// `exaggeration`.
 [[nodiscard]] std::string draw_deformation(const std::filesystem::path& file,

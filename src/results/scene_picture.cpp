@@ -101,6 +101,13 @@ Shot take_shot(const std::string& name, const SystemModel& model,
   return shot;
 }
 
+Surface place(const BodySurface& shape, const SystemState& state) {
+  const auto& body = state.bodies[static_cast<std::size_t>(shape.body)];
+  const Matrix3 R_WB = body.quat_WB.toRotationMatrix();
+  const Matrix3X points = (R_WB * shape.surface.points).colwise() + body.p_WB;
+  return {points, shape.surface.triangles};
+}
+
 std::size_t count_triangles(const std::vector<Shot>& shots) {
   std::size_t count = 0;
   for (const Shot& shot : shots) {
@@ -203,11 +210,15 @@ std::string head(const std::string& title, double exaggeration) {
 
 std::string draw_scene(const std::filesystem::path& file,
                        const std::string& title, const SystemModel& model,
-                       const std::vector<SystemState>& states) {
+                       const std::vector<SystemState>& states,
+                       const std::vector<BodySurface>& shapes) {
   std::vector<Shot> shots;
   for (const SystemState& state : states) {
     shots.push_back(
         take_shot(fmt::format("t = {:g} s", state.t), model, {state, state}));
+    for (const BodySurface& shape : shapes) {
+      shots.back().surfaces.push_back(place(shape, state));
+    }
   }
   return draw(file, title, shots);
 }

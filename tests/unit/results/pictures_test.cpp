@@ -154,6 +154,18 @@ TEST_F(Pictures, SceneOfRigidBodiesAloneIsAPng) {
   }));
 }
 
+TEST_F(Pictures, SceneShowsShapesOfRigidBodies) {
+  dynamics::SystemBuilder builder;
+  const auto ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
+  const dynamics::SystemModel model = builder.build();
+  Matrix3X points(3, 4);
+  points << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  const BodySurface corner{ball, {points, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}}}};
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_scene(file, "ball", model, {make_state(model)}, {corner});
+  }));
+}
+
 TEST_F(Pictures, SceneWithoutAStateSaysSo) {
   const TemporaryFolder folder;
   const std::string why = draw_scene(folder.path() / "scene.png", "run",
