@@ -15,6 +15,7 @@ void add_static(CLI::App& app, Action& action);
 void add_operate(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_reduce(CLI::App& app, Action& action);
+void add_study(CLI::App& app, Action& action);
 void add_wobble(CLI::App& app, Action& action);
 
 }  // namespace limber::app

@@ -12,6 +12,8 @@
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/run_scene.hpp"
+#include "limber/app/study/study_collection.hpp"
+#include "limber/common/errors.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/results/checkpoint_file.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -21,6 +23,7 @@ namespace {
 
 struct Options {
   std::string scenario;
+  std::string from;
   SettingOptions settings_given;
   std::string fidelity;
   std::string out;
@@ -38,13 +41,41 @@ std::filesystem::path find_folder(const Options& options,
   return std::filesystem::path("out") / scenario.name;
 }
 
+StudiedRun find_run(const Options& options) {
+  if (!options.scenario.empty()) {
+    throw InputError("--from has a scenario of its own; leave the other out");
+  }
+  check_is_unchanged(options.from, options.cache);
+  return find_studied_run(options.from);
+}
+
+/// The study's values, and then those of the command line.
+scene::Overrides merge(scene::Overrides studied,
+                       const scene::Overrides& given) {
+  if (given.fidelity) studied.fidelity = given.fidelity;
+  studied.settings.insert(studied.settings.end(), given.settings.begin(),
+                          given.settings.end());
+  return studied;
+}
+
 void run(const Options& options) {
   scene::Overrides overrides;
   overrides.settings = to_settings(options.settings_given);
   if (!options.fidelity.empty()) {
     overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
   }
-  const scene::Scene scene = scene::load_scene(options.scenario, overrides);
+  std::string scenario = options.scenario;
+  std::string name;
+  if (!options.from.empty()) {
+    const StudiedRun studied = find_run(options);
+    overrides = merge(studied.overrides, overrides);
+    scenario = studied.scenario;
+    name = studied.name;
+  } else if (scenario.empty()) {
+    throw InputError("limber run needs a scenario, or --from");
+  }
+  scene::Scene scene = scene::load_scene(scenario, overrides);
+  if (!name.empty()) scene.scenario.name = name;
   const OutputFolder folder(find_folder(options, scene.scenario));
   DeferredSignals signals;
   const CheckpointPlan checkpoints = {
@@ -72,8 +103,10 @@ void run(const Options& options) {
 void add_run(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
-      ->required();
+  command->add_option("scenario", options->scenario, "Scenario file (TOML)");
+  command->add_option("--from", options->from,
+                      "FILE#RUN: a run of a study, as study.sqlite#17, in "
+                      "place of a scenario");
   add_settings(*command, options->settings_given);
   command->add_option("--fidelity", options->fidelity,
                       "Level of every flexible link: rigid, uncoupled, "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
@@ -134,10 +135,18 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
                    const CheckpointPlan& checkpoints, bool judges) {
+  return simulate_built(
+      scene,
+      scene::build_system(scene, reducer, cache, make_full_maker(progress)),
+      cache, progress, checkpoints, judges);
+}
+
+Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
+                   const std::filesystem::path& cache, const Progress& progress,
+                   const CheckpointPlan& checkpoints, bool judges) {
   Run run;
   run.scene = scene;
-  run.built =
-      scene::build_system(scene, reducer, cache, make_full_maker(progress));
+  run.built = std::move(built);
   add_columns(run);
   dynamics::Followed followed =
       scene::follow(run.built.probes, run.built.model);

@@ -39,7 +39,16 @@ struct Run {
                                  const CheckpointPlan& checkpoints = {},
                                  bool judges = false);
 
-/// The same with a progress bar, warnings and the judgement of levels.
+/// Simulates a scene that is built likewise.
+[[nodiscard]] Run simulate_built(const scene::Scene& scene,
+                                 scene::BuiltScene built,
+                                 const std::filesystem::path& cache,
+                                 const Progress& progress,
+                                 const CheckpointPlan& checkpoints = {},
+                                 bool judges = false);
+
+/// The same as simulate_scene with a progress bar, warnings and the judgement
+/// of levels.
 [[nodiscard]] Run run_scene(const scene::Scene& scene,
                             const std::filesystem::path& cache,
                             const CheckpointPlan& checkpoints = {});

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/study/study_collection.hpp"
+#include "limber/app/study/study_pictures.hpp"
+#include "limber/app/study/study_reader.hpp"
+#include "limber/app/study/study_runner.hpp"
+#include "limber/app/study/study_table.hpp"
+#include "limber/common/errors.hpp"
+
+namespace limber::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string study;
+  std::vector<std::string> collected;
+  std::string shard;
+  std::string out;
+  std::string cache;
+  int jobs = 0;
+  bool csv = false;
+  bool json = false;
+};
+
+struct Shard {
+  std::size_t index = 0;
+  std::size_t count = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  const auto k = scene::to_index(text.substr(0, slash));
+  const auto n = scene::to_index(text.substr(slash + 1));
+  if (!k || !n || *k < 1 || *k > *n) {
+    throw InputError(fmt::format(
+        "--shard '{}': expected K/N with K from 1 to N, as 2/8", text));
+  }
+  return {*k - 1, *n};
+}
+
+fs::path make_folder(const Options& options, const std::string& name) {
+  const fs::path folder =
+      options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("results folder '{}' cannot be made: {}",
+                                 folder.string(), error.message()));
+  }
+  return folder;
+}
+
+int find_jobs(const Options& options) {
+  if (options.jobs > 0) return options.jobs;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Tables of a file of results.
+void finish(const Options& options, const fs::path& file,
+            const fs::path& folder, const StudyCost& cost) {
+  const StudyFile results(file);
+  const StudyRecord& record = results.record();
+  const std::vector<StudyRow> rows = results.read_rows();
+  const Effects effects = find_effects(record.study, record.runs, rows);
+  if (options.csv) {
+    write_text(fs::path(file).replace_extension(".csv"),
+               to_csv(record.study, rows));
+  }
+  draw_study(record.study, rows, effects, folder);
+  if (options.json) {
+    Json json = to_json(record.study, record.runs, rows, effects);
+    json["file"] = file.string();
+    json["seconds"] = cost.seconds;
+    json["seconds_steps"] = cost.seconds_steps;
+    fmt::print("{}\n", to_text(json));
+    return;
+  }
+  fmt::print("{}", to_text(record.study, rows, effects));
+  if (cost.runs > 0) {
+    fmt::print("{} runs in {:.3g} s, {:.3g} s of steps\n", cost.runs,
+               cost.seconds, cost.seconds_steps);
+  }
+  if (rows.size() < record.runs) {
+    fmt::print("{} of {} runs are there\n", rows.size(), record.runs);
+  }
+  fmt::print("results in {}\n", file.string());
+}
+
+void run_one(const Options& options) {
+  const Study study = read_study(fs::path(options.study));
+  const Shard shard = parse_shard(options.shard);
+  const Design design = make_design(study);
+  const StudyBase base = make_base(study, design, options.cache);
+  const fs::path folder = make_folder(options, study.name);
+  const fs::path path =
+      folder / (shard.count == 1 ? "study.sqlite"
+                                 : fmt::format("study-{}-of-{}.sqlite",
+                                               shard.index + 1, shard.count));
+  StudyCost cost;
+  {
+    StudyFile file(
+        path, {study, base.manifest, design.size(), shard.index, shard.count});
+    cost = run_study(design, base, {options.cache, find_jobs(options)}, file);
+  }
+  finish(options, path, folder, cost);
+}
+
+void collect(const Options& options) {
+  if (!options.study.empty() || !options.shard.empty()) {
+    throw InputError(
+        "--collect takes files of results alone, no study file "
+        "and no --shard");
+  }
+  const fs::path folder = make_folder(options, "collected");
+  const fs::path file = folder / "study.sqlite";
+  (void)collect_study(options.collected, file);
+  finish(options, file, folder, {});
+}
+
+void run(const Options& options) {
+  if (!options.collected.empty()) return collect(options);
+  if (options.study.empty()) {
+    throw InputError(
+        "limber study needs a study file (TOML), or --collect "
+        "with files of results");
+  }
+  run_one(options);
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "study", "Many runs of a scenario with other values, in one table");
+  command->add_option("study", options->study, "Study file (TOML)");
+  command->add_option("--collect", options->collected,
+                      "Join results of shards into one file");
+  command->add_option("--shard", options->shard,
+                      "K/N: every N-th run from the K-th on alone, into a file "
+                      "of its own");
+  command
+      ->add_option("--jobs", options->jobs,
+                   "Runs at a time (default: as many as processors)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--out", options->out,
+                      "Results folder (default: out/<study name>)");
+  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  command->add_flag("--csv", options->csv, "Write the table as CSV, too");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->callback(
+      [&action, options] { action = [options] { run(*options); }; });
+}
+
+}  // namespace limber::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/app/study/study.hpp"
+#include "limber/scene/build/scene.hpp"
+
+namespace limber::app {
+
+/// The runs of a study: for each the value of each factor, as TOML.
+using Design = std::vector<std::vector<std::string>>;
+
+/// All runs. They depend on the study alone, so any part of them can be made
+/// anywhere.
+///
+/// `grid`: all combinations, the last factor varies fastest. `list`: the k-th
+/// run has the k-th value of every factor. `monte-carlo`: independent values.
+/// `latin-hypercube`: each of n intervals of equal probability of each factor
+/// once. `sobol`: for each of n points of Sobol's sequence in 2 d dimensions,
+/// (A, B), d + 2 runs: A, B, and A with one coordinate of B each, from which
+/// find_sampled_effects has its indices.
+///
+/// Source     Saltelli et al. (2010) [@saltelli2010]
+/// @throws InputError naming a factor whose values do not suit the design.
+[[nodiscard]] Design make_design(const Study& study);
+
+/// A factor's value at a share u in (0, 1) of its distribution.
+[[nodiscard]] std::string find_value(const Factor& factor, double u);
+
+/// The share u of the standard normal distribution is below this, u in (0, 1).
+///
+/// Source     Wichura (1988), algorithm AS 241, 16 digits [@wichura1988]
+[[nodiscard]] double find_normal_quantile(double u);
+
+/// What makes run `values` of the scenario.
+[[nodiscard]] scene::Overrides to_overrides(
+    const Study& study, const std::vector<std::string>& values);
+
+}  // namespace limber::app

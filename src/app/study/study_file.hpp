@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limber/app/study/design.hpp"
+#include "limber/app/study/responses.hpp"
+#include "limber/app/study/study.hpp"
+
+namespace limber::app {
+
+/// One line of the table of runs.
+struct StudyRow {
+  std::size_t run = 0;  ///< from 0
+  std::vector<std::string> factors;
+  ResponseValues responses;
+  std::string error;           ///< why it failed; empty: it did not
+  double seconds = 0.0;        ///< wall time of its steps [s]
+  double seconds_ready = 0.0;  ///< and before them, alone or waiting [s]
+};
+
+/// What a file of results is of.
+struct StudyRecord {
+  Study study;
+  std::string manifest;   ///< of study and scenario (study_manifest.hpp)
+  std::size_t runs = 0;   ///< of the whole design
+  std::size_t shard = 0;  ///< holds runs with run % shards == shard
+  std::size_t shards = 1;
+};
+
+/// The results of a study, an SQLite file (docs/studies.md). Rows are there
+/// whole or not at all, also after kill -9.
+class StudyFile {
+ public:
+  /// Creates the file, or goes on with one of the same study.
+  /// @throws InputError if it is of another study, naming the differences; if
+  /// another process writes it; if it is no such file.
+  StudyFile(const std::filesystem::path& file, const StudyRecord& record);
+  /// Reads one.
+  explicit StudyFile(const std::filesystem::path& file);
+  StudyFile(const StudyFile&) = delete;
+  StudyFile& operator=(const StudyFile&) = delete;
+  ~StudyFile();
+
+  [[nodiscard]] const StudyRecord& record() const { return record_; }
+  /// In the order of runs.
+  [[nodiscard]] std::vector<StudyRow> read_rows() const;
+  /// All or none of them. @throws InputError if the file cannot be written.
+  void add(const std::vector<StudyRow>& rows);
+
+ private:
+  class Database;
+  void create();
+  void check(const StudyRecord& asked) const;
+  StudyRecord read_record() const;
+
+  std::filesystem::path file_;
+  int lock_ = -1;
+  std::unique_ptr<Database> database_;
+  StudyRecord record_;
+};
+
+}  // namespace limber::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/study/study_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "limber/app/console/terminal.hpp"
+#include "limber/results/draw_all.hpp"
+#include "limber/results/study_picture.hpp"
+
+namespace limber::app {
+namespace {
+
+using results::StudyColumn;
+
+std::optional<double> to_number(const std::string& text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+/// A factor with a text among its values is drawn by the numbers of its texts.
+StudyColumn make_factor(const Study& study, const std::vector<StudyRow>& rows,
+                        std::size_t f) {
+  StudyColumn column;
+  column.name = study.factors[f].name;
+  const auto* spread = std::get_if<Spread>(&study.factors[f].values);
+  column.is_logarithmic = spread != nullptr && spread->is_logarithmic;
+  const bool is_text =
+      std::any_of(rows.begin(), rows.end(), [&](const StudyRow& row) {
+        return !to_number(row.factors[f]).has_value();
+      });
+  for (const StudyRow& row : rows) {
+    if (!is_text) {
+      column.values.push_back(*to_number(row.factors[f]));
+      continue;
+    }
+    auto at =
+        std::find(column.texts.begin(), column.texts.end(), row.factors[f]);
+    if (at == column.texts.end()) {
+      at = column.texts.insert(at, row.factors[f]);
+    }
+    column.values.push_back(static_cast<double>(at - column.texts.begin()));
+  }
+  return column;
+}
+
+StudyColumn make_response(const Study& study, const std::vector<StudyRow>& rows,
+                          std::size_t r) {
+  StudyColumn column{study.responses[r].name, {}};
+  for (const StudyRow& row : rows) {
+    column.values.push_back(
+        row.responses[r].value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return column;
+}
+
+std::vector<results::EffectBars> make_bars(const Study& study,
+                                           const Effects& effects) {
+  std::vector<results::EffectBars> all;
+  for (std::size_t r = 0; r < study.responses.size(); ++r) {
+    results::EffectBars bars;
+    bars.response = study.responses[r].name;
+    for (std::size_t f = 0; f < effects.size(); ++f) {
+      if (!effects[f][r]) continue;
+      bars.factors.push_back(study.factors[f].name);
+      bars.main.push_back(effects[f][r]->main);
+      bars.total.push_back(effects[f][r]->total);
+    }
+    if (!bars.factors.empty()) all.push_back(bars);
+  }
+  return all;
+}
+
+}  // namespace
+
+void draw_study(const Study& study, const std::vector<StudyRow>& rows,
+                const Effects& effects, const std::filesystem::path& folder) {
+  if (rows.empty()) return;
+  std::vector<StudyColumn> factors;
+  std::vector<StudyColumn> responses;
+  for (std::size_t f = 0; f < study.factors.size(); ++f) {
+    factors.push_back(make_factor(study, rows, f));
+  }
+  for (std::size_t r = 0; r < study.responses.size(); ++r) {
+    responses.push_back(make_response(study, rows, r));
+  }
+  std::vector<results::Picture> pictures;
+  for (const StudyColumn& response : responses) {
+    const std::string title = fmt::format("{}: {} in {} runs", study.name,
+                                          response.name, rows.size());
+    pictures.emplace_back([=, &factors] {
+      return draw_response(folder / ("response_" + response.name + ".png"),
+                           title, response, factors);
+    });
+    pictures.emplace_back([=, &factors] {
+      return draw_maps(folder / ("map_" + response.name + ".png"),
+                       title + ", as colour", response, factors);
+    });
+  }
+  std::vector<StudyColumn> all = factors;
+  all.insert(all.end(), responses.begin(), responses.end());
+  pictures.emplace_back(
+      [&] { return draw_matrix(folder / "matrix.png", study.name, all); });
+  pictures.emplace_back([&] {
+    return draw_effects(folder / "effects.png",
+                        study.name + ": effects of factors",
+                        make_bars(study, effects));
+  });
+  print_warnings(results::draw_all(pictures));
+}
+
+}  // namespace limber::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/app/study/study.hpp"
+
+namespace limber::app {
+
+/// Reads a study file.
+/// @throws InputError with every problem of the file.
+[[nodiscard]] Study read_study(const std::filesystem::path& file);
+
+/// The same from its text, which need not be in `file` any more.
+[[nodiscard]] Study read_study(const std::string& text,
+                               const std::filesystem::path& file);
+
+}  // namespace limber::app

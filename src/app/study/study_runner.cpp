@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/study/study_runner.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <set>
+#include <thread>
+
+#include "limber/app/console/interruption.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/run/run_manifest.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/scene/build/load_scene.hpp"
+
+namespace limber::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Ends a run between two steps after a signal.
+void stop_on_signal(std::string_view, double fraction) {
+  if (fraction < 1.0 && find_received_signal() != 0) {
+    throw dynamics::Interrupted("interrupted");
+  }
+}
+
+std::string describe(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+}
+
+void describe_values(Manifest& out, const Factor& factor) {
+  if (const auto* listed = std::get_if<Listed>(&factor.values)) {
+    out.add("values", fmt::format("{}", fmt::join(listed->values, ", ")));
+  } else if (const auto* spread = std::get_if<Spread>(&factor.values)) {
+    out.add("scale", spread->is_logarithmic ? "logarithmic" : "linear");
+    out.add("from", spread->from);
+    out.add("to", spread->to);
+    out.add("count", static_cast<double>(spread->count.value_or(0)));
+  } else {
+    const Normal& normal = std::get<Normal>(factor.values);
+    out.add("mean", normal.mean);
+    out.add("deviation", normal.deviation);
+  }
+}
+
+/// Writes what a response is.
+struct ResponseDescription {
+  Manifest& out;
+  void operator()(const ProbeResponse& probe) const {
+    out.add("probe", probe.column);
+    out.add("measure", static_cast<double>(probe.measure));
+  }
+  void operator()(const ContactResponse& contact) const {
+    out.add("contact", contact.first + "/" + contact.second);
+    out.add("measure", contact.is_impulse ? "impulse" : "peak");
+  }
+  void operator()(const SummaryResponse& summary) const {
+    out.add("summary", summary.path);
+  }
+  void operator()(const ExpressionResponse& expression) const {
+    out.add("expression", expression.formula);
+  }
+};
+
+std::string describe_study(const Study& study) {
+  Manifest out;
+  out.within("study", [&] {
+    out.add("design", to_string(study.design.kind));
+    out.add("samples", static_cast<double>(study.design.samples));
+    out.add("seed", static_cast<double>(study.design.seed));
+    for (const scene::Setting& setting : study.settings) {
+      out.add("setting " + setting.path, setting.value.value_or("removed"));
+    }
+    for (const Factor& factor : study.factors) {
+      out.within("factor '" + factor.name + "'", [&] {
+        out.add("paths", fmt::format("{}", fmt::join(factor.paths, ", ")));
+        describe_values(out, factor);
+      });
+    }
+    for (const Response& response : study.responses) {
+      out.within("response '" + response.name + "'", [&] {
+        std::visit(ResponseDescription{out}, response.source);
+      });
+    }
+  });
+  return out.text();
+}
+
+/// The runs in threads.
+class Runner {
+ public:
+  Runner(const Design& design, const StudyBase& base,
+         const StudyOptions& options, StudyFile& file)
+      : design_(design),
+        study_(file.record().study),
+        options_(options),
+        file_(file),
+        judges_(needs_levels(study_)),
+        known_(base.built.known),
+        reducer_(make_reducer({})) {
+    std::set<std::size_t> done;
+    for (const StudyRow& row : file.read_rows()) done.insert(row.run);
+    const StudyRecord& record = file.record();
+    for (std::size_t run = record.shard; run < design.size();
+         run += record.shards) {
+      if (!done.contains(run)) left_.push_back(run);
+    }
+    before_ = done.size();
+  }
+
+  StudyCost run() {
+    const Clock::time_point start = Clock::now();
+    DeferredSignals signals;
+    signals.begin();
+    std::vector<std::thread> threads;
+    const auto count =
+        std::min(static_cast<std::size_t>(options_.jobs), left_.size());
+    working_ = count;
+    try {
+      for (std::size_t i = 0; i < count; ++i) {
+        threads.emplace_back([this] { work(); });
+      }
+      write_rows();
+    } catch (...) {
+      stops_ = true;
+      for (std::thread& thread : threads) thread.join();
+      throw;
+    }
+    for (std::thread& thread : threads) thread.join();
+    clear_progress_bar();
+    if (failure_) std::rethrow_exception(failure_);
+    cost_.seconds = seconds_since(start);
+    if (cost_.runs < left_.size()) {
+      throw dynamics::Interrupted(
+          fmt::format("interrupted after {} of {} runs; the same command goes "
+                      "on with the others",
+                      before_ + cost_.runs, before_ + left_.size()));
+    }
+    return cost_;
+  }
+
+ private:
+  void work() {
+    try {
+      while (!stops_ && find_received_signal() == 0) {
+        const std::size_t next = next_++;
+        if (next >= left_.size()) break;
+        std::optional<StudyRow> row = try_run(left_[next]);
+        if (!row) break;
+        const std::lock_guard lock(rows_mutex_);
+        rows_.push_back(std::move(*row));
+        ready_.notify_one();
+      }
+    } catch (...) {
+      const std::lock_guard lock(rows_mutex_);
+      failure_ = std::current_exception();
+      stops_ = true;
+    }
+    const std::lock_guard lock(rows_mutex_);
+    --working_;
+    ready_.notify_one();
+  }
+
+  /// None if a signal ended it.
+  std::optional<StudyRow> try_run(std::size_t index) {
+    StudyRow row;
+    row.run = index;
+    row.factors = design_[index];
+    row.responses.resize(study_.responses.size());
+    try {
+      if (!simulate(row)) return std::nullopt;
+    } catch (const dynamics::Interrupted&) {
+      return std::nullopt;
+    } catch (const InputError& error) {
+      row.error = error.what();
+    } catch (const NumericalError& error) {
+      row.error = error.what();
+    } catch (const std::bad_alloc&) {
+      row.error = "out of memory";
+    }
+    return row;
+  }
+
+  bool simulate(StudyRow& row) {
+    const Clock::time_point start = Clock::now();
+    scene::Scene scene;
+    scene::BuiltScene built;
+    {
+      const std::lock_guard lock(load_mutex_);
+      scene =
+          scene::load_scene(study_.scenario, to_overrides(study_, row.factors));
+      built = scene::build_system(scene, reducer_, options_.cache,
+                                  make_full_maker({}), known_);
+      known_ = built.known;
+    }
+    row.seconds_ready = seconds_since(start);
+    const Run run = simulate_built(scene, std::move(built), options_.cache,
+                                   stop_on_signal, {}, judges_);
+    row.seconds = run.statistics.seconds;
+    if (find_received_signal() != 0 && run.failure) return false;
+    if (run.failure) {
+      row.error = describe(run.failure);
+    } else {
+      row.responses = evaluate_run(study_, run);
+    }
+    return true;
+  }
+
+  void write_rows() {
+    constexpr auto kWait = std::chrono::milliseconds(200);
+    const Progress bar = make_progress_bar();
+    for (bool is_done = false; !is_done;) {
+      std::vector<StudyRow> rows;
+      {
+        std::unique_lock lock(rows_mutex_);
+        ready_.wait_for(lock, kWait,
+                        [this] { return !rows_.empty() || working_ == 0; });
+        rows.swap(rows_);
+        is_done = working_ == 0 && rows.empty();
+      }
+      for (StudyRow& row : rows) {
+        if (row.error.empty()) {
+          evaluate_formulas(study_, row.factors, row.responses);
+        }
+        cost_.seconds_steps += row.seconds;
+      }
+      file_.add(rows);
+      cost_.runs += rows.size();
+      report(bar, fmt::format("all {} runs", left_.size()),
+             left_.empty() ? 1.0
+                           : static_cast<double>(cost_.runs) /
+                                 static_cast<double>(left_.size()));
+    }
+  }
+
+  const Design& design_;
+  const Study& study_;
+  const StudyOptions& options_;
+  StudyFile& file_;
+  bool judges_;
+  std::vector<std::size_t> left_;
+  std::size_t before_ = 0;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stops_ = false;
+
+  std::mutex load_mutex_;  // of the next two
+  scene::KnownBodies known_;
+  scene::Reducer reducer_;
+
+  std::mutex rows_mutex_;  // of the next four
+  std::condition_variable ready_;
+  std::vector<StudyRow> rows_;
+  std::size_t working_ = 0;
+  std::exception_ptr failure_;
+
+  StudyCost cost_;
+};
+
+}  // namespace
+
+StudyBase make_base(const Study& study, const Design& design,
+                    const std::filesystem::path& cache) {
+  StudyBase base;
+  base.scene =
+      scene::load_scene(study.scenario, to_overrides(study, design.front()));
+  const Progress progress = make_progress_bar();
+  base.built = scene::build_system(base.scene, make_reducer(progress), cache,
+                                   make_full_maker(progress));
+  clear_progress_bar();
+  print_warnings(base.built.warnings);
+  check_responses(study, base.scene, base.built);
+  base.manifest =
+      describe_study(study) + make_manifest(base.scene, base.built).text();
+  return base;
+}
+
+StudyCost run_study(const Design& design, const StudyBase& base,
+                    const StudyOptions& options, StudyFile& file) {
+  return Runner(design, base, options, file).run();
+}
+
+}  // namespace limber::app

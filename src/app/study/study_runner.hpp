@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/app/study/design.hpp"
+#include "limber/app/study/study_file.hpp"
+
+namespace limber::app {
+
+/// The first run of a study, by which all is checked.
+struct StudyBase {
+  scene::Scene scene;
+  scene::BuiltScene built;
+  std::string manifest;  ///< of the study and of these
+};
+
+/// Loads and builds it, and checks the study against it: the paths of all
+/// factors, and the responses.
+/// @throws InputError naming what is wrong
+[[nodiscard]] StudyBase make_base(const Study& study, const Design& design,
+                                  const std::filesystem::path& cache);
+
+struct StudyOptions {
+  std::filesystem::path cache;
+  int jobs = 1;  ///< threads
+};
+
+/// How the runs of one call went.
+struct StudyCost {
+  std::size_t runs = 0;
+  double seconds = 0.0;        ///< wall time [s]
+  double seconds_steps = 0.0;  ///< sum over the runs [s]
+};
+
+/// Runs what the file has not yet, in threads, and writes rows as they finish.
+/// Scenes are loaded one at a time, because the libraries for it are not safe
+/// in threads; each distinct reduction is done once.
+/// @throws Interrupted after SIGINT or SIGTERM; finished runs are in the file.
+StudyCost run_study(const Design& design, const StudyBase& base,
+                    const StudyOptions& options, StudyFile& file);
+
+}  // namespace limber::app

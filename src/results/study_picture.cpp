@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/results/study_picture.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "limber/results/gnuplot.hpp"
+
+namespace limber::results {
+namespace {
+
+// Palette for colour-blind readers (Okabe and Ito, 2008).
+constexpr const char* kBlue = "#0072B2";
+constexpr const char* kOrange = "#D55E00";
+constexpr int kPanel = 360;  // pixels
+constexpr std::size_t kMostColumns = 8;
+
+struct Layout {
+  std::size_t rows = 1;
+  std::size_t columns = 1;
+};
+
+Layout arrange(std::size_t count) {
+  const std::size_t columns = std::min<std::size_t>(count, 3);
+  return {(count + columns - 1) / columns, columns};
+}
+
+void set_look(GnuplotScript& script) {
+  script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
+  script.add("set border lc rgb '#555555' lw 0.7");
+  script.add("set tics nomirror font 'sans,9'");
+  script.add("set format '%g'");
+  script.add("unset key");
+}
+
+GnuplotScript begin(const std::filesystem::path& file, const std::string& title,
+                    const Layout& layout, int panel,
+                    const std::string& margins = "") {
+  GnuplotScript script(file, panel * static_cast<int>(layout.columns) + 60,
+                       panel * static_cast<int>(layout.rows) + 60);
+  script.add(
+      fmt::format("set multiplot layout {},{} title {} font 'sans,14' {}",
+                  layout.rows, layout.columns, quote(title), margins));
+  set_look(script);
+  return script;
+}
+
+struct Ends {
+  double least = std::numeric_limits<double>::infinity();
+  double largest = -std::numeric_limits<double>::infinity();
+};
+
+Ends find_ends(const StudyColumn& column) {
+  Ends ends;
+  for (const double value : column.values) {
+    if (!std::isfinite(value)) continue;
+    ends.least = std::min(ends.least, value);
+    ends.largest = std::max(ends.largest, value);
+  }
+  return ends;
+}
+
+/// At most four multiples of 1, 2 or 5 times a power of ten.
+std::vector<double> list_even_tics(const Ends& ends) {
+  const double range = ends.largest - ends.least;
+  const double power = std::pow(10.0, std::floor(std::log10(range)));
+  double step = 0.0;
+  for (const double factor : {0.2, 0.5, 1.0, 2.0, 5.0}) {
+    step = factor * power;
+    if (range / step <= 4.0) break;
+  }
+  std::vector<double> tics;
+  for (double k = std::ceil(ends.least / step); k * step <= ends.largest; ++k) {
+    tics.push_back(k * step);
+  }
+  return tics;
+}
+
+/// 1, 2, 5 in each of few decades, 1 of many.
+std::vector<double> list_logarithmic_tics(const Ends& ends) {
+  const bool has_many = ends.largest / ends.least > 50.0;
+  std::vector<double> tics;
+  for (double power = std::pow(10.0, std::floor(std::log10(ends.least)));
+       power <= ends.largest; power *= 10.0) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double value = factor * power;
+      if (has_many && factor > 1.0) break;
+      if (value >= ends.least && value <= ends.largest) tics.push_back(value);
+    }
+  }
+  return tics;
+}
+
+std::string list_tics(const StudyColumn& column, const Ends& ends,
+                      bool has_labels) {
+  std::vector<std::string> tics;
+  if (!column.texts.empty()) {
+    for (std::size_t i = 0; i < column.texts.size(); ++i) {
+      tics.push_back(
+          fmt::format("{} {}", has_labels ? quote(column.texts[i]) : "''", i));
+    }
+  } else if (ends.least < ends.largest) {
+    for (const double value : column.is_logarithmic&& ends.least > 0.0
+                                  ? list_logarithmic_tics(ends)
+                                  : list_even_tics(ends)) {
+      tics.push_back(fmt::format("{:.9g}", value));
+    }
+  } else {
+    tics.push_back(fmt::format("{:.9g}", ends.least));
+  }
+  return fmt::format("({})", fmt::join(tics, ", "));
+}
+
+/// The scale of one axis, with some room around the values.
+void set_axis(GnuplotScript& script, const char* axis,
+              const StudyColumn& column, bool has_label) {
+  const Ends ends = find_ends(column);
+  if (!(ends.least <= ends.largest)) return;
+  const bool is_logarithmic = column.is_logarithmic && ends.least > 0.0;
+  script.add(
+      fmt::format("{} logscale {}", is_logarithmic ? "set" : "unset", axis));
+  if (is_logarithmic) {
+    script.add(fmt::format("set {}range [{:.9g}:{:.9g}]", axis,
+                           ends.least / 1.1, ends.largest * 1.1));
+  } else {
+    const double range = ends.largest - ends.least;
+    const double room = range > 0.0
+                            ? 0.06 * range
+                            : std::max(0.1 * std::abs(ends.least), 1e-12);
+    script.add(fmt::format("set {}range [{:.9g}:{:.9g}]", axis,
+                           ends.least - room, ends.largest + room));
+  }
+  script.add(fmt::format("set format {} '{}'", axis, has_label ? "%g" : ""));
+  script.add(fmt::format("set {}tics {} noenhanced", axis,
+                         list_tics(column, ends, has_label)));
+  script.add(fmt::format("set {}label {} noenhanced", axis,
+                         has_label ? quote(column.name) : "''"));
+}
+
+bool is_number(double value) { return std::isfinite(value); }
+
+void add_points(GnuplotScript& script, const std::string& block,
+                const StudyColumn& x, const StudyColumn& y,
+                const StudyColumn* colour = nullptr) {
+  script.add(fmt::format("${} << EOD", block));
+  for (std::size_t i = 0; i < x.values.size(); ++i) {
+    const double c = colour == nullptr ? 0.0 : colour->values[i];
+    if (!is_number(x.values[i]) || !is_number(y.values[i]) || !is_number(c)) {
+      continue;
+    }
+    script.add(
+        fmt::format("{:.9g} {:.9g} {:.9g}", x.values[i], y.values[i], c));
+  }
+  script.add("EOD");
+}
+
+bool is_empty(const StudyColumn& column) {
+  return std::none_of(column.values.begin(), column.values.end(), is_number);
+}
+
+std::string find_why_none(const StudyColumn& response) {
+  if (!is_empty(response)) return "";
+  return fmt::format("no picture of '{}': no run has a value of it",
+                     response.name);
+}
+
+}  // namespace
+
+std::string draw_response(const std::filesystem::path& file,
+                          const std::string& title, const StudyColumn& response,
+                          const std::vector<StudyColumn>& factors) {
+  if (is_empty(response)) return find_why_none(response);
+  GnuplotScript script = begin(file, title, arrange(factors.size()), kPanel);
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    const std::string block = fmt::format("d{}", f);
+    add_points(script, block, factors[f], response);
+    set_axis(script, "x", factors[f], true);
+    set_axis(script, "y", response, true);
+    script.add(
+        fmt::format("plot ${} using 1:2 with points pt 7 ps 0.8 lc rgb '{}'",
+                    block, kBlue));
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+std::string draw_maps(const std::filesystem::path& file,
+                      const std::string& title, const StudyColumn& response,
+                      const std::vector<StudyColumn>& factors) {
+  if (is_empty(response)) return find_why_none(response);
+  const std::size_t count =
+      std::min<std::size_t>(factors.size() * (factors.size() - 1) / 2, 9);
+  if (count == 0) return "";
+  GnuplotScript script = begin(file, title, arrange(count), kPanel + 60);
+  script.add(
+      "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', "
+      "0.75 '#5ec962', 1 '#fde725')");
+  script.add("set cbtics font 'sans,8'");
+  script.add("set colorbox");
+  std::size_t drawn = 0;
+  for (std::size_t a = 0; a < factors.size(); ++a) {
+    for (std::size_t b = a + 1; b < factors.size() && drawn < count; ++b) {
+      const std::string block = fmt::format("m{}", drawn++);
+      add_points(script, block, factors[a], factors[b], &response);
+      set_axis(script, "x", factors[a], true);
+      set_axis(script, "y", factors[b], true);
+      script.add(fmt::format(
+          "plot ${} using 1:2:3 with points pt 7 ps 1.4 lc palette", block));
+    }
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+std::string draw_matrix(const std::filesystem::path& file,
+                        const std::string& title,
+                        const std::vector<StudyColumn>& columns) {
+  std::vector<StudyColumn> shown;
+  for (const StudyColumn& column : columns) {
+    if (!is_empty(column) && shown.size() < kMostColumns) {
+      shown.push_back(column);
+    }
+  }
+  if (shown.size() < 2) return "";
+  GnuplotScript script =
+      begin(file, title, {shown.size(), shown.size()}, 190,
+            "margins 0.10,0.98,0.10,0.95 spacing 0.012,0.012");
+  for (std::size_t y = 0; y < shown.size(); ++y) {
+    for (std::size_t x = 0; x < shown.size(); ++x) {
+      const std::string block = fmt::format("s{}_{}", y, x);
+      add_points(script, block, shown[x], shown[y]);
+      set_axis(script, "x", shown[x], y + 1 == shown.size());
+      set_axis(script, "y", shown[y], x == 0);
+      script.add("set xtics rotate by -35 font 'sans,8'");
+      script.add("set ytics font 'sans,8'");
+      script.add(
+          fmt::format("plot ${} using 1:2 with points pt 7 ps 0.45 lc rgb '{}'",
+                      block, x == y ? "#999999" : kBlue));
+    }
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+std::string draw_effects(const std::filesystem::path& file,
+                         const std::string& title,
+                         const std::vector<EffectBars>& responses) {
+  if (responses.empty()) return "";
+  GnuplotScript script =
+      begin(file, title, arrange(responses.size()), kPanel + 40);
+  script.add("set style data histograms");
+  script.add("set style histogram clustered gap 1");
+  script.add("set style fill solid 0.85 noborder");
+  script.add("set key top right");
+  script.add("set yrange [*<0:1.05]");
+  script.add("set ylabel 'share of the variance [-]'");
+  script.add("set xtics rotate by -25 noenhanced");
+  for (std::size_t r = 0; r < responses.size(); ++r) {
+    const EffectBars& bars = responses[r];
+    script.add(fmt::format("$e{} << EOD", r));
+    for (std::size_t f = 0; f < bars.factors.size(); ++f) {
+      script.add(fmt::format("\"{}\" {:.6g} {:.6g}", bars.factors[f],
+                             bars.main[f], bars.total[f]));
+    }
+    script.add("EOD");
+    script.add("set title " + quote(bars.response) + " noenhanced");
+    script.add(fmt::format(
+        "plot $e{0} using 2:xtic(1) lc rgb '{1}' title 'main', $e{0} using 3 "
+        "lc rgb '{2}' title 'total'",
+        r, kBlue, kOrange));
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+}  // namespace limber::results

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Pictures of many runs. Each function returns an empty string, or why there
+/// is no picture.
+namespace limber::results {
+
+/// One factor or response, a value a run.
+struct StudyColumn {
+  std::string name;
+  std::vector<double> values;  ///< NaN: none; of texts their number from 0
+  std::vector<std::string> texts = {};  ///< empty: they are numbers
+  bool is_logarithmic = false;
+};
+
+/// A response over each factor, a panel each, one point a run.
+[[nodiscard]] std::string draw_response(
+    const std::filesystem::path& file, const std::string& title,
+    const StudyColumn& response, const std::vector<StudyColumn>& factors);
+
+/// A response as the colour of points over each two factors.
+[[nodiscard]] std::string draw_maps(const std::filesystem::path& file,
+                                    const std::string& title,
+                                    const StudyColumn& response,
+                                    const std::vector<StudyColumn>& factors);
+
+/// All columns over each other, the first eight.
+[[nodiscard]] std::string draw_matrix(const std::filesystem::path& file,
+                                      const std::string& title,
+                                      const std::vector<StudyColumn>& columns);
+
+/// Main and total effect of every factor on one response [-].
+struct EffectBars {
+  std::string response;
+  std::vector<std::string> factors;
+  std::vector<double> main;
+  std::vector<double> total;
+};
+[[nodiscard]] std::string draw_effects(
+    const std::filesystem::path& file, const std::string& title,
+    const std::vector<EffectBars>& responses);
+
+}  // namespace limber::results

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Studies: the same numbers as single runs, however they were made.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/shell.hpp"
+
+namespace limber::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+const char* const kRobot = R"(<robot name='r'><link name='world'/>
+<link name='sled'><inertial><mass value='3'/><inertia ixx='0.1' iyy='0.1'
+  izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>
+<joint name='rail' type='prismatic'><parent link='world'/><child link='sled'/>
+  <axis xyz='1 0 0'/><limit lower='-9' upper='9' effort='0' velocity='0'/>
+</joint>
+<spring name='coil' stiffness='10' free_length='1'>
+  <from link='world' point='-1 0 0'/><to link='sled'/></spring></robot>)";
+
+const char* const kScenario = R"(robot = 'robot.urdf'
+[time]
+duration = 0.5
+step = 1e-3
+output_interval = 0.01
+[initial.joints]
+rail = { position = 0.1 }
+[[load]]
+name = 'push'
+link = 'sled'
+force = [1, 0, 0]
+[[probe]]
+name = 'sled'
+link = 'sled'
+)";
+
+const char* const kStudy = R"(scenario = 's.toml'
+[design]
+kind = 'monte-carlo'
+samples = 12
+seed = 5
+[[factor]]
+name = 'force'
+path = 'load.push.force.0'
+uniform = [-2.0, 2.0]
+[[factor]]
+name = 'stiffness'
+path = 'robot.spring.coil.stiffness'
+log_range = [1.0, 100.0]
+[[response]]
+name = 'x'
+probe = 'sled.ux'
+[[response]]
+name = 'when'
+probe = 'sled.ux'
+measure = 'time'
+[[response]]
+name = 'last'
+probe = 'sled.ux'
+measure = 'final'
+[[response]]
+name = 'size'
+probe = 'sled.ux'
+measure = 'rms'
+[[response]]
+name = 'work'
+summary = 'energy.work'
+[[response]]
+name = 'per_force'
+expression = 'x / force'
+)";
+
+std::string replace(std::string text, const std::string& old,
+                    const std::string& by) {
+  EXPECT_NE(text.find(old), std::string::npos) << old;
+  return text.replace(text.find(old), old.size(), by);
+}
+
+class AStudy : public ::testing::Test {
+ protected:
+  AStudy() {
+    place_.write("robot.urdf", kRobot);
+    place_.write("s.toml", kScenario);
+    place_.write("study.toml", kStudy);
+  }
+
+  [[nodiscard]] std::string run(const std::string& options) const {
+    const CommandResult result = place_.limber("study " + options);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return result.out;
+  }
+
+  [[nodiscard]] std::string table(const std::string& folder) const {
+    return read_text(place_.folder() / folder / "study.csv");
+  }
+
+  void expect_refused(const std::string& options,
+                      const std::string& words) const {
+    const CommandResult result = place_.limber("study " + options);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_THAT(result.errors, HasSubstr(words));
+  }
+
+  Workspace place_;
+};
+
+TEST_F(AStudy, HasTheResponsesOfSingleRunsToTheBit) {
+  (void)run("study.toml --out a --csv --jobs 2");
+  std::ifstream table(place_.folder() / "a/study.csv");
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "run,force,stiffness,x,when,last,size,work,per_force,error");
+  for (int i = 0; i < 12; ++i) {
+    std::getline(table, line);
+    std::vector<std::string> cells;
+    for (std::size_t at = 0; at != std::string::npos;) {
+      const std::size_t comma = line.find(',', at);
+      cells.push_back(line.substr(at, comma - at));
+      at = comma == std::string::npos ? comma : comma + 1;
+    }
+    ASSERT_EQ(cells.size(), 10U);
+    if (i % 4 != 0) continue;
+    const CommandResult result = place_.limber(
+        "run s.toml --out r --json --set load.push.force.0=" + cells[1] +
+        " --set robot.spring.coil.stiffness=" + cells[2]);
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const json summary = json::parse(result.out);
+    const json& probe = summary["probes"]["sled.ux"];
+    EXPECT_EQ(std::stod(cells[3]), probe["peak"].get<double>());
+    EXPECT_EQ(std::stod(cells[4]), probe["peak_time"].get<double>());
+    EXPECT_EQ(std::stod(cells[5]), probe["final"].get<double>());
+    EXPECT_EQ(std::stod(cells[7]), summary["energy"]["work"].get<double>());
+    EXPECT_EQ(std::stod(cells[8]), std::stod(cells[3]) / std::stod(cells[1]));
+    const CommandResult again = place_.limber(
+        fmt::format("run --from a/study.sqlite#{} --out f --json", i));
+    ASSERT_EQ(again.status, 0) << again.errors;
+    EXPECT_EQ(json::parse(again.out)["probes"], summary["probes"]);
+  }
+}
+
+TEST_F(AStudy, HasTheSameTableWithAnyNumberOfJobs) {
+  (void)run("study.toml --out a --csv --jobs 1");
+  (void)run("study.toml --out b --csv --jobs 5");
+  EXPECT_EQ(table("a"), table("b"));
+}
+
+TEST_F(AStudy, GoesOnAfterBeingKilledWithTheSameTable) {
+  place_.write("study.toml", replace(kStudy, "samples = 12", "samples = 60"));
+  (void)run("study.toml --out whole --csv");
+  for (const double seconds : {0.05, 0.15, 0.1, 0.25}) {
+    (void)run_shell(place_, fmt::format("timeout -s KILL {} '" LIMBER_COMMAND
+                                        "' study study.toml --out a",
+                                        seconds));
+  }
+  (void)run("study.toml --out a --csv");
+  EXPECT_EQ(table("a"), table("whole"));
+}
+
+TEST_F(AStudy, EndsOnASignalWithAllThatIsDone) {
+  place_.write("study.toml", replace(kStudy, "samples = 12", "samples = 5000"));
+  const CommandResult result =
+      run_shell(place_, "timeout -s INT 2 '" LIMBER_COMMAND
+                        "' study study.toml --out a; echo status $?");
+  EXPECT_THAT(result.errors, HasSubstr("goes on with the others"));
+}
+
+TEST_F(AStudy, IsNotGoneOnWithAnother) {
+  (void)run("study.toml --out a");
+  place_.write("study.toml", replace(kStudy, "seed = 5", "seed = 6"));
+  expect_refused("study.toml --out a", "study, seed: 5 -> 6");
+  place_.write("study.toml", kStudy);
+  place_.write("s.toml", replace(kScenario, "step = 1e-3", "step = 2e-3"));
+  expect_refused("study.toml --out a", "are of another study");
+  const CommandResult opened =
+      place_.limber("run --from a/study.sqlite#3 --out f");
+  EXPECT_EQ(opened.status, 2);
+  EXPECT_THAT(opened.errors, HasSubstr("is of another state of"));
+}
+
+TEST_F(AStudy, IsJoinedFromItsShards) {
+  (void)run("study.toml --out whole --csv");
+  for (int k = 1; k <= 3; ++k) {
+    (void)run(fmt::format("study.toml --out parts --shard {}/3", k));
+  }
+  (void)run(
+      "--collect parts/study-3-of-3.sqlite parts/study-1-of-3.sqlite "
+      "parts/study-2-of-3.sqlite --out a --csv");
+  EXPECT_EQ(table("a"), table("whole"));
+  expect_refused(
+      "--collect parts/study-1-of-3.sqlite whole/study.sqlite --out "
+      "b",
+      "shards have no runs in common");
+  expect_refused("--collect parts/study-1-of-3.sqlite --out a",
+                 "is there already");
+  place_.write("other.toml", replace(kStudy, "seed = 5", "seed = 6"));
+  (void)run("other.toml --out other --shard 2/3");
+  expect_refused(
+      "--collect parts/study-1-of-3.sqlite "
+      "other/study-2-of-3.sqlite --out b",
+      "is of another study");
+}
+
+TEST_F(AStudy, HasARowWithTheReasonForARunThatFails) {
+  place_.write("study.toml", replace(replace(kStudy, "uniform = [-2.0, 2.0]",
+                                             "choice = ['strong', 1.0]"),
+                                     "12", "6"));
+  const std::string out = run("study.toml --out a --csv --json");
+  const json summary = json::parse(out);
+  EXPECT_EQ(summary["done"], 6);
+  EXPECT_GT(summary["failed"].get<int>(), 0);
+  EXPECT_LT(summary["failed"].get<int>(), 6);
+  EXPECT_THAT(table("a"), HasSubstr("load.push.force.0=strong"));
+}
+
+TEST_F(AStudy, ComparesLevelsAsAFactor) {
+  place_.write("study.toml",
+               "scenario = '" LIMBER_SOURCE_DIR
+               "/examples/four_bar.toml'\nset = ['time.duration=0.02']\n"
+               "[design]\nkind = 'grid'\n[[factor]]\nname = 'level'\npath = "
+               "'fidelity'\nvalues = ['rigid', 'coupled']\n[[response]]\nname "
+               "= 'modes'\nsummary = 'modes'\n");
+  (void)run("study.toml --out a --csv");
+  EXPECT_THAT(table("a"), HasSubstr("0,rigid,0,"));
+  EXPECT_THAT(table("a"), Not(HasSubstr("1,coupled,0,")));
+}
+
+TEST_F(AStudy, IsRefusedBeforeAnyRun) {
+  const auto refuse = [&](const std::string& old, const std::string& by,
+                          const std::string& words) {
+    place_.write("study.toml", replace(kStudy, old, by));
+    expect_refused("study.toml --out none", words);
+    EXPECT_FALSE(fs::exists(place_.folder() / "none"));
+  };
+  refuse("load.push.force.0", "load.pusch.force.0", "did you mean 'push'?");
+  refuse("probe = 'sled.ux'", "probe = 'sled.x'", "did you mean 'sled.ux'?");
+  refuse("energy.work", "energy.wrok", "did you mean 'work'?");
+  refuse("x / force", "x / forse", "did you mean 'force'?");
+  refuse("x / force", "x / (force", "per_force");
+  refuse("expression = 'x / force'", "contact = ['sled', 'ball']",
+         "unknown contact");
+  place_.write("study.toml", kStudy);
+  expect_refused("study.toml --shard 3/2", "expected K/N");
+  expect_refused("", "needs a study file");
+}
+
+}  // namespace
+}  // namespace limber::test
