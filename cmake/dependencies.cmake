@@ -1,6 +1,7 @@
 # Everything comes from Debian; scripts/install-deps names the packages.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt 9 REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C HL)
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)

@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     add_operate(app, action);
     add_reduce(app, action);
     add_info(app, action);
+    add_view(app, action);
+    add_export(app, action);
     add_wobble(app, action);
   });
 }

@@ -148,10 +148,12 @@ void write_content(Hdf5File& out, const dynamics::SystemModel& model,
 }  // namespace
 
 void write_results(const std::filesystem::path& file,
-                   const dynamics::SystemModel& model, const History& history) {
+                   const dynamics::SystemModel& model, const History& history,
+                   const Scenery* scenery) {
   write_whole(file, [&](const std::filesystem::path& part) {
     Hdf5File out = Hdf5File::create(part);
     write_content(out, model, history);
+    if (scenery != nullptr) write_scenery(out, *scenery, model, history);
     out.close();
   });
 }

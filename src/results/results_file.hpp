@@ -7,6 +7,7 @@
 
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/results/history.hpp"
+#include "limber/results/scenery.hpp"
 
 namespace limber::results {
 
@@ -15,9 +16,11 @@ inline constexpr int kResultsFileVersion = 1;
 /// Writes rigid and modal states, probes and energies at every output time, and
 /// the events, to one HDF5 file; every dataset carries its unit and meaning.
 /// Names of bodies and probes are encoded by `to_path_step`.
+/// @param scenery what `limber view` needs beside that; null: none
 /// @throws InputError if it cannot be written.
 void write_results(const std::filesystem::path& file,
-                   const dynamics::SystemModel& model, const History& history);
+                   const dynamics::SystemModel& model, const History& history,
+                   const Scenery* scenery = nullptr);
 
 /// Contents of a results file, without its data.
 struct ResultsContents {

@@ -42,14 +42,23 @@ Surface gather_surface(const SystemModel& model) {
 }
 
 struct Fields {
-  std::vector<double> points;       // 3 a node [m]
-  std::vector<double> deformation;  // 1 a node [m]
+  std::vector<double> points;        // 3 a node [m]
+  std::vector<double> deformation;   // 1 a node [m]
+  std::vector<double> displacement;  // 3 a node, from the start [m]
+  std::vector<double> bending;       // 3 a node, R Phi eta [m]
 };
 
+void append(const MatrixX& nodes, std::vector<double>& values) {
+  values.insert(values.end(), nodes.data(), nodes.data() + nodes.size());
+}
+
+/// @param start positions of each surface's nodes at the start
 Fields move_surface(const SystemModel& model, const Surface& surface,
-                    const SystemState& state) {
+                    const SystemState& state,
+                    const std::vector<MatrixX>& start) {
   Fields fields;
-  for (const std::size_t b : surface.bodies) {
+  for (std::size_t i = 0; i < surface.bodies.size(); ++i) {
+    const std::size_t b = surface.bodies[i];
     const auto body = static_cast<dynamics::BodyIndex>(b);
     const Eigen::Index n = model.bodies[b].reduced->rows.x_B.cols();
     MatrixX nodes(3 * n, 1);
@@ -57,11 +66,27 @@ Fields move_surface(const SystemModel& model, const Surface& surface,
     const VectorX sizes = nodes.reshaped(3, n).colwise().norm().transpose();
     fields.deformation.insert(fields.deformation.end(), sizes.begin(),
                               sizes.end());
+    const Matrix3 R_WB = state.bodies[b].quat_WB.toRotationMatrix();
+    append(R_WB * nodes.reshaped(3, n), fields.bending);
     calc_node_positions(model, body, {&state, 1}, nodes);
-    fields.points.insert(fields.points.end(), nodes.data(),
-                         nodes.data() + nodes.size());
+    append(nodes, fields.points);
+    append(nodes - start[i], fields.displacement);
   }
   return fields;
+}
+
+std::vector<MatrixX> find_start(const SystemModel& model,
+                                const Surface& surface,
+                                const History& history) {
+  std::vector<MatrixX> all;
+  if (history.states.empty()) return all;
+  for (const std::size_t b : surface.bodies) {
+    MatrixX nodes(3 * model.bodies[b].reduced->rows.x_B.cols(), 1);
+    calc_node_positions(model, static_cast<dynamics::BodyIndex>(b),
+                        {history.states.data(), 1}, nodes);
+    all.push_back(std::move(nodes));
+  }
+  return all;
 }
 
 // A file's name as XML text.
@@ -96,12 +121,18 @@ void write_motion(const std::filesystem::path& file, const SystemModel& model,
   Hdf5File out = Hdf5File::create(file);
   out.write_array("triangles", surface.corners, {surface.corners.size() / 3, 3},
                   "1", "node indices");
+  const std::vector<MatrixX> start = find_start(model, surface, history);
   for (std::size_t i = 0; i < history.times.size(); ++i) {
-    const Fields fields = move_surface(model, surface, history.states[i]);
+    const Fields fields =
+        move_surface(model, surface, history.states[i], start);
     out.write_array(name_step(i) + "points", fields.points, {surface.nodes, 3},
                     "m", "positions, world frame");
     out.write_array(name_step(i) + "deformation", fields.deformation,
                     {surface.nodes}, "m", "|Phi eta|");
+    out.write_array(name_step(i) + "deformation_vector", fields.bending,
+                    {surface.nodes, 3}, "m", "Phi eta, world frame");
+    out.write_array(name_step(i) + "displacement", fields.displacement,
+                    {surface.nodes, 3}, "m", "from the start, world frame");
   }
   out.close();
 }
@@ -122,7 +153,17 @@ void write_step(std::ostream& out, const Surface& surface, double time,
          "AttributeType=\"Scalar\" Center=\"Node\">\n";
   write_item(out, "Float", fmt::format("{}", surface.nodes),
              fmt::format("{}:/{}deformation", data, step));
-  out << "</Attribute></Grid>\n";
+  out << "</Attribute>";
+  for (const char* name : {"deformation_vector", "displacement"}) {
+    fmt::print(out,
+               "<Attribute Name=\"{}\" AttributeType=\"Vector\" "
+               "Center=\"Node\">\n",
+               name);
+    write_item(out, "Float", fmt::format("{} 3", surface.nodes),
+               fmt::format("{}:/{}{}", data, step, name));
+    out << "</Attribute>";
+  }
+  out << "</Grid>\n";
 }
 
 void write_index(std::ostream& out, const Surface& surface,

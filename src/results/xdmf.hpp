@@ -10,7 +10,9 @@ namespace limber::results {
 
 /// Writes a time series of the flexible bodies' moving surfaces for ParaView:
 /// `file` (XDMF) and its data beside it (the same name with .h5). The point
-/// field "deformation" is |Phi eta| [m]. Bodies without a mesh are omitted.
+/// field "deformation" is |Phi eta| [m], "deformation_vector" that as a vector
+/// and "displacement" from the first output, both in the world frame [m], for
+/// ParaView's filter Warp By Vector. Bodies without a mesh are omitted.
 /// @throws InputError if it cannot be written or no body has a mesh.
 void write_xdmf(const std::filesystem::path& file,
                 const dynamics::SystemModel& model, const History& history);

@@ -17,5 +17,7 @@ void add_info(CLI::App& app, Action& action);
 void add_reduce(CLI::App& app, Action& action);
 void add_study(CLI::App& app, Action& action);
 void add_wobble(CLI::App& app, Action& action);
+void add_view(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 
 }  // namespace limber::app

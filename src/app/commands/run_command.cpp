@@ -12,6 +12,7 @@
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/run_scene.hpp"
+#include "limber/app/run/view_page.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
@@ -32,6 +33,7 @@ struct Options {
   bool resumes = false;
   bool json = false;
   bool xdmf = false;
+  bool views = false;
 };
 
 std::filesystem::path find_folder(const Options& options,
@@ -96,6 +98,10 @@ void run(const Options& options) {
   });
   if (find_received_signal() == 0) results::remove_checkpoint(checkpoints.file);
   finish_run(result, folder, options.json);
+  if (!options.views) return;
+  const std::filesystem::path page =
+      add_view_to(folder, read_recordings({folder.path()}));
+  if (!options.json) fmt::print("{}\n", describe_view(page));
 }
 
 }  // namespace
@@ -122,6 +128,8 @@ void add_run(CLI::App& app, Action& action) {
       ->check(make_not_negative());
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
+  command->add_flag("--view", options->views,
+                    "Write a page that shows the motion in a browser");
   command->callback(
       [&action, options] { action = [options] { run(*options); }; });
 }

@@ -28,7 +28,8 @@ std::string describe_open(const Run& run) {
 }  // namespace
 
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
-  results::write_results(folder / "results.h5", run.built.model, run.history);
+  results::write_results(folder / "results.h5", run.built.model, run.history,
+                         &run.scenery);
   results::write_probes_csv(folder / "probes.csv", run.history);
   write_text(folder / "summary.json", to_text(summarize(run)));
   if (xdmf) {

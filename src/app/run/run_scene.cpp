@@ -12,6 +12,7 @@
 #include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/run/run_manifest.hpp"
+#include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -135,10 +136,14 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
                    const CheckpointPlan& checkpoints, bool judges) {
-  return simulate_built(
+  results::Scenery scenery = read_scenery_texts(scene);
+  Run run = simulate_built(
       scene,
       scene::build_system(scene, reducer, cache, make_full_maker(progress)),
       cache, progress, checkpoints, judges);
+  add_shapes(scene, run.built, scenery);
+  run.scenery = std::move(scenery);
+  return run;
 }
 
 Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,

@@ -11,6 +11,7 @@
 #include "limber/common/progress.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/results/history.hpp"
+#include "limber/results/scenery.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/scene.hpp"
 
@@ -20,6 +21,7 @@ namespace limber::app {
 struct Run {
   scene::Scene scene;
   scene::BuiltScene built;
+  results::Scenery scenery;  ///< with the texts of the files at the start
   results::History history;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;  ///< peaks of the probes' columns, and energy

@@ -229,6 +229,24 @@ std::string read_text_of(hid_t file, const std::string& name) {
   return text;
 }
 
+std::string read_unit_of(hid_t file, const std::string& name) {
+  const Handle set = open_dataset(file, name);
+  if (H5Aexists(set.get(), "unit") <= 0) {
+    throw Failure(fmt::format("'{}' has no unit", name));
+  }
+  const Handle attribute(H5Aopen(set.get(), "unit", H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  constexpr std::size_t kMostBytes = 1000;
+  if (H5Tget_class(type.get()) != H5T_STRING ||
+      checked(H5Tis_variable_str(type.get())) > 0 ||
+      H5Tget_size(type.get()) > kMostBytes) {
+    throw Failure(fmt::format("'{}' has no unit as text", name));
+  }
+  std::string text(H5Tget_size(type.get()), '\0');
+  checked(H5Aread(attribute.get(), type.get(), text.data()));
+  return text.substr(0, text.find('\0'));
+}
+
 std::vector<std::string> list_of(hid_t file, const std::string& group) {
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5L_info_t*,
@@ -308,6 +326,20 @@ void Hdf5File::write(const std::string& name, const MatrixX& values,
   });
 }
 
+void Hdf5File::write_single(const std::string& name, const MatrixX& values,
+                            const std::string& unit,
+                            const std::string& meaning) {
+  using Singles =
+      Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Singles rows = values.cast<float>();
+  const std::vector<hsize_t> shape = {static_cast<hsize_t>(rows.rows()),
+                                      static_cast<hsize_t>(rows.cols())};
+  with_path(file_, [&] {
+    write_dataset(handle_,
+                  {name, H5T_NATIVE_FLOAT, shape, rows.data(), unit, meaning});
+  });
+}
+
 void Hdf5File::write(const std::string& name,
                      const std::vector<std::int64_t>& values,
                      const std::string& unit, const std::string& meaning) {
@@ -370,6 +402,10 @@ std::vector<std::int64_t> Hdf5File::read_integers(
 
 std::string Hdf5File::read_text(const std::string& name) const {
   return with_path(file_, [&] { return read_text_of(handle_, name); });
+}
+
+std::string Hdf5File::read_unit(const std::string& name) const {
+  return with_path(file_, [&] { return read_unit_of(handle_, name); });
 }
 
 std::vector<std::string> Hdf5File::list(const std::string& group) const {

@@ -40,6 +40,9 @@ class Hdf5File {
              const std::string& unit, const std::string& meaning);
   void write(const std::string& name, const std::string& text,
              const std::string& meaning);
+  /// The same in single precision, for what is only drawn.
+  void write_single(const std::string& name, const MatrixX& values,
+                    const std::string& unit, const std::string& meaning);
   /// Row-major data of any rank.
   void write_array(const std::string& name, const std::vector<double>& values,
                    const std::vector<std::uint64_t>& shape,
@@ -54,6 +57,8 @@ class Hdf5File {
   [[nodiscard]] std::vector<std::int64_t> read_integers(
       const std::string& name) const;
   [[nodiscard]] std::string read_text(const std::string& name) const;
+  /// The unit of a dataset.
+  [[nodiscard]] std::string read_unit(const std::string& name) const;
   /// Names directly inside a group, sorted.
   [[nodiscard]] std::vector<std::string> list(const std::string& group) const;
 

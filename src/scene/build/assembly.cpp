@@ -94,6 +94,13 @@ void Assembly::check_start(const dynamics::SystemModel& model,
   });
 }
 
+PlacedLink Assembly::place_link(int link) const {
+  // The frame of the world's body is that of the root link.
+  return {sites_.body_of(link), sites_.body_of(link) == dynamics::kWorld
+                                    ? motions_[index(link)].X_WL
+                                    : sites_.X_BL(link)};
+}
+
 void Assembly::add_nodal_load(const LoadSpec& load) {
   const int link = find_link(scene_.robot, load.where.link);
   const BodyPlan& plan = sites_.plan_of(link);

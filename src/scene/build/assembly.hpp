@@ -36,6 +36,7 @@ class Assembly {
   /// @throws InputError if they overlap too deep.
   void check_start(const dynamics::SystemModel& model,
                    const dynamics::SystemState& initial);
+  [[nodiscard]] PlacedLink place_link(int link) const;
   [[nodiscard]] const std::vector<std::string>& warnings() const {
     return warnings_;
   }

@@ -55,6 +55,9 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   for (Probe& probe : built.probes) {
     set_start(probe, built.model, built.initial);
   }
+  for (int link = 0; link < std::ssize(scene.robot.links); ++link) {
+    built.links.push_back(assembly.place_link(link));
+  }
   built.settings = scene.scenario.settings;
   for (const auto* warnings : {&scene.robot.warnings, &scene.scenario.warnings,
                                &reductions.warnings, &assembly.warnings()}) {

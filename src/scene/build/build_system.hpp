@@ -21,6 +21,7 @@ struct BuiltScene {
   dynamics::SystemState initial;
   dynamics::SimulationSettings settings;
   std::vector<Probe> probes;
+  std::vector<PlacedLink> links;  ///< one per link of the robot
   std::vector<std::string> warnings;
   KnownBodies known;             ///< all that were reduced or cached
   int bodies_reduced = 0;        ///< number of reductions done now

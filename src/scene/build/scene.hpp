@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "limber/common/pose.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
+#include "limber/dynamics/system/indices.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/robot/robot.hpp"
@@ -22,6 +24,12 @@ struct Scene {
   std::vector<TouchingPair> touching = {};
   /// What was set over the files, for results to tell.
   std::vector<Setting> settings = {};
+};
+
+/// Where a link of the robot is in the system, for pictures.
+struct PlacedLink {
+  dynamics::BodyIndex body = dynamics::kWorld;
+  Pose X_BL;  ///< link frame in the body's; of the world: in the world's
 };
 
 /// Values of the command line that override the file's.

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace limber::scene {
@@ -70,17 +71,31 @@ std::optional<Geometry> read_geometry(const TiXmlElement& collision,
   return read_shape(*shape, problems);
 }
 
-void read_link(const TiXmlElement& element, Link& link, Problems& problems) {
-  for (const TiXmlElement* at = element.FirstChildElement(kCollision);
-       at != nullptr; at = at->NextSiblingElement(kCollision)) {
+std::vector<Collision> read_link(const TiXmlElement& element, const char* tag,
+                                 Problems& problems) {
+  std::vector<Collision> all;
+  for (const TiXmlElement* at = element.FirstChildElement(tag); at != nullptr;
+       at = at->NextSiblingElement(tag)) {
     Collision collision;
     if (const TiXmlElement* origin = at->FirstChildElement("origin")) {
       collision.X_LS = XmlElement(*origin, problems).pose();
     }
     if (const auto geometry = read_geometry(*at, problems)) {
       collision.geometry = *geometry;
-      link.collisions.push_back(collision);
+      all.push_back(collision);
     }
+  }
+  return all;
+}
+
+/// Calls `work(link, its element)` for every link.
+template <typename Work>
+void for_each_link(const TiXmlElement& root, Robot& robot, const Work& work) {
+  std::map<std::string, Link*> by_name;
+  for (Link& link : robot.links) by_name[link.name] = &link;
+  for (const TiXmlElement* link = root.FirstChildElement("link");
+       link != nullptr; link = link->NextSiblingElement("link")) {
+    work(*by_name.at(link->Attribute("name")), *link);
   }
 }
 
@@ -112,12 +127,23 @@ std::string remove_collisions(const TiXmlDocument& robot,
 
 void read_collisions(const TiXmlElement& root, Robot& robot,
                      Problems& problems) {
-  std::map<std::string, Link*> by_name;
-  for (Link& link : robot.links) by_name[link.name] = &link;
-  for (const TiXmlElement* link = root.FirstChildElement("link");
-       link != nullptr; link = link->NextSiblingElement("link")) {
-    read_link(*link, *by_name.at(link->Attribute("name")), problems);
-  }
+  for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
+    link.collisions = read_link(element, kCollision, problems);
+  });
+}
+
+void read_visuals(const TiXmlElement& root, Robot& robot) {
+  for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
+    Problems problems(robot.file.string());
+    std::vector<Collision> visuals = read_link(element, "visual", problems);
+    try {
+      problems.raise();
+      link.visuals = std::move(visuals);
+    } catch (const InputError& error) {
+      robot.warnings.push_back(fmt::format(
+          "<visual> of link '{}' is not drawn: {}", link.name, error.what()));
+    }
+  });
 }
 
 LinkContact read_link_contact(XmlElement& element) {

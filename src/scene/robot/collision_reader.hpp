@@ -20,6 +20,10 @@ namespace limber::scene {
 void read_collisions(const TiXmlElement& root, Robot& robot,
                      Problems& problems);
 
+/// The same of <visual>. One that cannot be drawn, such as a mesh, is left out
+/// or an OtherGeometry: it has no effect on the motion.
+void read_visuals(const TiXmlElement& root, Robot& robot);
+
 /// Content of <contact link="...">.
 [[nodiscard]] LinkContact read_link_contact(XmlElement& element);
 

@@ -49,7 +49,7 @@ struct FlexibleLink {
   std::vector<std::string> contact_groups = {};
 };
 
-/// <collision> of a rigid link.
+/// <collision> or <visual> of a rigid link.
 struct Collision {
   Pose X_LS;  ///< shape's frame in the link's
   Geometry geometry;
@@ -68,6 +68,7 @@ struct Link {
   std::optional<LinkInertia> inertia;
   std::optional<FlexibleLink> flexible;
   std::vector<Collision> collisions = {};
+  std::vector<Collision> visuals = {};  ///< for pictures alone
   LinkContact contact = {};
 };
 

@@ -158,7 +158,7 @@ TEST(Xdmf, PointsAreTheDeformedBodiesInTheWorld) {
     const auto geometries = find_children(grids[i], "Geometry");
     const auto attributes = find_children(grids[i], "Attribute");
     ASSERT_THAT(geometries, SizeIs(1));
-    ASSERT_THAT(attributes, SizeIs(1));
+    ASSERT_THAT(attributes, SizeIs(3));
     EXPECT_EQ(geometries[0].attributes.at("GeometryType"), "XYZ");
     EXPECT_EQ(attributes[0].attributes.at("Name"), "deformation");
     EXPECT_EQ(attributes[0].attributes.at("Center"), "Node");
@@ -166,6 +166,14 @@ TEST(Xdmf, PointsAreTheDeformedBodiesInTheWorld) {
     const RawDataset& deformation = follow(written, attributes[0]);
     ASSERT_THAT(points.shape, ElementsAre(kNodes, 3));
     ASSERT_THAT(deformation.shape, ElementsAre(kNodes));
+    EXPECT_EQ(attributes[1].attributes.at("Name"), "deformation_vector");
+    EXPECT_EQ(attributes[2].attributes.at("Name"), "displacement");
+    const RawDataset& bending = follow(written, attributes[1]);
+    const RawDataset& displacement = follow(written, attributes[2]);
+    const RawDataset& start =
+        follow(written, find_children(grids[0], "Geometry")[0]);
+    ASSERT_THAT(bending.shape, ElementsAre(kNodes, 3));
+    ASSERT_THAT(displacement.shape, ElementsAre(kNodes, 3));
     const dynamics::SystemState& state = run.history.states[i];
     std::size_t row = 0;
     double largest = 0.0;
@@ -184,6 +192,14 @@ TEST(Xdmf, PointsAreTheDeformedBodiesInTheWorld) {
         EXPECT_LT((point - expected).norm(), kRoundoff)
             << "output " << i << ", body " << b << ", node " << n;
         EXPECT_NEAR(deformation.numbers[row], u[n].norm(), kRoundoff);
+        const auto take = [row](const RawDataset& values) {
+          return Vector3(values.numbers.data() + 3 * row);
+        };
+        EXPECT_LT(
+            (take(bending) - rotate(state.bodies[b].quat_WB, u[n])).norm(),
+            kRoundoff);
+        EXPECT_LT((take(displacement) - (expected - take(start))).norm(),
+                  kRoundoff);
         largest = std::max(largest, u[n].norm());
       }
     }

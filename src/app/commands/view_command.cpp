@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limber/app/commands/commands.hpp"
+#include "limber/app/run/output_folder.hpp"
+#include "limber/app/run/view_page.hpp"
+#include "limber/view/page.hpp"
+
+namespace limber::app {
+namespace {
+
+struct Options {
+  std::string results;
+  std::vector<std::string> ghosts;
+  std::string out;
+};
+
+/// Runs of a comparison, the reference first; none if it is not one.
+std::vector<std::filesystem::path> find_compared(
+    const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> runs;
+  if (!std::filesystem::is_regular_file(folder / "comparison.json")) return {};
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (std::filesystem::is_regular_file(entry.path() / "results.h5")) {
+      runs.push_back(entry.path());
+    }
+  }
+  std::sort(runs.begin(), runs.end());
+  std::stable_partition(runs.begin(), runs.end(), [](const auto& run) {
+    return run.filename() == "reference";
+  });
+  return runs;
+}
+
+void show(const Options& options) {
+  std::vector<std::filesystem::path> all = find_compared(options.results);
+  if (all.empty()) all.emplace_back(options.results);
+  for (const std::string& ghost : options.ghosts) all.emplace_back(ghost);
+  const std::vector<view::Recording> recordings = read_recordings(all);
+  std::filesystem::path page = options.out;
+  if (page.empty()) {
+    const std::filesystem::path given =
+        std::filesystem::absolute(options.results);
+    const std::filesystem::path folder =
+        std::filesystem::is_directory(given) ? given : given.parent_path();
+    page = add_view_to(OutputFolder(folder), recordings);
+  } else {
+    view::write_page(page, recordings);
+  }
+  fmt::print("{}\n", describe_view(page));
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "view", "Show results in a browser: one HTML file, without a network");
+  command
+      ->add_option("results", options->results,
+                   "Folder of a run or of a comparison, or its results.h5")
+      ->required();
+  command->add_option("--with", options->ghosts,
+                      "Other results, shown as ghosts (may be repeated)");
+  command->add_option("-o,--out", options->out,
+                      "The file (default: view.html in the folder)");
+  command->callback(
+      [&action, options] { action = [options] { show(*options); }; });
+}
+
+}  // namespace limber::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/results/motion_shapes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace limber::results {
+namespace {
+
+/// Largest displacement of a node in a column of three rows a node.
+double find_largest(const VectorX& u) {
+  if (u.size() == 0) return 0.0;
+  return std::sqrt(
+      u.reshaped(3, u.size() / 3).colwise().squaredNorm().maxCoeff());
+}
+
+MatrixX take_snapshots(const std::function<VectorX(std::size_t)>& column,
+                       std::size_t count) {
+  const std::size_t taken = std::min(count, kMostSnapshots);
+  MatrixX snapshots;
+  for (std::size_t k = 0; k < taken; ++k) {
+    const std::size_t i = taken < 2 ? 0 : k * (count - 1) / (taken - 1);
+    const VectorX u = column(i);
+    if (k == 0) snapshots.resize(u.size(), static_cast<Eigen::Index>(taken));
+    snapshots.col(static_cast<Eigen::Index>(k)) = u;
+  }
+  return snapshots;
+}
+
+/// Left singular vectors whose singular values matter, largest first.
+MatrixX find_shapes(const MatrixX& snapshots) {
+  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(snapshots.transpose() *
+                                                      snapshots);
+  const VectorX& squares = solver.eigenvalues();  // increasing
+  const Eigen::Index n = squares.size();
+  const double least =
+      squares[n - 1] * kShapeTolerance * kShapeTolerance * 1e-2;
+  MatrixX shapes(snapshots.rows(), 0);
+  for (Eigen::Index k = n - 1; k >= 0 && shapes.cols() < kMostShapes; --k) {
+    if (!(squares[k] > least)) break;
+    shapes.conservativeResize(Eigen::NoChange, shapes.cols() + 1);
+    VectorX shape = snapshots * solver.eigenvectors().col(k);
+    const auto known = shapes.leftCols(shapes.cols() - 1);
+    shape -= known * (known.transpose() * shape);
+    shapes.rightCols<1>() = shape.normalized();
+  }
+  return shapes;
+}
+
+}  // namespace
+
+MotionShapes find_motion_shapes(
+    const std::function<VectorX(std::size_t)>& column, std::size_t count) {
+  MotionShapes motion;
+  if (count == 0) return motion;
+  const MatrixX snapshots = take_snapshots(column, count);
+  motion.shapes = find_shapes(snapshots);
+  motion.coordinates.resize(static_cast<Eigen::Index>(count),
+                            motion.shapes.cols());
+  for (std::size_t i = 0; i < count; ++i) {
+    const VectorX u = column(i);
+    const VectorX coordinates = motion.shapes.transpose() * u;
+    motion.coordinates.row(static_cast<Eigen::Index>(i)) = coordinates;
+    motion.error =
+        std::max(motion.error, find_largest(u - motion.shapes * coordinates));
+  }
+  return motion;
+}
+
+}  // namespace limber::results

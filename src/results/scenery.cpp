@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/results/scenery.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/results/motion_shapes.hpp"
+#include "limber/results/path_step.hpp"
+#include "limber/results/scenery_marks.hpp"
+#include "limber/version.hpp"
+
+namespace limber::results {
+namespace {
+
+using dynamics::BodyModel;
+using dynamics::SystemModel;
+using flexbody::ReducedBody;
+
+/// The rows of a body that its surface's triangles use, in their order, and the
+/// triangles in terms of these.
+struct SurfaceRows {
+  std::vector<Eigen::Index> rows;
+  std::vector<std::int64_t> corners;  // three a triangle
+};
+
+SurfaceRows find_surface_rows(const ReducedBody& body) {
+  std::vector<std::int64_t> place(body.rows.tags.size(), -1);
+  for (const auto& triangle : body.triangles) {
+    for (const std::size_t row : triangle) place[row] = 0;
+  }
+  SurfaceRows surface;
+  for (std::size_t row = 0; row < place.size(); ++row) {
+    if (place[row] < 0) continue;
+    place[row] = std::ssize(surface.rows);
+    surface.rows.push_back(static_cast<Eigen::Index>(row));
+  }
+  for (const auto& triangle : body.triangles) {
+    for (const std::size_t row : triangle) {
+      surface.corners.push_back(place[row]);
+    }
+  }
+  return surface;
+}
+
+/// The rows' entries of a matrix of three rows a node.
+MatrixX take_nodes(const MatrixX& all, const std::vector<Eigen::Index>& rows) {
+  MatrixX taken(3 * std::ssize(rows), all.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    taken.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
+        all.middleRows<3>(3 * rows[i]);
+  }
+  return taken;
+}
+
+void write_surface(Hdf5File& out, const std::string& at,
+                   const ReducedBody& body, const SurfaceRows& surface,
+                   const MatrixX& shapes) {
+  std::vector<std::int64_t> tags;
+  for (const Eigen::Index row : surface.rows) {
+    tags.push_back(static_cast<std::int64_t>(
+        body.rows.tags[static_cast<std::size_t>(row)]));
+  }
+  out.write(at + "body", body.name, "reduced body");
+  out.write(at + "key", body.content_key, "content key of the reduced body");
+  out.write(at + "tags", tags, "1", "Gmsh node tags");
+  out.write(at + "x_B", Matrix3X(body.rows.x_B(Eigen::all, surface.rows)), "m",
+            "undeformed positions from the centre of mass, 3 x n");
+  out.write_single(at + "Phi_B", shapes, "kg^-1/2",
+                   "shapes at the nodes, 3n x m");
+  out.write(at + "triangles", surface.corners, "1",
+            "indices of nodes, three a triangle, outward");
+}
+
+/// Surfaces, each written once for all bodies that share it.
+class SurfaceWriter {
+ public:
+  SurfaceWriter(Hdf5File& out, const SystemModel& model, const History& history)
+      : out_(out), model_(model), history_(history) {}
+
+  void add(std::size_t b) {
+    const BodyModel& body = model_.bodies[b];
+    if (!body.reduced) return;
+    const std::string at = "scene/bodies/" + to_path_step(body.name) + "/";
+    if (body.reduced->triangles.empty()) {
+      out_.write(at + "surface", std::string("none"), kSurfaceMeaning);
+      return;
+    }
+    out_.write(at + "surface",
+               body.full >= 0 ? write_full(b, at) : find_shared(body),
+               kSurfaceMeaning);
+  }
+
+ private:
+  static constexpr const char* kSurfaceMeaning =
+      "its group in scene/surfaces, or none: its rows were not kept";
+
+  std::string next_name() { return fmt::format("{:04}", count_++); }
+
+  std::string find_shared(const BodyModel& body) {
+    const auto key = std::make_pair(body.reduced.get(), body.modes);
+    const auto found = shared_.find(key);
+    if (found != shared_.end()) return found->second;
+    const std::string name = next_name();
+    const SurfaceRows surface = find_surface_rows(*body.reduced);
+    write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
+                  take_nodes(body.reduced->rows.Phi_B.leftCols(body.modes),
+                             surface.rows));
+    shared_[key] = name;
+    return name;
+  }
+
+  /// Shapes of the nodes' own motion, and their coordinates over time.
+  std::string write_full(std::size_t b, const std::string& at) {
+    const BodyModel& body = model_.bodies[b];
+    const SurfaceRows surface = find_surface_rows(*body.reduced);
+    const Eigen::Index n = body.reduced->rows.x_B.cols();
+    const auto deform = [&](std::size_t i) {
+      MatrixX u_B(3 * n, 1);
+      calc_node_deformations(model_, static_cast<dynamics::BodyIndex>(b),
+                             {&history_.states[i], 1}, u_B);
+      return VectorX(take_nodes(u_B, surface.rows));
+    };
+    const MotionShapes motion =
+        find_motion_shapes(deform, history_.states.size());
+    const std::string name = next_name();
+    write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
+                  motion.shapes);
+    out_.write(at + "eta", motion.coordinates, "kg^1/2 m",
+               "coordinates of the shapes at each output time");
+    MatrixX error(1, 1);
+    error(0, 0) = motion.error;
+    out_.write(at + "truncation", error, "m",
+               "largest displacement that the shapes leave out");
+    return name;
+  }
+
+  Hdf5File& out_;
+  const SystemModel& model_;
+  const History& history_;
+  int count_ = 0;
+  std::map<std::pair<const ReducedBody*, int>, std::string> shared_;
+};
+
+void write_bodies(Hdf5File& out, const SystemModel& model,
+                  const History& history) {
+  SurfaceWriter surfaces(out, model, history);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const std::string at = "scene/bodies/" + to_path_step(body.name) + "/";
+    out.write(at + "place", std::vector<std::int64_t>{std::int64_t(b)}, "1",
+              "of the body in the system");
+    out.write(at + "mass", MatrixX::Constant(1, 1, body.mass), "kg", "mass");
+    out.write(at + "inertia", MatrixX(body.J0), "kg m^2",
+              "about the centre of mass, body frame, undeformed");
+    surfaces.add(b);
+  }
+}
+
+void write_shapes(Hdf5File& out, const Scenery& scenery,
+                  const SystemModel& model) {
+  for (std::size_t i = 0; i < scenery.shapes.size(); ++i) {
+    const SceneryShape& shape = scenery.shapes[i];
+    const std::string at = fmt::format("scene/shapes/{:04}/", i);
+    const Quaternion quat(shape.X_BS.R);
+    MatrixX rotation(1, 4);
+    rotation << quat.w(), quat.x(), quat.y(), quat.z();
+    out.write(at + "name", shape.name, "link or obstacle");
+    out.write(at + "body", name_body(model, shape.body),
+              "body that carries it; empty: the world");
+    out.write(at + "kind", shape.kind,
+              "box, sphere, cylinder, capsule or plane");
+    out.write(at + "size", MatrixX(shape.size.transpose()), "m",
+              "edges, or radius and length");
+    out.write(at + "p_BS", MatrixX(shape.X_BS.p.transpose()), "m",
+              "middle, body frame");
+    out.write(at + "quat_BS", rotation, "1", "shape to body, w x y z");
+  }
+}
+
+}  // namespace
+
+void write_scenery(Hdf5File& out, const Scenery& scenery,
+                   const SystemModel& model, const History& history) {
+  out.write("scene/version", std::vector<std::int64_t>{kSceneryVersion}, "1",
+            "layout of this group");
+  out.write("scene/limber", std::string(LIMBER_VERSION), "version of Limber");
+  out.write("scene/name", scenery.name, "name of the scenario");
+  out.write("scene/scenario", scenery.scenario, "text of the scenario");
+  for (std::size_t i = 0; i < scenery.robots.size(); ++i) {
+    const std::string at = fmt::format("scene/robots/{}/", i);
+    out.write(at + "name", scenery.robots[i].name, "empty: the only one");
+    out.write(at + "text", scenery.robots[i].text, "text of the robot");
+  }
+  out.write("scene/settings", scenery.settings,
+            "options that changed the texts after reading");
+  out.write("scene/gravity", MatrixX(model.gravity_W.transpose()), "m/s^2",
+            "world frame");
+  write_bodies(out, model, history);
+  write_shapes(out, scenery, model);
+  write_marks(out, model, history);
+}
+
+}  // namespace limber::results

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/view/gltf.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/version.hpp"
+#include "limber/view/solids.hpp"
+
+namespace limber::view {
+namespace {
+
+using nlohmann::json;
+
+// Of the specification's enumerations.
+constexpr int kFloat = 5126;
+constexpr int kUnsignedInt = 5125;
+constexpr int kVertices = 34962;
+constexpr int kIndices = 34963;
+
+constexpr std::array<std::array<double, 3>, 8> kColours = {
+    {{0.08, 0.19, 0.39},
+     {0.89, 0.27, 0.03},
+     {0.10, 0.36, 0.08},
+     {0.43, 0.20, 0.36},
+     {0.18, 0.48, 0.45},
+     {0.84, 0.58, 0.07},
+     {0.76, 0.10, 0.10},
+     {0.33, 0.18, 0.11}}};
+
+using Singles = Eigen::MatrixXf;  // a column an element
+
+class GltfWriter {
+ public:
+  GltfWriter(const Recording& recording, double magnification)
+      : recording_(recording), magnification_(magnification) {
+    for (Eigen::Index i = 0; i < recording.times.size(); ++i) {
+      const auto t = static_cast<float>(recording.times[i]);
+      if (!times_.empty() && !(t > times_.back())) continue;
+      times_.push_back(t);
+      outputs_.push_back(i);
+    }
+    surfaces_.resize(recording.surfaces.size());
+  }
+
+  std::string write() {
+    const double root2 = std::numbers::sqrt2 / 2.0;
+    root_["asset"] = {{"version", "2.0"},
+                      {"generator", std::string("Limber ") + LIMBER_VERSION}};
+    root_["scene"] = 0;
+    root_["scenes"] = {{{"nodes", {0}}}};
+    // From z up to y up.
+    root_["nodes"] = {
+        {{"name", recording_.name}, {"rotation", {-root2, 0.0, 0.0, root2}}}};
+    root_["animations"] = {{{"name", "motion"},
+                            {"channels", json::array()},
+                            {"samplers", json::array()}}};
+    if (times_.size() > 1) {
+      const Eigen::Map<const Singles> row(times_.data(), 1, std::ssize(times_));
+      input_ = add_floats(row, "SCALAR", 0, true);
+    }
+    for (std::size_t b = 0; b < recording_.bodies.size(); ++b) add_body(b);
+    add_fixed();
+    if (root_["animations"][0]["channels"].empty()) root_.erase("animations");
+    return join();
+  }
+
+ private:
+  int add_view(const void* data, std::size_t bytes, int target) {
+    json view = {
+        {"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes}};
+    if (target != 0) view["target"] = target;
+    bytes_.append(static_cast<const char*>(data), bytes);
+    return append("bufferViews", std::move(view));
+  }
+
+  int append(const char* list, json value) {
+    root_[list].push_back(std::move(value));
+    return static_cast<int>(root_[list].size()) - 1;
+  }
+
+  /// @param has_bounds as positions and times need them
+  int add_floats(const Singles& columns, const char* type, int target,
+                 bool has_bounds) {
+    const auto count = static_cast<std::size_t>(columns.size());
+    json accessor = {
+        {"bufferView", add_view(columns.data(), 4 * count, target)},
+        {"componentType", kFloat},
+        {"count", columns.cols()},
+        {"type", type}};
+    if (has_bounds) {
+      for (Eigen::Index c = 0; c < columns.rows(); ++c) {
+        accessor["min"].push_back(columns.row(c).minCoeff());
+        accessor["max"].push_back(columns.row(c).maxCoeff());
+      }
+    }
+    return append("accessors", std::move(accessor));
+  }
+
+  int add_indices(const std::vector<std::uint32_t>& corners) {
+    return append(
+        "accessors",
+        {{"bufferView", add_view(corners.data(), 4 * corners.size(), kIndices)},
+         {"componentType", kUnsignedInt},
+         {"count", corners.size()},
+         {"type", "SCALAR"}});
+  }
+
+  int add_material(std::size_t b) {
+    const auto& [r, g, blue] = kColours[b % kColours.size()];
+    return append("materials", {{"pbrMetallicRoughness",
+                                 {{"baseColorFactor", {r, g, blue, 1.0}},
+                                  {"metallicFactor", 0.0},
+                                  {"roughnessFactor", 0.7}}},
+                                {"doubleSided", true}});
+  }
+
+  /// Geometry of a surface, shared by the bodies that have it.
+  const json& get_surface(std::size_t s) {
+    json& primitive = surfaces_[s];
+    if (!primitive.is_null()) return primitive;
+    const Surface& surface = recording_.surfaces[s];
+    primitive["attributes"]["POSITION"] =
+        add_floats(surface.x_B.cast<float>(), "VEC3", kVertices, true);
+    primitive["indices"] =
+        add_indices({surface.corners.begin(), surface.corners.end()});
+    for (Eigen::Index k = 0; k < surface.Phi_B.cols(); ++k) {
+      const Singles shape =
+          surface.Phi_B.col(k).reshaped(3, surface.x_B.cols()).cast<float>();
+      primitive["targets"].push_back(
+          {{"POSITION", add_floats(shape, "VEC3", kVertices, true)}});
+    }
+    return primitive;
+  }
+
+  json make_primitive(const Solid& solid) {
+    return {{"attributes",
+             {{"POSITION",
+               add_floats(solid.x.cast<float>(), "VEC3", kVertices, true)}}},
+            {"indices", add_indices(solid.corners)}};
+  }
+
+  json make_primitives(std::size_t b) {
+    const Body& body = recording_.bodies[b];
+    json primitives = json::array();
+    if (body.surface >= 0) {
+      primitives.push_back(get_surface(std::size_t(body.surface)));
+    }
+    for (const Shape& shape : recording_.shapes) {
+      if (shape.body != static_cast<int>(b)) continue;
+      primitives.push_back(make_primitive(make_solid(shape, 1.0)));
+    }
+    if (primitives.empty()) {
+      primitives.push_back(
+          make_primitive(make_ellipsoid(body.mass, body.inertia)));
+    }
+    const int material = add_material(b);
+    for (json& primitive : primitives) primitive["material"] = material;
+    return primitives;
+  }
+
+  void add_channel(int node, const char* path, const Singles& values,
+                   const char* type) {
+    json& animation = root_["animations"][0];
+    const int output = add_floats(values, type, 0, false);
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size()},
+         {"target", {{"node", node}, {"path", path}}}});
+    animation["samplers"].push_back(
+        {{"input", input_}, {"interpolation", "LINEAR"}, {"output", output}});
+  }
+
+  void add_body(std::size_t b) {
+    const Body& body = recording_.bodies[b];
+    const MatrixX eta = magnification_ * body.eta(outputs_, Eigen::all);
+    const MatrixX p = body.p_WB(outputs_, Eigen::all);
+    const MatrixX q = find_rotations(body);
+    json mesh = {{"name", body.name}, {"primitives", make_primitives(b)}};
+    const bool has_modes = eta.cols() > 0;
+    json node = {{"name", body.name},
+                 {"translation", {p(0, 0), p(0, 1), p(0, 2)}},
+                 {"rotation", {q(0, 0), q(0, 1), q(0, 2), q(0, 3)}}};
+    if (has_modes) {
+      for (Eigen::Index k = 0; k < eta.cols(); ++k) {
+        mesh["weights"].push_back(eta(0, k));
+      }
+    }
+    node["mesh"] = append("meshes", std::move(mesh));
+    const int index = add_node(std::move(node));
+    if (times_.size() < 2) return;
+    add_channel(index, "translation", p.transpose().cast<float>(), "VEC3");
+    add_channel(index, "rotation", q.transpose().cast<float>(), "VEC4");
+    if (!has_modes) return;
+    // All weights of an output, one after the other.
+    const Singles weights = eta.transpose().cast<float>();
+    add_channel(index, "weights", weights.reshaped(1, weights.size()),
+                "SCALAR");
+  }
+
+  /// x y z w, each in the hemisphere of the one before it.
+  MatrixX find_rotations(const Body& body) const {
+    MatrixX q(std::ssize(outputs_), 4);
+    for (Eigen::Index i = 0; i < q.rows(); ++i) {
+      const Eigen::RowVector4d wxyz =
+          body.quat_WB.row(outputs_[static_cast<std::size_t>(i)]).normalized();
+      q.row(i) << wxyz[1], wxyz[2], wxyz[3], wxyz[0];
+      if (i > 0 && q.row(i).dot(q.row(i - 1)) < 0.0) q.row(i) *= -1.0;
+    }
+    return q;
+  }
+
+  int add_node(json node) {
+    const int index = append("nodes", std::move(node));
+    root_["nodes"][0]["children"].push_back(index);
+    return index;
+  }
+
+  void add_fixed() {
+    for (const Shape& shape : recording_.shapes) {
+      if (shape.body >= 0) continue;
+      json primitive = make_primitive(make_solid(shape, 1.0));
+      primitive["material"] = add_material(kColours.size() - 1);
+      json primitives = json::array();
+      primitives.push_back(std::move(primitive));
+      const int mesh =
+          append("meshes", {{"name", shape.name}, {"primitives", primitives}});
+      add_node({{"name", shape.name}, {"mesh", mesh}});
+    }
+  }
+
+  static void add_word(std::string& bytes, std::size_t value) {
+    const auto word = static_cast<std::uint32_t>(value);
+    std::array<char, 4> raw{};
+    std::memcpy(raw.data(), &word, 4);
+    bytes.append(raw.data(), 4);
+  }
+
+  static void add_chunk(std::string& bytes, std::uint32_t type,
+                        std::string content, char padding) {
+    content.resize((content.size() + 3) / 4 * 4, padding);
+    add_word(bytes, content.size());
+    add_word(bytes, type);
+    bytes += content;
+  }
+
+  std::string join() {
+    root_["buffers"] = {{{"byteLength", (bytes_.size() + 3) / 4 * 4}}};
+    std::string chunks;
+    add_chunk(chunks, 0x4E4F534A,
+              root_.dump(-1, ' ', false, json::error_handler_t::replace), ' ');
+    add_chunk(chunks, 0x004E4942, bytes_, '\0');
+    std::string file = "glTF";
+    add_word(file, 2);
+    add_word(file, 12 + chunks.size());
+    return file + chunks;
+  }
+
+  const Recording& recording_;
+  double magnification_;
+  std::vector<float> times_;
+  std::vector<Eigen::Index> outputs_;
+  std::vector<json> surfaces_;
+  json root_;
+  std::string bytes_;
+  int input_ = -1;
+};
+
+}  // namespace
+
+void write_gltf(const std::filesystem::path& file, const Recording& recording,
+                double magnification) {
+  const std::string bytes = GltfWriter(recording, magnification).write();
+  write_whole(file, [&](const std::filesystem::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out << bytes;
+    out.flush();
+    if (out) return;
+    throw InputError(fmt::format(
+        "'{}' cannot be written; is the disk full, and does its folder exist?",
+        file.string()));
+  });
+}
+
+}  // namespace limber::view

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/view/page.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/files/whole_file.hpp"
+#include "limber/view/page_arrays.hpp"
+#include "limber/view/page_data.hpp"
+
+namespace limber::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the data go; src/view/page/index.html has it once.
+constexpr std::string_view kMark = "LIMBER-DATA-HERE";
+constexpr const char* kName = "view.html";
+
+std::string read_template() {
+  const fs::path file = find_template();
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || text.find(kMark) == std::string::npos) {
+    throw InputError(
+        fmt::format("'{}' is damaged; install Limber again", file.string()));
+  }
+  return text;
+}
+
+}  // namespace
+
+fs::path find_template() {
+  std::error_code unknown;
+  const fs::path folder =
+      fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  const std::array<fs::path, 3> places = {
+      folder / kName, folder.parent_path() / "share/limber" / kName,
+      fs::path(LIMBER_DATA_DIR) / kName};
+  for (const fs::path& place : places) {
+    if (fs::is_regular_file(place, unknown)) return place;
+  }
+  throw InputError(fmt::format(
+      "the page '{}' is not there: looked for {}, {} and {}. The build makes "
+      "it with node and npm, and told what it lacked; install them "
+      "(scripts/install-deps) and build again",
+      kName, places[0].string(), places[1].string(), places[2].string()));
+}
+
+void write_page(const fs::path& file, std::span<const Recording> recordings) {
+  const std::string page = read_template();
+  const std::size_t at = page.find(kMark);
+  const std::string data = encode_base64(make_page_data(recordings));
+  write_whole(file, [&](const fs::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out << std::string_view(page).substr(0, at) << data
+        << std::string_view(page).substr(at + kMark.size());
+    out.flush();
+    if (out) return;
+    throw InputError(fmt::format(
+        "'{}' cannot be written; is the disk full, and does its folder exist?",
+        file.string()));
+  });
+}
+
+}  // namespace limber::view

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "limber/view/recording.hpp"
+
+namespace limber::view {
+
+/// The page without data that the build makes: beside the running program, in
+/// ../share/limber from there, or where Limber was configured to be installed.
+/// @throws InputError if it is not there.
+std::filesystem::path find_template();
+
+/// Writes one HTML file that shows results in a browser, without a network.
+/// @param recordings the first is shown, others are its ghosts
+/// @throws InputError if the page that the build makes is not there, or the
+/// file cannot be written.
+void write_page(const std::filesystem::path& file,
+                std::span<const Recording> recordings);
+
+}  // namespace limber::view

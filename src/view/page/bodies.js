@@ -1,0 +1,191 @@
+// The bodies of one result as meshes that a time moves.
+import * as THREE from 'three';
+import { colourOfLink } from './colours.js';
+import { makeMaterial } from './material.js';
+import { locate } from './motion.js';
+
+function makeSurface({ x, shapes, triangles }) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(x, 3));
+  geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+  if (shapes.length > 0) {
+    geometry.morphAttributes.position = shapes.map((s) => new THREE.BufferAttribute(s, 3));
+    geometry.morphTargetsRelative = true;
+  }
+  geometry.computeBoundingSphere();
+  return geometry;
+}
+
+// Axes of cylinders and capsules are z here, y in three.js.
+const upright = (geometry) => geometry.rotateX(Math.PI / 2);
+
+function makeShape({ kind, size }, extent) {
+  if (kind === 'box') return new THREE.BoxGeometry(...size);
+  if (kind === 'sphere') return new THREE.SphereGeometry(size[0], 32, 16);
+  if (kind === 'cylinder') {
+    return upright(new THREE.CylinderGeometry(size[0], size[0], size[1], 32));
+  }
+  if (kind === 'capsule') return upright(new THREE.CapsuleGeometry(size[0], size[1], 8, 24));
+  return new THREE.PlaneGeometry(2 * extent, 2 * extent);
+}
+
+// The solid ellipsoid of that mass and inertia: its semi-axes follow from the
+// second moments m a^2 / 5 along the principal axes.
+function makeEllipsoid({ mass, inertia }) {
+  const [xx, , , , yy, , , , zz] = inertia;
+  const trace = (xx + yy + zz) / 2;
+  const axes = [xx, yy, zz].map((j) => Math.sqrt(Math.max(5 * (trace - j), 0) / mass));
+  const most = Math.max(...axes, 1e-9);
+  const geometry = new THREE.SphereGeometry(1, 24, 12);
+  return geometry.scale(...axes.map((a) => Math.max(a, 0.02 * most)));
+}
+
+const place = (object, p, q) => {
+  object.position.set(...p);
+  object.quaternion.set(q[1], q[2], q[3], q[0]);
+};
+
+function makeMesh(geometry, material, node) {
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.userData.link = node;
+  return mesh;
+}
+
+/// Meshes of a result's bodies and of what is fixed in the world.
+export class Bodies {
+  /// @param ghost colour of a ghost, or null
+  constructor(result, motion, shared, ghost, extent) {
+    this.result = result;
+    this.motion = motion;
+    this.group = new THREE.Group();
+    this.links = []; // what the tree lists
+    this.moving = []; // what a time moves
+    const start = locate(motion.times, motion.times[0]);
+    result.bodies.forEach((body, b) => this.addBody(body, b, { shared, ghost, start, extent }));
+    result.shapes
+      .filter((shape) => shape.body < 0)
+      .forEach((shape) => this.addFixed(shape, { shared: null, ghost, extent }));
+  }
+
+  addBody(body, b, { shared, ghost, start, extent }) {
+    const link = {
+      name: body.name,
+      level: body.level,
+      colour: ghost ?? colourOfLink(b),
+      group: new THREE.Group(),
+      body: b,
+    };
+    const modes = body.surface >= 0 ? body.modes : 0;
+    const material = makeMaterial(link.colour, modes, ghost === null ? shared : makeBlank());
+    this.setGhost(material, ghost);
+    const geometries = this.makeGeometries(body, b, extent);
+    const meshes = geometries.map(({ geometry, p, q, needsBake }) => {
+      if (needsBake) {
+        geometry.applyMatrix4(
+          new THREE.Matrix4().compose(
+            new THREE.Vector3(...p),
+            new THREE.Quaternion(q[1], q[2], q[3], q[0]),
+            new THREE.Vector3(1, 1, 1),
+          ),
+        );
+      }
+      const mesh = makeMesh(geometry, material, link);
+      mesh.frustumCulled = false;
+      mesh.userData.body = b;
+      mesh.userData.isSurface = body.surface >= 0;
+      link.group.add(mesh);
+      return mesh;
+    });
+    const pose = this.motion.pose(b, start);
+    const startMatrix = new THREE.Matrix4().compose(
+      new THREE.Vector3(...pose.p),
+      new THREE.Quaternion(pose.q[1], pose.q[2], pose.q[3], pose.q[0]),
+      new THREE.Vector3(1, 1, 1),
+    );
+    const eta = new Float64Array(modes);
+    if (modes > 0) {
+      this.motion.eta(b, start, eta);
+      material.userData.own.limberStart.value.set(eta);
+    }
+    link.material = material;
+    this.links.push(link);
+    this.group.add(link.group);
+    this.moving.push({
+      b, link, meshes, material, modes, eta, rate: new Float64Array(modes),
+      back: startMatrix.invert(),
+    });
+  }
+
+  makeGeometries(body, b, extent) {
+    if (body.surface >= 0) {
+      const surface = this.result.surfaces[body.surface];
+      surface.geometry ??= makeSurface(surface);
+      return [{ geometry: surface.geometry }];
+    }
+    const shapes = this.result.shapes.filter((shape) => shape.body === b);
+    if (shapes.length === 0) return [{ geometry: makeEllipsoid(body) }];
+    return shapes.map((shape) => ({
+      geometry: makeShape(shape, extent), p: shape.p, q: shape.q, needsBake: true,
+    }));
+  }
+
+  addFixed(shape, { ghost, extent }) {
+    if (ghost !== null) return; // it would cover the shown result's
+    const link = {
+      name: shape.name, level: 'fixed', colour: 0x8a8f98, group: new THREE.Group(), body: -1,
+    };
+    link.material = new THREE.MeshLambertMaterial({
+      color: link.colour, side: THREE.DoubleSide, flatShading: shape.kind === 'box',
+    });
+    if (shape.kind === 'plane') this.setGhost(link.material, 1);
+    const mesh = makeMesh(makeShape(shape, extent), link.material, link);
+    place(mesh, shape.p, shape.q);
+    link.group.add(mesh);
+    this.links.push(link);
+    this.group.add(link.group);
+  }
+
+  setGhost(material, ghost) {
+    if (ghost === null) return;
+    material.transparent = true;
+    material.opacity = 0.3;
+    material.depthWrite = false;
+    // Where both are in one place, the shown result is in front.
+    material.polygonOffset = true;
+    material.polygonOffsetFactor = 1;
+    material.polygonOffsetUnits = 4;
+  }
+
+  /// Places everything at a time.
+  update(t, magnification) {
+    const at = locate(this.motion.times, t);
+    for (const item of this.moving) {
+      const { b, link, meshes, material, modes, eta, rate, back } = item;
+      const pose = this.motion.pose(b, at);
+      place(link.group, pose.p, pose.q);
+      link.group.updateMatrix();
+      const own = material.userData.own;
+      const twist = this.motion.twist(b, at, pose);
+      own.limberVelocity.value.set(...twist.v);
+      own.limberSpin.value.set(...twist.w);
+      own.limberBack.value.multiplyMatrices(back, link.group.matrix);
+      if (modes === 0) continue;
+      this.motion.eta(b, at, eta);
+      this.motion.etadot(b, at, rate);
+      own.limberRates.value.set(rate);
+      for (const mesh of meshes) {
+        for (let k = 0; k < modes; ++k) mesh.morphTargetInfluences[k] = magnification * eta[k];
+      }
+    }
+  }
+}
+
+// Uniforms of a body that is never coloured by a field.
+function makeBlank() {
+  return {
+    limberField: { value: 0 },
+    limberMagnification: { value: 1 },
+    limberRange: { value: new THREE.Vector2(0, 1) },
+    limberMap: { value: null },
+  };
+}

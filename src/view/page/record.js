@@ -1,0 +1,45 @@
+// Pictures and films of the canvas.
+
+export function save(blob, name) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/// @param draw draws the canvas now, so that it still holds the picture
+export function takePicture(canvas, draw) {
+  draw();
+  return new Promise((done) => canvas.toBlob(done, 'image/png'));
+}
+
+/// Plays the interval once and records it.
+export function takeFilm(canvas, player) {
+  const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find((t) =>
+    MediaRecorder.isTypeSupported(t),
+  );
+  if (!type) return Promise.reject(new Error('this browser records no WebM'));
+  const recorder = new MediaRecorder(canvas.captureStream(30), {
+    mimeType: type, videoBitsPerSecond: 8e6,
+  });
+  const parts = [];
+  recorder.ondataavailable = (event) => parts.push(event.data);
+  return new Promise((done) => {
+    recorder.onstop = () => done(new Blob(parts, { type: 'video/webm' }));
+    player.seek(player.from);
+    recorder.start();
+    player.play();
+    let last = player.time;
+    const watch = () => {
+      if (!player.isPlaying || player.time < last) {
+        player.pause();
+        recorder.stop();
+        return;
+      }
+      last = player.time;
+      requestAnimationFrame(watch);
+    };
+    requestAnimationFrame(watch);
+  });
+}

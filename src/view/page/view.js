@@ -1,0 +1,197 @@
+// The picture: what is in it, how it is coloured and drawn.
+import * as THREE from 'three';
+import { Bodies } from './bodies.js';
+import { Camera } from './camera.js';
+import { colourOfGhost, makeMap, showLegend } from './colours.js';
+import { findBox, findRanges, findRangesAt } from './extents.js';
+import { Marks } from './marks.js';
+import { makeSharedUniforms } from './material.js';
+import { Motion } from './motion.js';
+import { Names } from './names.js';
+import { groupProbes, Plots } from './plots.js';
+
+function nameGhost(result) {
+  const levels = [...new Set(result.bodies.map((body) => body.level))];
+  return result.folder || `${result.name} (${levels.join(', ')})`;
+}
+
+function joinBoxes(boxes) {
+  const lower = [0, 1, 2].map((c) => Math.min(...boxes.map((box) => box.lower[c])));
+  const upper = [0, 1, 2].map((c) => Math.max(...boxes.map((box) => box.upper[c])));
+  return { lower, upper, size: Math.hypot(...upper.map((u, c) => u - lower[c])) || 1 };
+}
+
+export class View {
+  constructor(results, player, elements) {
+    this.player = player;
+    this.elements = elements;
+    this.motions = results.map((result) => new Motion(result));
+    [this.motion] = this.motions;
+    const box = joinBoxes(this.motions.map(findBox));
+    this.ranges = findRanges(this.motion);
+    this.magnification = 1;
+    this.field = 0;
+    this.scalePerFrame = false;
+    this.listeners = { magnification: [], field: [], links: [], plots: [] };
+    this.shared = makeSharedUniforms(makeMap());
+    this.makeScene(results, box);
+    this.makeRenderer();
+    this.camera = new Camera(elements.canvas, box);
+    this.camera.controls.addEventListener('change', () => this.redraw());
+    this.names = new Names(elements.names, this.bodies.links);
+    this.probeGroups = groupProbes(results);
+    for (const group of this.probeGroups) {
+      for (const s of group.series) if (s.ghost) s.ghostName = this.ghosts[s.ghost - 1].label;
+    }
+    this.plots = new Plots(elements.plots, player);
+    player.onChange(() => this.redraw());
+    new ResizeObserver(() => this.resize()).observe(elements.stage);
+    this.resize();
+  }
+
+  makeScene(results, box) {
+    const scene = new THREE.Scene();
+    scene.add(new THREE.HemisphereLight(0xffffff, 0x9a9aa8, 2.6));
+    const sun = new THREE.DirectionalLight(0xffffff, 1.6);
+    sun.position.set(0.4, -0.7, 1);
+    scene.add(sun);
+    this.bodies = new Bodies(results[0], this.motion, this.shared, null, box.size);
+    scene.add(this.bodies.group);
+    this.ghosts = results.slice(1).map((result, g) => {
+      const ghost = new Bodies(result, this.motions[g + 1], null, colourOfGhost(g), box.size);
+      ghost.label = nameGhost(result);
+      scene.add(ghost.group);
+      return ghost;
+    });
+    this.marks = new Marks(results[0], this.motion, box.size);
+    scene.add(this.marks.group);
+    this.picked = new THREE.Mesh(
+      new THREE.SphereGeometry(0.006 * box.size, 16, 8),
+      new THREE.MeshBasicMaterial({ color: 0xd62728, depthTest: false, transparent: true }));
+    this.picked.visible = false;
+    this.picked.renderOrder = 3;
+    scene.add(this.picked);
+    this.scene = scene;
+  }
+
+  makeRenderer() {
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.elements.canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.setDark(document.documentElement.classList.contains('dark'));
+  }
+
+  setDark(isDark) {
+    this.scene.background = new THREE.Color(isDark ? 0x16181d : 0xf7f8fa);
+    for (const { mark, dot } of this.marks.marks) {
+      if (dot && mark.kind === 'joint') dot.material.color.set(isDark ? 0xd8dce3 : 0x333333);
+    }
+    this.plots?.rebuild();
+    this.redraw();
+  }
+
+  resize() {
+    const { clientWidth: w, clientHeight: h } = this.elements.stage;
+    if (w === 0 || h === 0) return;
+    this.renderer.setSize(w, h, false);
+    this.camera.resize(w, h);
+    this.redraw();
+  }
+
+  onMagnification(listener) {
+    this.listeners.magnification.push(listener);
+  }
+  onField(listener) {
+    this.listeners.field.push(listener);
+  }
+  onLinks(listener) {
+    this.listeners.links.push(listener);
+  }
+  onPlots(listener) {
+    this.listeners.plots.push(listener);
+  }
+  tell(what) {
+    for (const listener of this.listeners[what]) listener();
+    this.redraw();
+  }
+
+  setMagnification(value) {
+    this.magnification = Math.min(1e5, Math.max(1, Number.isFinite(value) ? value : 1));
+    this.tell('magnification');
+  }
+
+  setField(field) {
+    this.field = field;
+    this.tell('field');
+  }
+
+  setScalePerFrame(isSo) {
+    this.scalePerFrame = isSo;
+    this.tell('field');
+  }
+
+  showLink(link, isShown) {
+    link.group.visible = isShown;
+    this.isolated = null;
+    this.tell('links');
+  }
+
+  isolate(link) {
+    this.isolated = this.isolated === link ? null : link;
+    for (const other of this.bodies.links) {
+      other.group.visible = this.isolated === null || other === link;
+    }
+    this.tell('links');
+  }
+
+  clearLink(link) {
+    link.isClear = !link.isClear;
+    link.material.transparent = link.isClear;
+    link.material.opacity = link.isClear ? 0.25 : 1;
+    link.material.depthWrite = !link.isClear;
+    link.material.needsUpdate = true;
+    this.tell('links');
+  }
+
+  follow(link) {
+    this.followed = link;
+    this.camera.follow(link ? () => link.group.position.toArray() : null);
+    this.tell('links');
+  }
+
+  redraw() {
+    this.isStale = true;
+  }
+
+  updateColours() {
+    this.shared.limberField.value = this.field;
+    this.shared.limberMagnification.value = this.magnification;
+    const most = this.scalePerFrame
+      ? findRangesAt(this.motion, this.player.time)[this.field]
+      : this.ranges.most[this.field];
+    const range = [0, most > 0 ? most : 1];
+    this.shared.limberRange.value.set(...range);
+    const note = this.scalePerFrame ? 'of this moment' : 'of the whole run';
+    showLegend(this.elements.legend, this.field, range, note);
+  }
+
+  draw() {
+    const { time } = this.player;
+    this.isStale = false;
+    this.bodies.update(time, this.magnification);
+    for (const ghost of this.ghosts) ghost.update(time, this.magnification);
+    this.marks.update(time, this.magnification);
+    this.camera.update();
+    this.updateColours();
+    this.movePicked(time);
+    this.renderer.render(this.scene, this.camera.eye);
+    const { clientWidth: w, clientHeight: h } = this.elements.stage;
+    this.names.update(this.camera.eye, w, h);
+  }
+
+  movePicked(time) {
+    this.picked.visible = Boolean(this.pick && this.pick.node >= 0);
+    if (!this.picked.visible) return;
+    this.picked.position.set(
+      ...this.motion.position(this.pick.body, this.pick.node, time, this.magnification));
+  }
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/view/page_data.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "limber/version.hpp"
+#include "limber/view/page_arrays.hpp"
+
+namespace limber::view {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+struct PackedSurface {
+  json header;
+  double scale = 0.0;  // of positions [m]
+  VectorX scales;      // of shapes [kg^-1/2]
+};
+
+class PageWriter {
+ public:
+  json write(const Recording& recording) {
+    std::vector<PackedSurface> surfaces;
+    json all = json::array();
+    for (const Surface& surface : recording.surfaces) {
+      surfaces.push_back(pack(surface));
+      all.push_back(surfaces.back().header);
+    }
+    json result = {{"name", recording.name},
+                   {"folder", recording.folder},
+                   {"limber", recording.limber},
+                   {"times", arrays_.add_doubles(recording.times)},
+                   {"surfaces", all}};
+    for (const Body& body : recording.bodies) {
+      result["bodies"].push_back(
+          pack(body, body.surface < 0 ? nullptr
+                                      : &surfaces[std::size_t(body.surface)]));
+    }
+    add_marks(recording, result);
+    return result;
+  }
+
+  [[nodiscard]] std::string finish(const json& header) const {
+    std::string text =
+        header.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string bytes(4, '\0');
+    const auto length = static_cast<std::uint32_t>(text.size());
+    std::memcpy(bytes.data(), &length, 4);
+    bytes += text;
+    bytes.resize((bytes.size() + 7) / 8 * 8, ' ');
+    return compress(bytes + arrays_.bytes());
+  }
+
+ private:
+  PackedSurface pack(const Surface& surface) {
+    PackedSurface packed;
+    const Vector3 origin = surface.x_B.rowwise().mean();
+    const Matrix3X centred = surface.x_B.colwise() - origin;
+    const Quantised x = quantise(VectorX(centred.reshaped()));
+    packed.scale = x.scale;
+    packed.scales.resize(surface.Phi_B.cols());
+    json shapes = json::array();
+    for (Eigen::Index k = 0; k < surface.Phi_B.cols(); ++k) {
+      const Quantised shape = quantise(surface.Phi_B.col(k));
+      packed.scales[k] = shape.scale;
+      shapes.push_back(
+          {{"scale", shape.scale}, {"values", arrays_.add(shape.integers)}});
+    }
+    const auto to_unsigned = [](const std::vector<std::int64_t>& values) {
+      return std::vector<std::uint32_t>(values.begin(), values.end());
+    };
+    packed.header = {{"body", surface.body},
+                     {"nodes", surface.tags.size()},
+                     {"tags", arrays_.add(to_unsigned(surface.tags))},
+                     {"origin", to_json(origin)},
+                     {"scale", x.scale},
+                     {"x", arrays_.add(x.integers)},
+                     {"shapes", shapes},
+                     {"triangles", arrays_.add(to_unsigned(surface.corners))}};
+    return packed;
+  }
+
+  // Bound of the page's positions at magnification 1 [m].
+  static double bound_error(const Body& body, const PackedSurface& surface) {
+    double shapes = 0.0;
+    if (body.eta.cols() > 0) {
+      shapes = (body.eta.cwiseAbs() * surface.scales).maxCoeff();
+    }
+    // Positions are stored in single precision.
+    const double single = body.p_WB.cwiseAbs().maxCoeff() *
+                          double(std::numeric_limits<float>::epsilon());
+    return std::sqrt(3.0) / 2.0 * (surface.scale + shapes) + single;
+  }
+
+  json pack(const Body& body, const PackedSurface* surface) {
+    json packed = {
+        {"name", body.name},
+        {"level", body.level},
+        {"mass", body.mass},
+        {"inertia", arrays_.add_doubles(VectorX(body.inertia.reshaped()))},
+        {"surface", body.surface},
+        {"p", arrays_.add(body.p_WB)},
+        {"q", arrays_.add(body.quat_WB)},
+        {"v", arrays_.add(body.v_WB_W)},
+        {"w", arrays_.add(body.w_WB_B)}};
+    if (surface == nullptr) return packed;
+    packed["modes"] = body.eta.cols();
+    packed["eta"] = arrays_.add(body.eta);
+    if (body.etadot.cols() > 0) packed["etadot"] = arrays_.add(body.etadot);
+    packed["error"] = bound_error(body, *surface);
+    if (body.truncation > 0.0) packed["truncation"] = body.truncation;
+    return packed;
+  }
+
+  json pack(const Anchor& anchor) {
+    return {{"body", anchor.body},
+            {"p", to_json(anchor.p_B)},
+            {"shapes", arrays_.add(anchor.Phi_B)}};
+  }
+
+  void add_marks(const Recording& recording, json& result) {
+    for (const Shape& shape : recording.shapes) {
+      const Quaternion& q = shape.quat_BS;
+      result["shapes"].push_back({{"name", shape.name},
+                                  {"body", shape.body},
+                                  {"kind", shape.kind},
+                                  {"size", to_json(shape.size)},
+                                  {"p", to_json(shape.p_BS)},
+                                  {"q", {q.w(), q.x(), q.y(), q.z()}}});
+    }
+    for (const Mark& mark : recording.marks) {
+      json points = json::array();
+      for (const Anchor& point : mark.points) points.push_back(pack(point));
+      result["marks"].push_back(
+          {{"name", mark.name}, {"kind", mark.kind}, {"points", points}});
+    }
+    for (const Load& load : recording.loads) {
+      result["loads"].push_back(
+          {{"name", load.name},
+           {"in_world", load.in_world},
+           {"force", to_json(load.force)},
+           {"moment", to_json(load.moment)},
+           {"course",
+            arrays_.add_doubles(VectorX(load.course.transpose().reshaped()))},
+           {"where", pack(load.where)}});
+    }
+    for (const Contact& contact : recording.contacts) {
+      result["contacts"].push_back(
+          {{"name", contact.name}, {"touch", arrays_.add(contact.touch)}});
+    }
+    for (const Event& event : recording.events) {
+      result["events"].push_back({{"time", event.time},
+                                  {"source", event.source},
+                                  {"what", event.what}});
+    }
+    for (const Probe& probe : recording.probes) {
+      result["probes"].push_back(
+          {{"name", probe.name},
+           {"unit", probe.unit},
+           {"values", arrays_.add_doubles(probe.values)}});
+    }
+  }
+
+  PageArrays arrays_;
+};
+
+}  // namespace
+
+std::string make_page_data(std::span<const Recording> recordings) {
+  PageWriter writer;
+  json header = {{"layout", 1}, {"limber", LIMBER_VERSION}};
+  for (const Recording& recording : recordings) {
+    header["results"].push_back(writer.write(recording));
+  }
+  return writer.finish(header);
+}
+
+}  // namespace limber::view

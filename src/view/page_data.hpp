@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "limber/view/recording.hpp"
+
+namespace limber::view {
+
+/// What the page reads: zlib's compression of the length of a header (4 bytes,
+/// little-endian), the header (JSON) and, from the next multiple of 8 on,
+/// arrays. The header refers to an array by {"at", "count", "type"}; its
+/// elements' first bytes come first, then their second bytes, ..., which
+/// compresses better.
+///
+/// Equation   x_B = origin + scale i, Phi_k = scale_k i_k, i 16-bit integers:
+///            |error| <= sqrt(3) / 2 (scale + sum_k scale_k |eta_k|), which the
+///            header states of each body as `error` [m]
+/// @param recordings the first is shown, others are its ghosts
+[[nodiscard]] std::string make_page_data(std::span<const Recording> recordings);
+
+}  // namespace limber::view

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""The page of `limber view` in headless Chromium, or the glTF scene of `limber
+export` in readers that are not ours: check.py page|gltf LIMBER SCENARIO NODE
+NODE_MODULES FOLDER. Ends with 77, and says why, where packages of node, Chromium
+or h5py are missing.
+
+The reference are positions of 100 random surface points at 20 random outputs,
+from the file for ParaView that the library writes.
+"""
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+
+SKIPPED = 77
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(SKIPPED)
+
+
+def list_points(folder):
+    """Random points of the bodies' surfaces and where they are, by motion.h5."""
+    import h5py
+    import numpy as np
+    rng = random.Random(7)
+    with h5py.File(f"{folder}/motion.h5") as motion, \
+            h5py.File(f"{folder}/results.h5") as results:
+        times = results["time"][:, 0]
+        scene = results["scene"]
+        names = sorted(scene["bodies"], key=lambda n: scene["bodies"][n]["place"][0])
+        corners = np.unique(motion["triangles"][:])  # rows on surfaces, in order
+        rows = []  # of each point: body, node, row in motion.h5
+        first = 0
+        for name in names:
+            if "surface" not in scene["bodies"][name]:
+                continue
+            surface = scene["bodies"][name]["surface"][()].decode()
+            count = len(scene["surfaces"][surface]["tags"])
+            for node in range(count):
+                rows.append((name, node, int(corners[first + node])))
+            first += count
+        assert first == len(corners), "surfaces of motion.h5 and results.h5 differ"
+        points = rng.sample(rows, min(100, len(rows)))
+        outputs = sorted(rng.sample(range(len(times)), min(20, len(times))))
+        list_ = []
+        for i in outputs:
+            at = motion[f"steps/{i:06d}/points"][:]
+            for name, node, row in points:
+                list_.append({"time": times[i], "output": i, "body": name, "node": node,
+                              "position": at[row].tolist()})
+    return list_
+
+
+def check_script(folder, points):
+    """The script of docs/view.md against the library, at the last output."""
+    import h5py
+    import numpy as np
+    here = os.path.dirname(os.path.abspath(__file__))
+    with open(f"{here}/../../docs/view.md") as page:
+        script = page.read().split("```python\n")[1].split("```")[0]
+    with h5py.File(f"{folder}/results.h5") as results:
+        names = [n for n, body in results["scene/bodies"].items() if "surface" in body]
+    script = script.replace("list(f[\"scene/bodies\"])[0]", "given")
+    for given in names:
+        for wanted in (p for p in points if p["body"] == given):
+            scope = {"given": given}
+            at = os.getcwd()
+            os.chdir(folder)
+            exec(script.replace("i = -1 ", f"i = {wanted['output']} "), scope)
+            os.chdir(at)
+            gap = np.linalg.norm(scope["points"][wanted["node"]] - wanted["position"])
+            assert gap < 1e-7, (given, wanted, gap)
+            break
+        else:
+            assert False, f"no point of {given}"
+
+
+def find_chromium():
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if not chromium:
+        skip("Chromium is not installed; scripts/install-deps --with-chromium")
+    return chromium
+
+
+def main():
+    what, limber, scenario, node, modules, folder = sys.argv[1:7]
+    try:
+        import h5py  # noqa: F401
+    except ImportError:
+        skip("python3-h5py is not installed")
+    if not os.path.isdir(f"{modules}/playwright-core"):
+        skip("npm could not fetch the packages of the page")
+    chromium = find_chromium() if what == "page" else None
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+
+    def run(*arguments):
+        subprocess.run([limber, *arguments], check=True, stdout=subprocess.DEVNULL)
+    cache = ["--cache", f"{folder}/cache"]
+    run("run", scenario, "--out", f"{folder}/run", "--xdmf", *cache)
+    points = f"{folder}/points.json"
+    with open(points, "w") as out:
+        json.dump(list_points(f"{folder}/run"), out)
+    if what == "page":
+        run("run", scenario, "--out", f"{folder}/rigid", "--fidelity", "rigid", *cache)
+        page = f"{folder}/page.html"
+        run("view", f"{folder}/run", "--with", f"{folder}/rigid", "-o", page)
+        command = ["drive_page.mjs", modules, page, points, chromium, folder]
+    else:
+        check_script(f"{folder}/run", list_points(f"{folder}/run"))
+        run("export", f"{folder}/run", "-o", f"{folder}/scene.glb")
+        command = ["check_gltf.mjs", modules, f"{folder}/scene.glb", points]
+    here = os.path.dirname(os.path.abspath(__file__))
+    result = subprocess.run([node, f"{here}/{command[0]}", *command[1:]])
+    sys.exit(result.returncode)
+
+
+main()

@@ -1,0 +1,208 @@
+// Opens a page in headless Chromium and uses it: drive_page.mjs
+// NODE_MODULES PAGE POINTS CHROMIUM FOLDER
+import { createRequire } from 'node:module';
+import { readFile, stat } from 'node:fs/promises';
+import { strict as assert } from 'node:assert';
+
+const [modules, page, pointsFile, chromium, folder] = process.argv.slice(2);
+const require = createRequire(`${modules}/`);
+const { chromium: playwright } = require('playwright-core');
+
+const kMostBytes = 10e6;
+const kFlags = [
+  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox',
+  '--disable-background-networking',
+];
+
+async function open(browser, file, size, problems) {
+  const context = await browser.newContext({ viewport: size, offline: true });
+  const tab = await context.newPage();
+  tab.on('console', (message) => {
+    if (message.type() === 'error') problems.push(message.text());
+  });
+  tab.on('pageerror', (error) => problems.push(String(error)));
+  await tab.goto(`file://${file}`);
+  await tab.waitForFunction(() => window.limber?.view.isStale === false, null, { timeout: 60000 });
+  return tab;
+}
+
+// The page's own motion against that of the library.
+async function comparePoints(tab) {
+  const points = JSON.parse(await readFile(pointsFile, 'utf8'));
+  const found = await tab.evaluate((list) => {
+    const { motion } = window.limber.view;
+    const bodies = motion.result.bodies;
+    return list.map(({ time, body, node }) => {
+      const b = bodies.findIndex((one) => one.name === body);
+      return { position: motion.position(b, node, time), error: bodies[b].error };
+    });
+  }, points);
+  let worst = 0;
+  let stated = 0;
+  points.forEach(({ position, body, node, time }, i) => {
+    const error = Math.hypot(...position.map((value, c) => value - found[i].position[c]));
+    assert.ok(
+      error <= found[i].error,
+      `node ${node} of ${body} at ${time} s is off by ${error} m, stated ${found[i].error} m`);
+    worst = Math.max(worst, error);
+    stated = Math.max(stated, found[i].error);
+  });
+  return { worst, stated, count: points.length };
+}
+
+// Colours of the canvas as drawn now, on a coarse grid.
+const readPixels = (tab) =>
+  tab.evaluate(() => {
+    const { view } = window.limber;
+    view.draw();
+    const gl = view.renderer.getContext();
+    const w = gl.drawingBufferWidth;
+    const h = gl.drawingBufferHeight;
+    const all = new Uint8Array(4 * w * h);
+    gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, all);
+    const grid = [];
+    for (let y = 2; y < h; y += 4) {
+      for (let x = 2; x < w; x += 4) {
+        const at = 4 * (y * w + x);
+        grid.push((all[at] << 16) | (all[at + 1] << 8) | all[at + 2]);
+      }
+    }
+    return grid;
+  });
+
+const countDifferent = (a, b) => a.filter((value, i) => value !== b[i]).length;
+
+// What the shader draws, by a point picked where the twin says a node is.
+async function checkPicking(tab) {
+  const misses = await tab.evaluate(() => {
+    const { view, player, pickAt } = window.limber;
+    const { motion } = view;
+    player.seek(view.ranges.peak);
+    view.draw();
+    let tried = 0;
+    let near = 0;
+    motion.result.bodies.forEach((body, b) => {
+      if (body.surface < 0) return;
+      const surface = motion.result.surfaces[body.surface];
+      for (let k = 0; k < 4; ++k) {
+        const node = Math.floor((surface.nodes * (k + 0.5)) / 4);
+        const place = motion.position(b, node, player.time);
+        const eye = view.camera.eye;
+        const screen = eye.position.clone().set(...place).project(eye);
+        const hit = pickAt(screen.x, screen.y);
+        if (!hit || hit.body !== b) continue; // behind another, or at an edge
+        ++tried;
+        const gap = Math.hypot(...hit.point.map((value, c) => value - place[c]));
+        const far = eye.position.distanceTo(eye.position.clone().set(...place));
+        const nearer = eye.position.distanceTo(eye.position.clone().set(...hit.point)) <= far;
+        if (gap < 0.02 * far || nearer) ++near;
+      }
+    });
+    return { tried, near };
+  });
+  assert.ok(misses.tried > 0, 'no node could be picked');
+  assert.equal(misses.near, misses.tried, 'picked points are behind the nodes');
+}
+
+const timeFrames = (tab) =>
+  tab.evaluate(() => {
+    const { view, player } = window.limber;
+    const gl = view.renderer.getContext();
+    const pixel = new Uint8Array(4);
+    const all = [];
+    for (let i = 0; i < 40; ++i) {
+      player.seek(player.start + ((player.end - player.start) * i) / 40);
+      const start = performance.now();
+      view.draw();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      all.push(performance.now() - start);
+    }
+    return all.sort((a, b) => a - b)[20];
+  });
+
+async function checkPlay(tab) {
+  await tab.evaluate(() => window.limber.player.seek(window.limber.player.start));
+  await tab.keyboard.press('Space');
+  await tab.waitForFunction(() => window.limber.player.time > window.limber.player.start);
+  await tab.keyboard.press('Space');
+  const [first, second] = await tab.evaluate(async () => {
+    const { player } = window.limber;
+    const at = player.time;
+    await new Promise((done) => setTimeout(done, 100));
+    return [at, player.time];
+  });
+  assert.equal(first, second, 'it plays on after a pause');
+  await tab.evaluate(() => window.limber.player.seek(1e9));
+  assert.equal(
+    await tab.evaluate(() => window.limber.player.time - window.limber.player.end), 0);
+}
+
+async function shoot(tab, name) {
+  await tab.waitForTimeout(300);
+  await tab.screenshot({ path: `${folder}/${name}.png` });
+}
+
+async function takeViews(browser, problems) {
+  for (const [size, name] of [
+    [{ width: 1280, height: 720 }, '1280x720'],
+    [{ width: 2560, height: 1440 }, '2560x1440'],
+  ]) {
+    const tab = await open(browser, `${page}#plots`, size, problems);
+    await shoot(tab, `plots-${name}`);
+    const wide = await tab.evaluate(
+      () => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    assert.equal(wide, 0, `at ${name} the page is wider than the window`);
+    await tab.context().close();
+  }
+  const dark = await open(
+    browser, `${page}#dark&peak&magnification=300&field=deformation`, { width: 1440, height: 900 },
+    problems);
+  await dark.keyboard.press('n');
+  await shoot(dark, 'dark-magnified');
+  assert.ok(await dark.evaluate(() => window.limber.player.time > 0), '#peak is not the start');
+  await dark.context().close();
+}
+
+async function main() {
+  const { size } = await stat(page);
+  assert.ok(size < kMostBytes, `the page has ${size} bytes`);
+  const browser = await playwright.launch({ executablePath: chromium, args: kFlags });
+  const problems = [];
+  try {
+    const tab = await open(browser, page, { width: 1440, height: 900 }, problems);
+    await shoot(tab, 'default');
+    const { worst, stated, count } = await comparePoints(tab);
+    const start = await readPixels(tab);
+    assert.ok(new Set(start).size > 20, 'the picture is blank');
+    await tab.evaluate(() => window.limber.player.seek(window.limber.player.end));
+    const end = await readPixels(tab);
+    assert.ok(countDifferent(start, end) > 20, 'nothing moves');
+    await tab.evaluate(() => window.limber.view.setMagnification(1000));
+    assert.ok(countDifferent(end, await readPixels(tab)) > 20, 'nothing is magnified');
+    await tab.evaluate(() => window.limber.view.setMagnification(1));
+    for (const field of [1, 2, 3]) {
+      await tab.evaluate((f) => window.limber.view.setField(f), field);
+      assert.ok(countDifferent(end, await readPixels(tab)) > 20, `field ${field} has no colours`);
+    }
+    await shoot(tab, 'velocity');
+    await tab.evaluate(() => window.limber.view.setField(0));
+    await checkPicking(tab);
+    await checkPlay(tab);
+    const milliseconds = await timeFrames(tab);
+    await takeViews(browser, problems);
+    assert.deepEqual(problems, [], 'the page reports errors');
+    console.log(
+      `${count} positions within ${worst.toExponential(2)} m (stated ${stated.toExponential(2)} m); ` +
+        `${(size / 1e6).toFixed(2)} MB; ${milliseconds.toFixed(1)} ms a frame`);
+  } catch (error) {
+    console.error(problems.slice(0, 5).join('\n'));
+    throw error;
+  } finally {
+    await browser.close();
+  }
+}
+
+main().catch((error) => {
+  console.error(error);
+  process.exit(1);
+});
