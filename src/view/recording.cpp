@@ -53,7 +53,8 @@ class RecordingReader {
     if (!in_.has("scene/version")) {
       fail(
           "holds no surfaces and shapes to draw: an earlier version of Limber "
-          "wrote it. Run the scenario again");
+          "wrote it, or another command than `limber run`. Run the scenario "
+          "again");
     }
     const auto version = in_.read_integers("scene/version");
     if (version.size() == 1 && version[0] == results::kSceneryVersion) return;

@@ -1,6 +1,7 @@
 // The bodies of one result as meshes that a time moves.
 import * as THREE from 'three';
 import { colourOfLink } from './colours.js';
+import { findSemiAxes } from './ellipsoid.js';
 import { makeMaterial } from './material.js';
 import { locate } from './motion.js';
 
@@ -29,15 +30,10 @@ function makeShape({ kind, size }, extent) {
   return new THREE.PlaneGeometry(2 * extent, 2 * extent);
 }
 
-// The solid ellipsoid of that mass and inertia: its semi-axes follow from the
-// second moments m a^2 / 5 along the principal axes.
-function makeEllipsoid({ mass, inertia }) {
-  const [xx, , , , yy, , , , zz] = inertia;
-  const trace = (xx + yy + zz) / 2;
-  const axes = [xx, yy, zz].map((j) => Math.sqrt(Math.max(5 * (trace - j), 0) / mass));
-  const most = Math.max(...axes, 1e-9);
-  const geometry = new THREE.SphereGeometry(1, 24, 12);
-  return geometry.scale(...axes.map((a) => Math.max(a, 0.02 * most)));
+function makeEllipsoid(body) {
+  const [x, y, z] = findSemiAxes(body).map((axis) => new THREE.Vector3(...axis));
+  if (x.clone().cross(y).dot(z) < 0) z.negate();
+  return new THREE.SphereGeometry(1, 48, 24).applyMatrix4(new THREE.Matrix4().makeBasis(x, y, z));
 }
 
 const place = (object, p, q) => {

@@ -1,5 +1,6 @@
 // Bounds of a result over time: the box of its motion, ranges of fields, the
 // time of the largest deformation.
+import { findSemiAxes } from './ellipsoid.js';
 import { locate, rotate } from './motion.js';
 
 const kNodes = 150; // of a surface, evenly taken
@@ -38,7 +39,8 @@ function bodyPoints(result, b) {
     return sampleNodes(surface).map((n) => Array.from(surface.x.subarray(3 * n, 3 * n + 3)));
   }
   const points = result.shapes.filter((s) => s.body === b).flatMap(shapePoints);
-  return points.length > 0 ? points : [[0, 0, 0]];
+  if (points.length > 0) return points;
+  return findSemiAxes(body).flatMap((axis) => [axis, axis.map((c) => -c)]);
 }
 
 /// Box of all bodies over the whole motion: { lower, upper, size }.

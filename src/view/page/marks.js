@@ -65,7 +65,8 @@ export class Marks {
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute(
         'position', new THREE.BufferAttribute(new Float32Array(3 * mark.points.length), 3));
-      const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color }));
+      const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color, depthTest: false }));
+      line.renderOrder = 2;
       line.frustumCulled = false;
       this.couplers.add(line);
       return { mark, line };

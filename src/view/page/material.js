@@ -31,11 +31,20 @@ vec3 limberU = vec3(0.0);
 vec3 limberUdot = vec3(0.0);
 vec3 limberU0 = vec3(0.0);
 #ifdef LIMBER_MODES
-for (int i = 0; i < LIMBER_MODES; i++) {
-  vec3 shape = getMorph(gl_VertexID, i, 0).xyz;
-  limberU += shape * morphTargetInfluences[i];
-  limberUdot += shape * limberRates[i];
-  limberU0 += shape * limberStart[i];
+int limberRow = gl_VertexID / morphTargetsTextureSize.x;
+ivec2 limberTexel = ivec2(gl_VertexID - limberRow * morphTargetsTextureSize.x, limberRow);
+if (limberField < 2) {
+  for (int i = 0; i < LIMBER_MODES; i++) {
+    limberU += texelFetch(morphTargetsTexture, ivec3(limberTexel, i), 0).xyz *
+               morphTargetInfluences[i];
+  }
+} else {
+  for (int i = 0; i < LIMBER_MODES; i++) {
+    vec3 shape = texelFetch(morphTargetsTexture, ivec3(limberTexel, i), 0).xyz;
+    limberU += shape * morphTargetInfluences[i];
+    limberUdot += shape * limberRates[i];
+    limberU0 += shape * limberStart[i];
+  }
 }
 #endif
 transformed = limberX + limberU;
@@ -73,7 +82,6 @@ export function makeMaterial(colour, modes, shared) {
   const material = new THREE.MeshLambertMaterial({
     color: colour,
     flatShading: true,
-    side: THREE.DoubleSide,
   });
   const own = {
     limberVelocity: { value: new THREE.Vector3() },

@@ -1,7 +1,8 @@
 // Plots of probes and picked points over time, with a cursor at the page's time.
 import uPlot from 'uplot';
-import { colourOfGhost, format, toText } from './colours.js';
+import { format } from './colours.js';
 
+const kDashes = [[6, 4], [2, 3], [10, 3, 2, 3]]; // of ghosts
 const kColours = ['#4e79a7', '#e15759', '#59a14f', '#f28e2b'];
 
 /// Probes by the part of their names before the last dot.
@@ -75,6 +76,7 @@ export class Plots {
   make({ group, box }) {
     const style = getComputedStyle(document.body);
     const ink = style.getPropertyValue('--ink');
+    const labels = [...new Set(group.series.map((s) => s.label))];
     const axis = { stroke: ink, grid: { stroke: style.getPropertyValue('--line'), width: 1 }, font: '11px sans-serif' };
     const plot = new uPlot(
       {
@@ -89,11 +91,11 @@ export class Plots {
         ],
         series: [
           { label: 'time' },
-          ...group.series.map((s, i) => ({
+          ...group.series.map((s) => ({
             label: s.ghost ? `${s.label} (${s.ghostName ?? `ghost ${s.ghost}`})` : s.label,
-            stroke: s.ghost ? toText(colourOfGhost(s.ghost - 1)) : kColours[i % kColours.length],
-            width: 1,
-            dash: s.ghost ? [4, 3] : undefined,
+            stroke: kColours[labels.indexOf(s.label) % kColours.length],
+            width: s.ghost ? 1 : 1.5,
+            dash: s.ghost ? kDashes[(s.ghost - 1) % kDashes.length] : undefined,
             points: { show: false },
             spanGaps: true,
           })),
@@ -115,6 +117,7 @@ export class Plots {
     const x = Math.round(u.valToPos(this.player.time, 'x', true));
     if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
     u.ctx.save();
+    u.ctx.setLineDash([]);
     u.ctx.strokeStyle = '#d62728';
     u.ctx.lineWidth = 1.5 * devicePixelRatio;
     u.ctx.beginPath();

@@ -15,6 +15,15 @@ function nameGhost(result) {
   return result.folder || `${result.name} (${levels.join(', ')})`;
 }
 
+// Whether the processor draws, for which smooth edges cost half of a frame.
+function isSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const known = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = known ? gl.getParameter(known.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 function joinBoxes(boxes) {
   const lower = [0, 1, 2].map((c) => Math.min(...boxes.map((box) => box.lower[c])));
   const upper = [0, 1, 2].map((c) => Math.max(...boxes.map((box) => box.upper[c])));
@@ -52,9 +61,8 @@ export class View {
   makeScene(results, box) {
     const scene = new THREE.Scene();
     scene.add(new THREE.HemisphereLight(0xffffff, 0x9a9aa8, 2.6));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.6);
-    sun.position.set(0.4, -0.7, 1);
-    scene.add(sun);
+    this.sun = new THREE.DirectionalLight(0xffffff, 1.5);
+    scene.add(this.sun, this.sun.target);
     this.bodies = new Bodies(results[0], this.motion, this.shared, null, box.size);
     scene.add(this.bodies.group);
     this.ghosts = results.slice(1).map((result, g) => {
@@ -75,7 +83,9 @@ export class View {
   }
 
   makeRenderer() {
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.elements.canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({
+      canvas: this.elements.canvas, antialias: !isSoftware(),
+    });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.setDark(document.documentElement.classList.contains('dark'));
   }
@@ -183,9 +193,24 @@ export class View {
     this.camera.update();
     this.updateColours();
     this.movePicked(time);
+    this.moveSun();
     this.renderer.render(this.scene, this.camera.eye);
     const { clientWidth: w, clientHeight: h } = this.elements.stage;
     this.names.update(this.camera.eye, w, h);
+  }
+
+  // From above the left shoulder of who looks.
+  moveSun() {
+    const { eye, controls } = this.camera;
+    eye.updateMatrixWorld();
+    const across = new THREE.Vector3().setFromMatrixColumn(eye.matrixWorld, 0);
+    const up = new THREE.Vector3().setFromMatrixColumn(eye.matrixWorld, 1);
+    const far = eye.position.distanceTo(controls.target);
+    this.sun.target.position.copy(controls.target);
+    this.sun.position
+      .copy(eye.position)
+      .addScaledVector(across, -0.4 * far)
+      .addScaledVector(up, 0.5 * far);
   }
 
   movePicked(time) {

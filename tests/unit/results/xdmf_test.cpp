@@ -210,7 +210,7 @@ TEST(Xdmf, PointsAreTheDeformedBodiesInTheWorld) {
 
 TEST(Xdmf, DataCarryTheirUnitsAndMeaning) {
   const Written written = write_and_read(make_small_run());
-  ASSERT_THAT(written.data, SizeIs(1 + 2 * kOutputs));
+  ASSERT_THAT(written.data, SizeIs(1 + 4 * kOutputs));
   for (const auto& [name, data] : written.data) {
     EXPECT_EQ(data.attributes.at("unit"), name == "triangles" ? "1" : "m");
     EXPECT_NE(data.attributes.at("meaning"), "") << name;
