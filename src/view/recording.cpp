@@ -103,7 +103,7 @@ class RecordingReader {
       const bool is_inside =
           std::all_of(surface.corners.begin(), surface.corners.end(),
                       [n](std::int64_t node) { return node >= 0 && node < n; });
-      if (!is_inside || surface.corners.size() % 3 != 0) {
+      if (!is_inside || n == 0 || surface.corners.size() % 3 != 0) {
         fail(fmt::format("is damaged: triangles of surface {}", name));
       }
       surface_of_[name] = static_cast<int>(recording_.surfaces.size());

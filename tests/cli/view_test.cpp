@@ -82,12 +82,31 @@ TEST(View, RefusesWhatIsNoResult) {
                  HasSubstr("magnification"));
 }
 
-TEST(View, TellsThatAFileLacksWhatIsDrawn) {
+TEST(View, TellsAReducedBodyFromResults) {
   const Workspace place;
-  write_scene(place, "boundary");
-  const CommandResult result = place.limber("static beam.toml --out s");
-  if (result.status != 0) GTEST_SKIP() << result.errors;
-  expect_refused(place, "view s", HasSubstr("Run the scenario again"));
+  ASSERT_EQ(place
+                .limber("reduce " LIMBER_SOURCE_DIR
+                        "/meshes/beam579.msh -o b.h5 --youngs-modulus 2e11 "
+                        "--poisson-ratio 0 --density 8000")
+                .status,
+            0);
+  expect_refused(place, "view b.h5",
+                 HasSubstr("is not a results file of Limber's"));
+}
+
+// One surface, one output: nothing to animate.
+TEST(Export, OfAStaticEquilibriumIsStill) {
+  const Workspace place;
+  const CommandResult found = place.limber(
+      "static " LIMBER_SOURCE_DIR
+      "/examples/pendulum_chain.toml --fidelity rigid --method relaxation "
+      "--out s");
+  ASSERT_EQ(found.status, 0) << found.errors;
+  const CommandResult result = place.limber("export s -o a.glb");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json scene = read_gltf(read_text(place.folder() / "a.glb"));
+  EXPECT_FALSE(scene.contains("animations"));
+  EXPECT_GT(scene["meshes"].size(), 1U);
 }
 
 TEST(Export, WritesModesOfFlexibleLinksAndMotionOfAll) {

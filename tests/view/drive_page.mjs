@@ -137,6 +137,82 @@ async function checkPlay(tab) {
     await tab.evaluate(() => window.limber.player.time - window.limber.player.end), 0);
 }
 
+// Each control of the panel changes the picture, and its opposite undoes that.
+async function checkPanel(tab) {
+  await tab.evaluate(() => window.limber.player.seek(window.limber.player.end / 2));
+  const before = await readPixels(tab);
+  const expectChange = async (what, change, undo) => {
+    await tab.evaluate(change);
+    assert.ok(countDifferent(before, await readPixels(tab)) > 5, `${what} changes nothing`);
+    await tab.evaluate(undo);
+    assert.equal(countDifferent(before, await readPixels(tab)), 0, `${what} cannot be undone`);
+  };
+  await expectChange(
+    'hiding ghosts',
+    () => (window.limber.view.ghosts[0].group.visible = false),
+    () => (window.limber.view.ghosts[0].group.visible = true));
+  await expectChange(
+    'isolating a link',
+    () => window.limber.view.isolate(window.limber.view.bodies.links[1]),
+    () => window.limber.view.isolate(window.limber.view.bodies.links[1]));
+  await expectChange(
+    'a transparent link',
+    () => window.limber.view.clearLink(window.limber.view.bodies.links[0]),
+    () => window.limber.view.clearLink(window.limber.view.bodies.links[0]));
+  await expectChange(
+    'hiding a link',
+    () => window.limber.view.showLink(window.limber.view.bodies.links[0], false),
+    () => window.limber.view.showLink(window.limber.view.bodies.links[0], true));
+}
+
+// A load's arrow lives as long as the load: 10 ms.
+async function checkArrow(tab) {
+  const lives = await tab.evaluate(() => {
+    const { player, view } = window.limber;
+    return [0.005, 0.0099, 0.0101, 1].map((t) => {
+      player.seek(t);
+      view.draw();
+      return view.marks.forces[0].force.visible;
+    });
+  });
+  assert.deepEqual(lives, [true, true, false, false]);
+}
+
+async function download(tab, key, header) {
+  const [file] = await Promise.all([
+    tab.waitForEvent('download', { timeout: 60000 }), tab.keyboard.press(key),
+  ]);
+  const bytes = await readFile(await file.path());
+  assert.ok(bytes.length > 5000, `${file.suggestedFilename()} has ${bytes.length} bytes`);
+  assert.equal(bytes.subarray(0, 4).toString('hex'), header, file.suggestedFilename());
+}
+
+async function checkFiles(tab) {
+  await download(tab, 's', '89504e47');
+  await tab.evaluate(() => {
+    const { player } = window.limber;
+    player.setSpeed(1);
+    player.setInterval(0.2, 0.8);
+  });
+  await download(tab, 'r', '1a45dfa3');
+  await tab.evaluate(() => {
+    const { player } = window.limber;
+    player.setInterval(player.start, player.end);
+  });
+}
+
+// A picked node is plotted, and a click in the plot goes to its time.
+async function checkPlots(tab) {
+  await tab.keyboard.press('p');
+  const plot = tab.locator('.plot .u-over').first();
+  const box = await plot.boundingBox();
+  await tab.mouse.click(box.x + 0.25 * box.width, box.y + 0.5 * box.height);
+  const share = await tab.evaluate(() => window.limber.player.time / window.limber.player.end);
+  assert.ok(Math.abs(share - 0.25) < 0.02, `a click in a plot goes to ${share}`);
+  await tab.keyboard.press('p');
+  assert.equal(await tab.locator('.plot').count(), 0);
+}
+
 async function shoot(tab, name) {
   await tab.waitForTimeout(300);
   await tab.screenshot({ path: `${folder}/${name}.png` });
@@ -187,6 +263,10 @@ async function main() {
     await shoot(tab, 'velocity');
     await tab.evaluate(() => window.limber.view.setField(0));
     await checkPicking(tab);
+    await checkPanel(tab);
+    await checkArrow(tab);
+    await checkPlots(tab);
+    await checkFiles(tab);
     await checkPlay(tab);
     const milliseconds = await timeFrames(tab);
     await takeViews(browser, problems);

@@ -13,6 +13,7 @@
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/reports/static_report.hpp"
 #include "limber/app/run/output_folder.hpp"
+#include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/results/pictures.hpp"
@@ -153,7 +154,10 @@ void draw(const StaticRun& run, const std::filesystem::path& file) {
 
 void write(const StaticRun& run, const std::filesystem::path& folder,
            bool xdmf) {
-  results::write_results(folder / "results.h5", run.built.model, run.history);
+  results::Scenery scenery = read_scenery_texts(run.scene);
+  add_shapes(run.scene, run.built, scenery);
+  results::write_results(folder / "results.h5", run.built.model, run.history,
+                         &scenery);
   results::write_probes_csv(folder / "probes.csv", run.history);
   write_text(folder / "summary.json", to_text(summarize(run)));
   if (xdmf) {

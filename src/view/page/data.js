@@ -1,8 +1,6 @@
 // From the text in the page to results with typed arrays; src/view/page_data.hpp
 // describes the bytes.
 
-import { orderTriangles } from './order.js';
-
 const kTypes = {
   f32: Float32Array,
   f64: Float64Array,
@@ -43,7 +41,6 @@ function unpackSurface(surface) {
     x[i] = surface.origin[i % 3] + surface.scale * surface.x[i];
   }
   surface.x = x;
-  surface.triangles = orderTriangles(surface.triangles, n);
   surface.shapes = surface.shapes.map(({ scale, values }) => {
     const shape = new Float32Array(3 * n);
     for (let i = 0; i < 3 * n; ++i) shape[i] = scale * values[i];

@@ -199,7 +199,7 @@ async function start() {
   document.title = `${result.name} \u2013 Limber`;
   find('title').textContent = result.name;
   const levels = [...new Set(result.bodies.map((body) => body.level))].join(', ');
-  find('subtitle').textContent = `${result.bodies.length} bodies, ${levels}`;
+  find('subtitle').textContent = `${result.bodies.length} ${result.bodies.length === 1 ? 'body' : 'bodies'}, ${levels}`;
   const player = new Player(result.times);
   const view = new View(results, player, {
     canvas: find('canvas'), stage: find('stage'), legend: find('legend'),
