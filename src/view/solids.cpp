@@ -97,7 +97,7 @@ Solid make_solid(const Shape& shape, double edge) {
 
 Solid make_ellipsoid(double mass, const Matrix3& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
-  const Vector3 J = principal.eigenvalues();
+  const Vector3& J = principal.eigenvalues();
   Vector3 axes =
       (5.0 / mass * (0.5 * J.sum() - J.array())).max(0.0).sqrt().matrix();
   constexpr double kThinnest = 0.02;  // of a thin rod, so that it can be seen

@@ -34,7 +34,13 @@ async function comparePoints(tab) {
     const bodies = motion.result.bodies;
     return list.map(({ time, body, node }) => {
       const b = bodies.findIndex((one) => one.name === body);
-      return { position: motion.position(b, node, time), error: bodies[b].error };
+      const { x } = motion.result.surfaces[bodies[b].surface];
+      const size = Math.max(
+        ...[0, 1, 2].map((c) => {
+          const along = x.filter((_, i) => i % 3 === c);
+          return Math.max(...along) - Math.min(...along);
+        }));
+      return { position: motion.position(b, node, time), error: bodies[b].error, size };
     });
   }, points);
   let worst = 0;
@@ -44,6 +50,7 @@ async function comparePoints(tab) {
     assert.ok(
       error <= found[i].error,
       `node ${node} of ${body} at ${time} s is off by ${error} m, stated ${found[i].error} m`);
+    assert.ok(found[i].error < 1e-4 * found[i].size, `the stated error of ${body} is large`);
     worst = Math.max(worst, error);
     stated = Math.max(stated, found[i].error);
   });

@@ -135,7 +135,7 @@ export class Bodies {
     });
     if (shape.kind === 'plane') this.setGhost(link.material, 1);
     const mesh = makeMesh(makeShape(shape, extent), link.material, link);
-    place(mesh, shape.p, shape.q);
+    place(link.group, shape.p, shape.q);
     link.group.add(mesh);
     this.links.push(link);
     this.group.add(link.group);

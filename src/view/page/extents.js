@@ -43,21 +43,28 @@ function bodyPoints(result, b) {
   return findSemiAxes(body).flatMap((axis) => [axis, axis.map((c) => -c)]);
 }
 
-/// Box of all bodies over the whole motion: { lower, upper, size }.
+/// Box of all bodies over the whole motion, and of what is fixed but planes:
+/// { lower, upper, size }.
 export function findBox(motion) {
   const { result, times } = motion;
   const lower = [Infinity, Infinity, Infinity];
   const upper = [-Infinity, -Infinity, -Infinity];
+  const extend = (point) =>
+    point.forEach((value, c) => {
+      lower[c] = Math.min(lower[c], value);
+      upper[c] = Math.max(upper[c], value);
+    });
+  result.shapes
+    .filter((shape) => shape.body < 0 && shape.kind !== 'plane')
+    .flatMap(shapePoints)
+    .forEach(extend);
   const points = result.bodies.map((_, b) => bodyPoints(result, b));
   for (let k = 0; k < kBoxTimes; ++k) {
     const at = { i: Math.round((k / (kBoxTimes - 1)) * (times.length - 1)), s: 0, h: 0 };
     points.forEach((list, b) => {
       const pose = motion.pose(b, at);
       for (const point of list) {
-        rotate(pose.q, point).forEach((value, c) => {
-          lower[c] = Math.min(lower[c], value + pose.p[c]);
-          upper[c] = Math.max(upper[c], value + pose.p[c]);
-        });
+        extend(rotate(pose.q, point).map((value, c) => value + pose.p[c]));
       }
     });
   }

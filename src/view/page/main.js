@@ -113,7 +113,7 @@ function connectButtons(actions) {
   find('plots-button').onclick = () => actions.p();
   find('picture').onclick = () => actions.s();
   find('film').onclick = () => actions.r();
-  find('dark').onclick = () => actions.d();
+  find('dark-button').onclick = () => actions.d();
   find('help-button').onclick = () => actions['?']();
   kPresets.forEach((preset, i) => {
     const button = document.createElement('button');
@@ -203,7 +203,7 @@ async function start() {
   const player = new Player(result.times);
   const view = new View(results, player, {
     canvas: find('canvas'), stage: find('stage'), legend: find('legend'),
-    names: find('names'), plots: find('plots'),
+    names: find('names'), plots: find('plot-area'),
   });
   new Timeline(find('bar'), player, result.events);
   fillPanel(find('panel'), view);
