@@ -103,7 +103,7 @@ class SurfaceWriter {
     const auto key = std::make_pair(body.reduced.get(), body.modes);
     const auto found = shared_.find(key);
     if (found != shared_.end()) return found->second;
-    const std::string name = next_name();
+    std::string name = next_name();
     const SurfaceRows surface = find_surface_rows(*body.reduced);
     write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
                   take_nodes(body.reduced->rows.Phi_B.leftCols(body.modes),
@@ -125,7 +125,7 @@ class SurfaceWriter {
     };
     const MotionShapes motion =
         find_motion_shapes(deform, history_.states.size());
-    const std::string name = next_name();
+    std::string name = next_name();
     write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
                   motion.shapes);
     out_.write(at + "eta", motion.coordinates, "kg^1/2 m",
