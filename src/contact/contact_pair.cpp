@@ -147,6 +147,7 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
                      .curvature = meeting.curvature,
                      .residual = find_residual(A_.shape, meeting.on_A) +
                                  find_residual(B_.shape, meeting.on_B),
+                     .share = meeting.share,
                      .R_WB = bodies.B.R_WB,
                      .time = t};
   // At the commit both were at one point: their distance has come since.
@@ -162,10 +163,11 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
   return motion;
 }
 
-HertzLaw ContactPair::find_law(const Meeting& meeting) const {
+HertzLaw ContactPair::find_law(const Meeting& meeting, double share) const {
   return law_.find_law(meeting.curvature,
                        find_residual(A_.shape, meeting.on_A) +
-                           find_residual(B_.shape, meeting.on_B));
+                           find_residual(B_.shape, meeting.on_B),
+                       share);
 }
 
 void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
@@ -191,7 +193,7 @@ ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
                                           const Meeting& begin,
                                           const Meeting& end) const {
   const HertzLaw::StepResponse mean =
-      law_.find_law(motion.curvature, motion.residual)
+      law_.find_law(motion.curvature, motion.residual, motion.share)
           .evaluate_over_step(begin.depth, end.depth);
   ElasticForce elastic{mean.force, mean.stiffness};
   // Way and energies are nearly those of that law: the normal turns, and
@@ -201,8 +203,9 @@ ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
                       (find_position(step.end.A, point.on_A) -
                        find_position(step.begin.A, point.on_A));
   const double deepening = -motion.normal_W.dot(way);
-  const double work = find_law(end).evaluate(end.depth).energy() -
-                      find_law(begin).evaluate(begin.depth).energy();
+  const double work =
+      find_law(end, end.share).evaluate(end.depth).energy() -
+      find_law(begin, begin.share).evaluate(begin.depth).energy();
   if (std::abs(deepening) > kLeastWay * std::abs(end.depth - begin.depth)) {
     elastic.force = std::max(work / deepening, 0.0);
   }
@@ -296,13 +299,13 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
     scratch.clear();
     joints::PairPoint& point = scratch.add();
     const PointMotion motion = place(bodies, meeting, {}, t, point);
-    PointMemory next = law_.begin(find_law(meeting), motion.rate());
+    PointMemory next = law_.begin(find_law(meeting, 1.0), motion.rate());
     next.time = t;
     next.on_A = to_memory(meeting.on_A, point.on_A);
     next.on_B = to_memory(meeting.on_B, point.on_B);
     save_memory(next, numbers);
   }
-  return law_.find_duration(find_law(meetings[deepest]),
+  return law_.find_duration(find_law(meetings[deepest], 1.0),
                             load_memory(numbers_of(deepest, memory)).speed);
 }
 

@@ -76,7 +76,7 @@ class ContactPair final : public joints::PairInteraction,
                                   const Meeting& meeting,
                                   const PointMemory& memory, double t,
                                   joints::PairPoint& point) const;
-  [[nodiscard]] HertzLaw find_law(const Meeting& meeting) const;
+  [[nodiscard]] HertzLaw find_law(const Meeting& meeting, double share) const;
   // The elastic force over a step that balances the energies of both ends.
   [[nodiscard]] ElasticForce find_step_force(const joints::PairStep& step,
                                              const PointMotion& motion,

@@ -32,7 +32,7 @@ class Meetings {
   }
 
  private:
-  static constexpr std::size_t kFew = 8;
+  static constexpr std::size_t kFew = 25;  // of any two convex shapes
   std::array<Meeting, kFew> few_;
   std::vector<Meeting> many_;
   std::span<Meeting> all_;

@@ -39,14 +39,19 @@ PointLaw::PointLaw(const ContactParameters& parameters,
   LIMBER_EXPECT(size > 0.0);
 }
 
-HertzLaw PointLaw::find_law(double curvature, double residual) const {
+HertzLaw PointLaw::find_law(double curvature, double residual,
+                            double share) const {
   if (parameters_.stiffness) {
-    return HertzLaw({*parameters_.stiffness, residual});
+    return HertzLaw({share * *parameters_.stiffness, residual / share});
   }
-  if (!moduli_) return make_default_law(mass_);
+  if (!moduli_) {
+    const HertzLaw::Parameters whole = make_default_law(mass_).parameters();
+    return HertzLaw({share * whole.stiffness, whole.residual / share});
+  }
   const double radius =
       parameters_.radius.value_or(1.0 / std::max(curvature, 1.0 / size_));
-  return HertzLaw({find_hertz_stiffness(moduli_->normal, radius), residual});
+  return HertzLaw({share * find_hertz_stiffness(moduli_->normal, radius),
+                   residual / share});
 }
 
 PointMemory PointLaw::begin(const HertzLaw& law, double rate) const {
@@ -67,14 +72,15 @@ double PointLaw::find_duration(const HertzLaw& law, double speed) const {
 
 PointResponse PointLaw::evaluate(const PointMotion& motion,
                                  const PointMemory& memory) const {
-  const HertzLaw law = find_law(motion.curvature, motion.residual);
+  const HertzLaw law =
+      find_law(motion.curvature, motion.residual, motion.share);
   const HertzLaw::Response elastic = law.evaluate(motion.depth);
   PointResponse out =
       evaluate(motion, ElasticForce{elastic.force, elastic.stiffness}, memory);
   out.energy += elastic.energy();
   const double radius = parameters_.radius.value_or(
       1.0 / std::max(motion.curvature, 1.0 / size_));
-  out.area = kPi * radius * elastic.hertz_depth;
+  out.area = motion.share * kPi * radius * elastic.hertz_depth;
   return out;
 }
 
@@ -97,7 +103,7 @@ void PointLaw::add_friction(const PointMotion& motion,
                             PointResponse& out) const {
   BristleResponse response;
   if (has_friction_) {
-    const double k = out.next.tangential_stiffness;
+    const double k = motion.share * out.next.tangential_stiffness;
     const BristleFriction friction({.limit = parameters_.friction,
                                     .stiffness = k,
                                     .damping = find_bristle_damping(k, mass_)});

@@ -19,6 +19,7 @@ struct PointMotion {
   double depth = 0.0;                     ///< d > 0 [m]
   double curvature = 0.0;                 ///< 1/R_e >= 0 [1/m]
   double residual = 0.0;                  ///< R >= 0 [m/N]
+  double share = 1.0;                     ///< factor on the force > 0 [-]
   Vector3 velocity_W = Vector3::Zero();   ///< [m/s]
   Vector3 increment_W = Vector3::Zero();  ///< since the last commit [m]
   Matrix3 R_WB = Matrix3::Identity();     ///< of body B, the slave
@@ -74,9 +75,12 @@ class PointLaw {
                                        const ElasticForce& elastic,
                                        const PointMemory& memory) const;
 
-  /// Of the elastic force where the surfaces are as at `motion`.
-  [[nodiscard]] HertzLaw find_law(double curvature, double residual) const;
+  /// Of the elastic force where the surfaces are as at `motion`; with a share w
+  /// that of w k and R / w, so that the force is w times that of the depth.
+  [[nodiscard]] HertzLaw find_law(double curvature, double residual,
+                                  double share = 1.0) const;
   /// What a point remembers of a first touch at this rate of depth [m/s].
+  /// @param law of a whole point, of share 1
   [[nodiscard]] PointMemory begin(const HertzLaw& law, double rate) const;
   /// T_c of an impact of both bodies at a speed > 0 [s].
   [[nodiscard]] double find_duration(const HertzLaw& law, double speed) const;

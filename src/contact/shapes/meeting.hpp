@@ -24,6 +24,9 @@ struct Meeting {
   /// ones, convex > 0), added, and 0 if that is negative. Edges and corners
   /// count as flat [1/m].
   double curvature = 0.0;
+  /// Factor on the force of this depth, > 0, where several features stand for
+  /// one area [-].
+  double share = 1.0;
 };
 
 }  // namespace limber::contact

@@ -6,7 +6,8 @@
 #include "limber/contact/shapes/meeting.hpp"
 #include "limber/contact/shapes/placed_shape.hpp"
 
-/// The rules of ShapePair, with A the sphere, half space or capsule.
+/// The rules of ShapePair, with A the sphere, half space or capsule; of boxes,
+/// cylinders and capsules either.
 namespace limber::contact {
 
 /// Of a sphere with any shape.
@@ -22,6 +23,22 @@ namespace limber::contact {
 ///
 /// Limits     one point: see find_nearest of segments
 [[nodiscard]] Meeting meet_capsules(const PlacedShape& A, const PlacedShape& B);
+
+/// Of two of box, cylinder and capsule: the corners of the area in which the
+/// faces that they turn to each other cover each other, and then where both
+/// are nearest, which counts as far as no corner is as deep.
+///
+/// Equation   depth = height of A's face over B's along the normal of least
+///            depth (find_separation)
+/// Limits     the faces and the corners' normal are those of the deepest
+///            point; sides of cylinders and capsules that lie along each other
+///            meet at one point
+[[nodiscard]] std::size_t count_convex_features(const Shape& A, const Shape& B);
+void meet_convex(const PlacedShape& A, const PlacedShape& B,
+                 std::span<Meeting> out);
+/// The distance; < 0 if they overlap [m].
+[[nodiscard]] double find_convex_clearance(const PlacedShape& A,
+                                           const PlacedShape& B);
 
 /// Of B's features with a half space: how many, and each of them.
 ///

@@ -18,6 +18,10 @@ bool is_a(const Shape& shape) {
   return std::holds_alternative<Kind>(shape.kind);
 }
 
+bool is_convex(const Shape& shape) {
+  return is_a<Box>(shape) || is_a<Cylinder>(shape) || is_a<Capsule>(shape);
+}
+
 }  // namespace
 
 ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
@@ -33,6 +37,9 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
     most_points_ = count_half_space_features(is_swapped_ ? A_ : B_);
   } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
     rule_ = Rule::kCapsules;
+  } else if (is_convex(A_) && is_convex(B_)) {
+    rule_ = Rule::kConvex;
+    most_points_ = count_convex_features(A_, B_);
   } else {
     throw InputError(fmt::format(
         "contact: there is no rule for a {} with a {}; there are rules for a "
@@ -58,6 +65,9 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
     case Rule::kCapsules:
       out[0] = meet_capsules(first, second);
       break;
+    case Rule::kConvex:
+      meet_convex(first, second, out);
+      break;
   }
   if (!is_swapped_) return;
   for (Meeting& meeting : out) {
@@ -81,6 +91,9 @@ double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
       break;
     case Rule::kCapsules:
       distance = -meet_capsules(first, second).depth;
+      break;
+    case Rule::kConvex:
+      distance = find_convex_clearance(first, second);
       break;
   }
   return distance > 0.0 ? distance : 0.0;

@@ -18,6 +18,9 @@ namespace limber::contact {
 ///
 ///     sphere with any other        1
 ///     capsule with capsule         1
+///     of box, cylinder, capsule
+///       any other two              corners of both faces, where each edge of
+///                                  A enters and leaves B's, and the nearest
 ///     half space with capsule      2, its ends
 ///                     box          8, its corners
 ///                     cylinder     6, three of each rim
@@ -45,7 +48,7 @@ class ShapePair {
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:
-  enum class Rule { kSphere, kHalfSpace, kCapsules };
+  enum class Rule { kSphere, kHalfSpace, kCapsules, kConvex };
 
   Shape A_;
   Shape B_;

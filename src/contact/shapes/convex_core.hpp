@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "limber/common/types.hpp"
+#include "limber/contact/shapes/placed_shape.hpp"
+
+namespace limber::contact {
+
+/// A capsule, a cylinder or a box in the world as a sum of simple sets:
+/// segments about its centre, a disc and a ball.
+///
+/// Equation   support max n . x = n . c + sum_k h_k |n . u_k|
+///            + R |n x u_0| + r, n of unit length
+class ConvexCore {
+ public:
+  struct Segment {
+    Vector3 axis = Vector3::UnitZ();  ///< u, unit [-]
+    double half_length = 0.0;         ///< h [m]
+  };
+
+  /// @throws ContractError for another kind of shape.
+  explicit ConvexCore(const PlacedShape& shape);
+
+  [[nodiscard]] const Vector3& centre() const { return centre_; }
+  /// Of a box three, otherwise one.
+  [[nodiscard]] std::span<const Segment> segments() const {
+    return std::span(segments_).first(count_);
+  }
+  /// R of the disc, normal to the first segment; 0: none [m].
+  [[nodiscard]] double disc() const { return disc_; }
+  /// r of the ball [m].
+  [[nodiscard]] double ball() const { return ball_; }
+  /// Of its points from the centre, at most, without the ball [m].
+  [[nodiscard]] double size() const { return size_; }
+
+  /// Without the ball, and relative to the centre [m]. @param n unit
+  [[nodiscard]] double find_support(const Vector3& n) const;
+  /// The point, or one of them, of the set without the ball that is farthest
+  /// along n, of any length [m].
+  [[nodiscard]] Vector3 find_support_point(const Vector3& n) const;
+
+ private:
+  Vector3 centre_;
+  std::array<Segment, 3> segments_;
+  std::size_t count_ = 1;
+  double disc_ = 0.0;
+  double ball_ = 0.0;
+  double size_ = 0.0;
+};
+
+}  // namespace limber::contact

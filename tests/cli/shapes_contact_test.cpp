@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes other than balls that touch, as the command reports it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/command.hpp"
+
+namespace limber::test {
+namespace {
+
+using nlohmann::json;
+
+/// A block of 2 kg above a table, whose top is at z = -0.05 - gap.
+json run_block(const Workspace& place, const std::string& geometry, double gap,
+               const std::string& more) {
+  place.write("block.urdf",
+              "<robot name='r'><link name='block'><inertial><mass value='2'/>"
+              "<inertia ixx='0.0033' iyy='0.0033' izz='0.0033' ixy='0' "
+              "ixz='0' iyz='0'/></inertial><collision><geometry>" +
+                  geometry +
+                  "</geometry></collision></link><contact link='block' "
+                  "youngs_modulus='1e10' poisson_ratio='0.3'/></robot>");
+  place.write("scene.toml",
+              "robot = 'block.urdf'\n[output]\npictures = false\n"
+              "[[probe]]\nname = 'p'\nlink = 'block'\nquantity = 'position'\n"
+              "[[obstacle]]\nname = 'table'\nshape = 'box'\n"
+              "size = [0.5, 0.5, 0.1]\nposition = [0.0, 0.0, " +
+                  std::to_string(-0.1 - gap) +
+                  "]\n[[contact]]\nbetween = ['block', 'table']\n" + more);
+  const CommandResult result = place.limber("run scene.toml --out o --json");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(result.out, nullptr, false);
+}
+
+constexpr const char* kBox = "<box size='0.1 0.1 0.1'/>";
+
+// A slope of 10 degrees, mu = 0.3: 1 s, in which one without friction slides
+// 0.85 m.
+TEST(BlockOnABox, HoldsOnASlope) {
+  const Workspace place;
+  const json run = run_block(place, kBox, 1e-6,
+                             "friction = 0.3\nrestitution = 0.2\n[gravity]\n"
+                             "acceleration = [1.70354, 0.0, -9.66136]\n"
+                             "[time]\nduration = 1.0\nstep = 1e-3\n");
+  const json& p = run["probes"]["p.x"];
+  EXPECT_LT(std::abs(p["final"].get<double>()), 1e-5);
+  ASSERT_EQ(run["contacts"].size(), 1U);
+  EXPECT_NEAR(run["contacts"][0]["impulse"].get<double>(), 2.0 * 9.66136, 0.05);
+}
+
+TEST(BlockOnABox, SlidesAsCoulombSays) {
+  const Workspace place;
+  const json run = run_block(place, kBox, 1e-6,
+                             "friction = 0.1\nrestitution = 0.2\n[gravity]\n"
+                             "acceleration = [1.70354, 0.0, -9.66136]\n"
+                             "[time]\nduration = 0.3\nstep = 5e-4\n");
+  const double way = 0.5 * (1.70354 - 0.1 * 9.66136) * 0.09;
+  EXPECT_NEAR(run["probes"]["p.x"]["final"].get<double>() / way, 1.0, 0.01);
+}
+
+TEST(BlockOnABox, LeapsBackAsItsRestitutionSays) {
+  for (const char* geometry : {kBox, "<cylinder radius='0.05' length='0.1'/>",
+                               "<capsule radius='0.02' length='0.06'/>"}) {
+    const Workspace place;
+    const json run = run_block(place, geometry, 0.01,
+                               "friction = 0.0\nrestitution = 0.6\n[gravity]\n"
+                               "acceleration = [0.0, 0.0, -9.81]\n"
+                               "[time]\nduration = 0.06\nstep = 1e-5\n");
+    ASSERT_EQ(run["contacts"].size(), 1U) << geometry;
+    const json& impact = run["contacts"][0];
+    EXPECT_EQ(impact["touches"], 1) << geometry;
+    EXPECT_NEAR(impact["restitution"].get<double>(), 0.6, 0.02) << geometry;
+    EXPECT_NEAR(impact["touch_speed"].get<double>(), std::sqrt(0.02 * 9.81),
+                2e-3)
+        << geometry;
+  }
+}
+
+}  // namespace
+}  // namespace limber::test
