@@ -2,12 +2,14 @@
 #include "limber/reduction/reduce.hpp"
 
 #include <memory>
+#include <utility>
 
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/flexbody/model/shape_integrals.hpp"
 #include "limber/reduction/contact_surface.hpp"
 #include "limber/reduction/initial_rows.hpp"
+#include "limber/reduction/manifold.hpp"
 #include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/rows.hpp"
 #include "limber/reduction/selection.hpp"
@@ -27,6 +29,21 @@ void add_tables(const std::vector<Interface>& interfaces,
          table.topRows<3>(), table.bottomRows<3>(), motion.rotation_axes(),
          interfaces[i].selection.nodes.size(), modes.flexibility[i]});
   }
+}
+
+void add_manifold(const MeshedBody& meshed, const Recipe& recipe,
+                  const MatrixX& Phi, const Progress& progress,
+                  ReducedBody& body) {
+  const fem::Mesh& mesh = meshed.mesh;
+  ManifoldFields made =
+      make_manifold(meshed, recipe, Phi, body.lambda, body.p_MoBcm_M, progress);
+  made.tables.Theta_B =
+      take_rows(made.Theta, choose_rows(mesh, recipe, meshed.interfaces));
+  for (std::size_t i = 0; i < meshed.interfaces.size(); ++i) {
+    add_second_order(mesh, meshed.interfaces[i], made.tables.paired, Phi,
+                     made.Theta, body.interfaces[i]);
+  }
+  body.manifold = std::move(made.tables);
 }
 
 ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
@@ -64,6 +81,7 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();
   keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
   add_tables(meshed.interfaces, modes, Phi, body);
+  if (recipe.manifold) add_manifold(meshed, recipe, Phi, progress, body);
   body.contact_surfaces = make_contact_surfaces(meshed, recipe, basis, Phi,
                                                 inertia.center, progress);
   report(progress, "reduced", 1.0);

@@ -7,9 +7,6 @@
 #include "limber/reduction/support.hpp"
 
 namespace limber::flexbody {
-namespace {
-
-/// Nodes whose rows are stored, sorted.
 std::vector<int> choose_rows(const fem::Mesh& mesh, const Recipe& recipe,
                              const std::vector<Interface>& interfaces) {
   using Extent = KeptRows::Extent;
@@ -30,6 +27,8 @@ std::vector<int> choose_rows(const fem::Mesh& mesh, const Recipe& recipe,
   for (const Interface& interface : interfaces) keep(interface.selection.nodes);
   return {kept.begin(), kept.end()};
 }
+
+namespace {
 
 std::vector<std::size_t> tags_of(const fem::Mesh& mesh,
                                  const std::vector<int>& nodes) {

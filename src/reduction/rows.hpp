@@ -9,6 +9,12 @@
 
 namespace limber::flexbody {
 
+/// Nodes whose rows are stored, sorted.
+/// @throws InputError for a group that does not exist.
+[[nodiscard]] std::vector<int> choose_rows(
+    const fem::Mesh& mesh, const Recipe& recipe,
+    const std::vector<Interface>& interfaces);
+
 /// Fills `rows`, `triangles` and `groups` of a body whose `p_MoBcm_M` is set.
 /// @param Phi 3N x m, all rows [kg^-1/2]
 /// @throws InputError for a group that does not exist.

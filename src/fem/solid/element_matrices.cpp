@@ -22,19 +22,11 @@ MatrixX calc_element_mass(const ReferenceElement& element, const Matrix3X& x,
   return rule.shape * measure.asDiagonal() * rule.shape.transpose();
 }
 
-namespace {
-
-/// Gradients of an element's functions in material coordinates, and the measure
-/// of each quadrature point.
-struct Gradients {
-  std::vector<Matrix3X> at;  ///< a point: 3 x nodes [1/m]
-  VectorX measure;           ///< a point: w det J [m^3]
-};
-
-Gradients calc_gradients(const ReferenceElement& element, const Matrix3X& x) {
+ElementGradients calc_gradients(const ReferenceElement& element,
+                                const Matrix3X& x) {
   const Quadrature& rule =
       is_parallel_sided(element, x) ? element.stiffness : element.curved;
-  Gradients result{{}, VectorX(rule.weights.size())};
+  ElementGradients result{{}, VectorX(rule.weights.size())};
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const MatrixX& local = rule.gradients[static_cast<std::size_t>(q)];
     const Matrix3 jacobian = x * local.transpose();  // dx_i / dxi_j
@@ -43,6 +35,8 @@ Gradients calc_gradients(const ReferenceElement& element, const Matrix3X& x) {
   }
   return result;
 }
+
+namespace {
 
 /// Stress and moduli at a point.
 struct Moduli {
@@ -76,7 +70,7 @@ Moduli calc_moduli(Elasticity law, const LameConstants<double>& lame,
 MatrixX calc_element_stiffness(const ReferenceElement& element,
                                const Matrix3X& x,
                                const ElasticMaterial& material) {
-  const Gradients gradients = calc_gradients(element, x);
+  const ElementGradients gradients = calc_gradients(element, x);
   const Eigen::Index n = element.node_count;
   MatrixX G(3 * n, gradients.measure.size());
   for (Eigen::Index q = 0; q < G.cols(); ++q)
@@ -96,7 +90,7 @@ MatrixX calc_element_stiffness(const ReferenceElement& element,
 MatrixX calc_element_tangent(const ReferenceElement& element, const Matrix3X& x,
                              const Matrix3X& u, const ElasticMaterial& material,
                              Elasticity law) {
-  const Gradients gradients = calc_gradients(element, x);
+  const ElementGradients gradients = calc_gradients(element, x);
   const LameConstants<double> lame = find_lame_constants(material);
   const Eigen::Index n = element.node_count;
   MatrixX K = MatrixX::Zero(3 * n, 3 * n);

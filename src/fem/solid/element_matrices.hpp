@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "limber/fem/mesh/reference_element.hpp"
 #include "limber/fem/solid/hyperelastic.hpp"
 
 namespace limber::fem {
+
+/// Gradients of an element's functions in material coordinates, and the measure
+/// of each quadrature point of its stiffness.
+struct ElementGradients {
+  std::vector<Matrix3X> at;  ///< a point: 3 x nodes [1/m]
+  VectorX measure;           ///< a point: w det J [m^3]
+};
+/// @param x 3 x nodes [m]
+[[nodiscard]] ElementGradients calc_gradients(const ReferenceElement& element,
+                                              const Matrix3X& x);
 
 /// Consistent scalar mass of one element, nodes x nodes [kg].
 ///

@@ -16,6 +16,7 @@
 #include "limber/common/files/whole_file.hpp"
 #include "limber/common/records/digest.hpp"
 #include "limber/flexbody/file/body_file_contact.hpp"
+#include "limber/flexbody/file/body_file_manifold.hpp"
 #include "limber/flexbody/file/body_file_reader.hpp"
 #include "limber/flexbody/file/body_file_records.hpp"
 
@@ -63,6 +64,7 @@ std::optional<int> version_of(const std::string& seal) {
 
 // The oldest layout that has room for the body.
 int layout_of(const ReducedBody& body) {
+  if (body.manifold) return kManifoldBodyFileVersion;
   return body.contact_surfaces.empty() ? kBodyFileVersion
                                        : kContactBodyFileVersion;
 }
@@ -178,6 +180,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
               "kg^1/2 m");
   write_field(out, "initial/velocity/", body.initial.velocity, "kg^1/2 m/s");
   write_contact_surfaces(out, body.contact_surfaces);
+  write_manifold(out, body);
 }
 
 void read_rows(const Reader& reader, ReducedBody& body) {
@@ -244,11 +247,11 @@ void check_seal(const std::filesystem::path& file) {
     throw problem(
         "is not a reduced body of this program's; make one of its mesh");
   }
-  if (*version != kBodyFileVersion && *version != kContactBodyFileVersion) {
+  if (*version < kBodyFileVersion || *version > kManifoldBodyFileVersion) {
     throw problem(fmt::format(
-        "has layout version {}; this program reads {} and {}. Make the "
-        "reduced body anew",
-        *version, kBodyFileVersion, kContactBodyFileVersion));
+        "has layout version {}; this program reads {} to {}. Make the reduced "
+        "body anew",
+        *version, kBodyFileVersion, kManifoldBodyFileVersion));
   }
   const auto read = [&](char* out, std::size_t size) {
     return in.read(out, size);
@@ -338,9 +341,12 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);
   body.initial.velocity = read_field(reader, "initial/velocity/", m);
-  if (reader.integer("version") == kContactBodyFileVersion) {
+  const std::int64_t version = reader.integer("version");
+  if (version == kContactBodyFileVersion ||
+      (version == kManifoldBodyFileVersion && has_surfaces(reader))) {
     body.contact_surfaces = read_contact_surfaces(reader, m);
   }
+  if (version == kManifoldBodyFileVersion) read_manifold(reader, body);
   return body;
 }
 

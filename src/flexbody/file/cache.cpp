@@ -19,6 +19,8 @@ namespace {
 constexpr int kReductionVersion = 4;
 // The same of contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 1;
+// The same of second-order kinematics.
+constexpr int kManifoldVersion = 1;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());
@@ -90,7 +92,12 @@ void add_request(const Recipe& recipe, Digest& digest) {
   digest.add(recipe.rows.extent);
   digest.add(recipe.rows.groups.size());
   for (const std::string& group : recipe.rows.groups) digest.add(group);
-  // Bodies without contact keep the keys that they had before there was any.
+  // Bodies without manifold and contact keep the keys that they had before
+  // there was any.
+  if (recipe.manifold) {
+    digest.add(std::string("manifold"));
+    digest.add(kManifoldVersion);
+  }
   if (recipe.contact_groups.empty()) return;
   digest.add(kContactVersion);
   digest.add(recipe.contact_groups.size());

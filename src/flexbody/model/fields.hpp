@@ -4,6 +4,7 @@
 #include "limber/common/records/fields.hpp"
 #include "limber/flexbody/model/full_body.hpp"
 #include "limber/flexbody/model/nodal_load.hpp"
+#include "limber/flexbody/model/quadratic_frame.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 
 /// Field lists of bodies (common/records/fields.hpp).
@@ -24,7 +25,18 @@ constexpr auto fields_of(const NodeGroup*) {
 
 constexpr auto fields_of(const InterfaceTable*) {
   return list_fields("interface", "name", "p_B [m]", "Phi_B", "Psi_B",
-                     "rotation axes", "nodes", "flexibility [m/N, rad/(N m)]");
+                     "rotation axes", "nodes", "flexibility [m/N, rad/(N m)]",
+                     "Phi2_B [kg^-1 m^-1]", "Psi2_B [kg^-1 m^-2]");
+}
+
+constexpr auto fields_of(const QuadraticManifold*) {
+  return list_fields("manifold", "paired modes", "Q [kg^-1/2 m^-1 rad/s]", "S2",
+                     "Theta_B [kg^-1 m^-1]");
+}
+
+constexpr auto fields_of(const QuadraticFrame*) {
+  return list_fields("second order", "paired modes", "Phi2 [kg^-1 m^-1]",
+                     "Psi2 [kg^-1 m^-2]");
 }
 
 constexpr auto fields_of(const ContactSurface*) {
@@ -53,7 +65,7 @@ constexpr auto fields_of(const ReducedBody*) {
                      "eigenvalues [rad^2/s^2]", "rows", "groups", "interfaces",
                      "triangles", "contact surfaces", "mesh nodes",
                      "mesh elements", "mesh boundary nodes", nullptr, nullptr,
-                     "initial", "content key");
+                     "initial", "content key", "manifold");
 }
 
 constexpr auto fields_of(const NodeSet*) {

@@ -139,6 +139,7 @@ struct Recipe {
   /// Surface groups that may touch other bodies, "skin" for the whole boundary;
   /// each becomes a ContactSurface.
   std::vector<std::string> contact_groups;
+  bool manifold = false;  ///< with second-order kinematics, for level nonlinear
 };
 
 }  // namespace limber::flexbody

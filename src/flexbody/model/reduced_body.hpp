@@ -11,6 +11,7 @@
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/flexbody/model/initial_deformation.hpp"
 #include "limber/flexbody/model/load_modes_record.hpp"
+#include "limber/flexbody/model/quadratic_manifold.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
 
 namespace limber::flexbody {
@@ -64,6 +65,11 @@ struct InterfaceTable {
   /// and rotation under a unit moment, inertia-relieved, 6 x 6 (translation
   /// first), body frame [m/N, rad/(N m)].
   Matrix6 flexibility = Matrix6::Zero();
+  /// 3 x pairs of the body's manifold, no columns without one: second
+  /// derivatives of the mean motion and of the rotation vector by the paired
+  /// modes (flexbody/model/quadratic_frame.hpp).
+  Matrix3X Phi2_B = Matrix3X(3, 0);  ///< translation [kg^-1 m^-1]
+  Matrix3X Psi2_B = Matrix3X(3, 0);  ///< rotation [kg^-1 m^-2]
 
   [[nodiscard]] int rotation_rank() const {
     return static_cast<int>(rotation_axes.cols());
@@ -108,6 +114,7 @@ struct ReducedBody {
   std::vector<LoadModesRecord> load_modes;            ///< of nodal forces
   InitialDeformation initial;  ///< projections of the recipe's fields
   std::string content_key;     ///< hash of all inputs
+  std::optional<QuadraticManifold> manifold;  ///< if asked for
 
   [[nodiscard]] int mode_count() const {
     return static_cast<int>(lambda.size());

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/solid/second_order.hpp"
+
+#include <utility>
+
+#include "limber/common/errors.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
+
+namespace limber::fem {
+namespace {
+
+// Calls visit(block, e, nodes, gradients) of every element.
+template <typename Visit>
+void for_each_element(const Mesh& mesh, const Visit& visit) {
+  for (const ElementBlock& block : mesh.blocks) {
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      const int* first = block.element_nodes(e);
+      const std::vector<int> nodes(first, first + block.element->node_count);
+      visit(block, e, nodes,
+            calc_gradients(*block.element, mesh.x(Eigen::all, nodes)));
+    }
+  }
+}
+
+// The fields at an element's nodes: 3k x nodes, field by field.
+MatrixX gather(const MatrixX& Phi, const std::vector<int>& nodes) {
+  MatrixX own(3 * Phi.cols(), static_cast<Eigen::Index>(nodes.size()));
+  for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
+    for (Eigen::Index a = 0; a < own.cols(); ++a) {
+      own.block<3, 1>(3 * k, a) = Phi.block<3, 1>(
+          3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]}, k);
+    }
+  }
+  return own;
+}
+
+Matrix3 calc_stress(const LameConstants<double>& lame, const Matrix3& strain) {
+  return lame.lambda * strain.trace() * Matrix3::Identity() +
+         2.0 * lame.mu * strain;
+}
+
+Matrix3 symmetric_part(const Matrix3& H) { return 0.5 * (H + H.transpose()); }
+
+// One quadrature point's gradients and stresses of all fields.
+struct Point {
+  std::vector<Matrix3> H;
+  std::vector<Matrix3> S;
+};
+
+void fill(const MatrixX& own, const Matrix3X& gradients,
+          const LameConstants<double>& lame, Point& point) {
+  const MatrixX H = own * gradients.transpose();  // 3k x 3
+  for (std::size_t k = 0; k < point.H.size(); ++k) {
+    point.H[k] = H.middleRows<3>(3 * static_cast<Eigen::Index>(k));
+    point.S[k] = calc_stress(lame, symmetric_part(point.H[k]));
+  }
+}
+
+// Adds a point's c, and sets its stresses T of g, 3 pairs x 3.
+void add_point(const Point& point, const LameConstants<double>& lame,
+               double measure, MatrixX& T, SecondOrderTerms& terms) {
+  const std::size_t p = point.H.size();
+  Eigen::Index pair = 0;
+  for (std::size_t i = 0; i < p; ++i) {
+    for (std::size_t j = i; j < p; ++j, ++pair) {
+      const Matrix3 E = symmetric_part(point.H[i].transpose() * point.H[j]);
+      T.middleRows<3>(3 * pair) =
+          measure * (calc_stress(lame, E) + point.H[i] * point.S[j] +
+                     point.H[j] * point.S[i]);
+      const double size = measure * point.H[i].norm() * point.H[j].norm();
+      for (std::size_t r = 0; r < p; ++r) {
+        const auto row = static_cast<Eigen::Index>(r);
+        terms.strain(row, pair) += measure * point.S[r].cwiseProduct(E).sum();
+        terms.scale(row, pair) += size * point.S[r].norm();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+VectorX find_rotation_ratios(const Mesh& mesh, const MatrixX& Phi) {
+  LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
+  VectorX rotation = VectorX::Zero(Phi.cols());
+  VectorX strain = VectorX::Zero(Phi.cols());
+  for_each_element(mesh, [&](const ElementBlock& /*block*/, std::size_t /*e*/,
+                             const std::vector<int>& nodes,
+                             const ElementGradients& gradients) {
+    const MatrixX own = gather(Phi, nodes);
+    for (std::size_t q = 0; q < gradients.at.size(); ++q) {
+      const MatrixX all = own * gradients.at[q].transpose();
+      const double measure = gradients.measure[static_cast<Eigen::Index>(q)];
+      for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
+        const Matrix3 H = all.middleRows<3>(3 * k);
+        rotation[k] += 0.25 * measure * (H - H.transpose()).squaredNorm();
+        strain[k] += 0.25 * measure * (H + H.transpose()).squaredNorm();
+      }
+    }
+  });
+  return rotation.cwiseQuotient(strain).cwiseSqrt();
+}
+
+SecondOrderTerms calc_second_order(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const MatrixX& Phi) {
+  LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
+  LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
+  const Eigen::Index p = Phi.cols();
+  const Eigen::Index pairs = p * (p + 1) / 2;
+  SecondOrderTerms terms{MatrixX::Zero(Phi.rows(), pairs),
+                         MatrixX::Zero(p, pairs), MatrixX::Zero(p, pairs)};
+  const auto count = static_cast<std::size_t>(p);
+  Point point{std::vector<Matrix3>(count), std::vector<Matrix3>(count)};
+  MatrixX T(3 * pairs, 3);
+  MatrixX forces;  // 3 pairs x nodes of an element
+  for_each_element(mesh, [&](const ElementBlock& block, std::size_t e,
+                             const std::vector<int>& nodes,
+                             const ElementGradients& gradients) {
+    const LameConstants<double> lame = find_lame_constants(
+        materials[static_cast<std::size_t>(block.regions[e])]);
+    const MatrixX own = gather(Phi, nodes);
+    forces.setZero(3 * pairs, own.cols());
+    for (std::size_t q = 0; q < gradients.at.size(); ++q) {
+      fill(own, gradients.at[q], lame, point);
+      add_point(point, lame, gradients.measure[static_cast<Eigen::Index>(q)], T,
+                terms);
+      forces.noalias() += T * gradients.at[q];
+    }
+    for (Eigen::Index a = 0; a < own.cols(); ++a) {
+      const Eigen::Index row =
+          3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]};
+      terms.loads.middleRows<3>(row) += forces.col(a).reshaped(3, pairs);
+    }
+  });
+  return terms;
+}
+
+}  // namespace limber::fem

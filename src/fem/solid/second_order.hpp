@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/material.hpp"
+
+/// Terms of second order of a mesh in large displacement, for bases of modes.
+namespace limber::fem {
+
+/// Root-mean-square rotation over root-mean-square strain of nodal fields.
+///
+/// Equation   sqrt(int |skew H|^2 dV / int |sym H|^2 dV), H = grad phi
+/// @param Phi 3N x k nodal fields [any unit]
+/// @returns k [-]; infinite for a rigid rotation, NaN for no motion at all
+[[nodiscard]] VectorX find_rotation_ratios(const Mesh& mesh,
+                                           const MatrixX& Phi);
+
+/// Second derivatives of the internal forces and of the strain energy at rest,
+/// for every pair i <= j of p fields in the order 11, 12, .., 1p, 22, ..
+///
+/// Equation   g_ij = int (C : sym(H_i' H_j) + H_i S_j + H_j S_i) grad N dV,
+///            c_r,ij = int S_r : H_i' H_j dV, S_i = C : sym H_i
+/// Source     the internal force int F S(E) grad N of a St. Venant-Kirchhoff
+///            solid, E = sym H + H' H / 2, differentiated twice at u = 0
+/// Limits     isotropic; every law that is linear in Green's strain to first
+///            order has the same c, but not the same g
+struct SecondOrderTerms {
+  MatrixX loads;   ///< 3N x p (p + 1) / 2: g [N for fields in m]
+  MatrixX strain;  ///< p x p (p + 1) / 2: c, row r [J for fields in m]
+  MatrixX scale;   ///< the same with int |S_r| |H_i| |H_j| dV: bounds c
+};
+/// @param materials one per region of the mesh
+/// @param Phi 3N x p
+[[nodiscard]] SecondOrderTerms calc_second_order(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const MatrixX& Phi);
+
+}  // namespace limber::fem

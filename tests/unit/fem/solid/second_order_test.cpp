@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/solid/second_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "limber/fem/solid/nonlinear_solid.hpp"
+#include "unit/fem/meshes.hpp"
+
+/// Against differences of the mesh's own forces and energy in large
+/// displacement, which are exact: the force of a St. Venant-Kirchhoff solid is
+/// of third degree in the displacements, its energy of fourth.
+namespace limber::fem {
+namespace {
+
+using testing::BoxKind;
+
+const ElasticMaterial kSteel{200e9, 0.3, 8000.0};
+
+class SecondOrder : public ::testing::TestWithParam<std::tuple<BoxKind, int>> {
+ protected:
+  SecondOrder()
+      : mesh_(read_mesh(testing::convert(
+            testing::write_file("box.geo",
+                                testing::box_geo(std::get<0>(GetParam()))),
+            "box.msh", {.order = std::get<1>(GetParam())}))),
+        solid_(mesh_, {kSteel}, Elasticity::st_venant_kirchhoff),
+        workspace_(solid_.make_workspace()),
+        Phi_(3 * mesh_.x.cols(), 3) {
+    // Smooth, so that no element turns inside out.
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (Eigen::Index k = 0; k < Phi_.cols(); ++k) {
+      const MatrixX a =
+          MatrixX::NullaryExpr(3, 9, [&] { return uniform(random); });
+      for (Eigen::Index n = 0; n < mesh_.x.cols(); ++n) {
+        const Vector3 x = mesh_.x.col(n);
+        Eigen::Matrix<double, 9, 1> powers;
+        powers << x, x.cwiseProduct(x), x[0] * x[1], x[1] * x[2], x[2] * x[0];
+        Phi_.block<3, 1>(3 * n, k) = 0.05 * a * powers;
+      }
+    }
+  }
+
+  VectorX force(const VectorX& u) {
+    Matrix3X f(3, mesh_.x.cols());
+    energy_ = solid_.calc_force(u.reshaped(3, mesh_.x.cols()), f, workspace_);
+    return f.reshaped();
+  }
+  double energy(const VectorX& u) {
+    static_cast<void>(force(u));
+    return energy_;
+  }
+  /// f''[a, a] of a force of third degree, zero at rest.
+  VectorX second(const VectorX& a) { return force(a) + force(-a); }
+  /// V'''[a, a, a] of an energy of fourth degree without first, at rest.
+  double third(const VectorX& a) { return 3.0 * (energy(a) - energy(-a)); }
+
+  Mesh mesh_;
+  NonlinearSolid solid_;
+  NonlinearSolid::Workspace workspace_;
+  MatrixX Phi_;
+  double energy_ = 0.0;
+};
+
+TEST_P(SecondOrder, LoadsAreSecondDerivativesOfTheForces) {
+  const SecondOrderTerms terms = calc_second_order(mesh_, {kSteel}, Phi_);
+  Eigen::Index pair = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = i; j < 3; ++j, ++pair) {
+      const VectorX expected = 0.25 * (second(Phi_.col(i) + Phi_.col(j)) -
+                                       second(Phi_.col(i) - Phi_.col(j)));
+      const VectorX g = terms.loads.col(pair);
+      EXPECT_LT((g - expected).norm(), 1e-11 * expected.norm()) << i << j;
+    }
+  }
+}
+
+TEST_P(SecondOrder, StrainsAreThirdDerivativesOfTheEnergy) {
+  const SecondOrderTerms terms = calc_second_order(mesh_, {kSteel}, Phi_);
+  const auto& c = terms.strain;  // pairs 00 01 02 11 12 22
+  const auto along = [&](double x, double y, double z) {
+    return third(x * Phi_.col(0) + y * Phi_.col(1) + z * Phi_.col(2));
+  };
+  EXPECT_NEAR(3.0 * c(0, 0) / along(1, 0, 0), 1.0, 1e-9);
+  // V'''[a, a, b] = c_b,aa + 2 c_a,ab.
+  const double aab =
+      (along(1, 1, 0) - along(1, -1, 0) - 2.0 * along(0, 1, 0)) / 6.0;
+  EXPECT_NEAR((c(1, 0) + 2.0 * c(0, 1)) / aab, 1.0, 1e-8);
+  const double abc =
+      (along(1, 1, 1) - along(1, 1, -1) - along(1, -1, 1) - along(-1, 1, 1)) /
+      24.0;
+  EXPECT_NEAR((c(0, 4) + c(1, 2) + c(2, 1)) / abc, 1.0, 1e-7);
+  EXPECT_TRUE((c.cwiseAbs().array() <= terms.scale.array()).all());
+}
+
+TEST_P(SecondOrder, RotationRatiosAreThoseOfShearStretchAndTurn) {
+  MatrixX fields = MatrixX::Zero(Phi_.rows(), 4);
+  for (Eigen::Index n = 0; n < mesh_.x.cols(); ++n) {
+    const Vector3 x = mesh_.x.col(n);
+    fields(3 * n, 0) = 2.0 * x[1];                     // shear
+    fields(3 * n, 1) = 0.1 * x[0];                     // stretch
+    fields.block<3, 1>(3 * n, 2) << -x[1], x[0], 0.0;  // turn
+    fields.block<3, 1>(3 * n, 3) << -3.0 * x[1], 5.0 * x[0], 0.0;
+  }
+  const VectorX ratios = find_rotation_ratios(mesh_, fields);
+  EXPECT_NEAR(ratios[0], 1.0, 1e-12);
+  EXPECT_LT(ratios[1], 1e-7);
+  EXPECT_GT(ratios[2], 1e7);
+  EXPECT_NEAR(ratios[3], 4.0, 1e-11);  // 8 / 2, halves of sum and difference
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, SecondOrder,
+                         ::testing::Values(std::tuple(BoxKind::hexahedra, 2),
+                                           std::tuple(BoxKind::tetrahedra, 2),
+                                           std::tuple(BoxKind::prisms, 1)));
+
+}  // namespace
+}  // namespace limber::fem
