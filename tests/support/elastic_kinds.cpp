@@ -4,7 +4,10 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "support/free_top.hpp"
 
@@ -85,6 +88,56 @@ void stiffen(dynamics::SystemModel& model, double amplitude) {
     body.elasticity =
         make_quadratic_strain(flexbody::rest_stiffness(body.elasticity),
                               body.modes - 1, amplitude, seed++);
+  }
+}
+
+namespace {
+
+// 3 x pairs of entries up to `size`.
+Matrix3X make_pairs(int paired, double size, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-size, size);
+  return Matrix3X::NullaryExpr(3, paired * (paired + 1) / 2,
+                               [&] { return uniform(random); });
+}
+
+// Adds a made-up change of the inertia, symmetric in the modes.
+std::shared_ptr<const dynamics::ModalInertia> bend_inertia(
+    const dynamics::ModalInertia& inertia, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  auto bent = std::make_shared<dynamics::ModalInertia>(inertia);
+  for (Eigen::Index k = 1; k < inertia.J2.cols(); ++k) {
+    for (Eigen::Index l = k; l < inertia.J2.cols(); ++l) {
+      for (int c = 0; c < 6; ++c) {
+        const double more = uniform(random);
+        bent->J2(6 * k + c, l) += more;
+        if (l != k) bent->J2(6 * l + c, k) += more;
+      }
+    }
+  }
+  return bent;
+}
+
+}  // namespace
+
+void bend(dynamics::SystemModel& model, double amplitude) {
+  std::mt19937 random(4);
+  stiffen(model, amplitude);
+  for (dynamics::BodyModel& body : model.bodies) {
+    if (body.modes == 0) continue;
+    body.fidelity = dynamics::Fidelity::nonlinear;
+    body.inertia = bend_inertia(*body.inertia, random);
+  }
+  for (dynamics::Attachment& a : model.attachments) {
+    if (a.Phi_B.cols() == 0) continue;
+    const int paired = static_cast<int>(a.Phi_B.cols()) - 1;
+    std::vector<int> modes(static_cast<std::size_t>(paired));
+    std::iota(modes.begin(), modes.end(), 1);
+    const double share = 1.0 / (paired * amplitude);
+    a.second = std::make_shared<const flexbody::QuadraticFrame>(
+        flexbody::make_quadratic_frame(
+            modes,
+            make_pairs(paired, share * a.Phi_B.cwiseAbs().maxCoeff(), random),
+            make_pairs(paired, share * a.Psi_B.cwiseAbs().maxCoeff(), random)));
   }
 }
 

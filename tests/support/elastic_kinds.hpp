@@ -28,6 +28,11 @@ flexbody::FullStiffness turn_stiffness(const VectorX& lambda, const MatrixX& U);
 /// Gives every flexible body of a system quadratic strains.
 void stiffen(dynamics::SystemModel& model, double amplitude);
 
+/// Lifts every flexible body of a system, and frames that its modes move, to
+/// level nonlinear, with made-up second-order tables: where the modes but the
+/// first are at `amplitude`, about as large as the linear ones.
+void bend(dynamics::SystemModel& model, double amplitude);
+
 /// A clamped body whose first mode is Duffing's oscillator, q'' + a q + b q^3 =
 /// 0. Its second, without a stiffness of its own, rests.
 struct Duffing {

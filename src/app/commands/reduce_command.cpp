@@ -31,6 +31,7 @@ struct Options {
   std::string initial_displacement;
   std::string initial_velocity;
   std::vector<std::string> rows = {"boundary"};
+  bool manifold = false;
   bool json = false;
 };
 
@@ -59,6 +60,7 @@ flexbody::Recipe make_recipe(const Options& options) {
   start.velocity = options.initial_velocity;
   add_initial_fields(start, recipe);
   recipe.rows = flexbody::parse_rows(options.rows);
+  recipe.manifold = options.manifold;
   for (const std::string& group : options.interfaces) {
     flexbody::InterfaceRequest request;
     request.name = group;
@@ -139,6 +141,8 @@ void add_reduce(CLI::App& app, Action& action) {
   command->add_option("--rows", options->rows,
                       "Nodes to keep: all, boundary (default), interfaces, or "
                       "groups by name; may be given again");
+  command->add_flag("--second-order", options->manifold,
+                    "With the tables that level nonlinear needs");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { reduce(*options); }; });

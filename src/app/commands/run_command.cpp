@@ -116,7 +116,7 @@ void add_run(CLI::App& app, Action& action) {
   add_settings(*command, options->settings_given);
   command->add_option("--fidelity", options->fidelity,
                       "Level of every flexible link: rigid, uncoupled, "
-                      "one-way, coupled, full");
+                      "one-way, coupled, nonlinear, full");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>)");
   command->add_option("--cache", options->cache, "Folder of reduced bodies");

@@ -22,7 +22,7 @@ bool has_flexible_link(const scene::Scene& scene) {
 
 /// Whether a level uses a reduced basis.
 bool has_basis(Fidelity level) {
-  return level != Fidelity::rigid && level <= Fidelity::coupled;
+  return level != Fidelity::rigid && level < Fidelity::full;
 }
 
 /// The most expensive level with a reduced basis, unless a higher one was
@@ -263,6 +263,8 @@ double estimate_cost(const Choice& choice, const Choice& reference) {
         return 0.5;
       case Fidelity::coupled:
         return 1.0;
+      case Fidelity::nonlinear:
+        return 2.0;
       case Fidelity::full:
         break;
     }

@@ -44,7 +44,12 @@ SystemModel find_flexible_model(const scene::Scene& scene,
   }
   SystemModel model = built.model;
   for (dynamics::BodyModel& body : model.bodies) {
-    if (body.reduced) body.fidelity = Fidelity::uncoupled;
+    if (!body.reduced) continue;
+    if (body.fidelity == Fidelity::nonlinear) {
+      body.elasticity = flexbody::DiagonalStiffness(
+          flexbody::DiagonalStiffness::Parameters{body.reduced->lambda});
+    }
+    body.fidelity = Fidelity::uncoupled;
   }
   return model;
 }

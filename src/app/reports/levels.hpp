@@ -35,9 +35,9 @@ struct BodyLevel {
     return used >= advice.level && !is_stretched();
   }
   /// Whether the deformation is too large for linear elasticity, which all
-  /// levels but `full` assume.
+  /// levels but `nonlinear` and `full` assume.
   [[nodiscard]] bool is_stretched() const {
-    return advice.is_beyond_linear && used != dynamics::Fidelity::full;
+    return advice.is_beyond_linear && used < dynamics::Fidelity::nonlinear;
   }
 };
 

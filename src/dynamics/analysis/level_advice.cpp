@@ -130,6 +130,7 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
           "by {}",
           metres(e.uncoupled), limit, metres(e.one_way));
     case Fidelity::coupled:
+    case Fidelity::nonlinear:
     case Fidelity::full:
       break;
   }

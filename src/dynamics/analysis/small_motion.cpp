@@ -13,6 +13,7 @@
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/newton/residual_derivative.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -86,7 +87,7 @@ class Derivatives {
       out_.M(m + k, m + k) = 1.0;
       out_.D(m + k, m + k) = body.damping[k];
     }
-    fill_elasticity(body, m);
+    fill_elasticity(b, m);
     const Index p = out_.places[b];
     if (p < 0) return;
     const Vector3& w = state_.bodies[b].w_WB_B;
@@ -97,14 +98,17 @@ class Derivatives {
     out_.D.block<3, 3>(p + 3, p + 3) = skew(w) * t.J - skew(t.J * w);
   }
 
-  void fill_elasticity(const BodyModel& body, Index m) {
-    if (const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity)) {
-      out_.lambda.segment(m, body.modes) = *lambda;
+  void fill_elasticity(std::size_t b, Index m) {
+    const BodyModel& body = model_.bodies[b];
+    if (!has_dense_modes(body)) {
+      out_.lambda.segment(m, body.modes) =
+          *flexbody::find_eigenvalues(body.elasticity);
       return;
     }
     MatrixX K(body.modes, body.modes);
     flexbody::calc_elastic_tangent(
         body.elasticity, state_.eta.segment(body.offset, body.modes), K);
+    add_interface_stiffness(model_, b, terms_.attachments, K);
     out_.coupled.push_back({m, std::move(K)});
   }
 

@@ -11,18 +11,23 @@ namespace limber::dynamics {
 namespace {
 
 void add_reduced_wrench(const BodyModel& body, const Attachment& attachment,
-                        const AttachmentMotion& motion, const Vector3& force_W,
-                        const Vector3& moment_W, BodyTerms& terms) {
+                        const Vector3& force_W, const Vector3& moment_W,
+                        AttachmentMotion& motion, BodyTerms& terms) {
   const Vector3 force_B = motion.R_WB.transpose() * force_W;
   const Vector3 moment_B = motion.R_WB.transpose() * moment_W;
   terms.force_W += force_W;
   terms.moment_B += motion.arm_B.cross(force_B) + moment_B;
   if (body.modes == 0) return;
   const Vector3 twist_B = motion.J_psi.transpose() * moment_B;
+  const Matrix3X& Phi_B = translation_of(attachment, motion);
+  const Matrix3X& Psi_B = rotation_of(attachment, motion);
   for (int k = 0; k < body.modes; ++k) {
-    terms.modal_force[k] += attachment.Phi_B.col(k).dot(force_B) +
-                            attachment.Psi_B.col(k).dot(twist_B);
+    terms.modal_force[k] +=
+        Phi_B.col(k).dot(force_B) + Psi_B.col(k).dot(twist_B);
   }
+  if (!attachment.second) return;
+  motion.wrench_B.head<3>() += force_B;
+  motion.wrench_B.tail<3>() += twist_B;
 }
 
 FrameMotion frame_motion(const AttachmentMotion& motion) {
@@ -95,13 +100,13 @@ void add_wrench(const SystemModel& model, AttachmentIndex attachment,
                 SystemTerms& terms) {
   const Attachment& a = model.attachments[index(attachment)];
   if (a.body == kWorld) return;
-  const AttachmentMotion& motion = terms.attachments[index(attachment)];
+  AttachmentMotion& motion = terms.attachments[index(attachment)];
   const BodyModel& body = model.bodies[index(a.body)];
   if (body.full >= 0) {
     add_full_wrench(model, a, motion, force_W, moment_W, terms);
     return;
   }
-  add_reduced_wrench(body, a, motion, force_W, moment_W,
+  add_reduced_wrench(body, a, force_W, moment_W, motion,
                      terms.bodies[index(a.body)]);
 }
 

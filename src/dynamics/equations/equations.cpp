@@ -130,7 +130,7 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
   const Vector3 force_W = t.R_WB * history.force.col(i);
   Vector3 moment_B = history.moment.col(i);
   for (int k = 0; k < body.modes; ++k) {
-    if (body.fidelity == Fidelity::coupled) {
+    if (is_coupled(body.fidelity)) {
       moment_B += history.moment_by_mode.col(i * body.modes + k) *
                   state.eta[body.offset + k];
     }
@@ -188,7 +188,7 @@ SystemTerms make_terms(const SystemModel& model) {
   SystemTerms terms;
   for (const BodyModel& body : model.bodies) {
     const int m = body.modes;
-    const bool coupled = body.fidelity == Fidelity::coupled;
+    const bool coupled = is_coupled(body.fidelity);
     BodyTerms t;
     t.R_WB.setIdentity();
     t.J = body.J0;
@@ -198,7 +198,7 @@ SystemTerms make_terms(const SystemModel& model) {
     t.force_W.setZero();
     t.moment_B.setZero();
     t.modal_force = VectorX::Zero(m);
-    if (!flexbody::is_diagonal(body.elasticity)) {
+    if (has_dense_modes(body)) {
       t.stiffness = MatrixX::Zero(m, m);
     }
     t.scratch_J2 = VectorX::Zero(coupled ? 6 * m : 0);
@@ -215,6 +215,12 @@ SystemTerms make_terms(const SystemModel& model) {
     terms.full.push_back(std::move(t));
   }
   terms.attachments.resize(model.attachments.size());
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    if (!model.attachments[i].second) continue;
+    terms.attachments[i].Phi_B = model.attachments[i].Phi_B;
+    terms.attachments[i].Psi_B = model.attachments[i].Psi_B;
+    terms.attachments[i].wrench_B.setZero();
+  }
   terms.couplers.resize(model.couplers.size());
   terms.transmissions = make_transmission_terms(model);
   terms.pairs = make_pair_terms(model);
@@ -236,7 +242,7 @@ void calc_inertia_terms(const SystemModel& model, const SystemState& state,
     BodyTerms& t = terms.bodies[b];
     t.R_WB = state.bodies[b].quat_WB.toRotationMatrix();
     if (body.modes > 0) set_oscillator_bias(body, state, t);
-    if (body.modes > 0 && !body.clamped && body.fidelity == Fidelity::coupled) {
+    if (body.modes > 0 && !body.clamped && is_coupled(body.fidelity)) {
       set_coupled_terms(body, state, w, t);
       continue;
     }

@@ -17,6 +17,18 @@ void rest_in_world(const Attachment& attachment, AttachmentMotion& motion) {
   motion.w_WF_W.setZero();
 }
 
+// The tables at eta, and the rotation vector. @returns the translation
+Vector3 calc_second_order(const Attachment& attachment, const double* eta,
+                          AttachmentMotion& motion) {
+  motion.Phi_B = attachment.Phi_B;
+  motion.Psi_B = attachment.Psi_B;
+  flexbody::add_slopes(*attachment.second, eta, motion.Phi_B, motion.Psi_B);
+  motion.wrench_B.setZero();
+  motion.psi =
+      0.5 * (combine(attachment.Psi_B, eta) + combine(motion.Psi_B, eta));
+  return 0.5 * (combine(attachment.Phi_B, eta) + combine(motion.Phi_B, eta));
+}
+
 }  // namespace
 
 void calc_attachment_motion(const SystemModel& model,
@@ -35,12 +47,16 @@ void calc_attachment_motion(const SystemModel& model,
   if (body.modes > 0) {
     const double* eta = state.eta.data() + body.offset;
     const double* etadot = state.etadot.data() + body.offset;
-    motion.arm_B += combine(attachment.Phi_B, eta);
-    udot_B = combine(attachment.Phi_B, etadot);
-    const Vector3 psi = combine(attachment.Psi_B, eta);
-    motion.J_psi = left_jacobian(psi);
-    w_B += motion.J_psi * combine(attachment.Psi_B, etadot);
-    motion.R_WF = R_WB * (exp_rotation(psi) * attachment.R_BF);
+    if (attachment.second) {
+      motion.arm_B += calc_second_order(attachment, eta, motion);
+    } else {
+      motion.arm_B += combine(attachment.Phi_B, eta);
+      motion.psi = combine(attachment.Psi_B, eta);
+    }
+    udot_B = combine(translation_of(attachment, motion), etadot);
+    motion.J_psi = left_jacobian(motion.psi);
+    w_B += motion.J_psi * combine(rotation_of(attachment, motion), etadot);
+    motion.R_WF = R_WB * (exp_rotation(motion.psi) * attachment.R_BF);
   } else {
     motion.J_psi.setIdentity();
     motion.R_WF = R_WB * attachment.R_BF;
@@ -67,6 +83,20 @@ void calc_nodal_attachment(const SystemModel& model,
   motion.p_WF = X_WH * motion.nodal.p_H;
   motion.v_WF_W = X_WH.R * motion.nodal.v_H;
   motion.w_WF_W = X_WH.R * motion.nodal.w_H;
+}
+
+void add_interface_stiffness(const SystemModel& model, std::size_t body,
+                             const std::vector<AttachmentMotion>& motions,
+                             Eigen::Ref<MatrixX> stiffness) {
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    const Attachment& attachment = model.attachments[i];
+    if (!attachment.second || attachment.body != static_cast<int>(body)) {
+      continue;
+    }
+    const Vector6& wrench = motions[i].wrench_B;
+    flexbody::add_contraction(*attachment.second, wrench.head<3>(),
+                              wrench.tail<3>(), -1.0, stiffness);
+  }
 }
 
 joints::RelativeMotion relate(const FrameMotion& F, const FrameMotion& M) {

@@ -20,7 +20,9 @@ namespace limber::dynamics {
 ///
 /// Equation   p_WF = p_WB + R_WB (p_BF + Phi eta),
 ///            R_WF = R_WB exp(Psi eta) R_BF,
-///            w_WF = R_WB (w_WB_B + J_l(Psi eta) Psi etadot).
+///            w_WF = R_WB (w_WB_B + J_l(Psi eta) Psi etadot);
+///            at level nonlinear to second order in eta
+///            (flexbody/model/quadratic_frame.hpp).
 struct AttachmentMotion {
   Matrix3 R_WB;            ///< [-]
   Matrix3 R_WF;            ///< [-]
@@ -30,7 +32,29 @@ struct AttachmentMotion {
   Vector3 v_WF_W;          ///< [m/s]
   Vector3 w_WF_W;          ///< [rad/s]
   NodalFrameMotion nodal;  ///< on an unreduced body
+  Vector3 psi;             ///< rotation vector in the body, Psi eta [rad]
+  /// Of an interface at level nonlinear alone: its tables at eta, 3 x m, and
+  /// the force and moment J_psi' m on it, body frame [N, N m].
+  Matrix3X Phi_B;  ///< [kg^-1/2]
+  Matrix3X Psi_B;  ///< [kg^-1/2 m^-1]
+  Vector6 wrench_B;
 };
+
+/// What modes do to the frame at the state: du = Phi d_eta, dpsi = Psi d_eta.
+[[nodiscard]] inline const Matrix3X& translation_of(
+    const Attachment& attachment, const AttachmentMotion& motion) {
+  return attachment.second ? motion.Phi_B : attachment.Phi_B;
+}
+[[nodiscard]] inline const Matrix3X& rotation_of(
+    const Attachment& attachment, const AttachmentMotion& motion) {
+  return attachment.second ? motion.Psi_B : attachment.Psi_B;
+}
+
+/// Adds the derivative of modal forces by the modes that the wrenches on the
+/// body's interfaces at level nonlinear give: geometric stiffness, m x m.
+void add_interface_stiffness(const SystemModel& model, std::size_t body,
+                             const std::vector<AttachmentMotion>& motions,
+                             Eigen::Ref<MatrixX> stiffness);
 
 /// Fills `motion`; `R_WB` is the body's rotation matrix (not read for world).
 void calc_attachment_motion(const SystemModel& model,

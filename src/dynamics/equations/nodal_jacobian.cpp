@@ -14,9 +14,11 @@ void calc_modal_jacobian(const Attachment& attachment,
   G.leftCols<3>().bottomRows<3>().setZero();
   G.middleCols<3>(3).topRows<3>() = -R_AB * skew(motion.arm_B);
   G.middleCols<3>(3).bottomRows<3>() = R_AB;
-  for (Eigen::Index k = 0; k < attachment.Phi_B.cols(); ++k) {
-    G.col(6 + k).head<3>() = R_AB * attachment.Phi_B.col(k);
-    G.col(6 + k).tail<3>() = R_AB_twist * attachment.Psi_B.col(k);
+  const Matrix3X& Phi_B = translation_of(attachment, motion);
+  const Matrix3X& Psi_B = rotation_of(attachment, motion);
+  for (Eigen::Index k = 0; k < Phi_B.cols(); ++k) {
+    G.col(6 + k).head<3>() = R_AB * Phi_B.col(k);
+    G.col(6 + k).tail<3>() = R_AB_twist * Psi_B.col(k);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "limber/dynamics/equations/node_motion.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
@@ -24,12 +25,41 @@ const BodyModel& find_body(const SystemModel& model, BodyIndex body,
   return found;
 }
 
+// Modes whose products move nodes at level nonlinear; of other levels none.
+std::vector<int> find_paired(const BodyModel& body) {
+  if (body.fidelity != Fidelity::nonlinear) return {};
+  return body.reduced->manifold->paired;
+}
+
+// Coordinates of the columns of QuadraticManifold::Theta_B.
+void set_products(const std::vector<int>& paired, const double* eta,
+                  double* out) {
+  for (std::size_t i = 0; i < paired.size(); ++i) {
+    for (std::size_t j = i; j < paired.size(); ++j) {
+      *out++ = (i == j ? 0.5 : 1.0) * eta[paired[i]] * eta[paired[j]];
+    }
+  }
+}
+
+// Modes, and at level nonlinear the columns of their products.
+MatrixX join_modes(const BodyModel& body) {
+  const auto& rows = body.reduced->rows;
+  if (body.fidelity != Fidelity::nonlinear) {
+    return rows.Phi_B.leftCols(body.modes);
+  }
+  const MatrixX& Theta_B = body.reduced->manifold->Theta_B;
+  MatrixX basis(rows.x_B.size(), body.modes + Theta_B.cols());
+  basis << rows.Phi_B.leftCols(body.modes), Theta_B;
+  return basis;
+}
+
 // basis times [eta; rest] block by block, and `finish(j)` on every column while
 // it is in cache.
 template <typename Finish>
 void multiply(const BodyModel& body, const MatrixX& basis,
               std::span<const SystemState> states, Eigen::Ref<MatrixX> out,
               const Finish& finish) {
+  const auto paired = find_paired(body);
   MatrixX coordinates = MatrixX::Ones(basis.cols(), kBlock);
   for (Eigen::Index first = 0; first < out.cols(); first += kBlock) {
     const Eigen::Index count = std::min(kBlock, out.cols() - first);
@@ -37,6 +67,8 @@ void multiply(const BodyModel& body, const MatrixX& basis,
       const SystemState& state = states[static_cast<std::size_t>(first + j)];
       coordinates.col(j).head(body.modes) =
           state.eta.segment(body.offset, body.modes);
+      set_products(paired, state.eta.data() + body.offset,
+                   coordinates.col(j).data() + body.modes);
     }
     out.middleCols(first, count).noalias() =
         basis * coordinates.leftCols(count);
@@ -46,9 +78,9 @@ void multiply(const BodyModel& body, const MatrixX& basis,
 
 // Modes and, as one more column with the coordinate 1, the undeformed shape.
 MatrixX join_shape(const BodyModel& body) {
-  const auto& rows = body.reduced->rows;
-  MatrixX basis(rows.x_B.size(), body.modes + 1);
-  basis << rows.Phi_B.leftCols(body.modes), rows.x_B.reshaped();
+  const MatrixX modes = join_modes(body);
+  MatrixX basis(modes.rows(), modes.cols() + 1);
+  basis << modes, body.reduced->rows.x_B.reshaped();
   return basis;
 }
 
@@ -97,7 +129,12 @@ void calc_node_deformations(const SystemModel& model, BodyIndex body,
     u_B.setZero();
     return;
   }
-  multiply(b, b.reduced->rows.Phi_B, states, u_B, [](Eigen::Index) {});
+  const auto ignore = [](Eigen::Index) {};
+  if (b.fidelity == Fidelity::nonlinear) {
+    multiply(b, join_modes(b), states, u_B, ignore);
+  } else {
+    multiply(b, b.reduced->rows.Phi_B, states, u_B, ignore);
+  }
 }
 
 void calc_node_positions(const SystemModel& model, BodyIndex body,

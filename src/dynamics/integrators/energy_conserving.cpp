@@ -12,6 +12,7 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -134,7 +135,7 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   Vector3 pi0 = first.J * w0;
   Vector3 pi1 = last.J * w1;
   const bool is_coupled =
-      body.has_rigid_motion() && body.fidelity == Fidelity::coupled;
+      body.has_rigid_motion() && dynamics::is_coupled(body.fidelity);
   const bool is_spun = body.has_rigid_motion() && body.modes > 0 &&
                        body.fidelity >= Fidelity::one_way;
   const Vector6 ww = is_spun ? half_product(w0, w1) : Vector6::Zero().eval();
@@ -186,10 +187,12 @@ void EnergyConserving::calc_residual(const SystemState& from, double h) {
 void EnergyConserving::factor(const SystemState& from) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
-    if (flexbody::is_diagonal(body.elasticity)) continue;
+    if (!has_dense_modes(body)) continue;
     flexbody::calc_elastic_tangent_over_step(
         body.elasticity, modes_of(body, from.eta), modes_of(body, next_.eta),
         mean_.bodies[b].stiffness);
+    add_interface_stiffness(model_, b, mean_.attachments,
+                            mean_.bodies[b].stiffness);
   }
   matrix_.factor(model_, middle_, mean_, turns_, coefficients_, false, &end_);
 }

@@ -38,9 +38,15 @@ void add_wrench(const Step& step, AttachmentIndex attachment,
   if (step.model.bodies[b].modes == 0) return;
   const Vector3 force_B = step.motion.bodies[b].dual_R.transpose() * force_W;
   const Vector3 twist = frame.twist.transpose() * moment_W;
+  AttachmentMotion& motion = terms.attachments[index(attachment)];
+  const Matrix3X& Phi_B = translation_of(a, motion);
+  const Matrix3X& Psi_B = rotation_of(a, motion);
   for (int k = 0; k < step.model.bodies[b].modes; ++k) {
-    t.modal_force[k] += a.Phi_B.col(k).dot(force_B) + a.Psi_B.col(k).dot(twist);
+    t.modal_force[k] += Phi_B.col(k).dot(force_B) + Psi_B.col(k).dot(twist);
   }
+  if (!a.second) return;
+  motion.wrench_B.head<3>() += force_B;
+  motion.wrench_B.tail<3>() += twist;
 }
 
 // A force and moment on M, and the reaction on F.
@@ -182,7 +188,7 @@ void apply_load(const Step& step, const Load& load, SystemTerms& terms) {
   const Matrix3 R = load.in_world ? Matrix3(Matrix3::Identity()) : R_WB;
   const Vector3 force_W = R * (factor * load.force);
   const Vector3 moment_W = R * (factor * load.moment);
-  if (body.fidelity == Fidelity::coupled) {
+  if (is_coupled(body.fidelity)) {
     const FrameStep& frame = step.motion.frames[index(load.where)];
     add_wrench(step, load.where, force_W, moment_W, terms);
     terms.load_power += force_W.dot(frame.v_W) + moment_W.dot(frame.w_W);
@@ -210,7 +216,7 @@ void apply_body_load(const Step& step, const BodyLoad& load,
   const BodyModel& body = step.model.bodies[b];
   Vector3 moment_B = history.moment.col(i);
   for (int k = 0; k < body.modes; ++k) {
-    if (body.fidelity == Fidelity::coupled) {
+    if (is_coupled(body.fidelity)) {
       moment_B += history.moment_by_mode.col(i * body.modes + k) *
                   step.middle.eta[body.offset + k];
     }
@@ -250,6 +256,14 @@ void set_attachment(const Step& step, std::size_t i, SystemTerms& terms) {
   if (a.body == kWorld) return;
   out.R_WB = step.motion.bodies[index(a.body)].middle_R_WB;
   out.arm_B = out.R_WB.transpose() * step.motion.frames[i].arm_W;
+  if (!a.second) return;
+  // Tables are linear in the modes, so that their means times the increments
+  // are the changes.
+  const AttachmentMotion& first = step.begin_terms.attachments[i];
+  const AttachmentMotion& last = step.end_terms.attachments[i];
+  out.Phi_B = 0.5 * (first.Phi_B + last.Phi_B);
+  out.Psi_B = 0.5 * (first.Psi_B + last.Psi_B);
+  out.wrench_B.setZero();
 }
 
 }  // namespace

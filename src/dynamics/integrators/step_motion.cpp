@@ -70,20 +70,31 @@ Matrix3 find_secant_jacobian(const Vector3& psi0, const Vector3& psi1) {
   return (D + skew(0.25 * (a0 + a1)) * D) / (1.0 + 0.25 * a0.dot(a1));
 }
 
+// Of an interface at level nonlinear, whose tables change linearly with the
+// modes, the mean of both ends.
+template <typename Table>
+Vector3 combine_mean(const Table& table_of, const Attachment& attachment,
+                     const AttachmentMotion& first,
+                     const AttachmentMotion& last, const double* rates) {
+  const Vector3 begin = combine(table_of(attachment, first), rates);
+  if (!attachment.second) return begin;
+  return 0.5 * (begin + combine(table_of(attachment, last), rates));
+}
+
 void calc_flexibility(const BodyModel& body, const Attachment& attachment,
-                      const SystemState& begin, const SystemState& middle,
-                      const SystemState& end, const BodyStep& rigid, double h,
-                      FrameStep& frame) {
-  const auto at = [&](const VectorX& all) { return all.data() + body.offset; };
-  const Matrix3 A =
-      find_secant_jacobian(combine(attachment.Psi_B, at(begin.eta)),
-                           combine(attachment.Psi_B, at(end.eta)));
-  const Vector3 psidot = combine(attachment.Psi_B, at(middle.etadot));
+                      const AttachmentMotion& first,
+                      const AttachmentMotion& last, const SystemState& middle,
+                      const BodyStep& rigid, double h, FrameStep& frame) {
+  const double* rates = middle.etadot.data() + body.offset;
+  const Matrix3 A = find_secant_jacobian(first.psi, last.psi);
+  const Vector3 psidot =
+      combine_mean(rotation_of, attachment, first, last, rates);
   // The frame's rotation in the body, h A psidot, before the body's.
   const double both = 0.25 * h * rigid.turn.dot(A * psidot);
   const double stretch = 1.0 + 0.25 * rigid.turn.squaredNorm();
   frame.twist = (stretch / (1.0 - both)) * (rigid.R_WB * A);
-  frame.v_W += rigid.dual_R * combine(attachment.Phi_B, at(middle.etadot));
+  frame.v_W += rigid.dual_R *
+               combine_mean(translation_of, attachment, first, last, rates);
   frame.w_W += frame.twist * psidot;
 }
 
@@ -149,7 +160,7 @@ void calc_step_motion(const SystemModel& model, const SystemState& begin,
     frame.v_W = rigid.v_W + rigid.w_W.cross(frame.arm_W);
     frame.w_W = rigid.w_W;
     if (body.modes == 0) continue;
-    calc_flexibility(body, attachment, begin, middle, end, rigid, h, frame);
+    calc_flexibility(body, attachment, first, last, middle, rigid, h, frame);
   }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const auto F = index(model.couplers[c].frame_F);

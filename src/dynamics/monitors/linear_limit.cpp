@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
@@ -16,6 +18,8 @@ namespace {
 constexpr double kLarge = 0.1;     // of the body's size: gives a warning
 constexpr double kAbsurd = 1.0;    // of it: gives an error
 constexpr double kHarmless = 0.5;  // of the lowest frequency
+// Beyond it second order in the modes is off by a percent [rad].
+constexpr double kLargeTurn = 0.4;
 
 // The mode that moves points most.
 Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
@@ -48,8 +52,11 @@ double find_largest_share(const flexbody::ModalElasticity& elasticity,
 }
 
 // What holds for small deformations only.
-std::string name_limit(const flexbody::ModalElasticity& elasticity) {
-  return flexbody::is_linear(elasticity)
+std::string name_limit(const BodyModel& body) {
+  if (body.fidelity == Fidelity::nonlinear) {
+    return "motion of second order in a body's modes";
+  }
+  return flexbody::is_linear(body.elasticity)
              ? "linear elasticity"
              : "motion that is linear in a body's modes";
 }
@@ -101,6 +108,26 @@ LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
   }
 }
 
+// Largest rotation of an interface relative to the mean-axis frame [rad].
+double LinearLimit::find_turn(const SystemState& state,
+                              const Body& body) const {
+  double turn = 0.0;
+  const BodyModel& model = model_.bodies[body.index];
+  const double* eta = state.eta.data() + model.offset;
+  for (const Attachment& attachment : model_.attachments) {
+    if (!attachment.second || attachment.body != static_cast<int>(body.index)) {
+      continue;
+    }
+    Matrix3X Phi_B = attachment.Phi_B;
+    Matrix3X Psi_B = attachment.Psi_B;
+    flexbody::add_slopes(*attachment.second, eta, Phi_B, Psi_B);
+    const Vector3 psi =
+        0.5 * (combine(attachment.Psi_B, eta) + combine(Psi_B, eta));
+    turn = std::max(turn, psi.norm());
+  }
+  return turn;
+}
+
 void LinearLimit::check_deformation(const SystemState& state, Body& body,
                                     std::vector<std::string>& warnings) const {
   const BodyModel& model = model_.bodies[body.index];
@@ -109,6 +136,9 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
   if (bound <= kLarge * body.size || body.size == 0.0) return;
   const double deformation = body.measure.calc_displacement(eta);
   if (deformation <= kLarge * body.size) return;
+  const bool is_nonlinear = model.fidelity == Fidelity::nonlinear;
+  const double turn = is_nonlinear ? find_turn(state, body) : 0.0;
+  if (is_nonlinear && turn <= kLargeTurn && deformation <= body.size) return;
   const Eigen::Index mode = find_largest_mode(body.measure, eta);
   const std::string what = fmt::format(
       "body '{}' at t = {:.9g} s: deformed by {:.3g} m, {:.3g} % of its size "
@@ -121,13 +151,20 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
     const auto soft =
         describe_softening(model, state.bodies[body.index].w_WB_B);
     throw NumericalError(
-        what + ": " + name_limit(model.elasticity) + " has no answer there" +
+        what + ": " + name_limit(model) + " has no answer there" +
         (soft ? "; " + *soft
               : "; smaller loads, a stiffer body or level full may help"));
   }
   if (body.was_told_large) return;
   body.was_told_large = true;
-  warnings.push_back(what + ": beyond 10 % " + name_limit(model.elasticity) +
+  if (is_nonlinear) {
+    warnings.push_back(fmt::format(
+        "{}, and turned by {:.3g} rad at an interface: beyond {:g} rad level "
+        "nonlinear is not to be trusted; level full has large deformations",
+        what, turn, kLargeTurn));
+    return;
+  }
+  warnings.push_back(what + ": beyond 10 % " + name_limit(model) +
                      " is not to be trusted; level full has large "
                      "deformations");
 }

@@ -34,7 +34,8 @@ class LinearLimit {
   explicit LinearLimit(const SystemModel& model);
 
   /// Adds a warning, once per body, if its deformation exceeds 10 % of its
-  /// longest edge, or its spin the critical speed of linear elasticity.
+  /// longest edge, or its spin the critical speed of linear elasticity; at
+  /// level nonlinear if an interface turns by more than 0.4 rad.
   /// @throws NumericalError naming the body, the dominant mode and the time if
   /// the deformation exceeds 100 %, which is not a valid result.
   void check(const SystemState& state, std::vector<std::string>& warnings);
@@ -52,6 +53,8 @@ class LinearLimit {
   };
   void check_deformation(const SystemState& state, Body& body,
                          std::vector<std::string>& warnings) const;
+  [[nodiscard]] double find_turn(const SystemState& state,
+                                 const Body& body) const;
   void check_speed(const SystemState& state, Body& body,
                    std::vector<std::string>& warnings) const;
 

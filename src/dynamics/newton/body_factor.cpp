@@ -7,6 +7,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 
@@ -14,17 +15,19 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
                     SystemTerms& terms) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    if (flexbody::is_diagonal(body.elasticity)) continue;
+    if (!has_dense_modes(body)) continue;
     flexbody::calc_elastic_tangent(body.elasticity,
                                    state.eta.segment(body.offset, body.modes),
                                    terms.bodies[b].stiffness);
+    add_interface_stiffness(model, b, terms.attachments,
+                            terms.bodies[b].stiffness);
   }
 }
 
 BodyFactor::BodyFactor(const BodyModel& body)
     : coupling_(Matrix3X::Zero(3, body.modes)),
       back_coupling_(Matrix3X::Zero(3, body.modes)) {
-  if (flexbody::is_diagonal(body.elasticity)) {
+  if (!has_dense_modes(body)) {
     inverse_modes_ = VectorX::Zero(body.modes);
     return;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/newton/residual_derivative.hpp"
 
+#include <utility>
+
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/nodal_jacobian.hpp"
@@ -26,6 +28,16 @@ Vector6 turn(const Vector3& phi, const Vector6& wrench) {
   return turned;
 }
 
+// Change of an interface's tables at level nonlinear by the modes.
+std::pair<Matrix3X, Matrix3X> change_tables(const Attachment& attachment,
+                                            const double* d_eta) {
+  const Eigen::Index m = attachment.Phi_B.cols();
+  std::pair<Matrix3X, Matrix3X> change{Matrix3X::Zero(3, m),
+                                       Matrix3X::Zero(3, m)};
+  flexbody::add_slopes(*attachment.second, d_eta, change.first, change.second);
+  return change;
+}
+
 }  // namespace
 
 ResidualDerivative::ResidualDerivative(const SystemModel& model)
@@ -45,7 +57,7 @@ void ResidualDerivative::set_point(
 }
 
 // All except the terms of NewtonMatrix: M, gyroscopic terms of J, dampers and
-// elasticity of modes.
+// elasticity of modes, geometric stiffness of interfaces.
 void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
                                         VectorX& r) const {
   const BodyModel& body = model_.bodies[b];
@@ -62,7 +74,7 @@ void ResidualDerivative::change_inertia(std::size_t b, const VectorX& x,
   if (body.fidelity == Fidelity::one_way) {
     r_modes -= body.inertia->J1.transpose() * d_w_squared;
   }
-  if (body.fidelity != Fidelity::coupled) return;
+  if (!is_coupled(body.fidelity)) return;
 
   const Eigen::Map<const VectorX> d_eta(d.eta, body.modes);
   const double* etadot = state_->etadot.data() + body.offset;
@@ -115,28 +127,34 @@ ResidualDerivative::FrameChange ResidualDerivative::change_frame(
       (right_jacobian_inverse((*rotation_increments_)[b]) * d.theta);
   Vector3 u = Vector3::Zero();  // change of the arm
   Vector3 udot = Vector3::Zero();
+  Vector3 d_udot = Vector3::Zero();  // by the tables' change
   Vector3 turned = Vector3::Zero();  // J_psi Psi d_eta
   Vector3 w_frame = w;
   Vector3 d_w_frame = d_w;
   if (body.modes > 0) {
     const double* etadot = state_->etadot.data() + body.offset;
-    const Vector3 psi =
-        combine(attachment.Psi_B, state_->eta.data() + body.offset);
-    const Vector3 psidot = combine(attachment.Psi_B, etadot);
-    const Vector3 d_psi = combine(attachment.Psi_B, d.eta);
-    u = combine(attachment.Phi_B, d.eta);
-    udot = combine(attachment.Phi_B, etadot);
+    const Matrix3X& Phi_B = translation_of(attachment, motion);
+    const Matrix3X& Psi_B = rotation_of(attachment, motion);
+    const Vector3 psidot = combine(Psi_B, etadot);
+    const Vector3 d_psi = combine(Psi_B, d.eta);
+    u = combine(Phi_B, d.eta);
+    udot = combine(Phi_B, etadot);
     turned = motion.J_psi * d_psi;
     w_frame += motion.J_psi * psidot;
-    d_w_frame +=
-        left_jacobian_derivative(psi, d_psi) * psidot + c_.velocity * turned;
+    d_w_frame += left_jacobian_derivative(motion.psi, d_psi) * psidot +
+                 c_.velocity * turned;
+    if (attachment.second) {
+      const auto [d_Phi, d_Psi] = change_tables(attachment, d.eta);
+      d_udot = combine(d_Phi, etadot);
+      d_w_frame += motion.J_psi * combine(d_Psi, etadot);
+    }
   }
   const Vector3 v = w.cross(motion.arm_B) + udot;
   change.p = d.p + R * (d.theta.cross(motion.arm_B) + u);
   change.phi = R * (d.theta + turned);
   change.v =
       c_.velocity * d.p + R * (d.theta.cross(v) + d_w.cross(motion.arm_B) +
-                               w.cross(u) + c_.velocity * u);
+                               w.cross(u) + c_.velocity * u + d_udot);
   change.w = R * (d.theta.cross(w_frame) + d_w_frame);
   return change;
 }
@@ -205,14 +223,15 @@ void ResidualDerivative::change_wrench(AttachmentIndex attachment,
   const Vector3 d_moment_B = R_BW * d_moment - d.theta.cross(moment_B);
   Vector3 d_arm = Vector3::Zero();
   if (body.modes > 0) {
-    d_arm = combine(a.Phi_B, d.eta);
-    const Vector3 psi = combine(a.Psi_B, state_->eta.data() + body.offset);
-    const Vector3 d_psi = combine(a.Psi_B, d.eta);
+    const Matrix3X& Phi_B = translation_of(a, motion);
+    const Matrix3X& Psi_B = rotation_of(a, motion);
+    d_arm = combine(Phi_B, d.eta);
+    const Vector3 d_psi = combine(Psi_B, d.eta);
     const Vector3 d_twist =
-        left_jacobian_derivative(psi, d_psi).transpose() * moment_B +
+        left_jacobian_derivative(motion.psi, d_psi).transpose() * moment_B +
         motion.J_psi.transpose() * d_moment_B;
     r.segment(first_row(body, b) + 6, body.modes) -=
-        a.Phi_B.transpose() * d_force_B + a.Psi_B.transpose() * d_twist;
+        Phi_B.transpose() * d_force_B + Psi_B.transpose() * d_twist;
   }
   if (!body.has_rigid_motion()) return;
   r.segment<3>(first_row(body, b)) -= d_force;
@@ -340,7 +359,7 @@ void ResidualDerivative::change_load(const Load& load, const VectorX& x,
   const BodyIncrement d(body, b, x);
   const Vector3 force = factor * load.force;
   const Vector3 moment = factor * load.moment;
-  if (body.fidelity == Fidelity::coupled) {
+  if (is_coupled(body.fidelity)) {
     if (load.in_world) {
       change_wrench(load.where, force, moment, Vector3::Zero(), Vector3::Zero(),
                     x, r);
@@ -376,7 +395,7 @@ void ResidualDerivative::change_body_load(const BodyLoad& load,
   const Vector3 force = history.force.col(i);
   r.segment<3>(first_row(body, b)) -=
       terms_->bodies[b].R_WB * d.theta.cross(force);
-  if (body.fidelity != Fidelity::coupled) return;
+  if (!is_coupled(body.fidelity)) return;
   for (int k = 0; k < body.modes; ++k) {
     r.segment<3>(first_row(body, b) + 3) -=
         history.moment_by_mode.col(i * body.modes + k) * d.eta[k];

@@ -43,6 +43,23 @@ ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& s) {
   return packed;
 }
 
+ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& s,
+                          const flexbody::QuadraticManifold& manifold) {
+  flexbody::InertiaShapeIntegrals corrected = s;
+  const std::vector<int>& paired = manifold.paired;
+  Eigen::Index pair = 0;
+  for (std::size_t a = 0; a < paired.size(); ++a) {
+    for (std::size_t b = a; b < paired.size(); ++b, ++pair) {
+      const auto i = static_cast<std::size_t>(paired[a]);
+      const auto j = static_cast<std::size_t>(paired[b]);
+      const Matrix3 D = unpack_symmetric(manifold.S2.col(pair));
+      corrected.S2[i * s.S1.size() + j] += D;
+      if (i != j) corrected.S2[j * s.S1.size() + i] += D;
+    }
+  }
+  return pack_inertia(corrected);
+}
+
 const VectorX& require_eigenvalues(const BodyModel& body,
                                    std::string_view work) {
   const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);

@@ -14,6 +14,20 @@ namespace limber::dynamics {
 [[nodiscard]] ModalInertia pack_inertia(
     const flexbody::InertiaShapeIntegrals& s);
 
+/// The same with the second-order terms of level nonlinear.
+///
+/// Equation   S2_kl + sym(int x theta_kl' dm), for k, l in P
+[[nodiscard]] ModalInertia pack_inertia(
+    const flexbody::InertiaShapeIntegrals& s,
+    const flexbody::QuadraticManifold& manifold);
+
+/// Whether the modes' part of Newton's matrix is dense: elasticity that couples
+/// modes, or forces on interfaces at level nonlinear.
+[[nodiscard]] inline bool has_dense_modes(const BodyModel& body) {
+  return body.fidelity == Fidelity::nonlinear ||
+         !flexbody::is_diagonal(body.elasticity);
+}
+
 /// Eigenvalues of a body's modes [rad^2/s^2].
 /// @param work what takes each mode alone, "advice on levels"
 /// @throws InputError naming the body if its elasticity couples them.

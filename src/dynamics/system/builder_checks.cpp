@@ -131,6 +131,60 @@ void check_integrals(const std::string& what,
   check_finite(what, "the shape integral S2", is_finite(integrals.S2));
 }
 
+void check_manifold(const std::string& what,
+                    const flexbody::ReducedBody& reduced, bool has_elasticity) {
+  if (has_elasticity) {
+    throw InputError(what +
+                     ": at level nonlinear its elasticity is that of its "
+                     "reduced body; give none, or another level");
+  }
+  if (reduced.clamped) {
+    throw InputError(
+        what +
+        ": level nonlinear does not support clamped groups yet; hold it by a "
+        "fixed joint on an interface, or choose 'coupled' for it");
+  }
+  if (!reduced.manifold) {
+    throw InputError(
+        what +
+        ": its reduced body has no second-order tables, which level nonlinear "
+        "needs; reduce its mesh again for that level, or choose 'coupled'");
+  }
+  const flexbody::QuadraticManifold& manifold = *reduced.manifold;
+  const auto pairs = flexbody::count_pairs(std::ssize(manifold.paired));
+  check_size(what, "its second-order inertia", manifold.S2.cols(), pairs);
+  check_size(what, "its second-order rows", manifold.Theta_B.cols(), pairs);
+  if (manifold.Theta_B.rows() != reduced.rows.Phi_B.rows()) {
+    throw ContractError(fmt::format("{}: {} second-order rows; expected {}",
+                                    what, manifold.Theta_B.rows(),
+                                    reduced.rows.Phi_B.rows()));
+  }
+  check_finite(what, "its second-order inertia", manifold.S2.allFinite());
+  check_finite(what, "a second-order row", manifold.Theta_B.allFinite());
+}
+
+void check_second_order(const std::string& what,
+                        const flexbody::InterfaceTable& interface,
+                        std::size_t paired) {
+  const std::string table = fmt::format("interface '{}'", interface.name);
+  const auto pairs = flexbody::count_pairs(static_cast<Eigen::Index>(paired));
+  check_size(what, table + ", second-order translation",
+             interface.Phi2_B.cols(), pairs);
+  check_size(what, table + ", second-order rotation", interface.Psi2_B.cols(),
+             pairs);
+  check_finite(what, table,
+               interface.Phi2_B.allFinite() && interface.Psi2_B.allFinite());
+}
+
+void refuse_nonlinear(const std::string& what, const BodyModel& body,
+                      const char* of) {
+  if (body.fidelity != Fidelity::nonlinear) return;
+  throw InputError(fmt::format(
+      "{}: body '{}' is at level nonlinear, which does not support {} yet; "
+      "choose 'coupled' for it",
+      what, body.name, of));
+}
+
 void check_elasticity(const std::string& what,
                       const flexbody::ModalElasticity& elasticity, int modes,
                       const ModalDamping& damping) {

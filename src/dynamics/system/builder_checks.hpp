@@ -35,6 +35,17 @@ void check_elasticity(const std::string& what,
                       const flexbody::ModalElasticity& elasticity, int modes,
                       const ModalDamping& damping);
 
+/// Second-order tables, for level nonlinear.
+void check_manifold(const std::string& what,
+                    const flexbody::ReducedBody& reduced, bool has_elasticity);
+/// The same of an interface on such a body. @param paired number of modes
+void check_second_order(const std::string& what,
+                        const flexbody::InterfaceTable& interface,
+                        std::size_t paired);
+/// @param of what level nonlinear does not support yet
+void refuse_nonlinear(const std::string& what, const BodyModel& body,
+                      const char* of);
+
 /// Rates of a body's modes [1/s]. @param lambda [rad^2/s^2]
 [[nodiscard]] VectorX check_damping(const std::string& what,
                                     const ModalDamping& damping,

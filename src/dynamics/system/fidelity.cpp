@@ -6,8 +6,8 @@
 namespace limber::dynamics {
 
 const std::vector<std::string>& fidelity_names() {
-  static const std::vector<std::string> names = {"rigid", "uncoupled",
-                                                 "one-way", "coupled", "full"};
+  static const std::vector<std::string> names = {
+      "rigid", "uncoupled", "one-way", "coupled", "nonlinear", "full"};
   return names;
 }
 

@@ -8,10 +8,22 @@
 namespace limber::dynamics {
 
 /// Level of detail of a body's physics (docs/theory/equations.md).
-enum class Fidelity { rigid, uncoupled, one_way, coupled, full };
+enum class Fidelity {
+  rigid,
+  uncoupled,
+  one_way,
+  coupled,
+  nonlinear,  ///< coupled, to second order in the modes
+  full
+};
 
-/// "rigid", "uncoupled", "one-way", "coupled",
-/// "full".
+/// Whether rotation and modes act on each other, and loads and couplers on the
+/// deformed body.
+[[nodiscard]] constexpr bool is_coupled(Fidelity fidelity) {
+  return fidelity == Fidelity::coupled || fidelity == Fidelity::nonlinear;
+}
+
+/// "rigid", "uncoupled", "one-way", "coupled", "nonlinear", "full".
 [[nodiscard]] std::string_view to_string(Fidelity fidelity);
 [[nodiscard]] const std::vector<std::string>& fidelity_names();
 /// @throws InputError naming the nearest level.

@@ -86,7 +86,7 @@ constexpr auto fields_of(const NodalFrame*) {
 
 constexpr auto fields_of(const Attachment*) {
   return list_fields("attachment", "name", "body", "origin [m]", "axes",
-                     "Phi_B", "Psi_B", "nodal");
+                     "Phi_B", "Psi_B", "nodal", "second order");
 }
 
 constexpr auto fields_of(const Coupler*) {

@@ -46,12 +46,15 @@ BodyIndex SystemBuilder::add_body(const std::string& name, BodyModel body) {
 
 // Bodies own their reduced body, so its address remains unique.
 std::shared_ptr<const ModalInertia> SystemBuilder::find_inertia(
-    const std::string& what, const flexbody::ReducedBody& reduced) {
-  std::shared_ptr<const ModalInertia>& known = inertias_[&reduced];
+    const std::string& what, const flexbody::ReducedBody& reduced,
+    Fidelity fidelity) {
+  const bool is_second = fidelity == Fidelity::nonlinear;
+  std::shared_ptr<const ModalInertia>& known = inertias_[{&reduced, is_second}];
   if (!known) {
     check_integrals(what, reduced);
-    known =
-        std::make_shared<const ModalInertia>(pack_inertia(reduced.integrals));
+    known = std::make_shared<const ModalInertia>(
+        is_second ? pack_inertia(reduced.integrals, *reduced.manifold)
+                  : pack_inertia(reduced.integrals));
   }
   return known;
 }
@@ -75,13 +78,19 @@ BodyIndex SystemBuilder::add_flexible_body(
   body.J0 = reduced->inertia();
   if (fidelity != Fidelity::rigid) {
     body.modes = reduced->mode_count();
-    body.elasticity = elasticity.value_or(flexbody::DiagonalStiffness(
-        flexbody::DiagonalStiffness::Parameters{reduced->lambda}));
+    if (fidelity == Fidelity::nonlinear) {
+      check_manifold(what, *reduced, elasticity.has_value());
+      body.elasticity = flexbody::QuadraticStrain(
+          {reduced->lambda, reduced->manifold->paired, reduced->manifold->Q});
+    } else {
+      body.elasticity = elasticity.value_or(flexbody::DiagonalStiffness(
+          flexbody::DiagonalStiffness::Parameters{reduced->lambda}));
+    }
     check_elasticity(what, body.elasticity, body.modes, damping);
     body.damping =
         check_damping(what, damping, flexbody::rest_stiffness(body.elasticity));
     if (body.clamped) body.P = reduced->integrals.P;
-    body.inertia = find_inertia(what, *reduced);
+    body.inertia = find_inertia(what, *reduced, fidelity);
   }
   body.reduced = std::move(reduced);
   return add_body(name, std::move(body));
@@ -178,6 +187,14 @@ AttachmentIndex SystemBuilder::attach_interface(
   for (Eigen::Index k = 0; k < attachment.Phi_B.cols(); ++k) {
     attachment.Phi_B.col(k) += Vector3(interface.Psi_B.col(k)).cross(arm);
   }
+  if (target.fidelity == Fidelity::nonlinear) {
+    const std::vector<int>& paired = target.reduced->manifold->paired;
+    check_second_order(what, interface, paired.size());
+    attachment.second = std::make_shared<const flexbody::QuadraticFrame>(
+        flexbody::move_origin(flexbody::make_quadratic_frame(
+                                  paired, interface.Phi2_B, interface.Psi2_B),
+                              interface.Psi_B, arm));
+  }
   return index;
 }
 
@@ -261,6 +278,9 @@ PairIndex SystemBuilder::add_pair(
   const int modes_A = modes_of(body_A);
   const int modes_B = modes_of(body_B);
   check_pair_bodies(what, body_A, body_B, model_);
+  for (const BodyIndex body : {body_A, body_B}) {
+    if (body != kWorld) refuse_nonlinear(what, find_body(what, body), "pairs");
+  }
   try {
     law->check(modes_A, modes_B);
   } catch (const InputError& error) {
@@ -322,6 +342,7 @@ void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
   const std::string what = names_.check("nodal load", name);
   const BodyModel& target = find_body(what, body);
   check_nodal_load(what, history, target.modes);
+  refuse_nonlinear(what, target, "forces on single nodes");
   if (target.full >= 0) {
     FullModel& full = model_.full_bodies[static_cast<std::size_t>(target.full)];
     if (nodal.rows() != full.dofs() ||

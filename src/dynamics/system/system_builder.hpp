@@ -65,9 +65,11 @@ class SystemBuilder {
                            const RigidInertia& inertia);
 
   /// Flexible body; at Fidelity::rigid only its mass properties are used.
+  /// Fidelity::nonlinear needs a body with a manifold, not clamped.
   /// @param elasticity of its modes, in place of the reduced body's linear one
   /// @throws InputError for an elasticity of another number of modes, or for
-  /// damping by frequencies that its modes do not have each of its own.
+  /// damping by frequencies that its modes do not have each of its own; at
+  /// level nonlinear for a body without second-order tables, or an elasticity.
   BodyIndex add_flexible_body(
       const std::string& name,
       std::shared_ptr<const flexbody::ReducedBody> body, Fidelity fidelity,
@@ -165,7 +167,8 @@ class SystemBuilder {
  private:
   BodyIndex add_body(const std::string& name, BodyModel body);
   [[nodiscard]] std::shared_ptr<const ModalInertia> find_inertia(
-      const std::string& what, const flexbody::ReducedBody& reduced);
+      const std::string& what, const flexbody::ReducedBody& reduced,
+      Fidelity fidelity);
   struct Mount;
   [[nodiscard]] Mount find_mount(const std::string& what,
                                  const JointSide& side) const;
@@ -180,7 +183,9 @@ class SystemBuilder {
 
   SystemModel model_;
   NameRegister names_;
-  std::map<const flexbody::ReducedBody*, std::shared_ptr<const ModalInertia>>
+  // By reduced body, and whether to second order.
+  std::map<std::pair<const flexbody::ReducedBody*, bool>,
+           std::shared_ptr<const ModalInertia>>
       inertias_;
 };
 

@@ -15,6 +15,7 @@
 #include "limber/dynamics/system/time_function.hpp"
 #include "limber/flexbody/elasticity/modal_elasticity.hpp"
 #include "limber/flexbody/model/nodal_load.hpp"
+#include "limber/flexbody/model/quadratic_frame.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/joints/coupler_law.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
@@ -81,6 +82,8 @@ struct Attachment {
   Matrix3X Phi_B;  ///< 3 x m [kg^-1/2]; zero columns if the body is rigid
   Matrix3X Psi_B;  ///< 3 x m [kg^-1/2 m^-1]
   std::shared_ptr<const NodalFrame> nodal = nullptr;  ///< of an unreduced body
+  /// Of an interface at level nonlinear; else null.
+  std::shared_ptr<const flexbody::QuadraticFrame> second = nullptr;
 };
 
 struct Coupler {

@@ -2,13 +2,12 @@
 #include "limber/flexbody/model/quadratic_frame.hpp"
 
 #include "limber/common/errors.hpp"
-#include "limber/flexbody/elasticity/quadratic_strain.hpp"
 #include "limber/flexbody/model/quadratic_manifold.hpp"
 
 namespace limber::flexbody {
 namespace {
 
-constexpr int kMost = QuadraticStrain::kMostPaired;
+constexpr int kMost = 256;  // as QuadraticStrain::kMostPaired
 using Paired = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 * kMost, 1>;
 

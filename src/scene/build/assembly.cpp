@@ -189,23 +189,41 @@ ContactProbe Assembly::make_contact_probe(
 
 PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
   const int link = find_link(scene_.robot, spec.where.link);
+  if (sites_.plan_of(link).is_world) {
+    throw InputError("it is on the world, which is fixed");
+  }
+  const bool turns = spec.quantity == Quantity::rotation ||
+                     spec.quantity == Quantity::angular_velocity;
+  PointProbe probe = make_followed_point(spec.where, turns);
+  probe.quantity = spec.quantity;
+  if (!spec.relative_to) return probe;
+  const PointProbe base = with_context(
+      "relative_to link '" + spec.relative_to->link + "'",
+      [&] { return make_followed_point(*spec.relative_to, true); });
+  probe.base = std::make_shared<const PointProbe>(base);
+  return probe;
+}
+
+PointProbe Assembly::make_followed_point(const Place& where, bool turns) const {
+  const int link = find_link(scene_.robot, where.link);
   const BodyPlan& plan = sites_.plan_of(link);
-  if (plan.is_world) throw InputError("it is on the world, which is fixed");
   const Pose& X_BL = sites_.X_BL(link);
   PointProbe probe;
-  probe.quantity = spec.quantity;
   probe.body = sites_.body_of(link);
   probe.R_BL = X_BL.R;
-  probe.p_B = X_BL * spec.where.point.value_or(Vector3::Zero());
+  probe.p_B = X_BL * where.point.value_or(Vector3::Zero());
   if (!plan.reduced) return probe;
-  const Anchor anchor = find_anchor(plan, spec.where);
-  if (spec.quantity == Quantity::rotation ||
-      spec.quantity == Quantity::angular_velocity) {
-    check_rotation(*anchor.table, Matrix3::Identity());
-  }
+  const Anchor anchor = find_anchor(plan, where);
+  if (turns) check_rotation(*anchor.table, Matrix3::Identity());
   probe.p_B = anchor.table->p_B;
   probe.Phi_B = anchor.table->Phi_B;
   probe.Psi_B = anchor.table->Psi_B;
+  if (scene_.scenario.level_of(plan.name) == dynamics::Fidelity::nonlinear) {
+    probe.second = std::make_shared<const flexbody::QuadraticFrame>(
+        flexbody::make_quadratic_frame(plan.reduced->manifold->paired,
+                                       anchor.table->Phi2_B,
+                                       anchor.table->Psi2_B));
+  }
   if (anchor.nodes) {
     probe.nodal = std::make_shared<const dynamics::NodalFrame>(
         dynamics::make_nodal_frame(*plan.full, *anchor.nodes, probe.p_B));

@@ -47,6 +47,7 @@ class Assembly {
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;
+  PointProbe make_followed_point(const Place& where, bool turns) const;
   ContactProbe make_contact_probe(const ContactProbeSpec& spec,
                                   const dynamics::SystemModel& model) const;
   void deform(const dynamics::SystemModel& model,

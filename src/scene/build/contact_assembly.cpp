@@ -50,14 +50,12 @@ void check_levels(const Scene& scene) {
     for (const Toucher& side : {pair.A, pair.B}) {
       if (side.is_obstacle) continue;
       const Link& link = scene.robot.links[side.index];
-      if (!link.flexible ||
-          scene.scenario.level_of(link.name) != dynamics::Fidelity::full) {
-        continue;
-      }
+      const dynamics::Fidelity level = scene.scenario.level_of(link.name);
+      if (!link.flexible || level < dynamics::Fidelity::nonlinear) continue;
       throw InputError(fmt::format(
-          "{}: link '{}' is at level 'full', which contacts do not support "
-          "yet; choose 'coupled' for it",
-          describe(scene, pair), link.name));
+          "{}: link '{}' is at level '{}', which contacts do not support yet; "
+          "choose 'coupled' for it",
+          describe(scene, pair), link.name, to_string(level)));
     }
   }
 }

@@ -9,7 +9,8 @@ namespace limber::scene {
 
 constexpr auto fields_of(const PointProbe*) {
   return list_fields("point", "quantity", "body", "place [m]", "Phi_B", "Psi_B",
-                     "nodal", "axes of the link", "start [m]", "start's axes");
+                     "nodal", "axes of the link", "start [m]", "start's axes",
+                     "second order", "relative to");
 }
 
 constexpr auto fields_of(const CouplerProbeSpec*) {

@@ -16,6 +16,10 @@ flexbody::InterfaceTable row_table(const flexbody::ReducedBody& body,
   table.Phi_B = body.rows.Phi_B.middleRows(3 * i, 3);
   table.Psi_B = Matrix3X::Zero(3, body.mode_count());
   table.node_count = 1;
+  if (body.manifold) {
+    table.Phi2_B = body.manifold->Theta_B.middleRows(3 * i, 3);
+    table.Psi2_B = Matrix3X::Zero(3, table.Phi2_B.cols());
+  }
   return table;
 }
 

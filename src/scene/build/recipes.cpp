@@ -133,6 +133,8 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   if (scenario.level_of(link.name) == dynamics::Fidelity::full) {
     recipe.rows = flexbody::parse_rows({"all"});
   }
+  recipe.manifold =
+      scenario.level_of(link.name) == dynamics::Fidelity::nonlinear;
   add_connections(recipe, robot, index);
   for (const LoadSpec& load : scenario.loads) {
     if (load.where.link != link.name) continue;
@@ -152,6 +154,12 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
     const auto& nodes = point->where.nodes;
     if (nodes && flexbody::is_single_node(*nodes)) continue;
     require_place(recipe, point->where);
+  }
+  for (const ProbeSpec& probe : scenario.probes) {
+    const auto* point = std::get_if<PointProbeSpec>(&probe.of);
+    if (point == nullptr || !point->relative_to) continue;
+    if (point->relative_to->link != link.name) continue;
+    require_place(recipe, *point->relative_to);
   }
   return recipe;
 }

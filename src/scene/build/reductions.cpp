@@ -62,6 +62,12 @@ class Reduction {
           "it has a <clamp>, but its saved body was made without one; make "
           "that anew by 'limber reduce --clamp GROUP'");
     }
+    if (scene_.scenario.level_of(link.name) == dynamics::Fidelity::nonlinear &&
+        !body->manifold) {
+      throw InputError(
+          "level nonlinear needs second-order tables, which its saved body "
+          "does not have; make that anew by 'limber reduce --second-order'");
+    }
     if (const LinkStart* start = find_start(scene_.scenario, link.name)) {
       check_saved_fields(*start, *body);
     }

@@ -151,13 +151,23 @@ class Checker {
     }
     const bool turns = probe.quantity == Quantity::rotation ||
                        probe.quantity == Quantity::angular_velocity;
-    const auto& nodes = probe.where.nodes;
-    if (turns && nodes && flexbody::is_single_node(*nodes)) {
-      problems_.add(0,
-                    who +
-                        ": one node of a solid has no rotation; use "
-                        "'interface', 'group', 'box', 'plane' or 'cylinder'");
+    if (turns) require_rotation(who, probe.where);
+    if (!probe.relative_to) return;
+    const std::string base = who + ", 'relative_to'";
+    check_place(base, *probe.relative_to);
+    require_rotation(base, *probe.relative_to);
+    if (probe.quantity == Quantity::deformation) {
+      problems_.add(0, who +
+                           ": 'deformation' is relative to the link's own mean "
+                           "axes; ask for 'displacement' with 'relative_to'");
     }
+  }
+
+  void require_rotation(const std::string& who, const Place& where) {
+    if (!where.nodes || !flexbody::is_single_node(*where.nodes)) return;
+    problems_.add(0, who +
+                         ": one node of a solid has no rotation; use "
+                         "'interface', 'group', 'box', 'plane' or 'cylinder'");
   }
 
   /// Null and a problem if none of `all` has this name.

@@ -7,7 +7,7 @@
 namespace limber::scene {
 namespace {
 
-/// The motion of a probe's point and frame.
+/// The motion of a probe's point and frame in the world, or in its base.
 struct Motion {
   Vector3 p_W;                    ///< [m]
   Vector3 v_W;                    ///< [m/s]
@@ -31,6 +31,15 @@ Motion find_modal_motion(const PointProbe& probe,
     udot_B = probe.Phi_B * etadot;
     turn_B = probe.Psi_B * eta;
     turndot_B = probe.Psi_B * etadot;
+    if (probe.second) {
+      Matrix3X Phi = probe.Phi_B;
+      Matrix3X Psi = probe.Psi_B;
+      flexbody::add_slopes(*probe.second, eta.data(), Phi, Psi);
+      motion.u_B = 0.5 * (motion.u_B + Phi * eta);
+      turn_B = 0.5 * (turn_B + Psi * eta);
+      udot_B = Phi * etadot;
+      turndot_B = Psi * etadot;
+    }
   }
   const Matrix3 R_WB = rigid.quat_WB.toRotationMatrix();
   const Vector3 b = probe.p_B + motion.u_B;
@@ -62,8 +71,17 @@ Motion find_nodal_motion(const PointProbe& probe,
   return motion;
 }
 
-Motion find_motion(const PointProbe& probe, const dynamics::SystemModel& model,
-                   const dynamics::SystemState& state) {
+Motion find_world_motion(const PointProbe& probe,
+                         const dynamics::SystemModel& model,
+                         const dynamics::SystemState& state) {
+  if (probe.body == dynamics::kWorld) {
+    Motion motion;
+    motion.p_W = probe.p_B;
+    motion.v_W.setZero();
+    motion.R_W.setIdentity();
+    motion.w_W.setZero();
+    return motion;
+  }
   const auto index = static_cast<std::size_t>(probe.body);
   const dynamics::BodyModel& body = model.bodies.at(index);
   if (probe.nodal) {
@@ -71,6 +89,20 @@ Motion find_motion(const PointProbe& probe, const dynamics::SystemModel& model,
                              state);
   }
   return find_modal_motion(probe, body, state.bodies.at(index), state);
+}
+
+Motion find_motion(const PointProbe& probe, const dynamics::SystemModel& model,
+                   const dynamics::SystemState& state) {
+  Motion motion = find_world_motion(probe, model, state);
+  if (!probe.base) return motion;
+  const Motion base = find_world_motion(*probe.base, model, state);
+  const Matrix3 R_bW = (base.R_W * probe.base->R_BL).transpose();
+  const Vector3 arm_W = motion.p_W - base.p_W;
+  motion.p_W = R_bW * arm_W;
+  motion.v_W = R_bW * (motion.v_W - base.v_W - base.w_W.cross(arm_W));
+  motion.w_W = R_bW * (motion.w_W - base.w_W);
+  motion.R_W = R_bW * motion.R_W;
+  return motion;
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ namespace limber::scene {
 /// Equation   p = p_WB + R_WB b, b = p_B + Phi_B eta;
 ///            v = v_WB + R_WB (w_WB x b + Phi_B etadot);
 ///            R = R_WB exp(Psi_B eta); for an unreduced body, those of its
-///            NodalFrame.
+///            NodalFrame; at level nonlinear, to second order in eta. Relative
+///            to a base, p = R_b^T (p_W - p_b), v its rate, R = R_b^T R_W, w =
+///            R_b^T (w_W - w_b).
 struct PointProbe {
   Quantity quantity = Quantity::displacement;
   dynamics::BodyIndex body;
@@ -28,6 +30,9 @@ struct PointProbe {
   Matrix3 R_BL = Matrix3::Identity();                 ///< axes of the link [-]
   Vector3 p_start_W = Vector3::Zero();                ///< [m]
   Matrix3 R_start = Matrix3::Identity();  ///< of the deformed frame [-]
+  /// Of an interface or node at level nonlinear.
+  std::shared_ptr<const flexbody::QuadraticFrame> second;
+  std::shared_ptr<const PointProbe> base;  ///< null: the world
 };
 
 /// Name and unit of its three columns: "NAME.ux" [m], ...

@@ -52,6 +52,9 @@ enum class Quantity {
 struct PointProbeSpec {
   Place where;
   Quantity quantity = Quantity::displacement;
+  /// The motion is that in the frame of this place, in its link's axes, which
+  /// turn with it; not of `deformation`.
+  std::optional<Place> relative_to;
 };
 
 /// Of a coupler; docs/formats/scenario.md lists which couplers have which.

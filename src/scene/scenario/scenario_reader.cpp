@@ -93,9 +93,20 @@ LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder,
   return load;
 }
 
+// { link = .. }, and where on it.
+std::optional<Place> read_base(TomlTable& table) {
+  const toml::table* given = table.table("relative_to");
+  if (given == nullptr) return std::nullopt;
+  TomlTable base(*given, table.path() + ".relative_to", table.problems());
+  const Place place = read_place(base);
+  base.finish();
+  return place;
+}
+
 PointProbeSpec read_point_probe(TomlTable& table) {
   PointProbeSpec probe;
   probe.where = read_place(table);
+  probe.relative_to = read_base(table);
   probe.quantity =
       read_choice<Quantity>(table, "quantity",
                             {{"displacement", Quantity::displacement},

@@ -14,6 +14,7 @@
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
+#include "support/elastic_kinds.hpp"
 #include "support/free_chain.hpp"
 #include "support/linked_bodies.hpp"
 
@@ -101,6 +102,18 @@ TEST_P(EnergyConservingLink, ClosesTheBalanceAndKeepsMomentumToRoundOff) {
       }
     }
   }
+}
+
+// Interfaces and inertia of second order in the modes.
+TEST_P(EnergyConservingLink, ClosesTheBalanceOfNonlinearBodies) {
+  const auto link = testing::make_all_links(0.5).at(GetParam());
+  auto bodies =
+      testing::make_linked_bodies(link, std::array{true, false, true}, 3, 1.0);
+  testing::bend(bodies.model, 3.0 * bodies.state.eta.cwiseAbs().maxCoeff());
+  const Gap gap = find_gap(bodies.model, bodies.state, 0.004, 45);
+  EXPECT_LT(std::abs(gap.energy), 1e-12);
+  EXPECT_LT(gap.angular, 1e-12);
+  EXPECT_GT(gap.dissipated, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -204,6 +204,19 @@ TEST_P(ResidualDerivativeOf, StiffeningBodiesIsThatOfDifferences) {
   margin.expect_below(kGradient);
 }
 
+// The geometric stiffness of interfaces stands in the factors, too.
+TEST_P(ResidualDerivativeOf, NonlinearBodiesIsThatOfDifferences) {
+  Margin margin;
+  double rest = 0.0;
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    LinkedBodies linked = make({true, false, true}, seed);
+    testing::bend(linked.model, linked.state.eta.cwiseAbs().maxCoeff());
+    compare(linked.model, make_point(linked.model, linked.state, seed),
+            seed + 50, margin, rest);
+  }
+  margin.expect_below(kGradient);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, ResidualDerivativeOf,
     ::testing::Range(0, static_cast<int>(make_all_links(0.0).size())),

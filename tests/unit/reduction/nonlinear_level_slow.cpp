@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Level `nonlinear` of a meshed beam against closed forms.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/analysis/natural_frequencies.hpp"
+#include "limber/dynamics/equations/kinematics.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/reduction/reduce.hpp"
+#include "unit/reduction/bar.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using flexbody::testing::Bar;
+using joints::JointKind;
+
+constexpr double kLength = 1.0;
+constexpr double kEI = 200e9 * 1e-8 / 12.0;  // [N m^2]
+constexpr double kRhoA = 8000.0 * 1e-4;      // [kg/m]
+
+// Of 1 m, 100 times as long as thick, its root face in the origin.
+std::shared_ptr<const flexbody::ReducedBody> make_blade() {
+  flexbody::Recipe recipe = make_recipe(Bar{.corner = {0.0, -0.005, -0.005},
+                                            .size = {kLength, 0.01, 0.01},
+                                            .cells = 20,
+                                            .material = {200e9, 0.0, 8000.0}});
+  recipe.basis.eigenmodes = 4;
+  recipe.manifold = true;
+  return std::make_shared<const flexbody::ReducedBody>(
+      flexbody::reduce(recipe));
+}
+
+// So stiff that the root's compliance adds 0.001 % to the blade's.
+JointOptions hold() {
+  return {.held = {.translational_stiffness = 1e4 * 200e9 * 1e-4,
+                   .rotational_stiffness = 1e5 * kEI}};
+}
+
+// --- A dead load across the tip ---------------------------------------------
+
+// The tip of an inextensible cantilever, theta'' = -k cos theta, theta(0) =
+// theta'(1) = 0, k = P L^2 / (E I). Source: Bisshopp and Drucker, Q. Appl.
+// Math. 3, 1945.
+struct Elastica {
+  double x = 0.0, y = 0.0, curvature = 0.0;
+};
+Elastica shoot(double k, double curvature) {
+  constexpr int kSteps = 2000;
+  constexpr double h = 1.0 / kSteps;
+  Elastica tip{0.0, 0.0, curvature};
+  double theta = 0.0;
+  for (int i = 0; i < kSteps; ++i) {  // Stoermer-Verlet
+    const double half = tip.curvature - 0.5 * h * k * std::cos(theta);
+    const double middle = theta + 0.5 * h * half;
+    tip.x += h * std::cos(middle);
+    tip.y += h * std::sin(middle);
+    theta += h * half;
+    tip.curvature = half - 0.5 * h * k * std::cos(theta);
+  }
+  return tip;
+}
+template <typename F>
+double bisect(double low, double high, const F& is_above) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_above(middle) ? high : low) = middle;
+  }
+  return low;
+}
+Elastica find_elastica(double k) {
+  return shoot(k, bisect(0.0, 2.0 * k, [&](double curvature) {
+                 return shoot(k, curvature).curvature > 0.0;
+               }));
+}
+
+Vector3 bend_blade(const std::shared_ptr<const flexbody::ReducedBody>& blade,
+                   Fidelity level, double k) {
+  SystemBuilder builder;
+  const BodyIndex body = builder.add_flexible_body("blade", blade, level, {});
+  builder.add_joint("root", JointKind::fixed, {kWorld, Pose{}, {}},
+                    {body, {}, std::string("root")}, Vector3::UnitZ(), hold());
+  const AttachmentIndex tip =
+      builder.attach_interface("tip", body, blade->interfaces[1],
+                               {Matrix3::Identity(), blade->interfaces[1].p_B});
+  builder.add_load("force", tip, {0.0, k * kEI, 0.0}, Vector3::Zero(),
+                   LoadFrame::world, Constant{});
+  const SystemModel model = builder.build();
+  SystemState start = make_state(model);
+  start.bodies[0].p_WB.x() = 0.5 * kLength;
+  const Equilibrium found = find_equilibrium(model, start);
+  return find_frame_motion(model, found.state, tip).X_WF.p;
+}
+
+TEST(NonlinearLevel, BendsAsTheElastica) {
+  const auto blade = make_blade();
+  const std::array deflections = {0.2, 0.4, 0.6};
+  const std::array within = {0.003, 0.01, 0.02};
+  const std::array linear_off = {0.013, 0.05, 0.11};
+  for (std::size_t i = 0; i < deflections.size(); ++i) {
+    const double k = bisect(0.0, 20.0, [&](double load) {
+      return find_elastica(load).y > deflections[i];
+    });
+    const Elastica exact = find_elastica(k);
+    const Vector3 tip = bend_blade(blade, Fidelity::nonlinear, k);
+    EXPECT_NEAR(tip.y(), exact.y, within[i] * exact.y);
+    EXPECT_NEAR(tip.x(), exact.x, within[i] * exact.y);
+    const Vector3 linear = bend_blade(blade, Fidelity::coupled, k);
+    EXPECT_GT(linear.y(), (1.0 + linear_off[i]) * exact.y);
+  }
+}
+
+// --- A rotating blade -------------------------------------------------------
+
+// Lag and flap, in sqrt(E I / (rho A L^4)), of a blade on a heavy hub that
+// turns `eta` times as fast; settled with dampers, observed without.
+std::pair<double, double> find_frequencies(
+    const std::shared_ptr<const flexbody::ReducedBody>& blade, Fidelity level,
+    double eta) {
+  const double unit = std::sqrt(kEI / kRhoA);
+  const auto build = [&](double damping) {
+    SystemBuilder builder;
+    const BodyIndex hub =
+        builder.add_rigid_body("hub", {1e6, 1e6 * Matrix3::Identity()});
+    const BodyIndex body = builder.add_flexible_body(
+        "blade", blade, level, {.rayleigh_mass = damping, .ratios = {}});
+    builder.add_joint("axle", JointKind::revolute, {kWorld, Pose{}, {}},
+                      {hub, Pose{}, {}}, Vector3::UnitZ());
+    builder.add_joint("root", JointKind::fixed, {hub, Pose{}, {}},
+                      {body, {}, std::string("root")}, Vector3::UnitZ(),
+                      hold());
+    return builder.build();
+  };
+  const SystemModel damped = build(7.0 * unit);
+  SystemState state = make_state(damped);
+  const Vector3 spin(0.0, 0.0, eta * unit);
+  state.bodies[0].w_WB_B = state.bodies[1].w_WB_B = spin;
+  state.bodies[1].p_WB.x() = 0.5 * kLength;
+  state.bodies[1].v_WB_W = spin.cross(state.bodies[1].p_WB);
+  simulate(damped, state,
+           {.end_time = 10.0 / unit, .step = 0.002 / unit, .rho_inf = 0.0}, {});
+  const NaturalModes found = find_natural_modes(build(0.0), state);
+  std::array<double, 2> lowest = {0.0, 0.0};
+  std::size_t count = 0;
+  for (const NaturalMode& mode : found.modes) {
+    const double frequency = std::abs(mode.value) / unit;
+    if (frequency > 0.5 && count < 2) lowest[count++] = frequency;
+  }
+  return {std::min(lowest[0], lowest[1]), std::max(lowest[0], lowest[1])};
+}
+
+// Source: of the closed forms, Wright et al., J. Appl. Mech. 49, 1982; lag^2 =
+// flap^2 - eta^2.
+TEST(NonlinearLevel, StiffensInSpinAsARotatingCantilever) {
+  const auto blade = make_blade();
+  for (const auto& [eta, flap, lag] :
+       {std::array{2.0, 4.1373, 3.6218}, std::array{3.0, 4.7973, 3.7435}}) {
+    const auto found = find_frequencies(blade, Fidelity::nonlinear, eta);
+    EXPECT_NEAR(found.first, lag, 0.0005 * lag) << eta;
+    EXPECT_NEAR(found.second, flap, 0.0005 * flap) << eta;
+    const auto linear = find_frequencies(blade, Fidelity::coupled, eta);
+    EXPECT_LT(linear.first, 0.96 * lag) << eta;  // it softens
+  }
+}
+
+}  // namespace
+}  // namespace limber::dynamics
