@@ -34,6 +34,13 @@ struct BodyLevel {
   [[nodiscard]] bool is_justified() const {
     return used >= advice.level && !is_stretched();
   }
+  /// Advice does not know what `nonlinear` adds to `coupled`, and does not judge
+  /// it.
+  [[nodiscard]] bool is_more_than_needed() const {
+    return used > advice.level &&
+           !(used == dynamics::Fidelity::nonlinear &&
+             advice.level == dynamics::Fidelity::coupled);
+  }
   /// Whether the deformation is too large for linear elasticity, which all
   /// levels but `nonlinear` and `full` assume.
   [[nodiscard]] bool is_stretched() const {

@@ -130,7 +130,7 @@ Json to_json(const BodyLevel& level) {
   json["used"] = to_string(level.used);
   json["recommended"] = to_string(advice.level);
   json["justified"] = level.is_justified();
-  json["more_than_needed"] = level.used > advice.level;
+  json["more_than_needed"] = level.is_more_than_needed();
   json["beyond_linear_range"] = advice.is_beyond_linear;
   json["reason"] = advice.reason;
   json["limits"] = {{"displacement", level.limits.displacement},

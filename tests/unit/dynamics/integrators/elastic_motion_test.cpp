@@ -363,6 +363,47 @@ TEST(ElasticMotion, TakesHardlyMoreIterationsThanLinearModes) {
   EXPECT_LE(count(chain.model), 1.3 * count(linear.model));
 }
 
+// --- Level nonlinear --------------------------------------------------------
+
+TEST(NonlinearMotion, KeepsItsEnergyAndMomentaToRoundOffOver10000Steps) {
+  testing::FreeChain chain = testing::make_free_chain(1e6, 1.0, 1.0);
+  testing::bend(chain.model, 0.05);
+  const testing::KeptDrift drift =
+      testing::find_energy_conserving_drift(chain, 0.5 * chain.shortest, 10000);
+  EXPECT_LT(drift.energy, 1e-11);
+  EXPECT_LT(drift.linear, 1e-13);
+  EXPECT_LT(drift.angular, 1e-11);
+}
+
+class NonlinearBy : public ::testing::TestWithParam<int> {};
+
+TEST_P(NonlinearBy, ConvergesWithItsOrder) {
+  const auto kind = static_cast<IntegratorKind>(GetParam());
+  const auto run = [](IntegratorKind scheme, int steps) {
+    Arm arm = make_arm(Fidelity::coupled, false, nullptr);
+    testing::bend(arm.model, 0.1);
+    SimulationSettings settings;
+    settings.integrator = scheme;
+    settings.end_time = 0.04;
+    settings.step = settings.end_time / steps;
+    simulate(arm.model, arm.state, settings, {});
+    return arm.state.eta;
+  };
+  const VectorX exact = run(IntegratorKind::runge_kutta_4, 1600);
+  const int order = traits_of(kind).order;
+  const int steps = order == 1 ? 1600 : order == 2 ? 200 : 100;
+  const double coarse = (run(kind, steps) - exact).norm();
+  const double fine = (run(kind, 2 * steps) - exact).norm();
+  EXPECT_LT(fine, 0.02 * exact.norm());
+  EXPECT_NEAR(std::log2(coarse / fine), order, 0.2) << coarse << ' ' << fine;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryScheme, NonlinearBy,
+                         ::testing::Range(0, kIntegrators), [](const auto& i) {
+                           return name_scheme(
+                               static_cast<IntegratorKind>(i.param));
+                         });
+
 // The audit knows what is stored.
 TEST(ElasticMotion, OfADampedArmUnderLoadsClosesItsAudit) {
   Arm arm = make_arm(Fidelity::coupled, false, nullptr);
