@@ -233,9 +233,10 @@ void compare(const Options& options) {
 
 void add_axes(CLI::App& command, Options& options) {
   command
-      .add_option("--fidelity", options.levels,
-                  "Levels, as in rigid,coupled (default: all that need no mesh "
-                  "online)")
+      .add_option(
+          "--fidelity", options.levels,
+          "Levels, as in rigid,coupled (default: rigid to coupled, up to "
+          "the reference's)")
       ->delimiter(',');
   command
       .add_option("--modes", options.axes.eigenmodes,
