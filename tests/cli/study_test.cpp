@@ -232,6 +232,32 @@ TEST_F(AStudy, ComparesLevelsAsAFactor) {
   EXPECT_THAT(table("a"), Not(HasSubstr("1,coupled,0,")));
 }
 
+TEST_F(AStudy, TakesFiguresOfTheSummaryOrTellsThatTheyAreNotThere) {
+  const std::string study =
+      "scenario = '" LIMBER_SOURCE_DIR
+      "/examples/four_bar.toml'\nset = ['time.duration=0.02']\n"
+      "[design]\nkind = 'list'\n[[factor]]\nname = 'step'\npath = "
+      "'time.step'\nvalues = [1e-3]\n[[response]]\nname = 'y'\nsummary = ";
+  place_.write("study.toml", study + "'levels.rod.peaks.angle'\n");
+  (void)run("study.toml --out a --csv");
+  const CommandResult result = place_.limber(
+      "run " LIMBER_SOURCE_DIR
+      "/examples/four_bar.toml --set time.duration=0.02 --set time.step=1e-3 "
+      "--json --out r");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json level = json::parse(result.out)["levels"][0];
+  ASSERT_EQ(level["body"], "rod");
+  EXPECT_THAT(table("a"),
+              HasSubstr(fmt::format("0,0.001,{},",
+                                    level["peaks"]["angle"].get<double>())));
+  place_.write("study.toml", study + "'levels.rodd.peaks.angle'\n");
+  (void)run("study.toml --out b --csv");
+  EXPECT_THAT(table("b"), HasSubstr("the summary has no 'rodd' there"));
+  place_.write("study.toml", study + "'events.7.time'\n");
+  (void)run("study.toml --out c --csv");
+  EXPECT_THAT(table("c"), HasSubstr("0,0.001,,,"));
+}
+
 TEST_F(AStudy, IsRefusedBeforeAnyRun) {
   const auto refuse = [&](const std::string& old, const std::string& by,
                           const std::string& words) {

@@ -77,7 +77,7 @@ void finish(const Options& options, const fs::path& file,
     write_text(fs::path(file).replace_extension(".csv"),
                to_csv(record.study, rows));
   }
-  draw_study(record.study, rows, effects, folder);
+  if (record.shards == 1) draw_study(record.study, rows, effects, folder);
   if (options.json) {
     Json json = to_json(record.study, record.runs, rows, effects);
     json["file"] = file.string();

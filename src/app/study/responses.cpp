@@ -35,8 +35,10 @@ const Json* find_entry(const Json& list, const std::string& part) {
   if (index && *index < list.size()) return &list[*index];
   for (const Json& entry : list) {
     if (!entry.is_object()) continue;
-    const auto name = entry.find("name");
-    if (name != entry.end() && *name == part) return &entry;
+    for (const char* key : {"name", "body"}) {
+      const auto name = entry.find(key);
+      if (name != entry.end() && *name == part) return &entry;
+    }
   }
   return nullptr;
 }
@@ -149,8 +151,19 @@ class Evaluation {
     if (!json_) json_ = summarize(run_);
     const Parts parts = split(summary.path);
     const Found found = find_path(*json_, parts);
-    if (found.depth < parts.size()) return std::nullopt;
-    return to_number(*found.node);
+    if (found.depth == parts.size()) {
+      if (!found.node->is_primitive() || found.node->is_string()) {
+        throw InputError(
+            fmt::format("'{}' of the summary is no number", summary.path));
+      }
+      return to_number(*found.node);
+    }
+    const std::string& missing = parts[found.depth];
+    if (found.node->is_array() && scene::to_index(missing)) {
+      return std::nullopt;  // such as the second of one impact
+    }
+    throw InputError(fmt::format("'{}': the summary has no '{}' there",
+                                 summary.path, missing));
   }
 
   Value operator()(const ExpressionResponse&) const { return std::nullopt; }

@@ -22,6 +22,7 @@ void check_responses(const Study& study, const scene::Scene& scene,
 [[nodiscard]] bool needs_levels(const Study& study);
 
 /// All responses but formulas.
+/// @throws InputError for a figure that the run's summary does not have
 [[nodiscard]] ResponseValues evaluate_run(const Study& study, const Run& run);
 
 /// Adds those. Not in two threads at a time.

@@ -157,9 +157,11 @@ std::string to_text(const Study& study, const std::vector<StudyRow>& rows,
                   "least", "mean", "largest");
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
     const ResponseRange range = find_range(rows, r);
-    text += fmt::format("{:<24} {:>6} {:>13.6g} {:>13.6g} {:>13.6g}\n",
-                        study.responses[r].name, range.count, range.least,
-                        range.mean, range.largest);
+    text += fmt::format("{:<24} {:>6}", study.responses[r].name, range.count);
+    text += range.count == 0
+                ? "             -             -             -\n"
+                : fmt::format(" {:>13.6g} {:>13.6g} {:>13.6g}\n", range.least,
+                              range.mean, range.largest);
   }
   for (std::size_t f = 0; f < effects.size(); ++f) {
     for (std::size_t r = 0; r < study.responses.size(); ++r) {

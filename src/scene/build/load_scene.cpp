@@ -60,7 +60,7 @@ void apply(const Overrides& overrides, Scene& scene) {
 // Problems that do not name the setting which made them may come from any.
 std::vector<std::string> name_settings(std::vector<std::string> problems,
                                        const std::vector<Setting>& settings) {
-  constexpr std::size_t kMostNamed = 5;
+  constexpr std::size_t kMostNamed = 8;
   std::vector<std::string> texts;
   for (const Setting& setting : settings) texts.push_back(to_string(setting));
   if (texts.size() > kMostNamed) {

@@ -41,7 +41,8 @@ ContactRecord make_record(double duration) {
 
 // n modes reach n^2 of a bar that bends, n of a plate.
 TEST(ImpactSpectrum, SaysHowManyModesReachTheImpact) {
-  for (const auto& [power, needed] : {std::pair{2.0, 64}, {1.0, 2 * 2048}}) {
+  for (const auto& [power, needed] :
+       {std::pair{2.0, 64}, std::pair{1.0, 4096}}) {
     const double duration = 2.0 / std::pow(needed, power);
     const auto spectra = find_impact_spectra(make_model(1.0, power, 16),
                                              {make_record(duration)});
