@@ -74,6 +74,11 @@ void write_surface(Hdf5File& out, const std::string& at,
             "indices of nodes, three a triangle, outward");
 }
 
+/// Whether nodes move by the body's modes alone.
+bool moves_linearly(const BodyModel& body) {
+  return body.full < 0 && body.fidelity != dynamics::Fidelity::nonlinear;
+}
+
 /// Surfaces, each written once for all bodies that share it.
 class SurfaceWriter {
  public:
@@ -89,7 +94,7 @@ class SurfaceWriter {
       return;
     }
     out_.write(at + "surface",
-               body.full >= 0 ? write_full(b, at) : find_shared(body),
+               moves_linearly(body) ? find_shared(body) : write_motion(b, at),
                kSurfaceMeaning);
   }
 
@@ -113,7 +118,7 @@ class SurfaceWriter {
   }
 
   /// Shapes of the nodes' own motion, and their coordinates over time.
-  std::string write_full(std::size_t b, const std::string& at) {
+  std::string write_motion(std::size_t b, const std::string& at) {
     const BodyModel& body = model_.bodies[b];
     const SurfaceRows surface = find_surface_rows(*body.reduced);
     const Eigen::Index n = body.reduced->rows.x_B.cols();

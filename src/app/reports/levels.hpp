@@ -34,8 +34,8 @@ struct BodyLevel {
   [[nodiscard]] bool is_justified() const {
     return used >= advice.level && !is_stretched();
   }
-  /// Advice does not know what `nonlinear` adds to `coupled`, and does not judge
-  /// it.
+  /// Advice does not know what `nonlinear` adds to `coupled`, and does not
+  /// judge it.
   [[nodiscard]] bool is_more_than_needed() const {
     return used > advice.level &&
            !(used == dynamics::Fidelity::nonlinear &&

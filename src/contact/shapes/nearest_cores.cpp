@@ -185,7 +185,7 @@ Search search(const ConvexCore& A, const ConvexCore& B, double size,
 
 NearestOfCores find_nearest(const ConvexCore& A, const ConvexCore& B) {
   constexpr int kMostSearches = 4;
-  constexpr double kGap = 1e-7;    // between the bounds, of the sizes
+  constexpr double kGap = 1e-7;  // between the bounds, of the sizes
   const double size = A.size() + B.size();
   Vector3 along = B.centre() - A.centre();
   if (along.isZero(0.0)) along = Vector3::UnitX();
