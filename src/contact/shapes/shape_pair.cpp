@@ -43,7 +43,8 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
   } else {
     throw InputError(fmt::format(
         "contact: there is no rule for a {} with a {}; there are rules for a "
-        "sphere with any shape, a half space with any other, and two capsules",
+        "sphere with any shape, a half space with any other, and boxes, "
+        "cylinders and capsules among each other",
         name_kind(A_), name_kind(B_)));
   }
 }

@@ -30,11 +30,11 @@ std::map<std::string, double> find_shortest(
 // solid, found between the middle and the end of the basis.
 std::optional<int> estimate_modes(const VectorX& omega, double wanted) {
   const Eigen::Index count = omega.size();
-  const double middle = count < 4 ? 0.0 : omega[count / 2 - 1];
+  const Eigen::Index half = count / 2;
+  const double middle = count < 4 ? 0.0 : omega[half - 1];
   const double end = count < 4 ? 0.0 : omega[count - 1];
   if (!(middle > 0.0) || !(end > middle)) return std::nullopt;
-  const double ratio =
-      static_cast<double>(count) / static_cast<double>(count / 2);
+  const double ratio = static_cast<double>(count) / static_cast<double>(half);
   const double power =
       std::clamp(std::log(ratio) / std::log(end / middle), 0.5, 3.0);
   return static_cast<int>(

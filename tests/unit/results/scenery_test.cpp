@@ -61,12 +61,15 @@ TEST(Scenery, KeepsTheTextsThatTheRunCameFrom) {
   Scenery scenery;
   scenery.name = "n";
   scenery.scenario = "robot = 'r.urdf'\n";
-  scenery.robot = "<robot/>";
+  scenery.robots = {{"arm", "<robot/>"}};
+  scenery.settings = "--set time.step=1\n";
   const Written in(make_small_run(), scenery);
   EXPECT_EQ(in->read_text("scene/limber"), LIMBER_VERSION);
   EXPECT_EQ(in->read_text("scene/name"), "n");
   EXPECT_EQ(in->read_text("scene/scenario"), "robot = 'r.urdf'\n");
-  EXPECT_EQ(in->read_text("scene/robot"), "<robot/>");
+  EXPECT_EQ(in->read_text("scene/robots/0/name"), "arm");
+  EXPECT_EQ(in->read_text("scene/robots/0/text"), "<robot/>");
+  EXPECT_EQ(in->read_text("scene/settings"), "--set time.step=1\n");
 }
 
 // Triangles of the arm: rows 0 to 5 and 21 to 23 of 24.

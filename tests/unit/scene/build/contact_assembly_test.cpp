@@ -179,25 +179,6 @@ TEST(ContactAssembly, TellsOfEveryOverlap) {
               AllOf(HasSubstr("'bell.1/floor'"), HasSubstr("'bell.2/floor'")));
 }
 
-TEST(ContactAssembly, RefusesShapesThatHaveNoRule) {
-  const SceneFolder folder;
-  const std::string boxes =
-      "<link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='1' "
-      "izz='1' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry><box "
-      "size='1 1 1'/></geometry></collision></link>\n";
-  const std::string text = input_error([&] {
-    (void)folder.build(
-        boxes, kTime +
-                   "[[obstacle]]\nname = 'wall'\nshape = 'box'\nsize = [1.0, "
-                   "1.0, 1.0]\nposition = [9.0, 0.0, 0.0]\n" +
-                   contact("a", "wall"));
-  });
-  EXPECT_THAT(text,
-              AllOf(HasSubstr("scenario.toml: [[contact]] 1 between 'a' and "
-                              "'wall'"),
-                    HasSubstr("box")));
-}
-
 // A parameter of a contact is one of its law, so no other run resumes it.
 TEST(ContactAssembly, EveryKeyOfAContactIsInTheManifest) {
   const SceneFolder folder;
@@ -349,6 +330,15 @@ TEST_F(TouchingBody, HasNoResidualFlexibilityAtLevelRigid) {
   flexbody::write_body(body_, folder_.path() / "body.h5");
   EXPECT_NE(describe_pairs("coupled"), coupled);
   EXPECT_EQ(describe_pairs("rigid"), rigid);
+}
+
+TEST_F(TouchingBody, IsRefusedWithAShapeThatHasNoRule) {
+  EXPECT_THAT(error_of(Vector3(0.0, 0.0, 2.0), "",
+                       "[[obstacle]]\nname = 'wall'\nshape = 'box'\nsize = "
+                       "[1.0, 1.0, 1.0]\nposition = [9.0, 0.0, 0.0]\n" +
+                           contact("body", "wall")),
+              AllOf(HasSubstr("between 'body' and 'wall'"),
+                    HasSubstr("there is no rule for")));
 }
 
 TEST_F(TouchingBody, IsRefusedAtLevelFull) {
