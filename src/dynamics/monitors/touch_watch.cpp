@@ -100,7 +100,11 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   double clearance = find_clearance(model_, pair, *watched.law, before);
   if (clearance > reach) return std::nullopt;
   const double none = kNoWay * reach + kLeastWay;
-  const bool parts = clearance <= none && find_touch(watched, before).rate <= 0;
+  // The rate where two have just left each other may be that of a feature that
+  // is no longer the nearest.
+  const bool parts =
+      clearance <= none &&
+      (watched.since == before.t || find_touch(watched, before).rate <= 0);
   double least = parts ? kLeastAdvance : 0.0;
   double share = 0.0;
   for (int i = 0; i < kMostLooks && (clearance > none || least > 0.0); ++i) {
@@ -206,10 +210,10 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
   const joints::PairTouch touch = find_touch(watched, state);
   events.push_back({state.t, pair.name,
                     watched.is_touching ? "touched" : "left", touch.rate});
+  watched.since = state.t;
   if (!watched.is_touching) return;
   const joints::PairBody A = find_pair_body(model_, state, pair.body_A);
   const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
-  watched.since = state.t;
   watched.rate = touch.rate;
   watched.steps = 0;
   watched.impact_duration = watched.law->begin_touch(
@@ -228,8 +232,11 @@ double TouchWatch::find_longest_step(double t) const {
 
 void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const bool overlaps = find_touch(i, state).depth > 0.0;
-    if (overlaps != pairs_[i].is_touching) pass(i, state, events);
+    Watched& watched = pairs_[i];
+    const bool changes = watched.is_touching
+                             ? has_left(watched, state)
+                             : find_touch(watched, state).depth > 0.0;
+    if (changes) pass(i, state, events);
   }
 }
 

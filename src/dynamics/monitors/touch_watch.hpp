@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,7 +98,8 @@ class TouchWatch {
     std::size_t pair = 0;
     const joints::Touching* law = nullptr;
     bool is_touching = false;
-    double since = 0.0;            // of the touch [s]
+    // Of the last touch or leave [s].
+    double since = std::numeric_limits<double>::lowest();
     double impact_duration = 0.0;  // [s]
     double rate = 0.0;             // of the depth, while they touch [m/s]
     int steps = 0;                 // accepted since the touch

@@ -246,7 +246,7 @@ class Setter {
 
   std::string set(TiXmlElement& element, std::size_t next) {
     const std::string& name = parts_[next];
-    const std::string place = fmt::format("{}\n{}\n", fmt::ptr(&element), name);
+    std::string place = fmt::format("{}\n{}\n", fmt::ptr(&element), name);
     if (!list_children(element, name).empty()) {
       refuse(fmt::format("<{}> is an element; set its attributes", echo(name)));
     }

@@ -117,7 +117,7 @@ class WordCheck {
 
   void check_child(const TiXmlElement& element, const TiXmlElement& child,
                    const ElementNames& names, std::set<std::string>& given) {
-    const std::string tag = child.ValueStr();
+    const std::string& tag = child.ValueStr();
     if (tag.starts_with("xacro:")) {
       problems_.add(child.Row(),
                     fmt::format("<{}> is a macro; expand the file first (xacro "

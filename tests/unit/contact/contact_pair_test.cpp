@@ -122,6 +122,16 @@ TEST(ContactPair, OfABallAndAHalfSpaceIsHertzsImpact) {
   EXPECT_NEAR(*contact.restitution(), 1.0, 1e-3);
 }
 
+TEST(ContactPair, ThatBeginsWhereAStepEndsTouchesOnce) {
+  for (const double gap : {1e-6, 5e-7, 2e-6}) {
+    Scene scene =
+        make_ball_and_floor({.restitution = 1.0}, gap, {0.0, 0.0, -1.0});
+    const RunRecord record = run(scene, {.end_time = 1e-4, .step = 2.5e-7});
+    ASSERT_EQ(record.contacts.size(), 1U);
+    EXPECT_EQ(record.contacts[0].touches, 1);
+  }
+}
+
 TEST(ContactPair, OfTwoBallsIsHertzsImpactAndKeepsMomentum) {
   const ClosedForm exact = find_closed_form(0.5 * kMass, 0.5 * kRadius, 2.0);
   Scene scene = make_two_balls({}, 2.0);
