@@ -36,6 +36,7 @@ std::vector<std::string> list_columns(const Study& study) {
   for (const Factor& factor : study.factors) columns.push_back(factor.name);
   for (const Response& one : study.responses) columns.push_back(one.name);
   columns.emplace_back("error");
+  columns.emplace_back("warnings");
   return columns;
 }
 
@@ -95,6 +96,10 @@ class StudyFile::Database {
       const auto [stop, error] = std::from_chars(text.data(), end, number);
       if (error == std::errc() && stop == end) return bind(i, number);
       bind(i, text);
+    }
+    /// Nothing if there are none.
+    void bind_words(int i, const std::string& text) {
+      text.empty() ? bind(i, std::optional<double>()) : bind(i, text);
     }
     /// Whether there is a row.
     bool step() {
@@ -168,7 +173,8 @@ void StudyFile::create() {
   }
   database_->run("BEGIN EXCLUSIVE");
   database_->run("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT)");
-  database_->run(fmt::format("CREATE TABLE runs ({}, error TEXT)", columns));
+  database_->run(fmt::format(
+      "CREATE TABLE runs ({}, error TEXT, warnings TEXT)", columns));
   database_->run(
       "CREATE TABLE timing (run INTEGER PRIMARY KEY, ready REAL, steps REAL)");
   Database::Statement insert(*database_, "INSERT INTO study VALUES (?, ?)");
@@ -251,6 +257,7 @@ std::vector<StudyRow> StudyFile::read_rows() const {
       row.responses.push_back(select.number(i++));
     }
     row.error = select.text(i++);
+    row.warnings = select.text(i++);
     row.seconds_ready = select.number(i++).value_or(0.0);
     row.seconds = select.number(i++).value_or(0.0);
     rows.push_back(std::move(row));
@@ -274,8 +281,8 @@ void StudyFile::add(const std::vector<StudyRow>& rows) {
       for (const std::string& value : row.factors)
         insert.bind_value(i++, value);
       for (const auto& value : row.responses) insert.bind(i++, value);
-      row.error.empty() ? insert.bind(i, std::nullopt)
-                        : insert.bind(i, row.error);
+      insert.bind_words(i++, row.error);
+      insert.bind_words(i, row.warnings);
       (void)insert.step();
       insert.reset();
       time.bind(1, row.run);

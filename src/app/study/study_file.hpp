@@ -18,6 +18,7 @@ struct StudyRow {
   std::vector<std::string> factors;
   ResponseValues responses;
   std::string error;           ///< why it failed; empty: it did not
+  std::string warnings;        ///< a line each
   double seconds = 0.0;        ///< wall time of its steps [s]
   double seconds_ready = 0.0;  ///< and before them, alone or waiting [s]
 };

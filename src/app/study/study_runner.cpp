@@ -45,6 +45,13 @@ std::string describe(const std::exception_ptr& failure) {
   }
 }
 
+std::vector<std::string> list_warnings(const Run& run) {
+  std::vector<std::string> texts = run.built.warnings;
+  texts.insert(texts.end(), run.statistics.warnings.begin(),
+               run.statistics.warnings.end());
+  return texts;
+}
+
 void describe_values(Manifest& out, const Factor& factor) {
   if (const auto* listed = std::get_if<Listed>(&factor.values)) {
     out.add("values", fmt::format("{}", fmt::join(listed->values, ", ")));
@@ -214,6 +221,7 @@ class Runner {
     const Run run = simulate_built(scene, std::move(built), options_.cache,
                                    stop_on_signal, {}, judges_);
     row.seconds = run.statistics.seconds;
+    row.warnings = fmt::format("{}", fmt::join(list_warnings(run), "\n"));
     if (find_received_signal() != 0 && run.failure) return false;
     if (run.failure) {
       row.error = describe(run.failure);

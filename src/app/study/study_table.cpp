@@ -92,10 +92,25 @@ std::optional<Effect> find_gridded(const std::vector<double>& y,
                 1.0 - calc_between(y, others) / variance};
 }
 
-std::size_t count_failed(const std::vector<StudyRow>& rows) {
-  return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(),
-                    [](const StudyRow& row) { return !row.error.empty(); }));
+using Words = std::string StudyRow::*;
+
+/// Rows with an error, or with warnings.
+std::vector<const StudyRow*> list_rows(const std::vector<StudyRow>& rows,
+                                       Words words) {
+  std::vector<const StudyRow*> found;
+  for (const StudyRow& row : rows) {
+    if (!(row.*words).empty()) found.push_back(&row);
+  }
+  return found;
+}
+
+std::string describe_rows(const std::vector<StudyRow>& rows, Words words,
+                          const char* what) {
+  const auto found = list_rows(rows, words);
+  if (found.empty()) return "";
+  return fmt::format("{} of {} runs {}; run {}: {}\n", found.size(),
+                     rows.size(), what, found.front()->run,
+                     found.front()->*words);
 }
 
 std::string to_number(const std::optional<double>& value) {
@@ -108,12 +123,12 @@ std::string to_csv(const Study& study, const std::vector<StudyRow>& rows) {
   std::string text = "run";
   for (const Factor& factor : study.factors) text += "," + factor.name;
   for (const Response& one : study.responses) text += "," + one.name;
-  text += ",error";
+  text += ",error,warnings";
   for (const StudyRow& row : rows) {
     text += fmt::format("\n{}", row.run);
     for (const std::string& value : row.factors) text += "," + quote(value);
     for (const auto& value : row.responses) text += "," + to_number(value);
-    text += "," + quote(row.error);
+    text += "," + quote(row.error) + "," + quote(row.warnings);
   }
   return text;
 }
@@ -172,13 +187,8 @@ std::string to_text(const Study& study, const std::vector<StudyRow>& rows,
                           effect->main, effect->total);
     }
   }
-  if (const std::size_t failed = count_failed(rows); failed > 0) {
-    const auto first =
-        std::find_if(rows.begin(), rows.end(),
-                     [](const StudyRow& row) { return !row.error.empty(); });
-    text += fmt::format("{} of {} runs failed; run {}: {}\n", failed,
-                        rows.size(), first->run, first->error);
-  }
+  text += describe_rows(rows, &StudyRow::error, "failed");
+  text += describe_rows(rows, &StudyRow::warnings, "have warnings");
   return text;
 }
 
@@ -188,7 +198,8 @@ Json to_json(const Study& study, std::size_t runs,
             {"design", to_string(study.design.kind)},
             {"runs", runs},
             {"done", rows.size()},
-            {"failed", count_failed(rows)},
+            {"failed", list_rows(rows, &StudyRow::error).size()},
+            {"warned", list_rows(rows, &StudyRow::warnings).size()},
             {"responses", Json::object()}};
   for (std::size_t r = 0; r < study.responses.size(); ++r) {
     const ResponseRange range = find_range(rows, r);

@@ -9,8 +9,8 @@
 
 namespace limber::app {
 
-/// The table of runs: run, factors, responses, error; numbers with all their
-/// digits.
+/// The table of runs: run, factors, responses, error, warnings; numbers with
+/// all their digits.
 [[nodiscard]] std::string to_csv(const Study& study,
                                  const std::vector<StudyRow>& rows);
 

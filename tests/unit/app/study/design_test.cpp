@@ -167,7 +167,7 @@ TEST(Effects, OfASobolDesignAreThoseInClosedFormOfIshigamisFunction) {
   ASSERT_EQ(design.size(), 4096U * 5U);
   std::vector<StudyRow> rows;
   for (std::size_t i = 0; i < design.size(); ++i) {
-    rows.push_back({i, design[i], {calc_ishigami(design[i])}, ""});
+    rows.push_back({i, design[i], {calc_ishigami(design[i])}, "", ""});
   }
   const Effects effects = find_effects(study, design.size(), rows);
   const double main[] = {0.31390519, 0.44241114, 0.0};
@@ -187,7 +187,7 @@ TEST(Effects, OfAGridAreSharesOfTheVariance) {
   for (std::size_t i = 0; i < design.size(); ++i) {
     const double a = to_double(design[i][0]);
     const double b = to_double(design[i][1]);
-    rows.push_back({i, design[i], {3.0 * a + 1.0 * b + 2.0 * a * b}, ""});
+    rows.push_back({i, design[i], {3.0 * a + 1.0 * b + 2.0 * a * b}, "", ""});
   }
   // Variances 9 of a, 1 of b, 4 of both together.
   const Effects effects = find_effects(study, 4, rows);
