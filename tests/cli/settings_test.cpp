@@ -31,8 +31,8 @@ TEST(Settings, GiveTheResultsOfAFileWithTheirValues) {
       "run a.toml --out a --set load.push.force.2=-200 --set "
       "time.duration=0.01");
   ASSERT_EQ(set.status, 0) << set.errors;
-  EXPECT_EQ(read_text(place.folder() / "a/results.h5"),
-            read_text(place.folder() / "b/results.h5"));
+  EXPECT_EQ(read_text(place.folder() / "a/probes.csv"),
+            read_text(place.folder() / "b/probes.csv"));
   EXPECT_THAT(read_text(place.folder() / "a/summary.json"),
               HasSubstr("\"load.push.force.2\": \"-200\""));
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct Steps {
   double first = 0.0;                              ///< [s]
   std::vector<dynamics::StepChange> changes = {};  ///< [s]
+  double most = 1e-6;  ///< drift over the throughput [-]
 };
 const std::map<std::string, Steps> kShortSteps = {
     {"ball_on_link", {3e-8}},
@@ -37,6 +39,8 @@ const std::map<std::string, Steps> kShortSteps = {
     {"report_beam", {4e-5}},
     {"self_strike", {5e-5, {{0.07, 2.5e-6}, {0.09, 2e-5}}}},
     {"slew", {1e-4}},
+    // Below 2.5e-4 s it no longer falls.
+    {"spin_up", {5e-4, {}, 3e-6}},
     {"struck_finger", {5e-6, {{0.05, 1e-5}, {0.2, 2e-5}, {0.5, 4e-5}}}}};
 
 /// Contacts that slip and stick.
@@ -46,7 +50,10 @@ std::vector<fs::path> find_examples() {
   std::vector<fs::path> files;
   for (const auto& entry :
        fs::directory_iterator(LIMBER_SOURCE_DIR "/examples")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    const std::string name = entry.path().filename();
+    if (name.ends_with(".toml") && !name.ends_with("_study.toml")) {
+      files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -54,6 +61,7 @@ std::vector<fs::path> find_examples() {
 
 struct Audit {
   double drift = 0.0;  ///< the largest at any output over the throughput [-]
+  double drift_of_all_steps = 0.0;  ///< the largest at any step likewise [-]
   bool has_latched = false;
 };
 
@@ -63,8 +71,10 @@ Audit audit(const scene::Scene& scene) {
       app::simulate_scene(scene, app::make_reducer({}), cache.path(), {});
   EXPECT_FALSE(run.failure);
   const auto& events = run.history.events;
+  const dynamics::EnergyRecord& energy = run.record.energy;
   return {
       results::audit_energy(run.history).relative_largest().value_or(1.0),
+      std::abs(energy.drift.value) / energy.throughput,
       std::any_of(events.begin(), events.end(), [](const dynamics::Event& e) {
         return e.what == "latched";
       })};
@@ -105,8 +115,8 @@ TEST(ExampleAudit, ClosesToAMillionthInShortStepsAndAtSecondOrder) {
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename());
     if (file.stem() == kHeldByFriction) continue;
-    const auto [drift, has_latched] = audit(file, 1.0);
-    EXPECT_LE(drift, 1e-6);
+    const auto [drift, drift_of_all_steps, has_latched] = audit(file, 1.0);
+    EXPECT_LE(drift, kShortSteps.at(file.stem()).most);
     if (drift < kRoundOff) continue;
     if (has_latched) {
       EXPECT_GE(drift / audit(file, 0.25).drift, 1.8 * 1.8);
@@ -119,12 +129,13 @@ TEST(ExampleAudit, ClosesToAMillionthInShortStepsAndAtSecondOrder) {
 }
 
 // Slip begins and ends in mid-step, with a jump of the friction's derivative.
+// Of all steps, as where outputs fall decides how much of it they see.
 TEST(ExampleAudit, OfFrictionThatHoldsClosesInProportionToTheStepAtLeast) {
   const fs::path file = fs::path(LIMBER_SOURCE_DIR "/examples") /
                         (std::string(kHeldByFriction) + ".toml");
-  const double drift = audit(file, 1.0).drift;
+  const double drift = audit(file, 1.0).drift_of_all_steps;
   EXPECT_LE(drift, 2e-4);
-  EXPECT_GE(drift / audit(file, 0.25).drift, 3.0);
+  EXPECT_GE(drift / audit(file, 0.25).drift_of_all_steps, 3.0);
 }
 
 }  // namespace

@@ -198,12 +198,13 @@ async function checkFiles(tab) {
   await download(tab, 's', '89504e47');
   await tab.evaluate(() => {
     const { player } = window.limber;
-    player.setSpeed(1);
+    player.setSpeed(0.2);  // slow enough for frames on a busy machine
     player.setInterval(0.2, 0.8);
   });
   await download(tab, 'r', '1a45dfa3');
   await tab.evaluate(() => {
     const { player } = window.limber;
+    player.setSpeed(1);
     player.setInterval(player.start, player.end);
   });
 }

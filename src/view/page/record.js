@@ -1,5 +1,8 @@
 // Pictures and films of the canvas.
 
+// A film without any frame is not larger [bytes].
+const kHeaderOnly = 1000;
+
 export function save(blob, name) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);
@@ -25,8 +28,12 @@ export function takeFilm(canvas, player) {
   });
   const parts = [];
   recorder.ondataavailable = (event) => parts.push(event.data);
-  return new Promise((done) => {
-    recorder.onstop = () => done(new Blob(parts, { type: 'video/webm' }));
+  return new Promise((done, fail) => {
+    recorder.onstop = () => {
+      const film = new Blob(parts, { type: 'video/webm' });
+      if (film.size > kHeaderOnly) done(film);
+      else fail(new Error('no frame was recorded; play slower'));
+    };
     player.seek(player.from);
     recorder.start();
     player.play();

@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 
+#include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -267,6 +268,14 @@ TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
   const dynamics::BodyState& after = scene.state.bodies[0];
   EXPECT_LT(after.w_WB_B.norm(), 1e-9);
   EXPECT_LT(after.p_WB.head<2>().norm(), 1e-12);
+}
+
+TEST(ContactPair, RefusesCylindersOnFaces) {
+  const ContactSide box{Shape{Box{{0.1, 0.1, 0.1}}, {}}, kSteel, 1.0};
+  const ContactSide cylinder{Shape{Cylinder{0.1, 0.1}, {}}, kSteel, 1.0};
+  EXPECT_THROW(ContactPair(box, cylinder, {}), InputError);
+  EXPECT_THROW(ContactPair(cylinder, cylinder, {}), InputError);
+  EXPECT_NO_THROW(ContactPair(cylinder, ball_side(), {}));
 }
 
 // A block of 1 kg on a slope of 10 degrees, held by mu = 0.3.
