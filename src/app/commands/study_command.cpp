@@ -50,7 +50,7 @@ Shard parse_shard(const std::string& text) {
 }
 
 fs::path make_folder(const Options& options, const std::string& name) {
-  const fs::path folder =
+  fs::path folder =
       options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   std::error_code error;
   fs::create_directories(folder, error);

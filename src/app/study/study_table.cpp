@@ -60,7 +60,8 @@ std::optional<Effect> find_sampled(const std::vector<double>& y,
   }
   const double variance = calc_variance(free);
   if (!(variance > 0.0)) return std::nullopt;
-  const double samples = static_cast<double>(y.size() / block);
+  const std::size_t count = y.size() / block;
+  const auto samples = static_cast<double>(count);
   return Effect{main / samples / variance, total / samples / variance};
 }
 

@@ -76,7 +76,7 @@ template <typename Table>
 Vector3 combine_mean(const Table& table_of, const Attachment& attachment,
                      const AttachmentMotion& first,
                      const AttachmentMotion& last, const double* rates) {
-  const Vector3 begin = combine(table_of(attachment, first), rates);
+  Vector3 begin = combine(table_of(attachment, first), rates);
   if (!attachment.second) return begin;
   return 0.5 * (begin + combine(table_of(attachment, last), rates));
 }
