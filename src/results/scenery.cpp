@@ -74,11 +74,6 @@ void write_surface(Hdf5File& out, const std::string& at,
             "indices of nodes, three a triangle, outward");
 }
 
-/// Whether nodes move by the body's modes alone.
-bool moves_linearly(const BodyModel& body) {
-  return body.full < 0 && body.fidelity != dynamics::Fidelity::nonlinear;
-}
-
 /// Surfaces, each written once for all bodies that share it.
 class SurfaceWriter {
  public:

@@ -27,10 +27,10 @@ void write_anchor(Hdf5File& out, const std::string& at,
             "body that carries it; empty: the world");
   out.write(at + "p_B", MatrixX(anchor.p_BF.transpose()), "m",
             "undeformed, body frame");
-  // At level `full` the nodes move, not modes: the mark follows the body.
-  const bool is_full = anchor.body != dynamics::kWorld &&
-                       model.bodies[index(anchor.body)].full >= 0;
-  out.write(at + "Phi_B", is_full ? MatrixX(3, 0) : MatrixX(anchor.Phi_B),
+  // Else the mark follows the body.
+  const bool has_modes = anchor.body == dynamics::kWorld ||
+                         moves_linearly(model.bodies[index(anchor.body)]);
+  out.write(at + "Phi_B", has_modes ? MatrixX(anchor.Phi_B) : MatrixX(3, 0),
             "kg^-1/2", "translation by the modes, 3 x m");
 }
 
@@ -176,6 +176,10 @@ void write_contacts(Hdf5File& out, const SystemModel& model,
 }
 
 }  // namespace
+
+bool moves_linearly(const dynamics::BodyModel& body) {
+  return body.full < 0 && body.fidelity != dynamics::Fidelity::nonlinear;
+}
 
 std::string name_body(const SystemModel& model, dynamics::BodyIndex body) {
   return body == dynamics::kWorld ? "" : model.bodies[index(body)].name;

@@ -13,6 +13,10 @@ namespace limber::results {
 [[nodiscard]] std::string name_body(const dynamics::SystemModel& model,
                                     dynamics::BodyIndex body);
 
+/// Whether a body's nodes move by its modes alone: not at level `full`, where
+/// they move themselves, nor at `nonlinear`, where products of modes do, too.
+[[nodiscard]] bool moves_linearly(const dynamics::BodyModel& body);
+
 /// Writes couplers, lines, loads and contacts into the group `scene`.
 /// @throws InputError if it cannot be written.
 void write_marks(Hdf5File& out, const dynamics::SystemModel& model,

@@ -123,6 +123,20 @@ TEST(Export, WritesModesOfFlexibleLinksAndMotionOfAll) {
   EXPECT_EQ(scene["nodes"][2]["name"], "ball");
 }
 
+// Products of modes move it, too, so its shapes are those of its motion.
+TEST(Export, OfALinkAtLevelNonlinearHasShapesOfItsMotion) {
+  const Workspace place;
+  const CommandResult found =
+      place.limber("run " LIMBER_SOURCE_DIR
+                   "/examples/spin_up.toml --set time.duration=0.5 --out s");
+  ASSERT_EQ(found.status, 0) << found.errors;
+  const CommandResult result = place.limber("export s -o a.glb");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json scene = read_gltf(read_text(place.folder() / "a.glb"));
+  EXPECT_TRUE(scene.contains("animations"));
+  EXPECT_GT(scene["meshes"].size(), 0U);
+}
+
 TEST(Export, OfRigidLinksHasNoModes) {
   const Workspace place;
   write_scene(place, "boundary");
