@@ -88,7 +88,7 @@ void run(const Options& options) {
   Run result = run_scene(scene, options.cache, checkpoints);
   if (options.checkpoint_interval && result.statistics.steps == 0 &&
       !result.failure) {
-    result.printed_warnings.push_back(
+    result.printed_warnings.emplace_back(
         "--checkpoint-interval changes nothing: the run took no steps, all of "
         "it is known in closed form");
     print_warnings({result.printed_warnings.back()});
