@@ -82,13 +82,15 @@ class StudyFile::Database {
       sqlite3_bind_text(handle_, i, text.c_str(), static_cast<int>(text.size()),
                         SQLITE_TRANSIENT);
     }
-    void bind(int i, std::size_t value) {
+    void bind(int i, double value) { sqlite3_bind_double(handle_, i, value); }
+    void bind(int i, const std::optional<double>& value) {
+      value ? bind(i, *value) : bind_nothing(i);
+    }
+    /// Not an overload: a number that is no count would be cut to one.
+    void bind_count(int i, std::size_t value) {
       sqlite3_bind_int64(handle_, i, static_cast<sqlite3_int64>(value));
     }
-    void bind(int i, const std::optional<double>& value) {
-      value ? sqlite3_bind_double(handle_, i, *value)
-            : sqlite3_bind_null(handle_, i);
-    }
+    void bind_nothing(int i) { sqlite3_bind_null(handle_, i); }
     /// A factor's value: a number as such.
     void bind_value(int i, const std::string& text) {
       const char* const end = text.data() + text.size();
@@ -99,7 +101,7 @@ class StudyFile::Database {
     }
     /// Nothing if there are none.
     void bind_words(int i, const std::string& text) {
-      text.empty() ? bind(i, std::optional<double>()) : bind(i, text);
+      text.empty() ? bind_nothing(i) : bind(i, text);
     }
     /// Whether there is a row.
     bool step() {
@@ -277,7 +279,7 @@ void StudyFile::add(const std::vector<StudyRow>& rows) {
     Database::Statement time(*database_, "INSERT INTO timing VALUES (?, ?, ?)");
     for (const StudyRow& row : rows) {
       int i = 1;
-      insert.bind(i++, row.run);
+      insert.bind_count(i++, row.run);
       for (const std::string& value : row.factors)
         insert.bind_value(i++, value);
       for (const auto& value : row.responses) insert.bind(i++, value);
@@ -285,9 +287,9 @@ void StudyFile::add(const std::vector<StudyRow>& rows) {
       insert.bind_words(i, row.warnings);
       (void)insert.step();
       insert.reset();
-      time.bind(1, row.run);
-      time.bind(2, std::optional(row.seconds_ready));
-      time.bind(3, std::optional(row.seconds));
+      time.bind_count(1, row.run);
+      time.bind(2, row.seconds_ready);
+      time.bind(3, row.seconds);
       (void)time.step();
       time.reset();
     }
