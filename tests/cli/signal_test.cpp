@@ -68,6 +68,17 @@ TEST(Signal, EndsARunWithItsResultsAndACheckpoint) {
   }
 }
 
+// timeout(1) signals the program, then its process group.
+TEST(Signal, ThatComesTwiceAtOnceIsOne) {
+  const Workspace place;
+  write_pendulum(place, kLong);
+  const CommandResult result =
+      run_shell(place, "timeout -s INT 3 '" LIMBER_COMMAND
+                       "' run s.toml --out o; echo status $?");
+  EXPECT_THAT(result.errors, HasSubstr("interrupted at t = "));
+  EXPECT_TRUE(fs::exists(place.folder() / "o/checkpoint.bin"));
+}
+
 TEST(Signal, AndResumeGiveTheAnswerOfOneRun) {
   const Workspace place;
   write_pendulum(place, 0.5);

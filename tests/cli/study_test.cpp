@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/command.hpp"
 #include "cli/shell.hpp"
@@ -168,9 +171,12 @@ TEST_F(AStudy, GoesOnAfterBeingKilledWithTheSameTable) {
 
 TEST_F(AStudy, EndsOnASignalWithAllThatIsDone) {
   place_.write("study.toml", replace(kStudy, "samples = 12", "samples = 5000"));
-  const CommandResult result =
-      run_shell(place_, "timeout -s INT 2 '" LIMBER_COMMAND
-                        "' study study.toml --out a; echo status $?");
+  RunningCommand study(place_, "study study.toml --out a");
+  ASSERT_TRUE(wait_for(place_, "a/study.sqlite"));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  study.send(SIGTERM);
+  const CommandResult result = study.wait();
+  EXPECT_EQ(result.status, 143);
   EXPECT_THAT(result.errors, HasSubstr("goes on with the others"));
 }
 

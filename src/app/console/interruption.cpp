@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
+#include <ctime>
 
 #include "limber/common/files/unfinished_files.hpp"
 
@@ -15,6 +17,17 @@ namespace {
 // Signal handlers can only use global variables.
 std::atomic<bool> is_deferred = false;
 std::atomic<int> received = 0;
+std::atomic<std::int64_t> received_at = 0;  // [ns]
+
+/// A signal that comes this soon after the first is the same request:
+/// timeout(1) and shells signal both the program and its process group. [ns]
+constexpr std::int64_t kSameRequest = 200'000'000;
+
+std::int64_t read_clock() {
+  timespec now = {};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return 1'000'000'000 * static_cast<std::int64_t>(now.tv_sec) + now.tv_nsec;
+}
 
 void say(const char* text) {
   static_cast<void>(!write(STDERR_FILENO, text, std::strlen(text)));
@@ -24,9 +37,11 @@ void say(const char* text) {
 void handle(int signal) {
   int none = 0;
   if (is_deferred && received.compare_exchange_strong(none, signal)) {
+    received_at = read_clock();
     say("\nlimber: ending between two steps; a second signal ends at once\n");
     return;
   }
+  if (is_deferred && read_clock() - received_at < kSameRequest) return;
   remove_unfinished_files();
   say("\nlimber: ended by ");
   say(name_signal(signal));

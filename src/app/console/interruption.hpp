@@ -9,8 +9,8 @@ namespace limber::app {
 void install_signal_handlers();
 
 /// From `begin` until its destruction the first such signal is only recorded,
-/// and the work polls it between two steps; a second one ends the program as
-/// usual. One instance at a time.
+/// and the work polls it between two steps; a second one, at least 0.2 s later,
+/// ends the program as usual. One instance at a time.
 class DeferredSignals {
  public:
   DeferredSignals() = default;
