@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/view/gltf.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
 
-#include "limber/common/errors.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/version.hpp"
 #include "limber/view/solids.hpp"
@@ -279,16 +275,7 @@ class GltfWriter {
 
 void write_gltf(const std::filesystem::path& file, const Recording& recording,
                 double magnification) {
-  const std::string bytes = GltfWriter(recording, magnification).write();
-  write_whole(file, [&](const std::filesystem::path& part) {
-    std::ofstream out(part, std::ios::binary);
-    out << bytes;
-    out.flush();
-    if (out) return;
-    throw InputError(fmt::format(
-        "'{}' cannot be written; is the disk full, and does its folder exist?",
-        file.string()));
-  });
+  write_whole(file, GltfWriter(recording, magnification).write());
 }
 
 }  // namespace limber::view

@@ -53,19 +53,10 @@ fs::path find_template() {
 }
 
 void write_page(const fs::path& file, std::span<const Recording> recordings) {
-  const std::string page = read_template();
-  const std::size_t at = page.find(kMark);
-  const std::string data = encode_base64(make_page_data(recordings));
-  write_whole(file, [&](const fs::path& part) {
-    std::ofstream out(part, std::ios::binary);
-    out << std::string_view(page).substr(0, at) << data
-        << std::string_view(page).substr(at + kMark.size());
-    out.flush();
-    if (out) return;
-    throw InputError(fmt::format(
-        "'{}' cannot be written; is the disk full, and does its folder exist?",
-        file.string()));
-  });
+  std::string page = read_template();
+  page.replace(page.find(kMark), kMark.size(),
+               encode_base64(make_page_data(recordings)));
+  write_whole(file, page);
 }
 
 }  // namespace limber::view

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/run/run_scenery.hpp"
 
-#include <fmt/format.h>
-
-#include <fstream>
-#include <iterator>
 #include <variant>
 
-#include "limber/common/errors.hpp"
+#include "limber/common/files/input_file.hpp"
 #include "limber/common/overloaded.hpp"
 
 namespace limber::app {
 namespace {
 
+constexpr InputKind kText = {"scenario or robot file", std::uint64_t{1} << 28};
+
 std::string read_whole(const std::filesystem::path& file) {
   if (file.empty()) return "";  // a scene that a program made
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in) return text;
-  throw InputError(fmt::format("'{}' cannot be read", file.string()));
+  return read_input(file, kText);
 }
 
 void describe(const scene::Geometry& geometry, results::SceneryShape& shape) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/common/files/whole_file.hpp"
 
+#include <fmt/format.h>
+
+#include <fstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -39,6 +42,18 @@ void write_whole(
     throw rename(error, part.path().string(), file.string());
   }
   part.move_to(file);
+}
+
+void write_whole(const std::filesystem::path& file, std::string_view bytes) {
+  write_whole(file, [&](const std::filesystem::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out << bytes;
+    out.close();
+    if (out) return;
+    throw InputError(fmt::format(
+        "'{}' cannot be written; is the disk full, and does its folder exist?",
+        file.string()));
+  });
 }
 
 }  // namespace limber

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string_view>
 
 namespace limber {
 
@@ -14,5 +15,9 @@ namespace limber {
 void write_whole(
     const std::filesystem::path& file,
     const std::function<void(const std::filesystem::path&)>& write);
+
+/// Likewise, of these bytes. @throws InputError naming the file if it cannot be
+/// written
+void write_whole(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace limber

@@ -1,39 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts every heap allocation of the program, so it has an executable's
-// worth of malloc of its own; not built under sanitizers, which replace it too.
+// Not built under sanitizers (support/allocation_count.hpp).
 #include <gtest/gtest.h>
 
 #include "limber/contact/shapes/shape_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
+#include "support/allocation_count.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
-
-extern "C" {
-void* __libc_malloc(std::size_t size);                       // NOLINT
-void* __libc_memalign(std::size_t align, std::size_t size);  // NOLINT
-}
-
-namespace {
-long allocations = 0;
-}
-
-extern "C" {
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* aligned_alloc(std::size_t align, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(align, size);
-}
-}
 
 namespace limber::contact {
 namespace {
 
 TEST(Allocation, OfContactIsCounted) {
-  const long before = allocations;
+  const long before = limber::testing::allocations;
   const Skin skin(testing::make_ball_surface(1.0, 0, true));
-  EXPECT_GT(allocations - before, 10);
+  EXPECT_GT(limber::testing::allocations - before, 10);
 }
 
 TEST(Allocation, FindingWhereShapesMeetMakesNone) {
@@ -51,14 +31,14 @@ TEST(Allocation, FindingWhereShapesMeetMakesNone) {
     std::vector<Meeting> out(pair.most_points());
     double deepest = -1e9;
     double clearance = 1e9;
-    const long before = allocations;
+    const long before = limber::testing::allocations;
     pair.find({A, B}, 0.1, out);
     for (const Meeting& m : out) {
       if (m.depth > deepest) set_shape_functions(pair.A(), m.on_A, Phi);
       deepest = std::max(deepest, m.depth);
     }
     clearance = pair.find_clearance({A, B}) + 0.0 * find_extent(pair.A(), A);
-    EXPECT_EQ(allocations - before, 0);
+    EXPECT_EQ(limber::testing::allocations - before, 0);
     EXPECT_GT(deepest, -0.2);
     EXPECT_LT(clearance, 0.2);
   }

@@ -4,25 +4,14 @@
 #include <gmock/gmock.h>
 
 #include "limber/common/roll_pitch_yaw.hpp"
-#include "limber/scene/robot/robot_reader.hpp"
-#include "unit/scene/temporary_file.hpp"
+#include "unit/scene/robot/robot_text.hpp"
 
 namespace limber::scene {
 namespace {
 
-using test::input_error;
-using test::TemporaryFile;
+using test::error_of;
+using test::read;
 using testing::HasSubstr;
-
-Robot read(const std::string& body) {
-  const TemporaryFile file("robot.urdf",
-                           "<robot name='r'>\n" + body + "\n</robot>");
-  return read_robot(file.path());
-}
-
-std::string error_of(const std::string& body) {
-  return input_error([&] { (void)read(body); });
-}
 
 std::string link(const std::string& content) {
   return "<link name='a'>" + content + "</link>";

@@ -4,30 +4,18 @@
 #include <numbers>
 #include <vector>
 
-#include "limber/scene/robot/robot_reader.hpp"
-#include "unit/scene/temporary_file.hpp"
+#include "unit/scene/robot/robot_text.hpp"
 
 /// Joints, loops, tendons, gears and latches as the robot's file gives them.
 namespace limber::scene {
 namespace {
 
 using joints::JointKind;
-using test::input_error;
-using test::TemporaryFile;
+using test::error_of;
+using test::read;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-// A text without line breaks is on line 2.
-Robot read(const std::string& body) {
-  const TemporaryFile file("robot.urdf",
-                           "<robot name='r'>\n" + body + "\n</robot>");
-  return read_robot(file.path());
-}
-
-std::string error_of(const std::string& body) {
-  return input_error([&] { (void)read(body); });
-}
 
 const std::string kRange =
     "<limit lower='-1' upper='2' effort='5' velocity='3'/>";

@@ -3,24 +3,15 @@
 
 #include <gmock/gmock.h>
 
-#include "unit/scene/temporary_file.hpp"
+#include "unit/scene/robot/robot_text.hpp"
 
 namespace limber::scene {
 namespace {
 
+using test::error_of;
 using test::input_error;
-using test::TemporaryFile;
+using test::read;
 using testing::HasSubstr;
-
-Robot read(const std::string& body) {
-  const TemporaryFile file("robot.urdf",
-                           "<robot name='r'>\n" + body + "\n</robot>");
-  return read_robot(file.path());
-}
-
-std::string error_of(const std::string& body) {
-  return input_error([&] { (void)read(body); });
-}
 
 std::string joint(const std::string& name, const std::string& parent,
                   const std::string& child,
