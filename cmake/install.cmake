@@ -64,7 +64,7 @@ set(public_headers
   results/xdmf.hpp
   scene/build/build_system.hpp
   scene/build/load_scene.hpp
-  scene/build/measured_probe.hpp
+  scene/control/measured_probe.hpp
   scene/build/scenario_writer.hpp
   scene/robot/robot_reader.hpp
   scene/scenario/scenario_reader.hpp)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/run_scene.hpp"
@@ -14,7 +15,8 @@
 #include "unit/results/temporary_folder.hpp"
 
 /// examples/slew.toml: the hub is driven through half a turn by a trapezoidal
-/// rate, as it is and shaped at the first natural frequency.
+/// rate, as it is and shaped at the first natural frequency; and
+/// examples/damped_slew.toml, the same with feedback.
 namespace limber {
 namespace {
 
@@ -40,18 +42,24 @@ class Slew : public ::testing::Test {
     if (kind) {
       signal.shaper = joints::make_shaper(*kind, frequency, kDampingRatio);
     }
+    return find_swing(scene, "tip_path.y", kArrived);
+  }
+
+  /// How far a column moves from a time on, peak to peak.
+  static double find_swing(const scene::Scene& scene, const std::string& name,
+                           double from) {
     const app::Run run =
         app::simulate_scene(scene, app::make_reducer({}), cache(), {});
     EXPECT_FALSE(run.failure);
     const auto& columns = run.history.columns;
     const auto column =
         std::find_if(columns.begin(), columns.end(),
-                     [](const auto& c) { return c.name == "tip_path.y"; }) -
+                     [&](const auto& c) { return c.name == name; }) -
         columns.begin();
     double lowest = INFINITY;
     double highest = -INFINITY;
     for (std::size_t i = 0; i < run.history.times.size(); ++i) {
-      if (run.history.times[i] < kArrived) continue;
+      if (run.history.times[i] < from) continue;
       const double y =
           run.history.probe_rows[i].at(static_cast<std::size_t>(column));
       lowest = std::min(lowest, y);
@@ -64,10 +72,12 @@ class Slew : public ::testing::Test {
   /// frequency 10 % too low, 0.139 s [s].
   static constexpr double kArrived = 0.85;
 
- private:
-  static scene::Scene load() {
-    return scene::load_scene(LIMBER_SOURCE_DIR "/examples/slew.toml");
+  static scene::Scene load(const char* name = "slew.toml") {
+    return scene::load_scene(
+        std::filesystem::path(LIMBER_SOURCE_DIR "/examples") / name);
   }
+
+ private:
   static const std::filesystem::path& cache() {
     static const results::test::TemporaryFolder folder;  // reduces once
     return folder.path();
@@ -96,6 +106,15 @@ TEST_F(Slew, ShapedForAFrequencyTenPercentWrongLeavesWhatTheFormulasSay) {
     EXPECT_NEAR(share(ShaperKind::zv), left, 0.003);
     EXPECT_NEAR(share(ShaperKind::zvd), left * left, 0.003);
   }
+}
+
+TEST_F(Slew, WithFeedbackLeavesLessThanATenthOfTheVibration) {
+  scene::Scene scene = load("damped_slew.toml");
+  const double damped = find_swing(scene, "tip.dy", 1.6);
+  scene.scenario.drives.at(1).drive.signal.base = joints::ConstantSignal{0.0};
+  const double plain = find_swing(scene, "tip.dy", 1.6);
+  EXPECT_GT(plain, 5e-3);
+  EXPECT_LT(damped, 0.1 * plain);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "limber/common/files/build_id.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/settings_fields.hpp"
-#include "limber/scene/build/fields.hpp"
+#include "limber/scene/probes/probe_fields.hpp"
 #include "limber/version.hpp"
 
 namespace limber::app {

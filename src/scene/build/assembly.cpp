@@ -13,6 +13,7 @@
 #include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
 #include "limber/scene/build/rotation_check.hpp"
+#include "limber/scene/control/controller_assembly.hpp"
 #include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
@@ -68,6 +69,8 @@ void Assembly::add_body(const BodyPlan& plan) {
         link.name));
   }
 }
+
+void Assembly::add_inputs() { scene::add_inputs(scene_.scenario, builder_); }
 
 void Assembly::add_couplers() {
   CouplerAssembly(scene_, plans_, sites_, builder_, warnings_).add_all();
@@ -166,6 +169,11 @@ std::vector<Probe> Assembly::make_probes(
       probes.push_back({spec.name, with_context(who, [&] {
                           return make_contact_probe(*contact, model);
                         })});
+      continue;
+    }
+    if (const auto* written = std::get_if<ControllerProbeSpec>(&spec.of)) {
+      probes.push_back({spec.name, ControllerProbe{find_controller(
+                                       scene_.scenario, written->controller)}});
       continue;
     }
     const auto& coupler = std::get<CouplerProbeSpec>(spec.of);

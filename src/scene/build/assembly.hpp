@@ -21,6 +21,7 @@ class Assembly {
            const std::vector<LinkMotion>& motions);
 
   void add_bodies();
+  void add_inputs();
   void add_couplers();
   void add_loads();
   void add_contacts();

@@ -8,6 +8,7 @@
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
+#include "limber/scene/control/controller_assembly.hpp"
 #include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
@@ -43,6 +44,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   add_full_bodies(scene, make_full, plans);
   Assembly assembly(scene, plans, motions);
   assembly.add_bodies();
+  assembly.add_inputs();
   assembly.add_couplers();
   assembly.add_loads();
   assembly.add_contacts();
@@ -55,6 +57,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   for (Probe& probe : built.probes) {
     set_start(probe, built.model, built.initial);
   }
+  add_controllers(scene.scenario, built.probes, built.model, built.initial);
   for (int link = 0; link < std::ssize(scene.robot.links); ++link) {
     built.links.push_back(assembly.place_link(link));
   }

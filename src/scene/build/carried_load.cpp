@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/overloaded.hpp"
 
@@ -22,32 +21,49 @@ double find_largest(const std::vector<double>& values) {
   return largest;
 }
 
+// Bound on what a controller writes; 0 without limits, as nothing is known
+// then.
+double find_bound(const Scenario& scenario, int input) {
+  const dynamics::PidParameters& pid = scenario.controllers[index(input)].pid;
+  const double bound = std::max(std::abs(pid.lower), std::abs(pid.upper));
+  return std::isfinite(bound) ? bound : 0.0;
+}
+
 // Bound on a load's factor.
-double find_peak(const dynamics::TimeFunction& function) {
-  return std::visit(Overloaded{[](const dynamics::StepSequence& s) {
-                                 return find_largest(s.values);
-                               },
-                               [](const dynamics::Table& t) {
-                                 return find_largest(t.values);
-                               },
-                               [](const dynamics::HarmonicSum& sum) {
-                                 double peak = std::abs(sum.mean);
-                                 for (const dynamics::Harmonic& h : sum.terms) {
-                                   peak += std::hypot(h.cosine, h.sine);
-                                 }
-                                 return peak;
-                               },
-                               [](const dynamics::InputFunction&) -> double {
-                                 throw ContractError(
-                                     "an input has no bound before a run; a "
-                                     "scenario has none");
-                               },
-                               [](const auto&) { return 1.0; }},
-                    function);
+double find_peak(const dynamics::TimeFunction& function,
+                 const Scenario& scenario) {
+  return std::visit(
+      Overloaded{
+          [](const dynamics::StepSequence& s) {
+            return find_largest(s.values);
+          },
+          [](const dynamics::Table& t) { return find_largest(t.values); },
+          [](const dynamics::HarmonicSum& sum) {
+            double peak = std::abs(sum.mean);
+            for (const dynamics::Harmonic& h : sum.terms) {
+              peak += std::hypot(h.cosine, h.sine);
+            }
+            return peak;
+          },
+          [&](const dynamics::InputFunction& f) {
+            return std::abs(f.factor) * find_bound(scenario, f.input);
+          },
+          [](const auto&) { return 1.0; }},
+      function);
+}
+
+// Bounds on a drive's command and its rate.
+joints::SignalValue find_most(const joints::Signal& signal,
+                              const Scenario& scenario) {
+  if (const auto* input = std::get_if<joints::InputSignal>(&signal.base)) {
+    return {std::abs(input->factor) * find_bound(scenario, input->input), 0.0};
+  }
+  return joints::find_largest(signal);
 }
 
 // Largest angular speed that a drive commands; 0 for a translation.
-double find_turn(const DriveSpec& drive, joints::JointKind kind) {
+double find_turn(const DriveSpec& drive, joints::JointKind kind,
+                 const Scenario& scenario) {
   const auto coordinates =
       joints::find_coordinates(kind, Vector3::UnitZ(), Vector3::UnitX());
   const auto i = index(drive.coordinate - 1);
@@ -55,7 +71,7 @@ double find_turn(const DriveSpec& drive, joints::JointKind kind) {
       coordinates[i].kind != joints::AxisCoordinate::Kind::angle) {
     return 0.0;
   }
-  const joints::SignalValue most = joints::find_largest(drive.drive.signal);
+  const joints::SignalValue most = find_most(drive.drive.signal, scenario);
   switch (drive.drive.mode) {
     case joints::DriveMode::position:
       return most.rate;
@@ -134,7 +150,7 @@ void CarriedLoads::find_parts() {
   for (const LoadSpec& load : scene_.scenario.loads) {
     const int link = find_link(scene_.robot, load.where.link);
     if (!is_of_tree(link)) continue;
-    const double peak = find_peak(load.time);
+    const double peak = find_peak(load.time, scene_.scenario);
     parts_.push_back({link, peak * load.force.norm(), peak * load.moment.norm(),
                       place(load.where)});
   }
@@ -153,7 +169,8 @@ double CarriedLoads::find_speed(int tree) const {
     double& speed = driven[index(joint.child)];
     speed = driven[index(joint.parent)];
     for (const DriveSpec& drive : scene_.scenario.drives) {
-      if (drive.joint == joint.name) speed += find_turn(drive, joint.kind);
+      if (drive.joint == joint.name)
+        speed += find_turn(drive, joint.kind, scene_.scenario);
     }
     largest = std::max(largest, speed);
   }
@@ -161,7 +178,7 @@ double CarriedLoads::find_speed(int tree) const {
     if (!is_in(loop, tree)) continue;
     for (const DriveSpec& drive : scene_.scenario.drives) {
       if (drive.joint != loop.name) continue;
-      largest = std::max(largest, find_turn(drive, loop.kind));
+      largest = std::max(largest, find_turn(drive, loop.kind, scene_.scenario));
     }
   }
   return largest;

@@ -24,7 +24,8 @@ using dynamics::CarriedLoad;
 ///            sum of commanded drive speeds along a path from the root
 /// Limits     an upper bound if all rotate as one, else an estimate: neglects
 ///            speeds due to loads or effort drives, shocks such as
-///            contacts', and loads of acceleration by drives.
+///            contacts', loads of acceleration by drives, and what controllers
+///            without limits write.
 class CarriedLoads {
  public:
   CarriedLoads(const Scene& scene, const BodyPlans& plans,

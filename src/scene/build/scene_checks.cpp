@@ -48,6 +48,9 @@ class Checker {
       const std::string who = "probe '" + probe.name + "'";
       std::visit([&](const auto& of) { check_probe(who, of); }, probe.of);
     }
+    for (const ControllerSpec& one : scenario_.controllers) {
+      check_controller(one);
+    }
     for (const DriveSpec& drive : scenario_.drives) check_drive(drive);
     for (const auto& [latch, time] : scenario_.releases) {
       find_named("[[release]]", "latch", latch, robot_.latches);
@@ -138,6 +141,25 @@ class Checker {
       (void)check_contact_probe(probe, *touching_, robot_, scenario_);
     } catch (const InputError& error) {
       problems_.add(0, who + ": " + error.problems().front());
+    }
+  }
+
+  void check_probe(const std::string& who, const ControllerProbeSpec& probe) {
+    find_named(who, "[[controller]]", probe.controller, scenario_.controllers);
+  }
+
+  void check_controller(const ControllerSpec& controller) {
+    const std::string who = "controller '" + controller.name + "'";
+    for (const std::string& column : {controller.measures, controller.rate}) {
+      if (column.empty()) continue;
+      const std::size_t dot = column.rfind('.');
+      if (dot != std::string::npos) {
+        find_named(who, "probe", column.substr(0, dot), scenario_.probes);
+        continue;
+      }
+      problems_.add(0, fmt::format("{}: '{}' is no column of a probe; expected "
+                                   "PROBE.COLUMN, such as 'tip.ux'",
+                                   who, column));
     }
   }
 

@@ -27,6 +27,7 @@ class Finder {
     look_at_levels();
     look_at_flexible_links();
     for (std::size_t i = 0; i < scenario_.loads.size(); ++i) look_at_load(i);
+    look_at_controllers();
     look_at_releases();
     look_at_contact_defaults();
     look_at_stribeck_speeds();
@@ -143,6 +144,51 @@ class Finder {
     if (until && *until <= 0.0) {
       tell(who, fmt::format("it acts until {:g} s, and the run begins at 0 s",
                             *until));
+    }
+  }
+
+  /// Whether a load, a drive, another controller or a probe has its input.
+  [[nodiscard]] bool is_followed(int input) const {
+    const auto follows = [&](const joints::Signal& signal) {
+      const std::vector<int> inputs = joints::find_inputs(signal);
+      return std::find(inputs.begin(), inputs.end(), input) != inputs.end();
+    };
+    const std::string& name =
+        scenario_.controllers[static_cast<std::size_t>(input)].name;
+    return std::any_of(scenario_.loads.begin(), scenario_.loads.end(),
+                       [&](const LoadSpec& load) {
+                         const auto* function =
+                             std::get_if<dynamics::InputFunction>(&load.time);
+                         return function != nullptr && function->input == input;
+                       }) ||
+           std::any_of(
+               scenario_.drives.begin(), scenario_.drives.end(),
+               [&](const DriveSpec& d) { return follows(d.drive.signal); }) ||
+           std::any_of(scenario_.controllers.begin(),
+                       scenario_.controllers.end(),
+                       [&](const ControllerSpec& c) {
+                         return follows(c.pid.reference);
+                       }) ||
+           std::any_of(scenario_.probes.begin(), scenario_.probes.end(),
+                       [&](const ProbeSpec& probe) {
+                         const auto* of =
+                             std::get_if<ControllerProbeSpec>(&probe.of);
+                         return of != nullptr && of->controller == name;
+                       });
+  }
+
+  void look_at_controllers() {
+    const double end = scenario_.settings.end_time;
+    for (std::size_t i = 0; i < scenario_.controllers.size(); ++i) {
+      const ControllerSpec& controller = scenario_.controllers[i];
+      const std::string who = "controller '" + controller.name + "'";
+      if (!is_followed(static_cast<int>(i))) {
+        tell(who, "no load and no drive follows it, and no probe has it");
+      } else if (controller.offset > end) {
+        tell(who, fmt::format("its first sample is at {:g} s, and the run ends "
+                              "at {:g} s",
+                              controller.offset, end));
+      }
     }
   }
 

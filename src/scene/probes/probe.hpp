@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limber/scene/probes/contact_probe.hpp"
+#include "limber/scene/probes/controller_probe.hpp"
 #include "limber/scene/probes/coupler_probe.hpp"
 #include "limber/scene/probes/point_probe.hpp"
 
@@ -14,7 +15,7 @@ namespace limber::scene {
 /// What a run records at every output: one to three columns.
 struct Probe {
   std::string name;
-  std::variant<PointProbe, CouplerProbe, ContactProbe> of;
+  std::variant<PointProbe, CouplerProbe, ContactProbe, ControllerProbe> of;
 };
 
 /// Name and unit of each of a probe's columns: "tip.ux" [m], ...

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "limber/scene/scenario/signal_reader.hpp"
-
 namespace limber::scene {
 namespace {
 
@@ -57,12 +55,12 @@ void read_gains(TomlTable& table, Drive::Parameters& drive) {
 
 }  // namespace
 
-DriveSpec read_drive(TomlTable& table, const std::filesystem::path& folder) {
+DriveSpec read_drive(TomlTable& table, const SignalContext& context) {
   DriveSpec spec;
   read_target(table, spec);
   read_gains(table, spec.drive);
   spec.drive.pulls_only = !spec.tendon.empty();
-  spec.drive.signal = read_signal(table, folder);
+  spec.drive.signal = read_signal(table, context);
   if (!table.problems().empty()) return spec;
   try {
     (void)Drive(spec.drive);

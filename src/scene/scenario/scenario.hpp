@@ -14,6 +14,7 @@
 #include "limber/dynamics/analysis/level_advice.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
+#include "limber/dynamics/system/pid_controller.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/time_function.hpp"
 #include "limber/flexbody/model/full_body.hpp"
@@ -116,9 +117,16 @@ struct ContactProbeSpec {
   ContactQuantity quantity = ContactQuantity::force;
 };
 
+/// A probe of what a controller writes.
+struct ControllerProbeSpec {
+  std::string controller;
+};
+
 struct ProbeSpec {
   std::string name;
-  std::variant<PointProbeSpec, CouplerProbeSpec, ContactProbeSpec> of;
+  std::variant<PointProbeSpec, CouplerProbeSpec, ContactProbeSpec,
+               ControllerProbeSpec>
+      of;
 };
 
 /// Coordinates of one joint at the start.
@@ -153,6 +161,17 @@ struct DriveSpec {
   joints::Drive::Parameters drive;
 };
 
+/// A controller that loads and drives follow. Its place in
+/// Scenario::controllers is the index of the input that it writes.
+struct ControllerSpec {
+  std::string name;
+  std::string measures;  ///< a column of a probe: "tip.ux"
+  std::string rate;      ///< the column of its rate; empty: by differences
+  dynamics::PidParameters pid;
+  double offset = 0.0;  ///< time of the first sample [s]
+  dynamics::InputHold hold = dynamics::InputHold::held;
+};
+
 struct OutputSpec {
   std::filesystem::path folder;  ///< empty: out/<scenario name>
   bool xdmf = false;
@@ -181,6 +200,7 @@ struct Scenario {
   std::vector<ProjectileSpec> projectiles;
   std::vector<ObstacleSpec> obstacles;
   std::vector<ContactSpec> contacts;
+  std::vector<ControllerSpec> controllers;
   std::vector<DriveSpec> drives;
   std::map<std::string, double> releases;  ///< of latches, at these times [s]
   std::vector<ProbeSpec> probes;

@@ -12,6 +12,7 @@
 #include "limber/scene/scenario/basis_reader.hpp"
 #include "limber/scene/scenario/contact_probe_reader.hpp"
 #include "limber/scene/scenario/contact_reader.hpp"
+#include "limber/scene/scenario/controller_reader.hpp"
 #include "limber/scene/scenario/coupler_probe_reader.hpp"
 #include "limber/scene/scenario/drive_reader.hpp"
 #include "limber/scene/scenario/time_function_reader.hpp"
@@ -69,9 +70,9 @@ LoadSpec read_nodal_load(TomlTable& table,
   return load;
 }
 
-LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder,
+LoadSpec read_load(TomlTable& table, const SignalContext& context,
                    std::vector<std::string>& warnings) {
-  if (table.has("nodal_forces")) return read_nodal_load(table, folder);
+  if (table.has("nodal_forces")) return read_nodal_load(table, context.folder);
   LoadSpec load;
   load.name = table.required_text("name");
   load.where = read_place(table);
@@ -88,7 +89,7 @@ LoadSpec read_load(TomlTable& table, const std::filesystem::path& folder,
   if (const toml::table* time = table.table("time")) {
     TomlTable function(*time, "load '" + load.name + "' time",
                        table.problems());
-    load.time = read_time_function(function, folder, warnings);
+    load.time = read_time_function(function, context, warnings);
   }
   return load;
 }
@@ -122,6 +123,9 @@ PointProbeSpec read_point_probe(TomlTable& table) {
 ProbeSpec read_probe(TomlTable& table) {
   const std::string name = table.required_text("name");
   if (table.has("contact")) return {name, read_contact_probe(table)};
+  if (table.has("controller")) {
+    return {name, ControllerProbeSpec{table.required_text("controller")}};
+  }
   if (table.has("coupler")) return {name, read_coupler_probe(table)};
   return {name, read_point_probe(table)};
 }
@@ -319,12 +323,17 @@ void read_root(TomlTable& root, Scenario& scenario) {
                [&](TomlTable& t) { scenario.output = read_output(t); });
   read_section(root, "advice",
                [&](TomlTable& t) { scenario.advice = read_advice(t); });
+  const std::filesystem::path folder = scenario.file.parent_path();
+  const std::vector<std::string> controllers = list_controllers(root);
+  const SignalContext context{folder, controllers};
+  scenario.controllers = read_items<ControllerSpec>(
+      root, "controller",
+      [&](TomlTable& t) { return read_controller(t, context); });
   scenario.loads = read_items<LoadSpec>(root, "load", [&](TomlTable& t) {
-    return read_load(t, scenario.file.parent_path(), scenario.warnings);
+    return read_load(t, context, scenario.warnings);
   });
-  scenario.drives = read_items<DriveSpec>(root, "drive", [&](TomlTable& t) {
-    return read_drive(t, scenario.file.parent_path());
-  });
+  scenario.drives = read_items<DriveSpec>(
+      root, "drive", [&](TomlTable& t) { return read_drive(t, context); });
   for (const toml::table* table : root.tables("release")) {
     TomlTable release(*table, "release", root.problems());
     read_release(release, scenario.releases);

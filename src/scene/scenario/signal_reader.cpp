@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/scene/scenario/signal_reader.hpp"
 
+#include <algorithm>
+
 #include "limber/scene/text/points_reader.hpp"
 
 namespace limber::scene {
 namespace {
 
 using Base = decltype(joints::Signal::base);
-using Folder = std::filesystem::path;
-using Reader = Base (*)(TomlTable&, const Folder&);
+using Reader = Base (*)(TomlTable&, const SignalContext&);
 
-Base read_constant(TomlTable& table, const Folder& /*folder*/) {
+Base read_constant(TomlTable& table, const SignalContext& /*context*/) {
   return joints::ConstantSignal{table.required_number("value")};
 }
 
-Base read_ramp(TomlTable& table, const Folder& /*folder*/) {
+Base read_ramp(TomlTable& table, const SignalContext& /*context*/) {
   using joints::RampShape;
   joints::RampSignal ramp;
   ramp.from = table.number("from").value_or(ramp.from);
@@ -34,12 +35,12 @@ Base read_ramp(TomlTable& table, const Folder& /*folder*/) {
   return ramp;
 }
 
-Base read_table(TomlTable& table, const Folder& folder) {
-  Series points = read_points(table, folder);
+Base read_table(TomlTable& table, const SignalContext& context) {
+  Series points = read_points(table, context.folder);
   return joints::TableSignal{std::move(points.times), std::move(points.values)};
 }
 
-Base read_sine(TomlTable& table, const Folder& /*folder*/) {
+Base read_sine(TomlTable& table, const SignalContext& /*context*/) {
   joints::SineSignal sine;
   sine.mean = table.number("mean").value_or(sine.mean);
   sine.amplitude = table.required_number("amplitude");
@@ -49,16 +50,21 @@ Base read_sine(TomlTable& table, const Folder& /*folder*/) {
   return sine;
 }
 
-Base read_base(TomlTable& table, const Folder& folder) {
+Base read_input(TomlTable& table, const SignalContext& context) {
+  return read_input_signal(table, context.controllers);
+}
+
+Base read_base(TomlTable& table, const SignalContext& context) {
   if (!table.has("kind")) table.fail("needs 'kind'");
   const Reader reader = read_choice<Reader>(table, "kind",
                                             {{"constant", read_constant},
                                              {"ramp", read_ramp},
                                              {"table", read_table},
-                                             {"sine", read_sine}},
+                                             {"sine", read_sine},
+                                             {"input", read_input}},
                                             nullptr);
   if (reader == nullptr) return {};
-  Base base = reader(table, folder);
+  Base base = reader(table, context);
   table.finish();
   return base;
 }
@@ -78,7 +84,26 @@ std::vector<joints::Impulse> read_shaper(TomlTable& table) {
 
 }  // namespace
 
-joints::Signal read_signal(TomlTable& drive, const Folder& folder) {
+joints::InputSignal read_input_signal(
+    TomlTable& table, const std::vector<std::string>& controllers) {
+  joints::InputSignal signal;
+  signal.factor = table.number("factor").value_or(signal.factor);
+  const std::string name = table.required_text("controller");
+  const auto found = std::find(controllers.begin(), controllers.end(), name);
+  signal.input = static_cast<int>(found - controllers.begin());
+  if (found == controllers.end() && !name.empty()) {
+    table.fail("controller",
+               describe_unknown("[[controller]]", name, controllers));
+  }
+  return signal;
+}
+
+joints::Signal read_base_signal(TomlTable& table,
+                                const SignalContext& context) {
+  return {.base = read_base(table, context)};
+}
+
+joints::Signal read_signal(TomlTable& drive, const SignalContext& context) {
   joints::Signal signal;
   const toml::table* base = drive.table("signal");
   const toml::table* shaper = drive.table("shaper");
@@ -86,7 +111,7 @@ joints::Signal read_signal(TomlTable& drive, const Folder& folder) {
     if (!drive.has("signal")) drive.fail("needs 'signal'");
   } else {
     TomlTable table(*base, drive.path() + " signal", drive.problems());
-    signal.base = read_base(table, folder);
+    signal.base = read_base(table, context);
   }
   if (shaper != nullptr) {
     TomlTable table(*shaper, drive.path() + " shaper", drive.problems());

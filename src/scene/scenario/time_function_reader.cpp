@@ -17,7 +17,7 @@ namespace {
 // Input common to all kinds.
 struct Source {
   TomlTable& table;
-  const std::filesystem::path& folder;
+  const SignalContext& context;
   std::vector<std::string>& warnings;
 };
 using Reader = std::function<dynamics::TimeFunction(Source&)>;
@@ -36,12 +36,12 @@ std::vector<double> required_numbers(TomlTable& table, const std::string& key) {
 }
 
 dynamics::TimeFunction read_steps(Source& source) {
-  const Series points = read_points(source.table, source.folder);
+  const Series points = read_points(source.table, source.context.folder);
   return dynamics::StepSequence{points.times, points.values};
 }
 
 dynamics::TimeFunction read_table(Source& source) {
-  const Series points = read_points(source.table, source.folder);
+  const Series points = read_points(source.table, source.context.folder);
   return dynamics::Table{points.times, points.values};
 }
 
@@ -115,7 +115,7 @@ dynamics::HarmonicSum to_sum(const flexbody::FourierSeries& series) {
 // A measured load is zero outside its table, unless `until` extends it.
 dynamics::TimeFunction read_fourier(Source& source) {
   TomlTable& table = source.table;
-  const Series points = read_points(source.table, source.folder);
+  const Series points = read_points(source.table, source.context.folder);
   const auto harmonics = table.integer("harmonics", 0, 100000);
   const auto until = table.number("until");
   if (!harmonics) {
@@ -148,10 +148,16 @@ dynamics::TimeFunction read_fourier(Source& source) {
   return dynamics::Constant{};
 }
 
+dynamics::TimeFunction read_input(Source& source) {
+  const joints::InputSignal signal =
+      read_input_signal(source.table, source.context.controllers);
+  return dynamics::InputFunction{signal.input, signal.factor};
+}
+
 }  // namespace
 
 dynamics::TimeFunction read_time_function(TomlTable& table,
-                                          const std::filesystem::path& folder,
+                                          const SignalContext& context,
                                           std::vector<std::string>& warnings) {
   if (!table.has("kind")) table.fail("needs 'kind'");
   const Reader reader = read_choice<Reader>(table, "kind",
@@ -161,10 +167,11 @@ dynamics::TimeFunction read_time_function(TomlTable& table,
                                              {"sinusoid", read_sinusoid},
                                              {"sinusoids", read_sinusoids},
                                              {"fourier", read_fourier},
-                                             {"table", read_table}},
+                                             {"table", read_table},
+                                             {"input", read_input}},
                                             nullptr);
   if (!reader) return dynamics::Constant{};
-  Source source{table, folder, warnings};
+  Source source{table, context, warnings};
   dynamics::TimeFunction function = reader(source);
   table.finish();
   if (!table.problems().empty()) return function;

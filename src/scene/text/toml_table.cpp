@@ -40,6 +40,11 @@ bool TomlTable::is_array(const std::string& key) const {
   return node != nullptr && node->is_array();
 }
 
+bool TomlTable::is_table(const std::string& key) const {
+  const toml::node* node = table_.get(key);
+  return node != nullptr && node->is_table();
+}
+
 void TomlTable::fail(const std::string& text) const {
   const std::string what = text + origin_of(table_);
   problems_.add(line(), path_.empty() ? what : "[" + path_ + "] " + what);

@@ -31,6 +31,7 @@ class TomlTable {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& key) const;
   [[nodiscard]] bool is_array(const std::string& key) const;
+  [[nodiscard]] bool is_table(const std::string& key) const;
 
   /// Readers of one key; each marks the key as known.
   [[nodiscard]] std::optional<std::string> text(const std::string& key);

@@ -34,6 +34,10 @@ constexpr auto fields_of(const ContactProbe*) {
   return list_fields("contact", "what", "turned", "parts");
 }
 
+constexpr auto fields_of(const ControllerProbe*) {
+  return list_fields("controller", "input index");
+}
+
 constexpr auto fields_of(const Probe*) {
   return list_fields("probe", "name", "of");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/scene/build/measured_probe.hpp"
+#include "limber/scene/control/measured_probe.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/records/manifest.hpp"
-#include "limber/scene/build/fields.hpp"
+#include "limber/scene/probes/probe_fields.hpp"
 
 namespace limber::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/scene/build/measured_probe.hpp"
+#include "limber/scene/control/measured_probe.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

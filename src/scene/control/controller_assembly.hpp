@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limber/dynamics/system/system_builder.hpp"
+#include "limber/scene/probes/probe.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+
+namespace limber::scene {
+
+/// Adds the input of each controller, in their order, before what follows it.
+void add_inputs(const Scenario& scenario, dynamics::SystemBuilder& builder);
+
+/// Index of a controller, and of its input. @throws ContractError if there is
+/// no such one.
+[[nodiscard]] int find_controller(const Scenario& scenario,
+                                  const std::string& name);
+
+/// Adds the controllers, which measure probes, to a system that has their
+/// inputs, and their memory to its initial state.
+/// @param probes of the system, with their starts
+/// @throws InputError naming the controller if a probe has no such column.
+void add_controllers(const Scenario& scenario, const std::vector<Probe>& probes,
+                     dynamics::SystemModel& model,
+                     dynamics::SystemState& initial);
+
+}  // namespace limber::scene

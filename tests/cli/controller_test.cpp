@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Controllers of scenarios.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "cli/shell.hpp"
+
+namespace limber::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kInertia = 0.4;
+constexpr double kPeriod = 0.02;
+constexpr double kP = 3.0;
+constexpr double kD = 1.2;
+
+const char* const kRobot = R"(<robot name='r'><link name='world'/>
+<link name='rotor'><inertial><mass value='2'/><inertia ixx='0.3' iyy='0.3'
+  izz='0.4' ixy='0' ixz='0' iyz='0'/></inertial></link>
+<joint name='hinge' type='continuous'><parent link='world'/>
+  <child link='rotor'/><axis xyz='0 0 1'/></joint></robot>)";
+
+const char* const kScenario = R"(robot = 'robot.urdf'
+[time]
+duration = 1.0
+step = 0.001
+integrator = 'runge-kutta-4'
+output_interval = 0.02
+[output]
+pictures = false
+[initial.joints]
+hinge = { position = 0.5 }
+[[drive]]
+joint = 'hinge'
+mode = 'effort'
+signal = { kind = 'input', controller = 'pd' }
+[[controller]]
+name = 'pd'
+period = 0.02
+measures = 'angle.q'
+rate = 'speed.qdot'
+proportional = 3.0
+derivative = 1.2
+[[probe]]
+name = 'angle'
+coupler = 'hinge'
+quantity = 'coordinate'
+[[probe]]
+name = 'speed'
+coupler = 'hinge'
+quantity = 'coordinate_rate'
+[[probe]]
+name = 'torque'
+controller = 'pd'
+)";
+
+class AController : public ::testing::Test {
+ protected:
+  AController() { place_.write("robot.urdf", kRobot); }
+
+  json run(const std::string& options = "") {
+    place_.write("s.toml", text_);
+    const CommandResult result =
+        place_.limber("run s.toml --out o --json " + options);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    errors_ = result.errors;
+    return json::parse(result.out, nullptr, false);
+  }
+
+  double find_final(const std::string& column,
+                    const std::string& options = "") {
+    return run(options)["probes"][column]["final"].get<double>();
+  }
+
+  void expect_refused(const std::string& old, const std::string& by,
+                      const std::string& words) {
+    std::string text = kScenario;
+    ASSERT_NE(text.find(old), std::string::npos) << old;
+    place_.write("s.toml", text.replace(text.find(old), old.size(), by));
+    const CommandResult result = place_.limber("run s.toml --out o");
+    EXPECT_EQ(result.status, 2) << by;
+    EXPECT_THAT(result.errors, HasSubstr(words));
+  }
+
+  std::string text_ = kScenario;
+  std::string errors_;
+  Workspace place_;
+};
+
+// Between samples the torque is constant: the sampled double integrator
+// (Astrom, Wittenmark 1997, example 2.1).
+TEST_F(AController, OfPdLetsARotorMoveAsTheSampledDoubleIntegrator) {
+  double q = 0.5;
+  double v = 0.0;
+  double u = 0.0;
+  for (int k = 0; k < 50; ++k) {
+    u = -kP * q - kD * v;
+    q += kPeriod * v + 0.5 * kPeriod * kPeriod * u / kInertia;
+    v += kPeriod * u / kInertia;
+  }
+  EXPECT_GT(std::abs(q), 1e-3);
+  const json probes = run()["probes"];
+  EXPECT_NEAR(probes["angle.q"]["final"].get<double>(), q, 1e-11);
+  EXPECT_NEAR(probes["speed.qdot"]["final"].get<double>(), v, 1e-11);
+  EXPECT_NEAR(probes["torque.u"]["final"].get<double>(), -kP * q - kD * v,
+              1e-10);
+}
+
+TEST_F(AController, WithAnIntegralHoldsAgainstAConstantMoment) {
+  const json probes =
+      run("--set time.duration=60 --set time.step=0.02 "
+          "--set time.integrator=generalized-alpha "
+          "--set controller.pd.integral=4 --set controller.pd.reference=0.3 "
+          "--set load='[{name=\"wind\",link=\"rotor\",moment=[0,0,0.7]}]'")
+          ["probes"];
+  EXPECT_NEAR(probes["angle.q"]["final"].get<double>(), 0.3, 1e-9);
+  EXPECT_NEAR(probes["torque.u"]["final"].get<double>(), -0.7, 1e-9);
+}
+
+// A load that follows the controller turns the free rotor as the drive did.
+TEST_F(AController, MovesALoadAsItMovesADrive) {
+  const double driven = find_final("angle.q");
+  const std::size_t at = text_.find("[[drive]]");
+  text_.replace(at, text_.find("[[controller]]") - at,
+                "[[load]]\nname = 'turn'\nlink = 'rotor'\n"
+                "moment = [0.0, 0.0, 2.0]\ntime = { kind = 'input', "
+                "controller = 'pd', factor = 0.5 }\n");
+  EXPECT_NEAR(find_final("angle.q"), driven, 1e-12);
+}
+
+TEST_F(AController, GivesAnotherAnswerWithAnyOfItsKeysChanged) {
+  const double original = find_final("angle.q");
+  for (const char* change :
+       {"proportional=2", "derivative=1", "integral=1", "period=0.01",
+        "offset=0.005", "filter=0.05", "delay=0.04", "limits=[-1,1]",
+        "reference=0.1", "hold=linear", "measures=speed.qdot",
+        "reference.kind=constant --set controller.pd.reference.value=0.1"}) {
+    EXPECT_GT(
+        std::abs(find_final("angle.q",
+                            std::string("--set controller.pd.") + change) -
+                 original),
+        1e-6)
+        << change;
+  }
+  EXPECT_GT(std::abs(find_final("angle.q",
+                                "--set controller.pd.delay=0.04 "
+                                "--set controller.pd.initial=-1") -
+                     find_final("angle.q", "--set controller.pd.delay=0.04")),
+            1e-6);
+  EXPECT_GT(std::abs(find_final("angle.q", "--set drive.0.signal.factor=0.5") -
+                     original),
+            1e-6);
+  EXPECT_GT(
+      std::abs(find_final("angle.q", "--unset controller.pd.rate") - original),
+      1e-6);
+}
+
+TEST_F(AController, ThatNothingFollowsIsTold) {
+  const std::size_t at = text_.find("[[drive]]");
+  text_.erase(at, text_.find("[[controller]]") - at);
+  text_.erase(text_.find("[[probe]]\nname = 'torque'"));
+  (void)run();
+  EXPECT_THAT(errors_, HasSubstr("controller 'pd' changes nothing"));
+  text_ = kScenario;
+  (void)run();
+  EXPECT_THAT(errors_, Not(HasSubstr("changes nothing")));
+}
+
+TEST_F(AController, IsRefusedBeforeTheRunWithWhatIsWrong) {
+  expect_refused("controller = 'pd' }", "controller = 'pdd' }", "'pdd'");
+  expect_refused("controller = 'pd'\n", "controller = 'dp'\n", "'dp'");
+  expect_refused(", controller = 'pd' }", " }", "controller");
+  expect_refused("'angle.q'", "'angle.x'", "angle.q");
+  expect_refused("'angle.q'", "'angel.q'", "'angle'");
+  expect_refused("'angle.q'", "'angle'", "PROBE.COLUMN");
+  expect_refused("period = 0.02", "period = 0.0", "period");
+  expect_refused("period = 0.02", "", "period");
+  expect_refused("period = 0.02", "period = 1e-9", "samples");
+  expect_refused("proportional = 3.0\nderivative = 1.2", "", "no gain");
+  expect_refused("proportional = 3.0", "proportional = nan", "proportional");
+  expect_refused("proportional = 3.0", "delay = 0.03", "whole number");
+  expect_refused("proportional = 3.0", "limits = [1.0, -1.0]", "limits");
+  expect_refused("proportional = 3.0", "limits = [1.0]", "limits");
+  expect_refused("proportional = 3.0", "limits = [1.0, 2.0]", "initial");
+  expect_refused("proportional = 3.0", "filter = -1.0", "filter");
+  expect_refused("proportional = 3.0", "hold = 'loose'", "hold");
+  expect_refused("proportional = 3.0", "gain = 3.0", "gain");
+  expect_refused("proportional = 3.0", "reference = { kind = 'wave' }", "wave");
+  expect_refused("proportional = 3.0",
+                 "reference = { kind = 'constant', value = 1.0, extra = 2 }",
+                 "extra");
+  expect_refused("name = 'pd'", "name = 'pd'\nname = 'pe'", "name");
+  expect_refused("[[probe]]\nname = 'angle'",
+                 "[[controller]]\nname = 'pd'\nperiod = 0.1\nmeasures = "
+                 "'angle.q'\nproportional = 1.0\n[[probe]]\nname = 'angle'",
+                 "given twice");
+}
+
+TEST_F(AController, ThatChangedIsNamedWhenARunIsResumed) {
+  text_.replace(text_.find("duration = 1.0"), 14, "duration = 4000.0");
+  place_.write("s.toml", text_);
+  RunningCommand run(place_, "run s.toml --out o");
+  ASSERT_TRUE(wait_for(place_, "o/.limber-lock"));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  run.send(SIGINT);
+  ASSERT_EQ(run.wait().status, 130);
+  const CommandResult resumed = place_.limber(
+      "run s.toml --out o --resume --set controller.pd.proportional=4");
+  EXPECT_EQ(resumed.status, 2);
+  EXPECT_THAT(resumed.errors, HasSubstr("proportional: 3"));
+}
+
+}  // namespace
+}  // namespace limber::test
