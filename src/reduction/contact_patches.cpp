@@ -138,4 +138,15 @@ std::vector<ContactPatch> find_patches(const fem::Mesh& mesh,
   return patches;
 }
 
+MatrixX average(const MatrixX& Phi, const std::vector<ContactPatch>& patches) {
+  MatrixX mean =
+      MatrixX::Zero(3 * static_cast<Eigen::Index>(patches.size()), Phi.cols());
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (std::size_t i = 0; i < patches[p].nodes.size(); ++i)
+      mean.middleRows<3>(3 * static_cast<Eigen::Index>(p)) +=
+          patches[p].weights[static_cast<Eigen::Index>(i)] *
+          Phi.middleRows<3>(3 * patches[p].nodes[i]);
+  return mean;
+}
+
 }  // namespace limber::flexbody

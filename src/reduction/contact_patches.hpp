@@ -31,4 +31,8 @@ struct ContactPatch {
     const fem::Mesh& mesh, const fem::Surface& surface, const Matrix3X& normals,
     const VectorX& radii);
 
+/// w^T Phi of each patch, 3n x m. @param Phi 3N x m rows of all nodes
+[[nodiscard]] MatrixX average(const MatrixX& Phi,
+                              const std::vector<ContactPatch>& patches);
+
 }  // namespace limber::flexbody

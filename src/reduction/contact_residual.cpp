@@ -8,23 +8,46 @@
 namespace limber::flexbody {
 namespace {
 
-/// Loads of patches [begin, end) on the free nodes, 3n x k; clamped nodes pass
-/// theirs on to the clamp.
-MatrixX list_loads(const std::vector<ContactPatch>& patches, std::size_t begin,
-                   std::size_t end, const std::vector<int>& row_of,
-                   Eigen::Index rows) {
-  MatrixX F = MatrixX::Zero(rows, static_cast<Eigen::Index>(end - begin));
-  for (std::size_t p = begin; p < end; ++p) {
-    const ContactPatch& patch = patches[p];
-    for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
-      const int row = row_of[static_cast<std::size_t>(patch.nodes[i])];
-      if (row < 0) continue;
-      F.col(static_cast<Eigen::Index>(p - begin)).segment<3>(3 * row) +=
-          patch.weights[static_cast<Eigen::Index>(i)] * patch.normal;
+/// What a basis and rigid motion do not answer of loads on patches.
+class Leftover {
+ public:
+  Leftover(const MeshedBody& body, const ReducedBasis& basis)
+      : body_(body),
+        basis_(basis),
+        row_of_(body.mesh.node_count(), -1),
+        answered_(fem::multiply_stiffness(body.support.matrices, basis.Phi) *
+                  basis.lambda.cwiseInverse().asDiagonal()) {
+    const std::vector<int>& free_nodes = body.support.free_nodes;
+    for (std::size_t i = 0; i < free_nodes.size(); ++i) {
+      row_of_[static_cast<std::size_t>(free_nodes[i])] = static_cast<int>(i);
     }
   }
-  return F;
-}
+
+  /// F of patches [begin, end) on the free nodes, 3n x k; clamped nodes pass
+  /// theirs on to the clamp.
+  [[nodiscard]] MatrixX list_loads(const std::vector<ContactPatch>& patches,
+                                   std::size_t begin, std::size_t end) const {
+    MatrixX F = MatrixX::Zero(body_.support.matrices.dof_count(),
+                              static_cast<Eigen::Index>(end - begin));
+    for (std::size_t p = begin; p < end; ++p) {
+      const ContactPatch& patch = patches[p];
+      for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
+        const int row = row_of_[static_cast<std::size_t>(patch.nodes[i])];
+        if (row < 0) continue;
+        F.col(static_cast<Eigen::Index>(p - begin)).segment<3>(3 * row) +=
+            patch.weights[static_cast<Eigen::Index>(i)] * patch.normal;
+      }
+    }
+    F -= answered_ * (basis_.Phi.transpose() * F);
+    return body_.inverse.project_load(F);
+  }
+
+ private:
+  const MeshedBody& body_;
+  const ReducedBasis& basis_;
+  std::vector<int> row_of_;
+  MatrixX answered_;  // K Phi Lambda^-1
+};
 
 VectorX sum_products(const MatrixX& A, const MatrixX& B) {
   return A.cwiseProduct(B).colwise().sum().transpose();
@@ -39,29 +62,33 @@ VectorX calc_residual_flexibility(const MeshedBody& body,
                                   const Progress& progress) {
   // More columns are solved at once faster, but need more memory.
   constexpr std::size_t kBlock = 32;
-  const fem::StructuralMatrices& matrices = body.support.matrices;
-  std::vector<int> row_of(body.mesh.node_count(), -1);
-  for (std::size_t i = 0; i < body.support.free_nodes.size(); ++i)
-    row_of[static_cast<std::size_t>(body.support.free_nodes[i])] =
-        static_cast<int>(i);
-  const MatrixX answered =
-      fem::multiply_stiffness(matrices, basis.Phi) *
-      basis.lambda.cwiseInverse().asDiagonal();  // K Phi Lambda^-1
+  const Leftover leftover(body, basis);
   VectorX residual(static_cast<Eigen::Index>(patches.size()));
   for (std::size_t begin = 0; begin < patches.size(); begin += kBlock) {
     report(progress, what,
            static_cast<double>(begin) / static_cast<double>(patches.size()));
     const std::size_t end = std::min(begin + kBlock, patches.size());
-    MatrixX F = list_loads(patches, begin, end, row_of, matrices.dof_count());
-    F -= answered * (basis.Phi.transpose() * F);
-    F = body.inverse.project_load(F);
+    const MatrixX F = leftover.list_loads(patches, begin, end);
     const MatrixX X = body.inverse.solve_shifted(F);
     residual.segment(static_cast<Eigen::Index>(begin), X.cols()) =
         sum_products(F, X) -
-        body.inverse.shift() * sum_products(X, multiply_mass(matrices.M_s, X));
+        body.inverse.shift() *
+            sum_products(X, multiply_mass(body.support.matrices.M_s, X));
   }
   report(progress, what, 1.0);
   return residual;
+}
+
+MatrixX calc_residual_matrix(const MeshedBody& body, const ReducedBasis& basis,
+                             const std::vector<ContactPatch>& patches) {
+  const MatrixX F =
+      Leftover(body, basis).list_loads(patches, 0, patches.size());
+  const MatrixX X = body.inverse.solve_shifted(F);
+  const MatrixX R =
+      F.transpose() * X -
+      body.inverse.shift() *
+          (X.transpose() * multiply_mass(body.support.matrices.M_s, X));
+  return 0.5 * (R + R.transpose());
 }
 
 double calc_hertz_share(const fem::ElasticMaterial& material, double radius) {

@@ -25,6 +25,12 @@ namespace limber::flexbody {
     const std::vector<ContactPatch>& patches, const std::string& what = {},
     const Progress& progress = {});
 
+/// The same of all pairs of a few patches, symmetric and positive
+/// semidefinite: R_ij = F_i^T K^+ F_j.
+[[nodiscard]] MatrixX calc_residual_matrix(
+    const MeshedBody& body, const ReducedBasis& basis,
+    const std::vector<ContactPatch>& patches);
+
 /// Mean displacement, over Hertz's pressure of radius b, of a half-space under
 /// this pressure: the part of Hertz's approach that the pressure's own
 /// deformation makes [m/N].

@@ -8,24 +8,13 @@
 #include "limber/common/index.hpp"
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
+#include "limber/reduction/contact_pads.hpp"
 #include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_radii.hpp"
 #include "limber/reduction/contact_residual.hpp"
 
 namespace limber::flexbody {
 namespace {
-
-/// w^T Phi of each patch, 3n x m.
-MatrixX average(const MatrixX& Phi, const std::vector<ContactPatch>& patches) {
-  MatrixX mean =
-      MatrixX::Zero(3 * static_cast<Eigen::Index>(patches.size()), Phi.cols());
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    for (std::size_t i = 0; i < patches[p].nodes.size(); ++i)
-      mean.middleRows<3>(3 * static_cast<Eigen::Index>(p)) +=
-          patches[p].weights[static_cast<Eigen::Index>(i)] *
-          Phi.middleRows<3>(3 * patches[p].nodes[i]);
-  return mean;
-}
 
 /// Of corners by solution, of the points between them as their mean.
 VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
@@ -76,6 +65,10 @@ ContactSurface make_contact_surface(const MeshedBody& body,
       find_residual(body, basis, surface, patches, group, progress);
   contact.patch_radius = radii;
   contact.faces = surface.triangles;
+  if (is_flat(surface, normals)) {
+    contact.pads =
+        make_contact_pads(body, surface, normals, basis, Phi, center);
+  }
   contact.youngs_modulus = group.material.youngs_modulus;
   contact.poisson_ratio = group.material.poisson_ratio;
   return contact;

@@ -10,6 +10,31 @@ namespace {
 
 constexpr std::size_t kFaceNodes = 6;
 
+void write_pads(Hdf5File& out, const std::string& at, const ContactPads& pads) {
+  if (pads.count() == 0) return;
+  out.write(at + "normal_B", MatrixX(pads.normal_B), "1", "outward normal");
+  out.write(at + "x_B", pads.x_B, "m",
+            "places where forces act, from the centre of mass, 3 x k");
+  out.write(at + "Phi_B", pads.Phi_B, "kg^-1/2",
+            "mode shapes, mean over each pad, 3k x m");
+  out.write(at + "flexibility", pads.flexibility, "m/N",
+            "normal flexibility between pads that the modes do not have");
+  out.write(at + "area", MatrixX(pads.area), "m^2", "areas of the pads");
+}
+
+ContactPads read_pads(const BodyFileReader& reader, const std::string& at,
+                      Eigen::Index m) {
+  ContactPads pads;
+  if (!reader.in().has(at + "area")) return pads;
+  const Eigen::Index k = reader.in().read_matrix(at + "area").rows();
+  pads.normal_B = reader.matrix(at + "normal_B", 3, 1);
+  pads.x_B = reader.matrix(at + "x_B", 3, k);
+  pads.Phi_B = reader.matrix(at + "Phi_B", 3 * k, m);
+  pads.flexibility = reader.matrix(at + "flexibility", k, k);
+  pads.area = reader.matrix(at + "area", k, 1);
+  return pads;
+}
+
 void write_surface(Hdf5File& out, const std::string& at,
                    const ContactSurface& surface) {
   out.write(at + "name", surface.name, "group, or skin");
@@ -32,6 +57,7 @@ void write_surface(Hdf5File& out, const std::string& at,
   out.write(at + "faces", faces, "1",
             "triangles, six indices of nodes each: corners, outward, middles "
             "of edges 01, 12, 20 or -1");
+  write_pads(out, at + "pads/", surface.pads);
   out.write(
       at + "material",
       MatrixX(Eigen::Vector2d(surface.youngs_modulus, surface.poisson_ratio)),
@@ -82,6 +108,7 @@ ContactSurface read_surface(const BodyFileReader& reader, const std::string& at,
   surface.residual = reader.matrix(at + "residual", n, 1);
   surface.patch_radius = reader.matrix(at + "patch_radius", n, 1);
   surface.faces = read_faces(reader, at + "faces", surface.tags.size());
+  surface.pads = read_pads(reader, at + "pads/", m);
   const MatrixX material = reader.matrix(at + "material", 2, 1);
   surface.youngs_modulus = material(0, 0);
   surface.poisson_ratio = material(1, 0);

@@ -18,7 +18,7 @@ namespace {
 // Increment when the reduction changes, to invalidate old entries.
 constexpr int kReductionVersion = 4;
 // The same of contact surfaces, for bodies that have any.
-constexpr int kContactVersion = 1;
+constexpr int kContactVersion = 2;
 // The same of second-order kinematics.
 constexpr int kManifoldVersion = 1;
 

@@ -10,6 +10,23 @@
 
 namespace limber::flexbody {
 
+/// A flat surface as pads, on each of which a force acts as uniform pressure.
+///
+/// Equation   u_i = n . Phi_B(i) eta + sum_j R_ij f_j,  f_j a force on pad j
+///            along -n; R = F^T K^+ F as of a patch, of all pads together
+/// Source     docs/theory/contact_surfaces.md
+/// Limits     Pressure does not vary within a pad. Its force acts at a node
+///            within it, so that a face carries as far as its rim.
+struct ContactPads {
+  Vector3 normal_B = Vector3::Zero();  ///< unit, outward
+  Matrix3X x_B;         ///< 3 x k places, relative to the c.m. [m]
+  MatrixX Phi_B;        ///< 3k x m: mean of the modes over each pad [kg^-1/2]
+  MatrixX flexibility;  ///< k x k: R, positive semidefinite [m/N]
+  VectorX area;         ///< k [m^2]
+
+  [[nodiscard]] Eigen::Index count() const { return x_B.cols(); }
+};
+
 /// The part of a body's surface that may touch others: its nodes with the
 /// smoothed motion of a patch around each, and the flexibility there that the
 /// basis leaves out.
@@ -38,6 +55,7 @@ struct ContactSurface {
   /// middle nodes of the edges 01, 12, 20; -1, -1, -1 of a straight face.
   /// Quadrilateral faces are split into triangles.
   std::vector<std::array<int, 6>> faces;
+  ContactPads pads;  ///< none (count() 0) of a surface that is not flat
   double youngs_modulus = 0.0;  ///< of the material under the surface [Pa]
   double poisson_ratio = 0.0;   ///< of the same [-]
 };
