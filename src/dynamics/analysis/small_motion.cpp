@@ -159,11 +159,14 @@ class Derivatives {
     }
   }
 
+  // Points that are coupled count with a bound of all their stiffness.
   void add_pair_stiffness() {
-    for_each_point([&](const Pair& /*pair*/, const joints::PairPoint& point) {
-      out_.K.emplace_back(Matrix6::Zero());
-      out_.K.back().topLeftCorner<3, 3>() = point.stiffness;
-    });
+    for (const joints::PairResponse& response : terms_.pairs.responses) {
+      for (std::size_t p = 0; p < response.points().size(); ++p) {
+        out_.K.emplace_back(Matrix6::Zero());
+        out_.K.back().topLeftCorner<3, 3>() = response.find_stiffness_bound(p);
+      }
+    }
   }
 
   // The motion of a point by x is what a unit force there does on x.

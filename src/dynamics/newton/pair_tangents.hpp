@@ -10,7 +10,8 @@ namespace limber::dynamics {
 
 /// Tangents of pairs that have points, in their bodies' increments.
 ///
-/// Equation   of a pair: sum_i J_i' (K_i + v D_i) J_i, d(p_B - p_A)_i = J_i x;
+/// Equation   of a pair: sum_i J_i' (K_i + v D_i) J_i
+///            + sum_i sum_j J_i' coupling_ij J_j, d(p_B - p_A)_i = J_i x;
 ///            J = R_WB [R_BW, -arm x, Phi] of B's columns, minus that of A's
 /// Limits     neglects what the force does by turning with its arm, as
 ///            NewtonMatrix says
@@ -45,6 +46,8 @@ class PairTangents {
                    const joints::PairResponse& response,
                    const SystemTerms& terms, const SystemTerms& end_terms,
                    double velocity, const LuPlan& plan, Columns& columns);
+  static void add_coupling(const joints::PairResponse& response,
+                           Columns& columns);
 
   std::vector<std::size_t> counts_;  // points of each pair
   Columns A_;

@@ -184,6 +184,7 @@ class DamperFilter {
         point.stiffness = kScale * point.damping;
         point.damping.setZero();
       }
+      pair.uncouple();
     }
     for (BodyTerms& body : terms_.bodies) {
       body.force_W.setZero();

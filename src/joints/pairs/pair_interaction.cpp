@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/joints/pairs/pair_interaction.hpp"
 
+#include <algorithm>
+
 #include "limber/common/errors.hpp"
 
 namespace limber::joints {
@@ -29,8 +31,10 @@ Vector3 find_velocity(const PairBody& body, const PairPlace& place) {
                                     combine(place.Phi_B, body.etadot));
 }
 
-PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B)
-    : all_(most_points) {
+PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B,
+                           bool is_coupled)
+    : all_(most_points),
+      coupling_(is_coupled ? most_points * most_points : 0, Matrix3::Zero()) {
   for (PairPoint& point : all_) {
     point.on_A.Phi_B = Matrix3X::Zero(3, modes_A);
     point.on_B.Phi_B = Matrix3X::Zero(3, modes_B);
@@ -54,7 +58,34 @@ PairPoint& PairResponse::add() {
   point.force_W.setZero();
   point.stiffness.setZero();
   point.damping.setZero();
+  if (is_coupled()) {
+    for (std::size_t j = 0; j < count_; ++j) {
+      coupling(count_ - 1, j).setZero();
+      coupling(j, count_ - 1).setZero();
+    }
+  }
   return point;
+}
+
+std::size_t PairResponse::check_coupling(std::size_t i, std::size_t j) const {
+  if (coupling_.empty() || i >= count_ || j >= count_) {
+    throw ContractError("PairResponse: points that are not coupled");
+  }
+  return i * all_.size() + j;
+}
+
+void PairResponse::uncouple() {
+  std::fill(coupling_.begin(), coupling_.end(), Matrix3::Zero());
+}
+
+Matrix3 PairResponse::find_stiffness_bound(std::size_t i) const {
+  Matrix3 bound = all_[i].stiffness;
+  if (!is_coupled()) return bound;
+  for (std::size_t j = 0; j < count_; ++j) {
+    if (j == i) continue;
+    bound.diagonal().array() += coupling(i, j).norm();
+  }
+  return bound;
 }
 
 void PairInteraction::evaluate_over_step(const PairStep& step,

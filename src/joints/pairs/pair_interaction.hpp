@@ -76,9 +76,11 @@ struct PairPoint {
 class PairResponse {
  public:
   PairResponse() = default;
-  PairResponse(std::size_t most_points, int modes_A, int modes_B);
+  /// @param is_coupled whether points may depend on each other: see coupling
+  PairResponse(std::size_t most_points, int modes_A, int modes_B,
+               bool is_coupled = false);
 
-  /// No points, no energy.
+  /// No points, no energy, no coupling.
   void clear();
   /// A further point, all zero, its tables of modes sized for both bodies.
   /// @throws ContractError beyond the law's number of points.
@@ -89,11 +91,33 @@ class PairResponse {
     return {all_.data(), count_};
   }
 
+  /// How the force at point i follows the motion at another point j, both
+  /// added already; zero until it is set.
+  ///
+  /// Equation   d force_W,i = -coupling(i, j) d(p_B - p_A)_j, besides
+  ///            PairPoint's own
+  /// @throws ContractError if the law's points are not coupled, or do not exist
+  [[nodiscard]] Matrix3& coupling(std::size_t i, std::size_t j) {
+    return coupling_[check_coupling(i, j)];
+  }
+  [[nodiscard]] const Matrix3& coupling(std::size_t i, std::size_t j) const {
+    return coupling_[check_coupling(i, j)];
+  }
+  [[nodiscard]] bool is_coupled() const { return !coupling_.empty(); }
+  /// Sets all of it to zero.
+  void uncouple();
+  /// A diagonal bound of the stiffness at point i, of itself and of what
+  /// couples it to others: sum_j |K_ij|, after Gershgorin [N/m].
+  [[nodiscard]] Matrix3 find_stiffness_bound(std::size_t i) const;
+
   double energy = 0.0;       ///< stored [J]
   double dissipation = 0.0;  ///< power turned to heat, >= 0 [W]
 
  private:
+  [[nodiscard]] std::size_t check_coupling(std::size_t i, std::size_t j) const;
+
   std::vector<PairPoint> all_;
+  std::vector<Matrix3> coupling_;  // of all pairs of points
   std::size_t count_ = 0;
 };
 
@@ -129,6 +153,8 @@ class PairInteraction {
 
   /// Points at one time, at most.
   [[nodiscard]] virtual std::size_t most_points() const = 0;
+  /// Whether the force at one point follows the motion at others.
+  [[nodiscard]] virtual bool couples_points() const { return false; }
   /// Numbers that it remembers from step to step, zero at the start.
   [[nodiscard]] virtual std::size_t memory_size() const { return 0; }
 
