@@ -100,6 +100,14 @@ void set_response(const PointResponse& response, joints::PairPoint& point,
   out.dissipation += response.dissipation;
 }
 
+joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
+  const VectorX still = VectorX::Zero(mode_reach.size());
+  PairBody body;
+  body.modes = static_cast<int>(still.size());
+  body.eta = body.etadot = still.data();
+  return {find_extent(shape, body), mode_reach};
+}
+
 // Of the shape's points relative to its body's origin, at most [m/s].
 double find_own_speed(const Shape& shape, const VectorX& mode_reach,
                       const PairBody& body) {
@@ -292,6 +300,14 @@ joints::PairTouch ContactPair::find_touch(const PairBodies& bodies,
           .rate = motion.rate(),
           .normal_W = deepest.normal_W,
           .p_W = deepest.p_W};
+}
+
+joints::TouchReach ContactPair::find_reach_A() const {
+  return find_reach(A_.shape, mode_reach_A_);
+}
+
+joints::TouchReach ContactPair::find_reach_B() const {
+  return find_reach(B_.shape, mode_reach_B_);
 }
 
 double ContactPair::find_clearance(const PairBodies& bodies) const {

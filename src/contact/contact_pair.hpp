@@ -62,6 +62,8 @@ class ContactPair final : public joints::PairInteraction,
       const joints::PairBodies& bodies) const override;
   [[nodiscard]] double find_speed_bound(
       const joints::PairBodies& bodies) const override;
+  [[nodiscard]] joints::TouchReach find_reach_A() const override;
+  [[nodiscard]] joints::TouchReach find_reach_B() const override;
   [[nodiscard]] double find_size() const override { return size_; }
   double begin_touch(const joints::PairBodies& bodies, double t,
                      std::span<double> memory,

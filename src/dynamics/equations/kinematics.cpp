@@ -148,6 +148,7 @@ SystemState make_state(const SystemModel& model) {
     state.controllers.push_back({0, controller.memory});
   }
   state.pair_memory.assign(model.pair_memory_size, 0.0);
+  state.far_pairs.assign(model.pairs.size(), 0);
   return state;
 }
 

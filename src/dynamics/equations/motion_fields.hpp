@@ -22,7 +22,7 @@ constexpr auto fields_of(const SystemState*) {
   return list_fields("state", "time [s]", "bodies", "eta [kg^1/2 m]",
                      "etadot [kg^1/2 m/s]", "homes", "nodal displacements [m]",
                      "nodal velocities [m/s]", "memories", "inputs",
-                     "controllers", "pair memories");
+                     "controllers", "pair memories", "far pairs");
 }
 
 constexpr auto fields_of(const Rates*) {

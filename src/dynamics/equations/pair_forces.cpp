@@ -68,12 +68,18 @@ joints::PairBody find_pair_body(const SystemModel& model,
   return out;
 }
 
+PairMotion find_pair_motion(const SystemModel& model, const Pair& pair,
+                            const SystemState& state) {
+  return {find_pair_body(model, state, pair.body_A),
+          find_pair_body(model, state, pair.body_B)};
+}
+
 joints::PairResponse make_response(const SystemModel& model, const Pair& pair) {
   const auto modes_of = [&](BodyIndex b) {
     return b == kWorld ? 0 : model.bodies[index(b)].modes;
   };
   return {pair.law->most_points(), modes_of(pair.body_A),
-          modes_of(pair.body_B)};
+          modes_of(pair.body_B), pair.law->couples_points()};
 }
 
 PairTerms make_pair_terms(const SystemModel& model) {
@@ -130,8 +136,9 @@ void apply_pairs(const SystemModel& model, const SystemState& state,
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
     const Pair& pair = model.pairs[i];
     joints::PairResponse& response = terms.pairs.responses[i];
-    const joints::PairBodies bodies = find_bodies(pair, terms.pairs);
     response.clear();
+    if (is_far(state, i)) continue;
+    const joints::PairBodies bodies = find_bodies(pair, terms.pairs);
     name_pair(pair.name, now.t, [&] {
       pair.law->evaluate(bodies, now, memory_of(pair, state), response);
       check_finite(response);
@@ -170,10 +177,11 @@ PairCommit::PairCommit(const SystemModel& model) : model_(model) {
 
 void PairCommit::operator()(SystemState& state) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (is_far(state, pairs_[i])) continue;
     const Pair& pair = model_.pairs[pairs_[i]];
-    const joints::PairBody A = find_pair_body(model_, state, pair.body_A);
-    const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
-    pair.law->commit({A, B}, state.t, memory_of(pair, state), scratch_[i]);
+    const PairMotion motion = find_pair_motion(model_, pair, state);
+    pair.law->commit(motion.bodies(), state.t, memory_of(pair, state),
+                     scratch_[i]);
   }
 }
 

@@ -25,6 +25,11 @@ template <typename State>
       .subspan(pair.first_memory, pair.law->memory_size());
 }
 
+/// Whether a pair has no points in this step (SystemState::far_pairs).
+[[nodiscard]] inline bool is_far(const SystemState& state, std::size_t pair) {
+  return pair < state.far_pairs.size() && state.far_pairs[pair] != 0;
+}
+
 /// Motion of the bodies that have pairs; `terms` refers to the coordinates of
 /// `state`. Needs R_WB.
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
@@ -34,6 +39,18 @@ void set_pair_bodies(const SystemModel& model, const SystemState& state,
 [[nodiscard]] joints::PairBody find_pair_body(const SystemModel& model,
                                               const SystemState& state,
                                               BodyIndex body);
+
+/// Both bodies of a pair at a state, as values.
+struct PairMotion {
+  joints::PairBody A;
+  joints::PairBody B;
+
+  /// Refers to this.
+  [[nodiscard]] joints::PairBodies bodies() const { return {A, B}; }
+};
+[[nodiscard]] PairMotion find_pair_motion(const SystemModel& model,
+                                          const Pair& pair,
+                                          const SystemState& state);
 
 /// A response that a pair's law fills, of its size.
 [[nodiscard]] joints::PairResponse make_response(const SystemModel& model,

@@ -111,6 +111,7 @@ void ExactModes::join_rest(const SystemState& rest, SystemState& whole) const {
   whole.udot_H = rest.udot_H;
   whole.memory = rest.memory;
   whole.pair_memory = rest.pair_memory;
+  whole.far_pairs = rest.far_pairs;
   for (std::size_t b = 0; b < rest_.bodies.size(); ++b) {
     const BodyModel& left = rest_.bodies[b];
     const int to = model_.bodies[b].offset;

@@ -66,6 +66,7 @@ void interpolate(const SystemModel& model, const SystemState& begin,
   state.inputs = end.inputs;
   state.controllers = end.controllers;
   state.pair_memory = begin.pair_memory;
+  state.far_pairs = begin.far_pairs;
 }
 
 }  // namespace limber::dynamics

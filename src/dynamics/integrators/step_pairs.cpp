@@ -74,9 +74,10 @@ void apply_pairs_over_step(const SystemModel& model, const SystemState& begin,
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
     const Pair& pair = model.pairs[i];
     joints::PairResponse& response = terms.pairs.responses[i];
+    response.clear();
+    if (is_far(begin, i)) continue;
     const joints::PairBodies first = find_bodies(pair, begin_terms.pairs);
     const joints::PairBodies last = find_bodies(pair, end_terms.pairs);
-    response.clear();
     name_pair(pair.name, times.end, [&] {
       pair.law->evaluate_over_step(
           {first, find_bodies(pair, terms.pairs), last, times},

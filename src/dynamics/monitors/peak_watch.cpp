@@ -141,6 +141,7 @@ void PeakWatch::include(const SystemState& state) {
       between_ = state;
       between_.memory = begin.memory;
       between_.pair_memory = begin.pair_memory;
+      between_.far_pairs = begin.far_pairs;
       end = &between_;
     }
     show(*end);

@@ -33,42 +33,43 @@ constexpr double kMostWay = 0.25;
 
 double find_speed_bound(const SystemModel& model, const Pair& pair,
                         const joints::Touching& law, const SystemState& state) {
-  const joints::PairBody A = find_pair_body(model, state, pair.body_A);
-  const joints::PairBody B = find_pair_body(model, state, pair.body_B);
-  return law.find_speed_bound({A, B});
+  return law.find_speed_bound(find_pair_motion(model, pair, state).bodies());
 }
 
 double find_clearance(const SystemModel& model, const Pair& pair,
                       const joints::Touching& law, const SystemState& state) {
-  const joints::PairBody A = find_pair_body(model, state, pair.body_A);
-  const joints::PairBody B = find_pair_body(model, state, pair.body_B);
-  return law.find_clearance({A, B});
+  return law.find_clearance(find_pair_motion(model, pair, state).bodies());
 }
 
 }  // namespace
 
-TouchWatch::TouchWatch(const SystemModel& model) : model_(model) {
+TouchWatch::TouchWatch(const SystemModel& model)
+    : model_(model), travel_(model) {
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const joints::Touching* law = model.pairs[p].law->touching();
     if (law == nullptr) continue;
     pairs_.push_back({.pair = p,
                       .law = law,
                       .scratch = make_response(model, model.pairs[p])});
+    travel_.include(model.pairs[p].body_A, law->find_reach_A());
+    travel_.include(model.pairs[p].body_B, law->find_reach_B());
   }
+  first_speeds_.resize(model.bodies.size());
+  ways_.resize(model.bodies.size());
   if (!pairs_.empty()) within_ = make_state(model);
 }
 
 void TouchWatch::start(SystemState& state, std::vector<Event>& events) {
+  state.far_pairs.assign(model_.pairs.size(), 0);
   if (!pairs_.empty()) within_ = state;  // so that no step allocates
   pass_all(state, events);
 }
 
 joints::PairTouch TouchWatch::find_touch(Watched& watched,
                                          const SystemState& state) {
-  const Pair& pair = model_.pairs[watched.pair];
-  const joints::PairBody A = find_pair_body(model_, state, pair.body_A);
-  const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
-  return watched.law->find_touch({A, B}, watched.scratch);
+  const PairMotion motion =
+      find_pair_motion(model_, model_.pairs[watched.pair], state);
+  return watched.law->find_touch(motion.bodies(), watched.scratch);
 }
 
 joints::PairTouch TouchWatch::find_touch(std::size_t index,
@@ -80,9 +81,8 @@ joints::TouchReading TouchWatch::read(std::size_t index,
                                       const SystemState& state) {
   Watched& watched = pairs_[index];
   const Pair& pair = model_.pairs[watched.pair];
-  const joints::PairBody A = find_pair_body(model_, state, pair.body_A);
-  const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
-  return watched.law->read({A, B}, now_of(state), memory_of(pair, state),
+  return watched.law->read(find_pair_motion(model_, pair, state).bodies(),
+                           now_of(state), memory_of(pair, state),
                            watched.scratch);
 }
 
@@ -144,9 +144,12 @@ double TouchWatch::find_leave_share(Watched& watched, const SystemState& before,
 std::optional<TouchWatch::Crossing> TouchWatch::find_first(
     const SystemState& before, const SystemState& after) {
   std::optional<Crossing> first;
+  find_ways(before, after);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     Watched& watched = pairs_[i];
     std::optional<double> share;
+    watched.is_clear = is_clear(watched, before);
+    if (watched.is_clear) continue;
     if (!watched.is_touching) {
       share = find_touch_share(watched, before, after);
     } else if (has_left(watched, after)) {
@@ -155,6 +158,36 @@ std::optional<TouchWatch::Crossing> TouchWatch::find_first(
     if (share && (!first || *share < first->share)) first = Crossing{i, *share};
   }
   return first;
+}
+
+void TouchWatch::find_ways(const SystemState& before,
+                           const SystemState& after) {
+  travel_.find_speeds(model_, before, first_speeds_);
+  travel_.find_speeds(model_, after, ways_);
+  for (std::size_t b = 0; b < ways_.size(); ++b) {
+    ways_[b] = kSpeedMargin * (after.t - before.t) *
+               std::max(first_speeds_[b], ways_[b]);
+  }
+}
+
+// Whether a pair cannot touch on its ways from `before` on.
+bool TouchWatch::is_clear(Watched& watched, const SystemState& before) {
+  if (watched.is_touching) return false;
+  const Pair& pair = model_.pairs[watched.pair];
+  const double gone = travel_.find_way(pair.body_A, pair.body_B);
+  const double way =
+      value_of(ways_, pair.body_A) + value_of(ways_, pair.body_B);
+  if (gone + way < watched.look_at) return true;
+  watched.look_at = gone + find_clearance(model_, pair, *watched.law, before);
+  return gone + way < watched.look_at;
+}
+
+void TouchWatch::mark_apart(SystemState& state) const {
+  if (pairs_.empty()) return;
+  state.far_pairs.resize(model_.pairs.size());
+  for (const Watched& watched : pairs_) {
+    state.far_pairs[watched.pair] = watched.is_touching ? 0 : 1;
+  }
 }
 
 bool TouchWatch::is_coarse(double h, double t) const {
@@ -181,7 +214,9 @@ void TouchWatch::check_step(double h, double t) const {
   }
 }
 
-void TouchWatch::accept(const SystemState& state) {
+void TouchWatch::accept(const SystemState& before, const SystemState& state) {
+  find_ways(before, state);
+  travel_.advance(ways_);
   for (Watched& watched : pairs_) {
     if (!watched.is_touching) continue;
     watched.rate = find_touch(watched, state).rate;
@@ -211,13 +246,14 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
   events.push_back({state.t, pair.name,
                     watched.is_touching ? "touched" : "left", touch.rate});
   watched.since = state.t;
+  watched.is_clear = false;
+  state.far_pairs[watched.pair] = 0;
   if (!watched.is_touching) return;
-  const joints::PairBody A = find_pair_body(model_, state, pair.body_A);
-  const joints::PairBody B = find_pair_body(model_, state, pair.body_B);
   watched.rate = touch.rate;
   watched.steps = 0;
   watched.impact_duration = watched.law->begin_touch(
-      {A, B}, state.t, memory_of(pair, state), watched.scratch);
+      find_pair_motion(model_, pair, state).bodies(), state.t,
+      memory_of(pair, state), watched.scratch);
 }
 
 double TouchWatch::find_longest_step(double t) const {
@@ -233,6 +269,7 @@ double TouchWatch::find_longest_step(double t) const {
 void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     Watched& watched = pairs_[i];
+    if (watched.is_clear) continue;
     const bool changes = watched.is_touching
                              ? has_left(watched, state)
                              : find_touch(watched, state).depth > 0.0;
@@ -244,6 +281,7 @@ void TouchWatch::exchange_memory(Archive& archive) {
   for (Watched& watched : pairs_) {
     archive(watched.is_touching, watched.since, watched.impact_duration,
             watched.rate, watched.steps);
+    watched.look_at = 0.0;  // so that it is looked at
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/monitors/event.hpp"
+#include "limber/dynamics/monitors/travel_bound.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
@@ -20,7 +21,9 @@ namespace limber::dynamics {
 /// Equation   between a step's ends positions are cubic, as of outputs between
 ///            steps. A touch is found by conservative advancement: the time
 ///            that the clearance lasts at the greatest speed passes without a
-///            touch, so that thin shapes are not missed
+///            touch, so that thin shapes are not missed. A distance once looked
+///            at lasts until both bodies have gone so far (TravelBound): pairs
+///            that are far cost two sums a step
 /// Source     [@mirtich1996, ch. 2]
 /// Limits     a leave and a touch within one step are not seen; between two
 ///            looks a body must not turn by more than half a turn
@@ -42,6 +45,10 @@ class TouchWatch {
     std::size_t index = 0;  ///< of the pair, among those watched
     double share = 0.0;     ///< fraction of the step, in [0, 1] [-]
   };
+  /// Marks in `state` the pairs that do not touch: they have no points in the
+  /// coming step, also where it ends beyond their touch, which is then found on
+  /// the way that they would have gone.
+  void mark_apart(SystemState& state) const;
   /// The first touch or leave in a step from `before` to `after`.
   [[nodiscard]] std::optional<Crossing> find_first(const SystemState& before,
                                                    const SystemState& after);
@@ -50,8 +57,8 @@ class TouchWatch {
   /// touch could pass through each other.
   /// @throws NumericalError naming the pair.
   void check_step(double h, double t) const;
-  /// Steps go on from here.
-  void accept(const SystemState& state);
+  /// A step from `before` to `state` is taken; the next goes on from there.
+  void accept(const SystemState& before, const SystemState& state);
 
   /// How far a pair is from the touch or leave that was found: < 0 before it,
   /// > 0 after it [m].
@@ -103,6 +110,9 @@ class TouchWatch {
     double impact_duration = 0.0;  // [s]
     double rate = 0.0;             // of the depth, while they touch [m/s]
     int steps = 0;                 // accepted since the touch
+    // Way of both bodies up to which they cannot touch [m].
+    double look_at = 0.0;
+    bool is_clear = false;  // in the step last searched
     joints::PairResponse scratch;
   };
   [[nodiscard]] std::optional<double> find_touch_share(
@@ -114,9 +124,15 @@ class TouchWatch {
   [[nodiscard]] joints::PairTouch find_touch(Watched& watched,
                                              const SystemState& state);
 
+  void find_ways(const SystemState& before, const SystemState& after);
+  [[nodiscard]] bool is_clear(Watched& watched, const SystemState& before);
+
   const SystemModel& model_;
   std::vector<Watched> pairs_;
-  SystemState within_;  // between a step's ends
+  TravelBound travel_;
+  std::vector<double> first_speeds_;  // of each body [m/s]
+  std::vector<double> ways_;          // of each in a step, at most [m]
+  SystemState within_;                // between a step's ends
 };
 
 }  // namespace limber::dynamics

@@ -100,6 +100,7 @@ void EventStepper::advance(SystemState& state, double h, double end) {
 
 void EventStepper::attempt(SystemState& state, double h, double end) {
   touches_.check_step(h, state.t);
+  touches_.mark_apart(state);
   if (keeps_before_) before_ = state;
   last_ = {};
   h_ = h;
@@ -153,7 +154,7 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
     cut_ = 0;
     add_last();
     pass_all_at_end(state, nominal_h);
-    touches_.accept(state);
+    touches_.accept(before_, state);
     return;
   }
   ++cut_;
@@ -164,7 +165,7 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   advance_to(share, state);
   add_last();
   pass(*crossing, state, nominal_h);
-  touches_.accept(state);
+  touches_.accept(before_, state);
 }
 
 // A step that ends deep in a contact, or after it, tells its beginning badly:
@@ -187,7 +188,7 @@ void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
       touches_.find_tolerance(crossing.index, state, nominal_h);
   if (excess >= -tolerance) touches_.pass(crossing.index, state, events_);
   watch_.accept(state);
-  touches_.accept(state);
+  touches_.accept(before_, state);
 }
 
 void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {

@@ -48,6 +48,9 @@ struct SystemState {
   std::vector<ControllerState> controllers;  ///< one a controller
   /// Memory of pairs, one after the other; changes only at accepted steps.
   std::vector<double> pair_memory;
+  /// Of each pair 1 if it is so far apart that it has no points in the coming
+  /// step, and is not evaluated; empty if nothing is known.
+  std::vector<char> far_pairs;
 };
 
 /// The state's time and inputs, as functions of time need them.
@@ -62,6 +65,7 @@ inline void copy_step_constants(const SystemState& from, SystemState& to) {
   to.inputs = from.inputs;
   to.controllers = from.controllers;
   to.pair_memory = from.pair_memory;
+  to.far_pairs = from.far_pairs;
 }
 
 /// A state of the right size: every body at the world origin, at rest; joints'

@@ -15,6 +15,13 @@ struct PairTouch {
   Vector3 p_W = Vector3::Zero();       ///< midway between both [m]
 };
 
+/// How far a body's points that may touch can move.
+struct TouchReach {
+  double extent = 0.0;  ///< of the undeformed points from Bo, at most [m]
+  VectorX modes;        ///< of each mode the largest displacement of a point,
+                        ///< or empty [kg^-1/2]
+};
+
 /// What two bodies exert on each other while they touch, of all points
 /// together.
 struct TouchReading {
@@ -53,6 +60,8 @@ class Touching {
   /// motion [m/s].
   [[nodiscard]] virtual double find_speed_bound(
       const PairBodies& bodies) const = 0;
+  [[nodiscard]] virtual TouchReach find_reach_A() const = 0;
+  [[nodiscard]] virtual TouchReach find_reach_B() const = 0;
   /// Of the smaller body near the contact: what moves farther in a step may
   /// pass through it [m].
   [[nodiscard]] virtual double find_size() const = 0;
