@@ -10,7 +10,10 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/meeting_order.hpp"
 #include "limber/contact/meetings.hpp"
+#include "limber/contact/pads_on_plane.hpp"
+#include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
 
 namespace limber::contact {
@@ -20,9 +23,6 @@ using joints::PairBodies;
 using joints::PairBody;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Below this share of the change of depth the way along the normal does not
-// tell the force [-].
-constexpr double kLeastWay = 0.1;
 // Features that touch at once, such as the corners of a box that lands flat,
 // begin at once: at most as far behind the first, of the shapes' size [-].
 constexpr double kTogether = 1e-9;
@@ -86,20 +86,6 @@ Vector3 find_former(const PairBody& body, const Shape& shape,
   return find_position(body, scratch);
 }
 
-template <typename Number>
-std::span<Number> numbers_of(std::size_t i, std::span<Number> memory) {
-  return memory.subspan(i * kPointNumbers, kPointNumbers);
-}
-
-// All but the energy.
-void set_response(const PointResponse& response, joints::PairPoint& point,
-                  joints::PairResponse& out) {
-  point.force_W = response.force_W;
-  point.stiffness = response.stiffness;
-  point.damping = response.damping;
-  out.dissipation += response.dissipation;
-}
-
 joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
   const VectorX still = VectorX::Zero(mode_reach.size());
   PairBody body;
@@ -129,10 +115,43 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
       shapes_(A_.shape, B_.shape),
       law_(parameters, find_pair_moduli(A_.material, B_.material),
            check_masses(A_, B_), find_roundness(A_.shape, B_.shape)),
+      pads_(make_pad_law({A_.shape, A_.material}, {B_.shape, B_.material},
+                         parameters)),
+      twist_(make_twist(parameters)),
+      pad_area_(pads_ ? find_pads(A_.shape, B_.shape)->area : VectorX()),
       size_(contact::find_size(A_.shape, B_.shape)),
       mode_reach_A_(find_mode_reach(A_.shape)),
       mode_reach_B_(find_mode_reach(B_.shape)) {
   check_rims(A_.shape, B_.shape);
+}
+
+std::optional<PointTwist> ContactPair::make_twist(
+    const ContactParameters& parameters) const {
+  const auto moduli = find_pair_moduli(A_.material, B_.material);
+  if (!moduli || !law_.has_friction() || count_features() > 1) {
+    return std::nullopt;
+  }
+  return PointTwist(parameters, *moduli, check_masses(A_, B_),
+                    find_roundness(A_.shape, B_.shape));
+}
+
+// Friction against turning, as two further points.
+void ContactPair::add_twist(const PairBodies& bodies, const Meeting& meeting,
+                            const PointResponse& response, double h,
+                            joints::PairResponse& out) const {
+  const double arm = twist_->find_arm(response.next);
+  if (!(arm > 0.0)) return;
+  const TwistResponse twist =
+      twist_->evaluate(bodies, {meeting, response.next, response.normal_force});
+  const std::size_t first = out.points().size();
+  const Vector3 aside = arm * meeting.normal_W.unitOrthogonal();
+  for (const double side : {1.0, -1.0}) {
+    const Vector3 p_W = meeting.p_W + side * aside;
+    joints::PairPoint& point = out.add();
+    set_place(bodies.A, A_.shape, meeting.on_A, p_W, point.on_A);
+    set_place(bodies.B, B_.shape, meeting.on_B, p_W, point.on_B);
+  }
+  add_couple(twist, meeting.normal_W, arm, h, first, out);
 }
 
 void ContactPair::describe_parameters(Manifest& out) const {
@@ -150,10 +169,12 @@ void ContactPair::describe_parameters(Manifest& out) const {
   describe_side("body B", B_);
 }
 
-std::size_t ContactPair::most_points() const { return shapes_.most_points(); }
+std::size_t ContactPair::most_points() const {
+  return count_features() + (twist_ ? 2 : 0);
+}
 
 std::size_t ContactPair::memory_size() const {
-  return kPointNumbers * most_points();
+  return kPointNumbers * count_features();
 }
 
 void ContactPair::check(int modes_A, int modes_B) const {
@@ -193,6 +214,50 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
   return motion;
 }
 
+void ContactPair::meet(const PairBodies& bodies, double reach,
+                       std::span<const double> memory,
+                       std::span<Meeting> out) const {
+  shapes_.find(bodies, reach, out);
+  if (shapes_.has_loose_features()) follow_memory(memory, out);
+}
+
+void ContactPair::evaluate_pads(std::span<const Meeting> meetings,
+                                PadLaw::Response& out) const {
+  if (!pads_) return;
+  pads_->evaluate(list_depths(meetings), out);
+}
+
+HertzLaw ContactPair::find_first_law(const Meeting& meeting,
+                                     std::size_t i) const {
+  if (!pads_) return find_law(meeting, 1.0);
+  return HertzLaw(
+      {HertzLaw::kRigid, 1.0 / pads_->uniform_stiffness(static_cast<int>(i))});
+}
+
+PointMemory ContactPair::recall(const PointMemory& memory,
+                                const Meeting& meeting, std::size_t i,
+                                double rate) const {
+  if (!pads_ || memory.is_touching()) return memory;
+  return law_.begin(find_first_law(meeting, i), rate);
+}
+
+bool ContactPair::touches(const Meeting& meeting, std::size_t i,
+                          const PadLaw::Response& pads) const {
+  if (!pads_) return meeting.depth > 0.0;
+  return !(pads.force[static_cast<Eigen::Index>(i)] <= 0.0);
+}
+
+PointResponse ContactPair::respond(const PointMotion& motion, std::size_t i,
+                                   const PadLaw::Response& pads,
+                                   const PointMemory& before) const {
+  if (!pads_) return law_.evaluate(motion, before);
+  const auto pad = static_cast<Eigen::Index>(i);
+  PointResponse response = law_.evaluate(
+      motion, ElasticForce{pads.force[pad], pads.stiffness(pad, pad)}, before);
+  response.area = pad_area_[pad];
+  return response;
+}
+
 HertzLaw ContactPair::find_law(const Meeting& meeting, double share) const {
   return law_.find_law(meeting.curvature,
                        find_residual(A_.shape, meeting.on_A) +
@@ -203,84 +268,57 @@ HertzLaw ContactPair::find_law(const Meeting& meeting, double share) const {
 void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
                            std::span<const double> memory,
                            joints::PairResponse& out) const {
-  Meetings meetings(most_points());
-  shapes_.find(bodies, 0.0, meetings.all());
-  for (std::size_t i = 0; i < most_points(); ++i) {
+  Meetings meetings(count_features());
+  meet(bodies, 0.0, memory, meetings.all());
+  PadLaw::Response pads;
+  evaluate_pads(meetings.all(), pads);
+  out.energy += pads.energy;
+  CoupledPads points;
+  for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];
-    if (!(meeting.depth > 0.0)) continue;
+    if (!touches(meeting, i, pads)) continue;
     joints::PairPoint& point = out.add();
-    const PointMemory before = load_memory(numbers_of(i, memory));
-    const PointResponse response =
-        law_.evaluate(place(bodies, meeting, before, now.t, point), before);
+    const PointMemory known = load_memory(numbers_of(i, memory));
+    const PointMotion motion = place(bodies, meeting, known, now.t, point);
+    const PointMemory before = recall(known, meeting, i, motion.rate());
+    const PointResponse response = respond(motion, i, pads, before);
     set_response(response, point, out);
     out.energy += response.energy;
+    if (pads_) points.add(i, response.by_elastic_W, meeting.normal_W);
+    if (twist_) add_twist(bodies, meeting, response, now.t - before.time, out);
   }
+  points.couple(pads, out);
 }
 
-ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
-                                          const PointMotion& motion,
-                                          const joints::PairPoint& point,
-                                          const Meeting& begin,
-                                          const Meeting& end) const {
-  const HertzLaw::StepResponse mean =
-      law_.find_law(motion.curvature, motion.residual, motion.share)
-          .evaluate_over_step(begin.depth, end.depth);
-  ElasticForce elastic{mean.force, mean.stiffness};
-  // Way and energies are nearly those of that law: the normal turns, and
-  // curvature and residual vary.
-  const Vector3 way = (find_position(step.end.B, point.on_B) -
-                       find_position(step.begin.B, point.on_B)) -
-                      (find_position(step.end.A, point.on_A) -
-                       find_position(step.begin.A, point.on_A));
-  const double deepening = -motion.normal_W.dot(way);
-  const double work =
-      find_law(end, end.share).evaluate(end.depth).energy() -
-      find_law(begin, begin.share).evaluate(begin.depth).energy();
-  if (std::abs(deepening) > kLeastWay * std::abs(end.depth - begin.depth)) {
-    elastic.force = std::max(work / deepening, 0.0);
+void ContactPair::commit_twist(const PairBodies& bodies, const Meeting& meeting,
+                               double normal_force, PointMemory& next) const {
+  if (twist_->find_arm(next) > 0.0) {
+    next.twist =
+        twist_->evaluate(bodies, {meeting, next, normal_force}).next.twist;
   }
-  return elastic;
-}
-
-void ContactPair::evaluate_over_step(const joints::PairStep& step,
-                                     std::span<const double> memory,
-                                     joints::PairResponse& out) const {
-  if (find_clearance(step.begin) > 0.0 && find_clearance(step.end) > 0.0) {
-    return;
-  }
-  Meetings begin(most_points());
-  Meetings middle(most_points());
-  Meetings end(most_points());
-  shapes_.find(step.begin, kInfinity, begin.all());
-  shapes_.find(step.end, kInfinity, end.all());
-  shapes_.find(step.middle, kInfinity, middle.all());
-  for (std::size_t i = 0; i < most_points(); ++i) {
-    if (!(begin[i].depth > 0.0) && !(end[i].depth > 0.0)) continue;
-    joints::PairPoint& point = out.add();
-    const PointMemory before = load_memory(numbers_of(i, memory));
-    const PointMotion motion =
-        place(step.middle, middle[i], before, step.times.middle(), point);
-    const ElasticForce elastic =
-        find_step_force(step, motion, point, begin[i], end[i]);
-    set_response(law_.evaluate(motion, elastic, before), point, out);
-  }
+  next.turn = find_turn(bodies);
 }
 
 void ContactPair::commit(const PairBodies& bodies, double t,
                          std::span<double> memory,
                          joints::PairResponse& scratch) const {
-  Meetings meetings(most_points());
-  shapes_.find(bodies, 0.0, meetings.all());
+  Meetings meetings(count_features());
+  meet(bodies, 0.0, memory, meetings.all());
+  PadLaw::Response pads;
+  evaluate_pads(meetings.all(), pads);
   scratch.clear();
   joints::PairPoint& point = scratch.add();
-  for (std::size_t i = 0; i < most_points(); ++i) {
+  for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];
     const std::span<double> numbers = numbers_of(i, memory);
     PointMemory next;
-    if (meeting.depth > 0.0) {
-      const PointMemory before = load_memory(numbers);
-      next =
-          law_.evaluate(place(bodies, meeting, before, t, point), before).next;
+    if (touches(meeting, i, pads)) {
+      const PointMemory known = load_memory(numbers);
+      const PointMotion motion = place(bodies, meeting, known, t, point);
+      const PointResponse response =
+          respond(motion, i, pads, recall(known, meeting, i, motion.rate()));
+      next = response.next;
+      if (twist_) commit_twist(bodies, meeting, response.normal_force, next);
       next.on_A = to_memory(meeting.on_A, point.on_A);
       next.on_B = to_memory(meeting.on_B, point.on_B);
     }
@@ -290,7 +328,7 @@ void ContactPair::commit(const PairBodies& bodies, double t,
 
 joints::PairTouch ContactPair::find_touch(const PairBodies& bodies,
                                           joints::PairResponse& scratch) const {
-  Meetings meetings(most_points());
+  Meetings meetings(count_features());
   shapes_.find(bodies, kInfinity, meetings.all());
   const std::size_t i = meetings.find_deepest();
   const Meeting& deepest = meetings[i];
@@ -323,11 +361,11 @@ double ContactPair::find_speed_bound(const PairBodies& bodies) const {
 double ContactPair::begin_touch(const PairBodies& bodies, double t,
                                 std::span<double> memory,
                                 joints::PairResponse& scratch) const {
-  Meetings meetings(most_points());
-  shapes_.find(bodies, kInfinity, meetings.all());
+  Meetings meetings(count_features());
+  meet(bodies, kInfinity, memory, meetings.all());
   const std::size_t deepest = meetings.find_deepest();
   const double least_depth = meetings[deepest].depth - kTogether * size_;
-  for (std::size_t i = 0; i < most_points(); ++i) {
+  for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];
     const std::span<double> numbers = numbers_of(i, memory);
     // Where an earlier run goes on they touch already.
@@ -337,13 +375,17 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
     scratch.clear();
     joints::PairPoint& point = scratch.add();
     const PointMotion motion = place(bodies, meeting, {}, t, point);
-    PointMemory next = law_.begin(find_law(meeting, 1.0), motion.rate());
+    PointMemory next = law_.begin(find_first_law(meeting, i), motion.rate());
     next.time = t;
+    if (twist_) next.turn = find_turn(bodies);
     next.on_A = to_memory(meeting.on_A, point.on_A);
     next.on_B = to_memory(meeting.on_B, point.on_B);
     save_memory(next, numbers);
   }
-  return law_.find_duration(find_law(meetings[deepest], 1.0),
+  const HertzLaw whole =
+      pads_ ? HertzLaw({HertzLaw::kRigid, 1.0 / pads_->total_stiffness()})
+            : find_law(meetings[deepest], 1.0);
+  return law_.find_duration(whole,
                             load_memory(numbers_of(deepest, memory)).speed);
 }
 
@@ -351,18 +393,22 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
                                        const Instant& now,
                                        std::span<const double> memory,
                                        joints::PairResponse& scratch) const {
-  Meetings meetings(most_points());
-  shapes_.find(bodies, 0.0, meetings.all());
+  Meetings meetings(count_features());
+  meet(bodies, 0.0, memory, meetings.all());
+  PadLaw::Response pads;
+  evaluate_pads(meetings.all(), pads);
   scratch.clear();
   joints::PairPoint& point = scratch.add();
   joints::TouchReading reading;
+  reading.energy = pads.energy;
   double largest = -1.0;
-  for (std::size_t i = 0; i < most_points(); ++i) {
+  for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];
-    if (!(meeting.depth > 0.0)) continue;
-    const PointMemory before = load_memory(numbers_of(i, memory));
+    if (!touches(meeting, i, pads)) continue;
+    const PointMemory known = load_memory(numbers_of(i, memory));
+    const PointMotion motion = place(bodies, meeting, known, now.t, point);
     const PointResponse response =
-        law_.evaluate(place(bodies, meeting, before, now.t, point), before);
+        respond(motion, i, pads, recall(known, meeting, i, motion.rate()));
     ++reading.points;
     reading.normal_force += response.normal_force;
     reading.force_W += response.force_W;

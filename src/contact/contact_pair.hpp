@@ -5,7 +5,9 @@
 
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/materials.hpp"
+#include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/law/point_law.hpp"
+#include "limber/contact/point_twist.hpp"
 #include "limber/contact/shapes/shape_pair.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 #include "limber/joints/pairs/touching.hpp"
@@ -25,9 +27,14 @@ struct ContactSide {
 /// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth,
 ///            k of 1/R_e = the sum of both curvatures, R = R_A + R_B of what
 ///            the bases leave out at both places; t a bristle within mu f
+///            between a plane and a flat surface of a flexible body the forces
+///            of its pads: PadLaw of what the basis leaves out, of the plane's
+///            own half space, and 0.1 % of the surface's
 /// Source     docs/theory/contact_laws.md
-/// Limits     the normal is held within a Newton iteration's tangent; what
-///            turns about the normal meets no friction
+///            of shapes that meet at one place PointTwist against turning
+///            about the normal
+/// Limits     the normal is held within a Newton iteration's tangent; features
+///            of shapes with several meet no friction of turning of their own
 class ContactPair final : public joints::PairInteraction,
                           public joints::Touching {
  public:
@@ -40,6 +47,9 @@ class ContactPair final : public joints::PairInteraction,
   [[nodiscard]] std::string_view kind() const override { return "contact"; }
   void describe_parameters(Manifest& out) const override;
   [[nodiscard]] std::size_t most_points() const override;
+  [[nodiscard]] bool couples_points() const override {
+    return pads_.has_value() || twist_.has_value();
+  }
   [[nodiscard]] std::size_t memory_size() const override;
   void check(int modes_A, int modes_B) const override;
   void evaluate(const joints::PairBodies& bodies, const Instant& now,
@@ -74,6 +84,36 @@ class ContactPair final : public joints::PairInteraction,
       joints::PairResponse& scratch) const override;
 
  private:
+  [[nodiscard]] std::size_t count_features() const {
+    return shapes_.most_points();
+  }
+  [[nodiscard]] std::optional<PointTwist> make_twist(
+      const ContactParameters& parameters) const;
+  void add_twist(const joints::PairBodies& bodies, const Meeting& meeting,
+                 const PointResponse& response, double h,
+                 joints::PairResponse& out) const;
+  void commit_twist(const joints::PairBodies& bodies, const Meeting& meeting,
+                    double normal_force, PointMemory& next) const;
+  // Finds all meetings, in the order of the points that remember them.
+  void meet(const joints::PairBodies& bodies, double reach,
+            std::span<const double> memory, std::span<Meeting> out) const;
+  void evaluate_pads(std::span<const Meeting> meetings,
+                     PadLaw::Response& out) const;
+  // Of a feature as it first touches.
+  [[nodiscard]] HertzLaw find_first_law(const Meeting& meeting,
+                                        std::size_t i) const;
+  // What a feature remembers, or begins with.
+  [[nodiscard]] PointMemory recall(const PointMemory& memory,
+                                   const Meeting& meeting, std::size_t i,
+                                   double rate) const;
+  [[nodiscard]] PointResponse respond(const PointMotion& motion, std::size_t i,
+                                      const PadLaw::Response& pads,
+                                      const PointMemory& before) const;
+  [[nodiscard]] bool touches(const Meeting& meeting, std::size_t i,
+                             const PadLaw::Response& pads) const;
+  void evaluate_pads_over_step(const joints::PairStep& step,
+                               std::span<const double> memory,
+                               joints::PairResponse& out) const;
   [[nodiscard]] PointMotion place(const joints::PairBodies& bodies,
                                   const Meeting& meeting,
                                   const PointMemory& memory, double t,
@@ -91,6 +131,9 @@ class ContactPair final : public joints::PairInteraction,
   ContactParameters parameters_;
   ShapePair shapes_;
   PointLaw law_;
+  std::optional<PadLaw> pads_;
+  std::optional<PointTwist> twist_;
+  VectorX pad_area_;  // [m^2]
   double size_;
   VectorX mode_reach_A_;
   VectorX mode_reach_B_;

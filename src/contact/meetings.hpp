@@ -2,20 +2,26 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
-#include <vector>
+#include <type_traits>
 
+#include "limber/common/errors.hpp"
 #include "limber/contact/shapes/meeting.hpp"
 
 namespace limber::contact {
 
-/// The meetings of a pair of shapes, on the stack where they are few.
+/// The meetings of a pair of shapes, on the stack.
 class Meetings {
  public:
-  explicit Meetings(std::size_t count) : many_(count > kFew ? count : 0) {
-    all_ = many_.empty() ? std::span(few_).first(count) : std::span(many_);
+  /// Of any two shapes.
+  static constexpr std::size_t kMost = 64;
+
+  explicit Meetings(std::size_t count)
+      : all_(reinterpret_cast<Meeting*>(place_), count) {
+    LIMBER_EXPECT(count > 0 && count <= kMost);
+    std::uninitialized_default_construct(all_.begin(), all_.end());
   }
   Meetings(const Meetings&) = delete;  // `all_` points into it
   Meetings& operator=(const Meetings&) = delete;
@@ -32,9 +38,8 @@ class Meetings {
   }
 
  private:
-  static constexpr std::size_t kFew = 25;  // of any two convex shapes
-  std::array<Meeting, kFew> few_;
-  std::vector<Meeting> many_;
+  static_assert(std::is_trivially_destructible_v<Meeting>);
+  alignas(Meeting) std::byte place_[kMost * sizeof(Meeting)];
   std::span<Meeting> all_;
 };
 

@@ -89,11 +89,14 @@ PointResponse PointLaw::evaluate(const PointMotion& motion,
                                  const PointMemory& memory) const {
   PointResponse out;
   out.next = remembered(*this, motion, memory);
-  const DampedForce pressed = damp(elastic, motion.rate(), out.next.damping);
+  const double rate = motion.rate();
+  const DampedForce pressed = damp(elastic, rate, out.next.damping);
+  const double grip = std::max(0.0, 1.0 + out.next.damping * rate);
   out.normal_force = pressed.force;
   out.dissipation = pressed.dissipation;
   out.force_W = pressed.force * motion.normal_W;
   add_friction(motion, pressed, out);
+  out.by_elastic_W *= grip;
   out.next.time = motion.time;
   return out;
 }
@@ -127,6 +130,7 @@ void PointLaw::add_friction(const PointMotion& motion,
   }
   const PointTangent tangent =
       find_point_tangent(motion.normal_W, pressed, response);
+  out.by_elastic_W = motion.normal_W + response.by_normal_force;
   out.stiffness = tangent.stiffness;
   out.damping = tangent.damping;
 }

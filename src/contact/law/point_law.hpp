@@ -40,7 +40,9 @@ struct PointResponse {
   double area = 0.0;                    ///< that touches, Hertz's [m^2]
   Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
   Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]
-  PointMemory next = {};                ///< but for its places
+  /// d force_W / d elastic force, of what acts elsewhere [-].
+  Vector3 by_elastic_W = Vector3::Zero();
+  PointMemory next = {};  ///< but for its places
 };
 
 /// Normal force and friction of one contact point.

@@ -26,6 +26,11 @@ void visit_numbers(Memory& memory, const Visit& visit) {
   visit_vector(memory.bristle.normal_S);
   visit_place(memory.on_A);
   visit_place(memory.on_B);
+  visit(memory.twist);
+  visit(memory.turn.w);
+  visit(memory.turn.x);
+  visit(memory.turn.y);
+  visit(memory.turn.z);
 }
 
 }  // namespace

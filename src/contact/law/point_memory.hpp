@@ -17,6 +17,19 @@ struct PlaceMemory {
   double v = 0.0;                 ///< [-]
 };
 
+/// Rotation of body B in A, as a quaternion; all zero: none is remembered.
+struct TurnMemory {
+  double w = 0.0;
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+
+  [[nodiscard]] bool is_set() const {
+    return w != 0.0 || x != 0.0 || y != 0.0 || z != 0.0;
+  }
+  [[nodiscard]] Quaternion quat_AB() const { return {w, x, y, z}; }
+};
+
 /// What a contact's point remembers between steps; of a point that does not
 /// touch all zero.
 struct PointMemory {
@@ -28,12 +41,14 @@ struct PointMemory {
   BristleMemory bristle = {};         ///< in the frame of body B
   PlaceMemory on_A = {};              ///< at the last commit one point
   PlaceMemory on_B = {};
+  double twist = 0.0;    ///< of the bristle about the normal [rad]
+  TurnMemory turn = {};  ///< at the last commit
 
   [[nodiscard]] bool is_touching() const { return speed > 0.0; }
 };
 
 /// Numbers that one point takes.
-inline constexpr std::size_t kPointNumbers = 22;
+inline constexpr std::size_t kPointNumbers = 27;
 
 /// @param numbers kPointNumbers of them
 [[nodiscard]] PointMemory load_memory(std::span<const double> numbers);

@@ -44,6 +44,8 @@ void meet_convex(const PlacedShape& A, const PlacedShape& B,
 ///
 /// Equation   depth = -height of the feature's lowest point
 [[nodiscard]] std::size_t count_half_space_features(const Shape& B);
+/// Whether they are the deepest of a larger number.
+[[nodiscard]] bool has_loose_features_on_plane(const Shape& B);
 void meet_half_space(const PlacedShape& A, const PlacedShape& B, double reach,
                      std::span<Meeting> out);
 /// The distance; < 0 if they overlap [m].

@@ -35,6 +35,7 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
     rule_ = Rule::kHalfSpace;
     is_swapped_ = is_a<HalfSpace>(B_);
     most_points_ = count_half_space_features(is_swapped_ ? A_ : B_);
+    is_loose_ = has_loose_features_on_plane(is_swapped_ ? A_ : B_);
   } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
     rule_ = Rule::kCapsules;
   } else if (is_convex(A_) && is_convex(B_)) {

@@ -24,7 +24,9 @@ namespace limber::contact {
 ///     half space with capsule      2, its ends
 ///                     box          8, its corners
 ///                     cylinder     6, three of each rim
-///                     skin         n, its nodes
+///                     flat skin    n, its pads
+///                     skin         its nodes, or the 64 deepest of them in
+///                                  no fixed order
 class ShapePair {
  public:
   /// @throws InputError as check_shape, or for a pair of kinds without a rule.
@@ -35,6 +37,9 @@ class ShapePair {
 
   /// Features.
   [[nodiscard]] std::size_t most_points() const { return most_points_; }
+  /// Whether a feature may change its place in the order from one time to
+  /// another; its SurfacePlace tells which one it is.
+  [[nodiscard]] bool has_loose_features() const { return is_loose_; }
 
   /// Fills `out`, one Meeting a feature. Allocates nothing.
   /// @param reach >= 0: a feature whose surfaces are farther apart may have
@@ -54,6 +59,7 @@ class ShapePair {
   Shape B_;
   Rule rule_ = Rule::kSphere;
   bool is_swapped_ = false;  // B is the rule's first shape
+  bool is_loose_ = false;
   std::size_t most_points_ = 1;
 };
 

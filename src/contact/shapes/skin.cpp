@@ -47,6 +47,15 @@ void Skin::check() const {
                     "flexibilities; expected 3 n and n",
                     n, s.Phi_B.rows(), s.residual.size()));
   }
+  const flexbody::ContactPads& pads = s.pads;
+  const Eigen::Index k = pads.count();
+  if (pads.area.size() != k || pads.flexibility.rows() != k ||
+      pads.flexibility.cols() != k ||
+      pads.Phi_B.cols() * k != s.Phi_B.cols() * k ||
+      (k > 0 && pads.Phi_B.rows() != 3 * k) || !pads.x_B.allFinite() ||
+      !pads.Phi_B.allFinite() || !pads.flexibility.allFinite()) {
+    refuse("has pads whose sizes do not fit, or that are not finite");
+  }
   if (!s.x_B.allFinite() || !s.Phi_B.allFinite() || !s.residual.allFinite()) {
     refuse("has a position, mode or residual flexibility that is not finite");
   }
@@ -237,7 +246,29 @@ double Skin::find_lowest_height(const Plane& plane,
   return least;
 }
 
+Eigen::Index Skin::pad_of(const SurfacePlace& place) const {
+  const auto pad = place.face - static_cast<int>(surface_.faces.size());
+  return pad < surface_.pads.count() ? pad : -1;
+}
+
+Skin::PadHit Skin::find_pad(std::size_t pad, const ModalView& eta) const {
+  const auto i = static_cast<Eigen::Index>(pad);
+  const flexbody::ContactPads& pads = surface_.pads;
+  PadHit hit;
+  hit.place.x_B = hit.x = pads.x_B.col(i);
+  hit.place.face = static_cast<int>(surface_.faces.size() + pad);
+  for (Eigen::Index k = 0; k < eta.size(); ++k) {
+    hit.x += eta[k] * pads.Phi_B.col(k).segment<3>(3 * i);
+  }
+  return hit;
+}
+
 void Skin::set_shape_functions(const SurfacePlace& place, Matrix3X& out) const {
+  if (const Eigen::Index pad = pad_of(place); pad >= 0) {
+    LIMBER_EXPECT(out.cols() == modes_.rows());
+    out = surface_.pads.Phi_B.middleRows<3>(3 * pad);
+    return;
+  }
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
   LIMBER_EXPECT(out.cols() == modes_.rows());
   const Face& nodes = face(place.face);
@@ -250,6 +281,9 @@ void Skin::set_shape_functions(const SurfacePlace& place, Matrix3X& out) const {
 }
 
 double Skin::find_residual(const SurfacePlace& place) const {
+  if (const Eigen::Index pad = pad_of(place); pad >= 0) {
+    return surface_.pads.flexibility(pad, pad);
+  }
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
   const Face& nodes = face(place.face);
   const auto weights = FacePlace{place.u, place.v}.weights();

@@ -89,6 +89,17 @@ class Skin {
   [[nodiscard]] double find_lowest_height(const Plane& plane,
                                           const ModalView& eta) const;
 
+  /// Pads of a flat surface (ContactPads). Their places have the `face` that
+  /// comes after those of all faces, and no u, v.
+  [[nodiscard]] std::size_t pad_count() const {
+    return static_cast<std::size_t>(surface_.pads.count());
+  }
+  struct PadHit {
+    Vector3 x = Vector3::Zero();  ///< deformed, mean over the pad [m]
+    SurfacePlace place;
+  };
+  [[nodiscard]] PadHit find_pad(std::size_t pad, const ModalView& eta) const;
+
   /// Weights of the face's nodes at a place, and the modes' rows there.
   /// @param out 3 x mode_count() [kg^-1/2]
   void set_shape_functions(const SurfacePlace& place, Matrix3X& out) const;
@@ -119,6 +130,8 @@ class Skin {
   [[nodiscard]] const Face& face(int f) const {
     return surface_.faces[index(f)];
   }
+  // Index of a pad whose place it is, or < 0.
+  [[nodiscard]] Eigen::Index pad_of(const SurfacePlace& place) const;
   [[nodiscard]] Vector3 deform(int node, const ModalView& eta) const;
   [[nodiscard]] FacePatch deform_face(int f, const ModalView& eta) const;
   [[nodiscard]] SurfacePlace make_place(int f, const FacePlace& at) const;

@@ -9,6 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
+#include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/contact_shapes.hpp"
 #include "limber/scene/text/error_context.hpp"
@@ -34,6 +35,16 @@ const flexbody::ContactSurface& find_surface(const flexbody::ReducedBody& body,
   }
   throw InputError(describe_unknown("surface", name, known) +
                    "; a saved body has those that it was reduced with");
+}
+
+// Rigid but for what its material gives way near the surface.
+void make_rigid_pads(flexbody::ContactSurface& surface) {
+  flexbody::ContactPads& pads = surface.pads;
+  if (pads.count() == 0) return;
+  const double nu = surface.poisson_ratio;
+  pads.Phi_B.resize(pads.Phi_B.rows(), 0);
+  pads.flexibility = contact::calc_half_space_compliance(
+      pads.x_B, pads.area, surface.youngs_modulus / (1.0 - nu * nu));
 }
 
 std::string describe(const Scene& scene, const TouchingPair& pair) {
@@ -147,6 +158,7 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
   if (is_rigid) {
     copy.Phi_B.resize(copy.Phi_B.rows(), 0);
     copy.residual.setZero();
+    make_rigid_pads(copy);
   }
   skin = std::make_shared<const contact::Skin>(std::move(copy));
   return skin;
@@ -162,8 +174,7 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
       builder_.add_pair(name, A.body, B.body,
                         std::make_shared<const contact::ContactPair>(
                             A.side, B.side, make_parameters(options)));
-  placed.push_back({name, A.body, B.body, std::move(shapes), options.radius,
-                    touching, pair});
+  placed.push_back({name, std::move(shapes), options.radius, touching, pair});
 }
 
 }  // namespace limber::scene

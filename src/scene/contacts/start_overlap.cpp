@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/contact/meetings.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
 namespace limber::scene {
@@ -16,46 +16,19 @@ constexpr double kMostShare = 0.03;  // of R_e [-]
 constexpr double kMostDepth = 1e-4;  // of flat surfaces [m]
 constexpr std::size_t kMostTold = 10;
 
-joints::PairBody find_motion(const dynamics::SystemModel& model,
-                             const dynamics::SystemState& state,
-                             dynamics::BodyIndex body) {
-  joints::PairBody motion;
-  if (body == dynamics::kWorld) return motion;
-  const dynamics::BodyState& at = state.bodies[index(body)];
-  const dynamics::BodyModel& of = model.bodies[index(body)];
-  motion.R_WB = at.quat_WB.toRotationMatrix();
-  motion.p_WB = at.p_WB;
-  motion.v_WB_W = at.v_WB_W;
-  motion.w_WB_B = at.w_WB_B;
-  motion.modes = of.modes;
-  motion.eta = state.eta.data() + of.offset;
-  motion.etadot = state.etadot.data() + of.offset;
-  return motion;
-}
-
 double find_limit(const PlacedPair& pair, const contact::Meeting& meeting) {
   if (pair.radius) return kMostShare * *pair.radius;
   return meeting.curvature > 0.0 ? kMostShare / meeting.curvature : kMostDepth;
 }
 
-/// A pair that overlaps at the start.
-struct Overlap {
-  joints::PairBodies bodies;
-  contact::Meeting deepest;
-};
-
-std::optional<Overlap> find_overlap(const PlacedPair& pair,
-                                    const dynamics::SystemModel& model,
-                                    const dynamics::SystemState& state) {
-  const joints::PairBody A = find_motion(model, state, pair.body_A);
-  const joints::PairBody B = find_motion(model, state, pair.body_B);
-  std::vector<contact::Meeting> meetings(pair.shapes.most_points());
-  pair.shapes.find({A, B}, 0.0, meetings);
-  const auto deepest = std::max_element(
-      meetings.begin(), meetings.end(),
-      [](const auto& a, const auto& b) { return a.depth < b.depth; });
-  if (deepest == meetings.end() || !(deepest->depth > 0.0)) return {};
-  return Overlap{{A, B}, *deepest};
+/// Where two overlap most; none if they do not.
+std::optional<contact::Meeting> find_overlap(const contact::ShapePair& shapes,
+                                             const joints::PairBodies& bodies) {
+  contact::Meetings meetings(shapes.most_points());
+  shapes.find(bodies, 0.0, meetings.all());
+  const contact::Meeting& deepest = meetings[meetings.find_deepest()];
+  if (!(deepest.depth > 0.0)) return std::nullopt;
+  return deepest;
 }
 
 std::string refuse(const PlacedPair& pair, const contact::Meeting& deepest,
@@ -68,17 +41,18 @@ std::string refuse(const PlacedPair& pair, const contact::Meeting& deepest,
       pair.name, deepest.depth, p.x(), p.y(), p.z(), limit);
 }
 
-std::string tell(const PlacedPair& pair, const Overlap& overlap,
-                 const joints::PairInteraction& law) {
-  const std::vector<double> memory(law.memory_size(), 0.0);
-  joints::PairResponse scratch(law.most_points(), overlap.bodies.A.modes,
-                               overlap.bodies.B.modes);
+std::string tell(const PlacedPair& placed, double depth,
+                 const dynamics::SystemModel& model,
+                 const joints::PairBodies& bodies) {
+  const dynamics::Pair& pair = model.pairs[index(placed.pair)];
+  const std::vector<double> memory(pair.law->memory_size(), 0.0);
+  joints::PairResponse scratch = dynamics::make_response(model, pair);
   const joints::TouchReading reading =
-      law.touching()->read(overlap.bodies, Instant{}, memory, scratch);
+      pair.law->touching()->read(bodies, Instant{}, memory, scratch);
   return fmt::format(
       "contact '{}': both overlap by {:.3g} m at the start, which presses them "
       "apart with {:.4g} N and stores {:.3g} J",
-      pair.name, overlap.deepest.depth, reading.normal_force, reading.energy);
+      placed.name, depth, reading.normal_force, reading.energy);
 }
 
 }  // namespace
@@ -90,14 +64,15 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
   std::vector<std::string> notices;
   std::size_t count = 0;
   for (const PlacedPair& pair : pairs) {
-    const std::optional<Overlap> overlap = find_overlap(pair, model, state);
-    if (!overlap) continue;
-    const double limit = find_limit(pair, overlap->deepest);
-    if (overlap->deepest.depth <= limit) {
-      notices.push_back(
-          tell(pair, *overlap, *model.pairs[index(pair.pair)].law));
+    const dynamics::PairMotion motion =
+        dynamics::find_pair_motion(model, model.pairs[index(pair.pair)], state);
+    const auto deepest = find_overlap(pair.shapes, motion.bodies());
+    if (!deepest) continue;
+    const double limit = find_limit(pair, *deepest);
+    if (deepest->depth <= limit) {
+      notices.push_back(tell(pair, deepest->depth, model, motion.bodies()));
     } else if (++count <= kMostTold) {
-      problems.push_back(refuse(pair, overlap->deepest, limit));
+      problems.push_back(refuse(pair, *deepest, limit));
     }
   }
   if (count > kMostTold) {

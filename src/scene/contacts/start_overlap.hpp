@@ -12,11 +12,9 @@
 
 namespace limber::scene {
 
-/// Two shapes on bodies of a system.
+/// Two shapes on the bodies of a pair of a system.
 struct PlacedPair {
   std::string name;
-  dynamics::BodyIndex body_A = dynamics::kWorld;
-  dynamics::BodyIndex body_B = dynamics::kWorld;
   contact::ShapePair shapes;
   std::optional<double> radius;  ///< R_e in place of that of the shapes [m]
   std::size_t touching = 0;      ///< index of the bodies into Scene::touching

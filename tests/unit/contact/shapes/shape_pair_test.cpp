@@ -141,20 +141,29 @@ TEST(ShapePair, ALyingCylinderTouchesWithTheLowestPointOfEachRim) {
   EXPECT_LT(depths[2], -0.6);
 }
 
-TEST(ShapePair, ASkinMeetsAHalfSpaceWithItsNodes) {
+// More than it has room for: the deepest.
+TEST(ShapePair, ASkinMeetsAHalfSpaceWithItsDeepestNodes) {
   const auto skin = make_box_skin();
   const ShapePair pair({skin, {}}, {HalfSpace{}, {}});
-  ASSERT_EQ(pair.most_points(), skin->node_count());
-  const auto at = meet(pair, place({0, 0, 0.9}), place({0, 0, 0}), 1.5);
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const Vector3 x = skin->surface().x_B.col(static_cast<Eigen::Index>(i));
-    if (x.z() > 0.6) {
-      EXPECT_EQ(at[i].depth, -kInf);
-      continue;
-    }
-    EXPECT_NEAR(at[i].depth, -0.9 - x.z(), 1e-15);
-    EXPECT_EQ(at[i].normal_W, Vector3(0, 0, -1));
-    EXPECT_LT((at[i].on_A.x_B - x).norm(), 1e-15);
+  ASSERT_GT(skin->node_count(), 64U);
+  ASSERT_EQ(pair.most_points(), 64U);
+  ASSERT_TRUE(pair.has_loose_features());
+  Matrix3 R = exp_rotation(Vector3(0.3, 0.2, 0.0));
+  const auto at = meet(pair, place({0, 0, 0.9}, R), place({0, 0, 0}), 1.5);
+  std::vector<double> depths;
+  for (Eigen::Index i = 0; i < skin->surface().x_B.cols(); ++i) {
+    depths.push_back(-0.9 - (R * skin->surface().x_B.col(i)).z());
+  }
+  std::sort(depths.rbegin(), depths.rend());
+  std::vector<double> found;
+  for (const Meeting& m : at) {
+    EXPECT_EQ(m.normal_W, Vector3(0, 0, -1));
+    EXPECT_NEAR(m.depth, -0.9 - (R * m.on_A.x_B).z(), 1e-15);
+    found.push_back(m.depth);
+  }
+  std::sort(found.rbegin(), found.rend());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i], depths[i], 1e-15);
   }
 }
 

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What ContactPair does over a step of the energy-conserving scheme.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/meeting_order.hpp"
+#include "limber/contact/meetings.hpp"
+#include "limber/contact/pads_on_plane.hpp"
+#include "limber/contact/point_numbers.hpp"
+
+namespace limber::contact {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Below this share of the change of depth the way along the normal does not
+// tell the force [-].
+constexpr double kLeastWay = 0.1;
+
+}  // namespace
+
+ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
+                                          const PointMotion& motion,
+                                          const joints::PairPoint& point,
+                                          const Meeting& begin,
+                                          const Meeting& end) const {
+  const HertzLaw::StepResponse mean =
+      law_.find_law(motion.curvature, motion.residual, motion.share)
+          .evaluate_over_step(begin.depth, end.depth);
+  ElasticForce elastic{mean.force, mean.stiffness};
+  // Way and energies are nearly those of that law: the normal turns, and
+  // curvature and residual vary.
+  const Vector3 way = (find_position(step.end.B, point.on_B) -
+                       find_position(step.begin.B, point.on_B)) -
+                      (find_position(step.end.A, point.on_A) -
+                       find_position(step.begin.A, point.on_A));
+  const double deepening = -motion.normal_W.dot(way);
+  const double work =
+      find_law(end, end.share).evaluate(end.depth).energy() -
+      find_law(begin, begin.share).evaluate(begin.depth).energy();
+  if (std::abs(deepening) > kLeastWay * std::abs(end.depth - begin.depth)) {
+    elastic.force = std::max(work / deepening, 0.0);
+  }
+  return elastic;
+}
+
+void ContactPair::evaluate_over_step(const joints::PairStep& step,
+                                     std::span<const double> memory,
+                                     joints::PairResponse& out) const {
+  if (find_clearance(step.begin) > 0.0 && find_clearance(step.end) > 0.0) {
+    return;
+  }
+  if (pads_) {
+    evaluate_pads_over_step(step, memory, out);
+    return;
+  }
+  Meetings begin(count_features());
+  Meetings middle(count_features());
+  Meetings end(count_features());
+  meet(step.end, kInfinity, memory, end.all());
+  shapes_.find(step.begin, kInfinity, begin.all());
+  shapes_.find(step.middle, kInfinity, middle.all());
+  if (shapes_.has_loose_features()) {
+    follow(end.all(), begin.all());
+    follow(end.all(), middle.all());
+  }
+  for (std::size_t i = 0; i < count_features(); ++i) {
+    if (!(begin[i].depth > 0.0) && !(end[i].depth > 0.0)) continue;
+    joints::PairPoint& point = out.add();
+    const PointMemory before = load_memory(numbers_of(i, memory));
+    const PointMotion motion =
+        place(step.middle, middle[i], before, step.times.middle(), point);
+    const ElasticForce elastic =
+        find_step_force(step, motion, point, begin[i], end[i]);
+    const PointResponse response = law_.evaluate(motion, elastic, before);
+    set_response(response, point, out);
+    if (twist_) {
+      add_twist(step.middle, middle[i], response,
+                step.times.middle() - before.time, out);
+    }
+  }
+}
+
+// As HertzLaw::evaluate_over_step, of all pads at once: the mean of the forces
+// at both ends, and what of the energy it leaves by the pads' ways.
+void ContactPair::evaluate_pads_over_step(const joints::PairStep& step,
+                                          std::span<const double> memory,
+                                          joints::PairResponse& out) const {
+  Meetings meetings(count_features());
+  PadLaw::Response begin;
+  PadLaw::Response end;
+  shapes_.find(step.begin, kInfinity, meetings.all());
+  evaluate_pads(meetings.all(), begin);
+  shapes_.find(step.end, kInfinity, meetings.all());
+  evaluate_pads(meetings.all(), end);
+  shapes_.find(step.middle, kInfinity, meetings.all());
+  PadLaw::Response mean;
+  mean.force = 0.5 * (begin.force + end.force);
+  mean.stiffness = 0.5 * end.stiffness;
+  PadLaw::Vector ways = PadLaw::Vector::Zero(mean.force.size());
+  joints::PairPoint& scratch = out.add();
+  for (std::size_t i = 0; i < count_features(); ++i) {
+    const PointMotion motion =
+        place(step.middle, meetings[i], {}, step.times.middle(), scratch);
+    const Vector3 way = (find_position(step.end.B, scratch.on_B) -
+                         find_position(step.begin.B, scratch.on_B)) -
+                        (find_position(step.end.A, scratch.on_A) -
+                         find_position(step.begin.A, scratch.on_A));
+    ways[static_cast<Eigen::Index>(i)] = -motion.normal_W.dot(way);
+  }
+  out.clear();
+  const double square = ways.squaredNorm();
+  if (square > 0.0) {
+    const double left = end.energy - begin.energy - mean.force.dot(ways);
+    mean.force += left / square * ways;
+  }
+  CoupledPads points;
+  for (std::size_t i = 0; i < count_features(); ++i) {
+    const auto pad = static_cast<Eigen::Index>(i);
+    if (begin.force[pad] <= 0.0 && end.force[pad] <= 0.0) continue;
+    mean.force[pad] = std::max(mean.force[pad], 0.0);
+    joints::PairPoint& point = out.add();
+    const PointMemory known = load_memory(numbers_of(i, memory));
+    const PointMotion motion =
+        place(step.middle, meetings[i], known, step.times.middle(), point);
+    const PointMemory before = recall(known, meetings[i], i, motion.rate());
+    const PointResponse response = respond(motion, i, mean, before);
+    set_response(response, point, out);
+    points.add(i, response.by_elastic_W, meetings[i].normal_W);
+  }
+  points.couple(mean, out);
+}
+
+}  // namespace limber::contact
