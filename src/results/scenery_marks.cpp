@@ -146,11 +146,11 @@ MatrixX read_touches(const SystemModel& model, const dynamics::Pair& pair,
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     const dynamics::SystemState& state =
         history.states[static_cast<std::size_t>(i)];
-    const joints::PairBody A = find_pair_body(model, state, pair.body_A);
-    const joints::PairBody B = find_pair_body(model, state, pair.body_B);
+    const dynamics::PairMotion motion = find_pair_motion(model, pair, state);
     try {
-      const joints::TouchReading reading = pair.law->touching()->read(
-          {A, B}, dynamics::now_of(state), memory_of(pair, state), scratch);
+      const joints::TouchReading reading =
+          pair.law->touching()->read(motion.bodies(), dynamics::now_of(state),
+                                     memory_of(pair, state), scratch);
       if (reading.points == 0) continue;
       values.row(i) << reading.p_W.transpose(), reading.force_W.transpose();
     } catch (const NumericalError&) {

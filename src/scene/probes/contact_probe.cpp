@@ -76,11 +76,9 @@ void for_each_part(const ContactProbe& probe,
                    const dynamics::SystemState& state, const Work& work) {
   for (const ContactProbe::Part& part : probe.parts) {
     const dynamics::Pair& pair = model.pairs[index(part.pair)];
-    const joints::PairBody A =
-        dynamics::find_pair_body(model, state, pair.body_A);
-    const joints::PairBody B =
-        dynamics::find_pair_body(model, state, pair.body_B);
-    work(*pair.law->touching(), joints::PairBodies{A, B}, pair, part.scratch);
+    const dynamics::PairMotion motion =
+        dynamics::find_pair_motion(model, pair, state);
+    work(*pair.law->touching(), motion.bodies(), pair, part.scratch);
   }
 }
 
