@@ -39,10 +39,16 @@ constexpr auto fields_of(const QuadraticFrame*) {
                      "Psi2 [kg^-1 m^-2]");
 }
 
+constexpr auto fields_of(const ContactPads*) {
+  return list_fields("contact pads", "normal", "x_B [m]", "Phi_B [kg^-1/2]",
+                     "flexibility [m/N]", "area [m^2]");
+}
+
 constexpr auto fields_of(const ContactSurface*) {
   return list_fields("contact surface", "name", "tags", "x_B [m]",
                      "Phi_B [kg^-1/2]", "residual [m/N]", "patch radius [m]",
-                     "faces", "Young's modulus [Pa]", "Poisson's ratio [-]");
+                     "faces", "pads", "Young's modulus [Pa]",
+                     "Poisson's ratio [-]");
 }
 
 constexpr auto fields_of(const InertialLevers*) {
