@@ -54,14 +54,14 @@ struct Surface {
   Matrix3X points;                                    ///< 3 x n [m]
   std::vector<std::array<std::size_t, 3>> triangles;  ///< indices of points
 };
-/// What moves with the frame of a body.
+/// What moves with the frame of a body, or stands in the world (kWorld).
 struct BodySurface {
   dynamics::BodyIndex body;
-  Surface surface;  ///< body frame
+  Surface surface;  ///< body frame, or the world's
 };
 
 /// The surfaces of all flexible bodies (and the frames of rigid ones) at the
-/// given states. @param shapes of rigid bodies, drawn in addition
+/// given states. @param shapes of rigid bodies and the world, drawn in addition
 [[nodiscard]] std::string draw_scene(
     const std::filesystem::path& file, const std::string& title,
     const dynamics::SystemModel& model,

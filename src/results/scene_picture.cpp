@@ -102,6 +102,7 @@ Shot take_shot(const std::string& name, const SystemModel& model,
 }
 
 Surface place(const BodySurface& shape, const SystemState& state) {
+  if (shape.body == dynamics::kWorld) return shape.surface;
   const auto& body = state.bodies[static_cast<std::size_t>(shape.body)];
   const Matrix3 R_WB = body.quat_WB.toRotationMatrix();
   const Matrix3X points = (R_WB * shape.surface.points).colwise() + body.p_WB;

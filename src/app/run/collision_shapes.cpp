@@ -24,6 +24,17 @@ std::vector<scene::ReducedPointer> find_reduced(
   return reduced;
 }
 
+void add_shape(const scene::Geometry& geometry, const Pose& X_BS,
+               dynamics::BodyIndex body,
+               std::vector<results::BodySurface>& surfaces) {
+  scene::ShapeSurface surface = scene::make_surface(geometry);
+  if (surface.triangles.empty()) return;
+  for (Eigen::Index p = 0; p < surface.points.cols(); ++p) {
+    surface.points.col(p) = X_BS * Vector3(surface.points.col(p));
+  }
+  surfaces.push_back({body, {surface.points, surface.triangles}});
+}
+
 }  // namespace
 
 std::vector<results::BodySurface> find_collision_shapes(
@@ -34,17 +45,16 @@ std::vector<results::BodySurface> find_collision_shapes(
   std::vector<results::BodySurface> surfaces;
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const scene::BodyPlan& plan = plans.bodies[index(plans.body_of_link[i])];
-    if (plan.is_world || plan.reduced) continue;
+    if (plan.reduced) continue;
+    const dynamics::BodyIndex body =
+        plan.is_world ? dynamics::kWorld : model.find_body(plan.name);
     for (const scene::Collision& collision : robot.links[i].collisions) {
-      scene::ShapeSurface surface = scene::make_surface(collision.geometry);
-      const Pose X_BS = plans.X_BL[i] * collision.X_LS;
-      for (Eigen::Index p = 0; p < surface.points.cols(); ++p) {
-        surface.points.col(p) = X_BS * Vector3(surface.points.col(p));
-      }
-      if (surface.triangles.empty()) continue;
-      surfaces.push_back(
-          {model.find_body(plan.name), {surface.points, surface.triangles}});
+      add_shape(collision.geometry, plans.X_BL[i] * collision.X_LS, body,
+                surfaces);
     }
+  }
+  for (const scene::ObstacleSpec& obstacle : scene.scenario.obstacles) {
+    add_shape(obstacle.geometry, obstacle.X_WS, dynamics::kWorld, surfaces);
   }
   return surfaces;
 }

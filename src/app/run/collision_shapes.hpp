@@ -8,7 +8,7 @@
 
 namespace limber::app {
 
-/// The <collision> shapes of all rigid links that move and the projectiles,
+/// The <collision> shapes of all rigid links, projectiles and obstacles,
 /// whether they touch or not, for pictures.
 /// @param model of this scene
 [[nodiscard]] std::vector<results::BodySurface> find_collision_shapes(
