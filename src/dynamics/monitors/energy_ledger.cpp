@@ -152,6 +152,7 @@ double EnergyLedger::find_noise(const SystemTerms& terms) const {
                                   terms.attachments[frame].p_WF.norm());
   }
   for (std::size_t i = 0; i < terms.pairs.responses.size(); ++i) {
+    if (terms.pairs.responses[i].points().empty()) continue;
     const joints::PairBodies bodies = find_bodies(model_.pairs[i], terms.pairs);
     const double d = kEpsilon * (bodies.A.p_WB.norm() + bodies.B.p_WB.norm());
     for (const auto& point : terms.pairs.responses[i].points()) {

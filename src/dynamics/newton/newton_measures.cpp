@@ -131,6 +131,7 @@ void calc_pair_roundoff(const SystemModel& model, const SystemState& state,
                         VectorX& residual) {
   residual.setZero();
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    if (terms.pairs.responses[i].points().empty()) continue;
     const Pair& pair = model.pairs[i];
     double reach = 0.0;
     for (const BodyIndex b : {pair.body_A, pair.body_B}) {
