@@ -12,8 +12,8 @@
 
 #include "limber/common/records/manifest.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
-#include "limber/scene/probes/probe_fields.hpp"
 #include "limber/scene/probes/followed_probes.hpp"
+#include "limber/scene/probes/probe_fields.hpp"
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
