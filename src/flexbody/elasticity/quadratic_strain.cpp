@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <utility>
 
 #include "limber/common/errors.hpp"
@@ -29,18 +32,31 @@ void check_paired(const std::vector<int>& paired, Eigen::Index modes) {
   }
 }
 
-// A row of Q as the symmetric matrix of its form.
-MatrixX unpack(const MatrixX& Q, Eigen::Index row, Eigen::Index n) {
-  MatrixX B(n, n);
-  Eigen::Index pair = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    B(i, i) = Q(row, pair++);
-    for (Eigen::Index j = i + 1; j < n; ++j) {
-      B(i, j) = B(j, i) = 0.5 * Q(row, pair++);
-    }
+// Pairs that are treated at once, without memory of the heap.
+constexpr Eigen::Index kChunk = 512;
+using Chunk = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kChunk, 1>;
+// Rows of D that are multiplied at once.
+constexpr Eigen::Index kRows = 8;
+
+// Sets of rows that share a pair, and of pairs that share a row.
+class Connected {
+ public:
+  explicit Connected(std::size_t count) : above_(count) {
+    std::iota(above_.begin(), above_.end(), std::size_t{0});
   }
-  return B;
-}
+  void join(std::size_t a, std::size_t b) { above_[find(a)] = find(b); }
+  [[nodiscard]] std::size_t find(std::size_t a) {
+    while (above_[a] != a) a = above_[a] = above_[above_[a]];
+    return a;
+  }
+
+ private:
+  std::vector<std::size_t> above_;
+};
+
+// Rows of D = de/dq at p, a column a mode in P.
+using RowsOfD = Eigen::Matrix<double, kRows, Eigen::Dynamic, 0, kRows,
+                              QuadraticStrain::kMostPaired>;
 
 }  // namespace
 
@@ -52,12 +68,50 @@ QuadraticStrain::QuadraticStrain(Parameters parameters)
   const MatrixX& Q = parameters_.Q;
   check_shape("the table of quadratic strains", Q, n, n * (n + 1) / 2);
   check_finite("the table of quadratic strains", Q);
-  for (Eigen::Index r = 0; r < n; ++r) {
-    if (Q.row(r).isZero(0.0)) continue;
-    rows_.push_back({static_cast<int>(r),
-                     std::sqrt(parameters_.lambda[mode(r)]), unpack(Q, r, n)});
-    linear_[mode(r)] = 0.0;
+  blocks_ = find_blocks();
+  for (const Block& block : blocks_) {
+    for (const int r : block.rows) linear_[mode(r)] = 0.0;
   }
+}
+
+std::vector<QuadraticStrain::Block> QuadraticStrain::find_blocks() const {
+  const MatrixX& Q = parameters_.Q;
+  const auto rows = static_cast<std::size_t>(Q.rows());
+  Connected sets(rows + static_cast<std::size_t>(Q.cols()));
+  for (Eigen::Index k = 0; k < Q.cols(); ++k) {
+    for (Eigen::Index r = 0; r < Q.rows(); ++r) {
+      if (Q(r, k) == 0.0) continue;
+      sets.join(static_cast<std::size_t>(r),
+                rows + static_cast<std::size_t>(k));
+    }
+  }
+  std::map<std::size_t, Block> found;
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (Q.row(static_cast<Eigen::Index>(r)).isZero(0.0)) continue;
+    found[sets.find(r)].rows.push_back(static_cast<int>(r));
+  }
+  std::map<std::size_t, std::vector<Eigen::Index>> columns;
+  Eigen::Index pair = 0;
+  for (int i = 0; i < static_cast<int>(rows); ++i) {
+    for (int j = i; j < static_cast<int>(rows); ++j, ++pair) {
+      if (Q.col(pair).isZero(0.0)) continue;
+      const std::size_t set = sets.find(rows + static_cast<std::size_t>(pair));
+      found[set].i.push_back(i);
+      found[set].j.push_back(j);
+      columns[set].push_back(pair);
+    }
+  }
+  std::vector<Block> blocks;
+  for (auto& [set, block] : found) {
+    block.Q = Q(block.rows, columns[set]).transpose();
+    block.roots.resize(block.Q.cols());
+    for (Eigen::Index r = 0; r < block.roots.size(); ++r) {
+      block.roots[r] = std::sqrt(
+          parameters_.lambda[mode(block.rows[static_cast<std::size_t>(r)])]);
+    }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
 }
 
 QuadraticStrain::Paired QuadraticStrain::gather(const ModesIn& q) const {
@@ -66,104 +120,144 @@ QuadraticStrain::Paired QuadraticStrain::gather(const ModesIn& q) const {
   return out;
 }
 
-void QuadraticStrain::scatter(double factor, const Paired& row,
-                              ModesOut force) const {
-  for (Eigen::Index i = 0; i < row.size(); ++i) {
-    force[mode(i)] += factor * row[i];
+void QuadraticStrain::scatter(const Paired& forces, ModesOut force) const {
+  for (Eigen::Index i = 0; i < forces.size(); ++i) force[mode(i)] += forces[i];
+}
+
+QuadraticStrain::Paired QuadraticStrain::find_strains(const Block& block,
+                                                      const Paired& p) {
+  Paired e(block.roots.size());
+  for (Eigen::Index r = 0; r < e.size(); ++r) {
+    e[r] = block.roots[r] * p[block.rows[static_cast<std::size_t>(r)]];
+  }
+  Chunk products;
+  for (Eigen::Index first = 0; first < block.Q.rows(); first += kChunk) {
+    products.resize(std::min(kChunk, block.Q.rows() - first));
+    const int* i = block.i.data() + first;
+    const int* j = block.j.data() + first;
+    for (Eigen::Index k = 0; k < products.size(); ++k) {
+      products[k] = p[i[k]] * p[j[k]];
+    }
+    e.noalias() +=
+        block.Q.middleRows(first, products.size()).transpose() * products;
+  }
+  return e;
+}
+
+void QuadraticStrain::add_force(const Block& block, const Paired& p,
+                                const Paired& w, Paired& force) {
+  for (Eigen::Index r = 0; r < w.size(); ++r) {
+    force[block.rows[static_cast<std::size_t>(r)]] += block.roots[r] * w[r];
+  }
+  Chunk weights;
+  for (Eigen::Index first = 0; first < block.Q.rows(); first += kChunk) {
+    weights.resize(std::min(kChunk, block.Q.rows() - first));
+    weights.noalias() = block.Q.middleRows(first, weights.size()) * w;
+    const int* i = block.i.data() + first;
+    const int* j = block.j.data() + first;
+    for (Eigen::Index k = 0; k < weights.size(); ++k) {
+      force[i[k]] += weights[k] * p[j[k]];
+      force[j[k]] += weights[k] * p[i[k]];
+    }
   }
 }
 
 double QuadraticStrain::energy(const ModesIn& q) const {
   double sum = (linear_.array() * q.array().square()).sum();
   const Paired p = gather(q);
-  Paired Bp(p.size());
-  for (const Row& row : rows_) {
-    Bp.noalias() = row.B * p;
-    const double e = row.root * p[row.place] + p.dot(Bp);
-    sum += e * e;
-  }
+  for (const Block& block : blocks_)
+    sum += find_strains(block, p).squaredNorm();
   return 0.5 * sum;
 }
 
 void QuadraticStrain::calc_force(const ModesIn& q, ModesOut force) const {
   force.array() = linear_.array() * q.array();
+  if (blocks_.empty()) return;
   const Paired p = gather(q);
-  Paired D(p.size());  // B p, then de/dq
-  for (const Row& row : rows_) {
-    D.noalias() = row.B * p;
-    const double e = row.root * p[row.place] + p.dot(D);
-    D *= 2.0;
-    D[row.place] += row.root;
-    scatter(e, D, force);
+  Paired forces = Paired::Zero(p.size());
+  for (const Block& block : blocks_) {
+    add_force(block, p, find_strains(block, p), forces);
   }
-}
-
-void QuadraticStrain::set_linear_tangent(ModesSquare tangent) const {
-  tangent.setZero();
-  tangent.diagonal() = linear_;
-}
-
-void QuadraticStrain::add_to_tangent(const Paired& a, const Paired& b,
-                                     double factor, const MatrixX& B,
-                                     ModesSquare tangent) const {
-  for (Eigen::Index j = 0; j < b.size(); ++j) {
-    double* column = tangent.col(mode(j)).data();
-    for (Eigen::Index i = 0; i < a.size(); ++i) {
-      column[mode(i)] += a[i] * b[j] + factor * B(i, j);
-    }
-  }
-}
-
-void QuadraticStrain::calc_tangent(const ModesIn& q,
-                                   ModesSquare tangent) const {
-  set_linear_tangent(tangent);
-  const Paired p = gather(q);
-  Paired D(p.size());
-  for (const Row& row : rows_) {
-    D.noalias() = row.B * p;
-    const double e = row.root * p[row.place] + p.dot(D);
-    D *= 2.0;
-    D[row.place] += row.root;
-    add_to_tangent(D, D, 2.0 * e, row.B, tangent);
-  }
+  scatter(forces, force);
 }
 
 void QuadraticStrain::calc_force_over_step(const ModesIn& q0, const ModesIn& q1,
                                            ModesOut force) const {
   force.array() = linear_.array() * (0.5 * (q0 + q1)).array();
+  if (blocks_.empty()) return;
   const Paired p0 = gather(q0);
   const Paired p1 = gather(q1);
-  Paired B0(p0.size());
-  Paired D(p0.size());  // B p1, then de/dq at the middle
-  for (const Row& row : rows_) {
-    B0.noalias() = row.B * p0;
-    D.noalias() = row.B * p1;
-    const double both =
-        row.root * (p0[row.place] + p1[row.place]) + p0.dot(B0) + p1.dot(D);
-    D += B0;
-    D[row.place] += row.root;
-    scatter(0.5 * both, D, force);
+  const Paired middle = 0.5 * (p0 + p1);
+  Paired forces = Paired::Zero(p0.size());
+  for (const Block& block : blocks_) {
+    const Paired mean =
+        0.5 * (find_strains(block, p0) + find_strains(block, p1));
+    add_force(block, middle, mean, forces);
+  }
+  scatter(forces, force);
+}
+
+void QuadraticStrain::add_tangent(const Block& block, const Paired& a,
+                                  const Paired& b, const Paired& w,
+                                  ModesSquare tangent) const {
+  const Eigen::Index pairs = block.Q.rows();
+  const auto find_rows = [&](Eigen::Index first, const Paired& p) {
+    RowsOfD D = RowsOfD::Zero(kRows, p.size());
+    for (Eigen::Index r = 0; r < std::min(kRows, w.size() - first); ++r) {
+      D(r, block.rows[static_cast<std::size_t>(first + r)]) =
+          block.roots[first + r];
+      const double* q = block.Q.col(first + r).data();
+      for (Eigen::Index k = 0; k < pairs; ++k) {
+        const int i = block.i[static_cast<std::size_t>(k)];
+        const int j = block.j[static_cast<std::size_t>(k)];
+        D(r, i) += q[k] * p[j];
+        D(r, j) += q[k] * p[i];
+      }
+    }
+    return D;
+  };
+  for (Eigen::Index first = 0; first < w.size(); first += kRows) {
+    const RowsOfD D_a = find_rows(first, a);
+    const RowsOfD D_b = find_rows(first, b);
+    for (Eigen::Index j = 0; j < b.size(); ++j) {
+      if (D_b.col(j).isZero(0.0)) continue;
+      double* column = tangent.col(mode(j)).data();
+      for (Eigen::Index i = 0; i < a.size(); ++i) {
+        column[mode(i)] += D_a.col(i).dot(D_b.col(j));
+      }
+    }
+  }
+  for (Eigen::Index k = 0; k < pairs; ++k) {
+    const int i = mode(block.i[static_cast<std::size_t>(k)]);
+    const int j = mode(block.j[static_cast<std::size_t>(k)]);
+    const double curvature = block.Q.row(k).dot(w);
+    tangent(i, j) += curvature;
+    tangent(j, i) += curvature;
+  }
+}
+
+void QuadraticStrain::calc_tangent(const ModesIn& q,
+                                   ModesSquare tangent) const {
+  tangent.setZero();
+  tangent.diagonal() = linear_;
+  const Paired p = gather(q);
+  for (const Block& block : blocks_) {
+    add_tangent(block, p, p, find_strains(block, p), tangent);
   }
 }
 
 void QuadraticStrain::calc_tangent_over_step(const ModesIn& q0,
                                              const ModesIn& q1,
                                              ModesSquare tangent) const {
-  set_linear_tangent(tangent);
+  tangent.setZero();
+  tangent.diagonal() = linear_;
   const Paired p0 = gather(q0);
   const Paired p1 = gather(q1);
-  Paired middle(p0.size());  // B p0, then de/dq at the middle
-  Paired end(p0.size());     // B p1, then de/dq at the end
-  for (const Row& row : rows_) {
-    middle.noalias() = row.B * p0;
-    end.noalias() = row.B * p1;
-    const double both = row.root * (p0[row.place] + p1[row.place]) +
-                        p0.dot(middle) + p1.dot(end);
-    middle += end;
-    end *= 2.0;
-    middle[row.place] += row.root;
-    end[row.place] += row.root;
-    add_to_tangent(middle, end, both, row.B, tangent);
+  const Paired middle = 0.5 * (p0 + p1);
+  for (const Block& block : blocks_) {
+    const Paired mean =
+        0.5 * (find_strains(block, p0) + find_strains(block, p1));
+    add_tangent(block, middle, p1, mean, tangent);
   }
 }
 

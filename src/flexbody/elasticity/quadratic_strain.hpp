@@ -20,7 +20,9 @@ namespace limber::flexbody {
 /// Source     of the potential: modal strains of a body whose strains are of
 ///            second degree in its displacements (Green-Lagrange); of the force
 ///            over a step: [@simo1992], mean stress on the middle's strain
-/// Limits     kMostPaired modes in P
+/// Limits     kMostPaired modes in P. Costs as many products as Q has entries
+/// in
+///            connected rows and pairs, twice a force
 class QuadraticStrain {
  public:
   static constexpr int kMostPaired = 256;
@@ -48,9 +50,9 @@ class QuadraticStrain {
 
   /// Those of modes without Q are not coupled.
   [[nodiscard]] const VectorX* eigenvalues() const {
-    return rows_.empty() ? &parameters_.lambda : nullptr;
+    return blocks_.empty() ? &parameters_.lambda : nullptr;
   }
-  [[nodiscard]] bool is_linear() const { return rows_.empty(); }
+  [[nodiscard]] bool is_linear() const { return blocks_.empty(); }
   [[nodiscard]] const VectorX& rest_stiffness() const {
     return parameters_.lambda;
   }
@@ -59,26 +61,32 @@ class QuadraticStrain {
 
  private:
   using Paired = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPaired, 1>;
-  // A row of Q that is not zero.
-  struct Row {
-    int place = 0;      // in P
-    double root = 0.0;  // sqrt(lambda)
-    MatrixX B;          // |P| x |P|, symmetric: e = root q + q_P' B q_P
+  /// Rows and pairs that Q connects: those of a symmetric body fall apart into
+  /// the classes of its symmetry. All i, j and rows are places in P.
+  struct Block {
+    std::vector<int> rows;
+    std::vector<int> i, j;  // of each pair
+    VectorX roots;          // sqrt(lambda) of each row
+    MatrixX Q;              // pairs x rows: e_r = root q_r + Q_r' (q_i q_j)
   };
+  [[nodiscard]] std::vector<Block> find_blocks() const;
   [[nodiscard]] int mode(Eigen::Index place) const {
     return parameters_.paired[static_cast<std::size_t>(place)];
   }
   [[nodiscard]] Paired gather(const ModesIn& q) const;
-  void scatter(double factor, const Paired& row, ModesOut force) const;
-  // Adds the outer product a b' + factor B.
-  void add_to_tangent(const Paired& a, const Paired& b, double factor,
-                      const MatrixX& B, ModesSquare tangent) const;
-  // Modes whose strain is linear.
-  void set_linear_tangent(ModesSquare tangent) const;
+  // e of a block's rows.
+  [[nodiscard]] static Paired find_strains(const Block& block, const Paired& p);
+  // Adds D' w, D = de/dq at p.
+  static void add_force(const Block& block, const Paired& p, const Paired& w,
+                        Paired& force);
+  // Adds D_a' D_b + sum_r w_r d^2e_r/dq^2.
+  void add_tangent(const Block& block, const Paired& a, const Paired& b,
+                   const Paired& w, ModesSquare tangent) const;
+  void scatter(const Paired& forces, ModesOut force) const;
 
   Parameters parameters_;
-  VectorX linear_;  // m: lambda, and 0 of modes that have a Row
-  std::vector<Row> rows_;
+  VectorX linear_;  // m: lambda, and 0 of modes that have a row in a block
+  std::vector<Block> blocks_;
 };
 
 constexpr auto fields_of(const QuadraticStrain::Parameters*) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -41,11 +42,18 @@ std::vector<Kind> make_kinds() {
   const VectorX lambda = make_lambda();
   MatrixX one_row = MatrixX::Zero(2, 3);
   one_row.row(1) << 0.3, -0.8, 0.5;
+  // Modes 0 and 2, 3 times themselves; mode 3, 0 times 2.
+  MatrixX two_classes = MatrixX::Zero(3, 6);
+  two_classes << 0.4, 0.0, 0.0, 0.0, 0.0, 0.7,  //
+      -0.3, 0.0, 0.0, 0.5, 0.0, 0.0,            //
+      0.0, 0.9, 0.0, 0.0, 0.0, 0.0;
   return {
       {"Diagonal", DiagonalStiffness({lambda})},
       {"Full", testing::turn_stiffness(lambda, testing::make_basis(kModes, 7))},
       {"QuadraticStrain", testing::make_quadratic_strain(lambda, 4, 1.0, 3)},
       {"QuadraticStrainOfOneMode", QuadraticStrain({lambda, {1, 3}, one_row})},
+      {"QuadraticStrainOfTwoClasses",
+       QuadraticStrain({lambda, {0, 2, 3}, two_classes})},
       {"QuadraticStrainWithoutPairs", QuadraticStrain({lambda, {}, {}})},
   };
 }
@@ -200,6 +208,55 @@ TEST(QuadraticStrain, StoresTheSumOfSquaresOfItsStrains) {
     V += 0.5 * e * e;
   }
   EXPECT_NEAR(QuadraticStrain({lambda, paired, Q}).energy(q), V, 1e-14 * V);
+}
+
+// Of more pairs than are treated at once; those of a table with many zeros by
+// classes.
+TEST(QuadraticStrain, OfManyModesHasTheSumsOfItsDefinition) {
+  constexpr int kMany = 40;
+  constexpr int kPaired = 34;
+  const VectorX lambda = VectorX::LinSpaced(kMany, 1.0, 9.0);
+  std::vector<int> paired(kPaired);
+  std::iota(paired.begin(), paired.end(), 3);
+  const VectorX q = VectorX::NullaryExpr(kMany, [](Eigen::Index i) {
+    return 0.2 * std::sin(1.0 + 1.7 * static_cast<double>(i));
+  });
+  for (const int period : {1, 3, 7}) {
+    MatrixX Q = MatrixX::Zero(kPaired, kPaired * (kPaired + 1) / 2);
+    VectorX e = lambda.cwiseSqrt().cwiseProduct(q);
+    MatrixX D = lambda.cwiseSqrt().asDiagonal();
+    for (int r = 0; r < kPaired; ++r) {
+      Eigen::Index pair = 0;
+      for (int i = 0; i < kPaired; ++i) {
+        for (int j = i; j < kPaired; ++j, ++pair) {
+          if ((r + i + j) % period != 0) continue;
+          const double value = 0.1 * std::cos(r + 2.3 * i + 0.7 * j);
+          Q(r, pair) = value;
+          e[r + 3] += value * q[i + 3] * q[j + 3];
+          D(r + 3, i + 3) += value * q[j + 3];
+          D(r + 3, j + 3) += value * q[i + 3];
+        }
+      }
+    }
+    MatrixX K = D.transpose() * D;
+    for (int r = 0; r < kPaired; ++r) {
+      Eigen::Index pair = 0;
+      for (int i = 0; i < kPaired; ++i) {
+        for (int j = i; j < kPaired; ++j, ++pair) {
+          K(i + 3, j + 3) += e[r + 3] * Q(r, pair);
+          K(j + 3, i + 3) += e[r + 3] * Q(r, pair);
+        }
+      }
+    }
+    const QuadraticStrain own({lambda, paired, Q});
+    EXPECT_NEAR(own.energy(q), 0.5 * e.squaredNorm(), 1e-13 * e.squaredNorm());
+    VectorX force(kMany);
+    own.calc_force(q, force);
+    EXPECT_LT((force - D.transpose() * e).norm(), 1e-13 * force.norm());
+    MatrixX tangent(kMany, kMany);
+    own.calc_tangent(q, tangent);
+    EXPECT_LT((tangent - K).norm(), 1e-13 * K.norm()) << period;
+  }
 }
 
 TEST(QuadraticStrain, WithoutATableIsDiagonalToTheBit) {
