@@ -82,6 +82,10 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
   add_tables(meshed.interfaces, modes, Phi, body);
   if (recipe.manifold) add_manifold(meshed, recipe, Phi, progress, body);
+  if (recipe.stress) {
+    report(progress, "stress modes", 0.0);
+    body.stress = make_stress_modes(mesh, recipe, meshed.interfaces, Phi);
+  }
   body.contact_surfaces = make_contact_surfaces(meshed, recipe, basis, Phi,
                                                 inertia.center, progress);
   report(progress, "reduced", 1.0);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "limber/fem/solid/stress_recovery.hpp"
+#include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/support.hpp"
 
 namespace limber::flexbody {
@@ -54,6 +56,17 @@ std::vector<std::array<std::size_t, 3>> kept_triangles(
   return triangles;
 }
 
+// Index of each node in `kept`, which has all of them.
+std::vector<std::size_t> find_rows(const std::vector<int>& kept,
+                                   const std::vector<int>& nodes) {
+  std::vector<std::size_t> rows;
+  for (const int node : nodes) {
+    const auto found = std::lower_bound(kept.begin(), kept.end(), node);
+    rows.push_back(static_cast<std::size_t>(found - kept.begin()));
+  }
+  return rows;
+}
+
 }  // namespace
 
 void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
@@ -73,6 +86,46 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
     body.groups.push_back({group.name, group.dimension,
                            tags_of(mesh, weighted.nodes), weighted.weights});
   }
+}
+
+StressModes make_stress_modes(const fem::Mesh& mesh, const Recipe& recipe,
+                              const std::vector<Interface>& interfaces,
+                              const MatrixX& Phi) {
+  const fem::NodalStress nodal =
+      fem::recover_stress(mesh, find_materials(mesh, recipe), Phi);
+  const std::vector<int> kept = choose_rows(mesh, recipe, interfaces);
+  std::vector<std::size_t> points;  // of the kept nodes
+  StressModes modes;
+  for (std::size_t i = 0; i < nodal.nodes.size(); ++i) {
+    const int node = nodal.nodes[i];
+    if (!std::binary_search(kept.begin(), kept.end(), node)) continue;
+    points.push_back(i);
+    modes.rows.push_back(find_rows(kept, {node}).front());
+    modes.materials.push_back(nodal.materials[i]);
+    modes.on_surface.push_back(std::binary_search(mesh.boundary_nodes.begin(),
+                                                  mesh.boundary_nodes.end(),
+                                                  node)
+                                   ? 1
+                                   : 0);
+  }
+  modes.Sigma_B.resize(6 * static_cast<Eigen::Index>(points.size()),
+                       Phi.cols());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    modes.Sigma_B.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
+        nodal.stress.col(static_cast<Eigen::Index>(points[i]))
+            .reshaped(6, Phi.cols());
+  }
+  modes.averaging = nodal.averaging;
+  modes.constants.resize(2, static_cast<Eigen::Index>(nodal.constants.size()));
+  for (std::size_t i = 0; i < nodal.constants.size(); ++i) {
+    modes.constants.col(static_cast<Eigen::Index>(i))
+        << nodal.constants[i].youngs_modulus,
+        nodal.constants[i].poisson_ratio;
+  }
+  for (const Interface& interface : interfaces) {
+    modes.interface_rows.push_back(find_rows(kept, interface.selection.nodes));
+  }
+  return modes;
 }
 
 }  // namespace limber::flexbody

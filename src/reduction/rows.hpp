@@ -22,4 +22,10 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
                const std::vector<Interface>& interfaces, const MatrixX& Phi,
                ReducedBody& body);
 
+/// Stress modes at the rows that keep_rows() stores.
+/// @param Phi 3N x m, all rows [kg^-1/2]
+[[nodiscard]] StressModes make_stress_modes(
+    const fem::Mesh& mesh, const Recipe& recipe,
+    const std::vector<Interface>& interfaces, const MatrixX& Phi);
+
 }  // namespace limber::flexbody

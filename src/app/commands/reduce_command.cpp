@@ -32,6 +32,7 @@ struct Options {
   std::string initial_velocity;
   std::vector<std::string> rows = {"boundary"};
   bool manifold = false;
+  bool stress = false;
   bool json = false;
 };
 
@@ -61,6 +62,7 @@ flexbody::Recipe make_recipe(const Options& options) {
   add_initial_fields(start, recipe);
   recipe.rows = flexbody::parse_rows(options.rows);
   recipe.manifold = options.manifold;
+  recipe.stress = options.stress;
   for (const std::string& group : options.interfaces) {
     flexbody::InterfaceRequest request;
     request.name = group;
@@ -143,6 +145,9 @@ void add_reduce(CLI::App& app, Action& action) {
                       "groups by name; may be given again");
   command->add_flag("--second-order", options->manifold,
                     "With the tables that level nonlinear needs");
+  command->add_flag("--stress", options->stress,
+                    "With stress modes at the nodes kept, for probes of "
+                    "stress");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { reduce(*options); }; });

@@ -19,6 +19,7 @@
 #include "limber/flexbody/file/body_file_manifold.hpp"
 #include "limber/flexbody/file/body_file_reader.hpp"
 #include "limber/flexbody/file/body_file_records.hpp"
+#include "limber/flexbody/file/body_file_stress.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -64,6 +65,7 @@ std::optional<int> version_of(const std::string& seal) {
 
 // The oldest layout that has room for the body.
 int layout_of(const ReducedBody& body) {
+  if (body.stress) return kStressBodyFileVersion;
   if (body.manifold) return kManifoldBodyFileVersion;
   return body.contact_surfaces.empty() ? kBodyFileVersion
                                        : kContactBodyFileVersion;
@@ -181,6 +183,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_field(out, "initial/velocity/", body.initial.velocity, "kg^1/2 m/s");
   write_contact_surfaces(out, body.contact_surfaces);
   write_manifold(out, body);
+  write_stress_modes(out, body);
 }
 
 void read_rows(const Reader& reader, ReducedBody& body) {
@@ -233,6 +236,20 @@ void read_interfaces(const Reader& reader, std::size_t count,
   }
 }
 
+// The optional tables, by the layout's version.
+void read_tables(const Reader& reader, ReducedBody& body) {
+  const std::int64_t version = reader.integer("version");
+  OtherTables has{version == kContactBodyFileVersion,
+                  version == kManifoldBodyFileVersion};
+  if (has.manifold) has.surfaces = has_surfaces(reader);
+  if (version == kStressBodyFileVersion) has = read_other_tables(reader);
+  if (has.surfaces) {
+    body.contact_surfaces = read_contact_surfaces(reader, body.lambda.size());
+  }
+  if (has.manifold) read_manifold(reader, body);
+  if (version == kStressBodyFileVersion) read_stress_modes(reader, body);
+}
+
 // Before HDF5 opens the file, since it may crash on damaged structures. Another
 // whole file may replace this one before that.
 void check_seal(const std::filesystem::path& file) {
@@ -247,11 +264,11 @@ void check_seal(const std::filesystem::path& file) {
     throw problem(
         "is not a reduced body of this program's; make one of its mesh");
   }
-  if (*version < kBodyFileVersion || *version > kManifoldBodyFileVersion) {
+  if (*version < kBodyFileVersion || *version > kStressBodyFileVersion) {
     throw problem(fmt::format(
         "has layout version {}; this program reads {} to {}. Make the reduced "
         "body anew",
-        *version, kBodyFileVersion, kManifoldBodyFileVersion));
+        *version, kBodyFileVersion, kStressBodyFileVersion));
   }
   const auto read = [&](char* out, std::size_t size) {
     return in.read(out, size);
@@ -341,12 +358,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);
   body.initial.velocity = read_field(reader, "initial/velocity/", m);
-  const std::int64_t version = reader.integer("version");
-  if (version == kContactBodyFileVersion ||
-      (version == kManifoldBodyFileVersion && has_surfaces(reader))) {
-    body.contact_surfaces = read_contact_surfaces(reader, m);
-  }
-  if (version == kManifoldBodyFileVersion) read_manifold(reader, body);
+  read_tables(reader, body);
   return body;
 }
 

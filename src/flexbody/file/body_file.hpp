@@ -16,6 +16,9 @@ inline constexpr int kContactBodyFileVersion = 8;
 /// The same of a body with second-order kinematics, with or without surfaces.
 inline constexpr int kManifoldBodyFileVersion = 9;
 
+/// The same of a body with stress modes, with or without the others.
+inline constexpr int kStressBodyFileVersion = 10;
+
 /// Writes one self-describing HDF5 file (every dataset carries its unit and
 /// meaning), atomically: a concurrent reader finds the old file or the new one,
 /// and of several writers the last one wins. HDF5's user block, the first 512

@@ -21,6 +21,8 @@ constexpr int kReductionVersion = 4;
 constexpr int kContactVersion = 2;
 // The same of second-order kinematics.
 constexpr int kManifoldVersion = 1;
+// The same of stress modes.
+constexpr int kStressVersion = 1;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());
@@ -97,6 +99,10 @@ void add_request(const Recipe& recipe, Digest& digest) {
   if (recipe.manifold) {
     digest.add(std::string("manifold"));
     digest.add(kManifoldVersion);
+  }
+  if (recipe.stress) {
+    digest.add(std::string("stress"));
+    digest.add(kStressVersion);
   }
   if (recipe.contact_groups.empty()) return;
   digest.add(kContactVersion);

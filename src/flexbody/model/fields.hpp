@@ -34,6 +34,12 @@ constexpr auto fields_of(const QuadraticManifold*) {
                      "Theta_B [kg^-1 m^-1]");
 }
 
+constexpr auto fields_of(const StressModes*) {
+  return list_fields("stress", "rows", "materials", "on surface",
+                     "Sigma_B [kg^1/2 m^-2 s^-2]", "averaging [rad^2/s^2]",
+                     "constants [Pa, -]", "rows of interfaces");
+}
+
 constexpr auto fields_of(const QuadraticFrame*) {
   return list_fields("second order", "paired modes", "Phi2 [kg^-1 m^-1]",
                      "Psi2 [kg^-1 m^-2]");
@@ -71,7 +77,7 @@ constexpr auto fields_of(const ReducedBody*) {
                      "eigenvalues [rad^2/s^2]", "rows", "groups", "interfaces",
                      "triangles", "contact surfaces", "mesh nodes",
                      "mesh elements", "mesh boundary nodes", nullptr, nullptr,
-                     "initial", "content key", "manifold");
+                     "initial", "content key", "manifold", "stress");
 }
 
 constexpr auto fields_of(const NodeSet*) {

@@ -140,6 +140,7 @@ struct Recipe {
   /// each becomes a ContactSurface.
   std::vector<std::string> contact_groups;
   bool manifold = false;  ///< with second-order kinematics, for level nonlinear
+  bool stress = false;    ///< with stress modes at the stored rows
 };
 
 }  // namespace limber::flexbody

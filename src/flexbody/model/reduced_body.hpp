@@ -13,6 +13,7 @@
 #include "limber/flexbody/model/load_modes_record.hpp"
 #include "limber/flexbody/model/quadratic_manifold.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
+#include "limber/flexbody/model/stress_modes.hpp"
 
 namespace limber::flexbody {
 
@@ -115,6 +116,7 @@ struct ReducedBody {
   InitialDeformation initial;  ///< projections of the recipe's fields
   std::string content_key;     ///< hash of all inputs
   std::optional<QuadraticManifold> manifold;  ///< if asked for
+  std::optional<StressModes> stress;          ///< if asked for
 
   [[nodiscard]] int mode_count() const {
     return static_cast<int>(lambda.size());

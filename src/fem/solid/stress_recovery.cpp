@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/solid/stress_recovery.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "limber/common/errors.hpp"
+#include "limber/fem/mesh/mesh_checks.hpp"
+#include "limber/fem/solid/element_matrices.hpp"
+
+namespace limber::fem {
+namespace {
+
+constexpr int kPrismCorners = 6;
+constexpr int kBrickCorners = 8;
+
+// Exponents of u, v, w.
+using Exponents = std::array<int, 3>;
+
+bool is_in_space(const ReferenceElement& element, const Exponents& e) {
+  const int degree = element.order - 1;
+  if (element.corner_count == kBrickCorners) return true;
+  if (element.corner_count == kPrismCorners) return e[0] + e[1] <= degree;
+  return e[0] + e[1] + e[2] <= degree;
+}
+
+std::vector<Exponents> list_terms(const ReferenceElement& element) {
+  std::vector<Exponents> terms;
+  for (int a = 0; a < element.order; ++a) {
+    for (int b = 0; b < element.order; ++b) {
+      for (int c = 0; c < element.order; ++c) {
+        if (is_in_space(element, {a, b, c})) terms.push_back({a, b, c});
+      }
+    }
+  }
+  return terms;
+}
+
+// points x terms; @param uvw 3 x points
+MatrixX evaluate(const std::vector<Exponents>& terms, const MatrixX& uvw) {
+  MatrixX values(uvw.cols(), static_cast<Eigen::Index>(terms.size()));
+  for (Eigen::Index q = 0; q < values.rows(); ++q) {
+    for (Eigen::Index i = 0; i < values.cols(); ++i) {
+      const Exponents& e = terms[static_cast<std::size_t>(i)];
+      values(q, i) = std::pow(uvw(0, q), e[0]) * std::pow(uvw(1, q), e[1]) *
+                     std::pow(uvw(2, q), e[2]);
+    }
+  }
+  return values;
+}
+
+// The fits of one element type, for both rules of its stiffness.
+struct Fits {
+  explicit Fits(const ReferenceElement& element)
+      : straight(make_stress_fit(element, element.stiffness)),
+        curved(make_stress_fit(element, element.curved)) {}
+
+  MatrixX straight;
+  MatrixX curved;
+};
+
+// Stress of all fields at an element's quadrature points.
+struct ElementStress {
+  MatrixX at;       // 6k x points
+  VectorX measure;  // a point [m^3]
+  bool is_straight = false;
+};
+
+ElementStress calc_element_stress(const ReferenceElement& element,
+                                  const Matrix3X& x, const MatrixX& own,
+                                  const LameConstants<double>& lame) {
+  const ElementGradients gradients = calc_gradients(element, x);
+  const Eigen::Index fields = own.rows() / 3;
+  ElementStress stress{MatrixX(6 * fields, gradients.measure.size()),
+                       gradients.measure, is_parallel_sided(element, x)};
+  for (Eigen::Index q = 0; q < stress.at.cols(); ++q) {
+    const MatrixX H =
+        own * gradients.at[static_cast<std::size_t>(q)].transpose();
+    for (Eigen::Index k = 0; k < fields; ++k) {
+      const Matrix3 h = H.middleRows<3>(3 * k);
+      const double volumetric = lame.lambda * h.trace();
+      stress.at.col(q).segment<6>(6 * k)
+          << volumetric + 2.0 * lame.mu * h(0, 0),
+          volumetric + 2.0 * lame.mu * h(1, 1),
+          volumetric + 2.0 * lame.mu * h(2, 2), lame.mu * (h(0, 1) + h(1, 0)),
+          lame.mu * (h(1, 2) + h(2, 1)), lame.mu * (h(0, 2) + h(2, 0));
+    }
+  }
+  return stress;
+}
+
+// Adds int d C^-1 d dV. Weights of the rule may be negative.
+void add_energy(const MatrixX& difference, const VectorX& measure,
+                const ElasticMaterial& material, MatrixX& sum) {
+  const Eigen::Index fields = sum.rows();
+  constexpr Eigen::Index kTerms = 7;  // six components and the trace
+  MatrixX parts(fields, kTerms * difference.cols());
+  VectorX compliance(parts.cols());
+  const double nu = material.poisson_ratio;
+  for (Eigen::Index q = 0; q < difference.cols(); ++q) {
+    for (Eigen::Index k = 0; k < fields; ++k) {
+      const auto d = difference.col(q).segment<6>(6 * k);
+      parts.row(k).segment<6>(kTerms * q) = d;
+      parts(k, kTerms * q + 6) = d.head<3>().sum();
+    }
+    const double size = measure[q] / material.youngs_modulus;
+    compliance.segment<3>(kTerms * q).setConstant(size * (1.0 + nu));
+    compliance.segment<3>(kTerms * q + 3).setConstant(2.0 * size * (1.0 + nu));
+    compliance[kTerms * q + 6] = -size * nu;
+  }
+  sum.noalias() += parts * compliance.asDiagonal() * parts.transpose();
+}
+
+class Recovery {
+ public:
+  Recovery(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+           const MatrixX& Phi)
+      : mesh_(mesh), materials_(materials), Phi_(Phi) {
+    for (const ElasticMaterial& material : materials) {
+      material_of_region_.push_back(find_material(material));
+    }
+    for (const ElementBlock& block : mesh.blocks) {
+      fits_.emplace_back(*block.element);
+    }
+  }
+
+  NodalStress run() {
+    list_points();
+    average();
+    measure_averaging();
+    return std::move(result_);
+  }
+
+ private:
+  // Index of the material with these constants; density does not matter.
+  int find_material(const ElasticMaterial& material) {
+    auto& known = result_.constants;
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& other) {
+          return other.youngs_modulus == material.youngs_modulus &&
+                 other.poisson_ratio == material.poisson_ratio;
+        });
+    const auto i = found - known.begin();
+    if (found == known.end()) known.push_back(material);
+    return static_cast<int>(i);
+  }
+
+  template <typename Visit>  // visit(block index, element)
+  void for_each_element(const Visit& visit) const {
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+      for (std::size_t e = 0; e < mesh_.blocks[b].size(); ++e) visit(b, e);
+    }
+  }
+
+  [[nodiscard]] std::size_t region_of(std::size_t b, std::size_t e) const {
+    return static_cast<std::size_t>(mesh_.blocks[b].regions[e]);
+  }
+
+  [[nodiscard]] std::vector<int> nodes_of(std::size_t b, std::size_t e) const {
+    const ElementBlock& block = mesh_.blocks[b];
+    const int* first = block.element_nodes(e);
+    return {first, first + block.element->node_count};
+  }
+
+  void list_points() {
+    std::vector<std::pair<int, int>> points;  // node, material
+    for_each_element([&](std::size_t b, std::size_t e) {
+      const int material = material_of_region_[region_of(b, e)];
+      for (const int node : nodes_of(b, e)) points.emplace_back(node, material);
+    });
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    first_of_node_.assign(static_cast<std::size_t>(mesh_.x.cols()), 0);
+    for (std::size_t i = points.size(); i-- > 0;) {
+      first_of_node_[static_cast<std::size_t>(points[i].first)] =
+          static_cast<int>(i);
+    }
+    for (const auto& [node, material] : points) {
+      result_.nodes.push_back(node);
+      result_.materials.push_back(material);
+    }
+  }
+
+  // The points of an element's nodes.
+  [[nodiscard]] std::vector<int> points_of(std::size_t b, std::size_t e) const {
+    const int material = material_of_region_[region_of(b, e)];
+    std::vector<int> points = nodes_of(b, e);
+    for (int& point : points) {
+      point = first_of_node_[static_cast<std::size_t>(point)];
+      while (result_.materials[static_cast<std::size_t>(point)] != material) {
+        ++point;
+      }
+    }
+    return points;
+  }
+
+  [[nodiscard]] ElementStress stress_of(std::size_t b, std::size_t e) const {
+    const std::vector<int> nodes = nodes_of(b, e);
+    MatrixX own(3 * Phi_.cols(), static_cast<Eigen::Index>(nodes.size()));
+    for (Eigen::Index k = 0; k < Phi_.cols(); ++k) {
+      for (Eigen::Index a = 0; a < own.cols(); ++a) {
+        own.block<3, 1>(3 * k, a) = Phi_.block<3, 1>(
+            3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]}, k);
+      }
+    }
+    return calc_element_stress(
+        *mesh_.blocks[b].element, mesh_.x(Eigen::all, nodes), own,
+        find_lame_constants(materials_[region_of(b, e)]));
+  }
+
+  void average() {
+    const auto count = static_cast<Eigen::Index>(result_.nodes.size());
+    result_.stress.setZero(6 * Phi_.cols(), count);
+    VectorX elements = VectorX::Zero(count);
+    for_each_element([&](std::size_t b, std::size_t e) {
+      const ElementStress own = stress_of(b, e);
+      const MatrixX& fit =
+          own.is_straight ? fits_[b].straight : fits_[b].curved;
+      const MatrixX nodal = own.at * fit.transpose();
+      const std::vector<int> points = points_of(b, e);
+      for (std::size_t a = 0; a < points.size(); ++a) {
+        result_.stress.col(points[a]) +=
+            nodal.col(static_cast<Eigen::Index>(a));
+        elements[points[a]] += 1.0;
+      }
+    });
+    for (Eigen::Index i = 0; i < count; ++i) {
+      result_.stress.col(i) /= elements[i];
+    }
+  }
+
+  void measure_averaging() {
+    result_.averaging.setZero(Phi_.cols(), Phi_.cols());
+    for_each_element([&](std::size_t b, std::size_t e) {
+      ElementStress own = stress_of(b, e);
+      const ReferenceElement& element = *mesh_.blocks[b].element;
+      const Quadrature& rule =
+          own.is_straight ? element.stiffness : element.curved;
+      own.at -= result_.stress(Eigen::all, points_of(b, e)) * rule.shape;
+      add_energy(own.at, own.measure, materials_[region_of(b, e)],
+                 result_.averaging);
+    });
+    result_.averaging =
+        (0.5 * (result_.averaging + result_.averaging.transpose())).eval();
+  }
+
+  const Mesh& mesh_;
+  const std::vector<ElasticMaterial>& materials_;
+  const MatrixX& Phi_;
+  std::vector<int> material_of_region_;
+  std::vector<Fits> fits_;          // one per block
+  std::vector<int> first_of_node_;  // its first point
+  NodalStress result_;
+};
+
+}  // namespace
+
+MatrixX make_stress_fit(const ReferenceElement& element,
+                        const Quadrature& rule) {
+  const std::vector<Exponents> terms = list_terms(element);
+  // Some rules have negative weights.
+  const VectorX roots = rule.weights.cwiseAbs().cwiseSqrt();
+  const MatrixX at_points =
+      roots.asDiagonal() * evaluate(terms, element.node_uvw * rule.shape);
+  const MatrixX coefficients =
+      at_points.colPivHouseholderQr().solve(MatrixX(roots.asDiagonal()));
+  return evaluate(terms, element.node_uvw) * coefficients;
+}
+
+NodalStress recover_stress(const Mesh& mesh,
+                           const std::vector<ElasticMaterial>& materials,
+                           const MatrixX& Phi) {
+  LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
+  LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
+  return Recovery(mesh, materials, Phi).run();
+}
+
+}  // namespace limber::fem

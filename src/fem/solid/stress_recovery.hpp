@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/material.hpp"
+
+/// Nodal stress of displacement fields, linear isotropic elasticity.
+namespace limber::fem {
+
+/// Values at an element's nodes from those at quadrature points: nodes x points
+/// [-].
+///
+/// Equation   least squares, weighted by the rule, over polynomials in the
+///            reference coordinates of degree p - 1: complete for tetrahedra
+///            and pyramids, in each direction for hexahedra, in the triangle
+///            times along the axis for prisms
+/// Source     local smoothing [@hinton1974]: on the bricks' Gauss rules it goes
+///            through the points of superconvergence [@barlow1976]
+[[nodiscard]] MatrixX make_stress_fit(const ReferenceElement& element,
+                                      const Quadrature& rule);
+
+/// Stress of k fields at nodes, a point for each material that a node is of.
+struct NodalStress {
+  std::vector<int> nodes;      ///< p, increasing
+  std::vector<int> materials;  ///< p: index into `constants`
+  /// 6k x p: components (xx, yy, zz, xy, yz, xz) of the first field, then of
+  /// the second, .. [Pa per unit of the field]
+  MatrixX stress;
+  /// k x k: int (s* - s) C^-1 (s* - s) dV, s* interpolated from the nodes, s
+  /// the element's own [J per unit of the fields].
+  MatrixX averaging;
+  std::vector<ElasticMaterial> constants;  ///< of distinct E and nu
+};
+
+/// Stress at nodes: Hooke's law at the quadrature points of the stiffness,
+/// fitted over each element, mean of the elements of one material at a node.
+///
+/// Equation   sigma = lambda tr(e) I + 2 mu e, e = sym(grad u)
+/// Source     [@hinton1974]; averaging's error: [@zienkiewicz1987]
+/// @param materials one per region of the mesh
+/// @param Phi 3N x k displacement fields
+[[nodiscard]] NodalStress recover_stress(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const MatrixX& Phi);
+
+}  // namespace limber::fem

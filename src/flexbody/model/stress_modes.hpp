@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "limber/common/types.hpp"
+
+namespace limber::flexbody {
+
+/// Stress of a reduced body at its rows, for linear isotropic materials.
+///
+/// Equation   sigma = Sigma_B eta, components (xx, yy, zz, xy, yz, xz), frame
+/// B;
+///            Hooke's law at quadrature points, fitted over each element and
+///            averaged at nodes over the elements of one material
+/// Source     [@hinton1974]; docs/theory/stress.md
+/// Limits     small strain; truncated modes take their stress with them
+struct StressModes {
+  /// p: rows of the points, increasing. A node at a border of materials has a
+  /// point for each of them.
+  std::vector<std::size_t> rows;
+  std::vector<int> materials;   ///< p: column of `constants`
+  std::vector<int> on_surface;  ///< p: 1 on the body's boundary, else 0
+  MatrixX Sigma_B;              ///< 6p x m [kg^1/2 m^-2 s^-2]
+  /// m x m: integral of (averaged - element's stress) C^-1 (the same), whose
+  /// share of lambda is the square of the averaging's error in the energy norm
+  /// [@zienkiewicz1987] [rad^2/s^2].
+  MatrixX averaging;
+  MatrixX constants;  ///< 2 x materials: Young's modulus [Pa], Poisson's ratio
+  /// Rows of the nodes of each interface, in the body's order of interfaces.
+  std::vector<std::vector<std::size_t>> interface_rows;
+};
+
+/// Von Mises stress of components (xx, yy, zz, xy, yz, xz) [Pa].
+[[nodiscard]] double calc_von_mises(const Vector6& stress);
+
+/// Largest principal stress, tension positive [Pa].
+[[nodiscard]] double calc_max_principal(const Vector6& stress);
+
+/// The components in axes of a frame L. @param R_BL axes of L in B
+[[nodiscard]] Vector6 turn_stress(const Vector6& stress_B, const Matrix3& R_BL);
+
+/// Share of the averaging in the stress of a deformation: the error that it
+/// estimates, in the energy norm [-]. Zero for no deformation.
+///
+/// Equation   sqrt(eta^T averaging eta / eta^T diag(lambda) eta)
+/// Source     [@zienkiewicz1987]
+[[nodiscard]] double find_averaging_error(const StressModes& modes,
+                                          const VectorX& lambda,
+                                          const VectorX& eta);
+
+}  // namespace limber::flexbody
