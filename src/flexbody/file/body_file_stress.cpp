@@ -33,6 +33,24 @@ std::vector<std::size_t> read_rows(const BodyFileReader& reader,
   return rows;
 }
 
+// Every row of the body once at least, in order.
+std::vector<std::size_t> read_points(const BodyFileReader& reader,
+                                     std::size_t count) {
+  std::vector<std::size_t> rows = reader.sizes("stress/rows", -1);
+  std::size_t next = 0;
+  for (const std::size_t row : rows) {
+    if (row != next && row + 1 != next) {
+      reader.fail(
+          fmt::format("'stress/rows' holds {} in place of {}", row, next));
+    }
+    next = row + 1;
+  }
+  if (next != count) {
+    reader.fail(fmt::format("'stress/rows' ends before row {}", count));
+  }
+  return rows;
+}
+
 // `count` numbers below `limit`.
 std::vector<int> read_choices(const BodyFileReader& reader,
                               const std::string& name, std::size_t count,
@@ -84,7 +102,7 @@ OtherTables read_other_tables(const BodyFileReader& reader) {
 void read_stress_modes(const BodyFileReader& reader, ReducedBody& body) {
   const Eigen::Index m = body.lambda.size();
   StressModes modes;
-  modes.rows = read_rows(reader, "stress/rows", body.rows.tags.size());
+  modes.rows = read_points(reader, body.rows.tags.size());
   const std::size_t points = modes.rows.size();
   modes.constants =
       reader.matrix("stress/constants", 2,

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "limber/common/errors.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/reduction/reduce.hpp"
@@ -217,6 +219,33 @@ TEST(StressModes, AreInTheBodysFile) {
   EXPECT_EQ(again.stress->averaging, body.stress->averaging);
   EXPECT_EQ(again.stress->constants, body.stress->constants);
   EXPECT_EQ(again.stress->interface_rows, body.stress->interface_rows);
+}
+
+TEST(StressModes, ThatDoNotFitTheirBodyAreRefused) {
+  const ReducedBody body = reduce(make_stressed(Bar{.cells = 1}));
+  const std::string file = ::testing::TempDir() + "unfit.h5";
+  const auto is_refused = [&](const auto& change) {
+    ReducedBody changed = body;
+    change(*changed.stress);
+    write_body(changed, file);
+    try {
+      static_cast<void>(read_body(file));
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  };
+  EXPECT_FALSE(is_refused([](StressModes&) {}));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.rows.back() = 999; }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.rows.pop_back(); }));
+  EXPECT_TRUE(
+      is_refused([](StressModes& s) { std::swap(s.rows[0], s.rows[1]); }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.materials[0] = 1; }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.on_surface[0] = 2; }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.Sigma_B(0, 0) = NAN; }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.averaging.resize(2, 3); }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.constants.resize(3, 1); }));
+  EXPECT_TRUE(is_refused([](StressModes& s) { s.interface_rows[0][0] = 999; }));
 }
 
 // K phi = lambda M phi: a mode's strain energy is lambda / 2, and with
