@@ -159,6 +159,11 @@ void add_contact_surfaces(const ReducedBody& body, FieldList& fields) {
     fields.add("contact Phi_B", surface.Phi_B);
     fields.add("contact residual", MatrixX(surface.residual));
     fields.add("contact patch_radius", MatrixX(surface.patch_radius));
+    fields.add("pads normal_B", MatrixX(surface.pads.normal_B));
+    fields.add("pads x_B", MatrixX(surface.pads.x_B));
+    fields.add("pads Phi_B", surface.pads.Phi_B);
+    fields.add("pads flexibility", surface.pads.flexibility);
+    fields.add("pads area", MatrixX(surface.pads.area));
     fields.add("contact faces", surface.faces.size());
     for (const auto& face : surface.faces) {
       fields.add("contact face", to_sizes({face.begin(), face.end()}));
@@ -243,6 +248,12 @@ ReducedBody make_small_body(unsigned seed) {
         make_surface("skin", 6, {{{0, 1, 2, 3, 4, 5}, {2, 1, 0, 4, 3, 5}}},
                      numbers),
         make_surface("tip", 3, {{{0, 1, 2, -1, -1, -1}}}, numbers)};
+    ContactPads& pads = body.contact_surfaces[1].pads;
+    pads.normal_B = numbers.matrix(3, 1);
+    pads.x_B = numbers.matrix(3, 2);
+    pads.Phi_B = numbers.matrix(6, m);
+    pads.flexibility = numbers.matrix(2, 2);
+    pads.area = numbers.matrix(2, 1);
   }
   return body;
 }
