@@ -2,6 +2,9 @@
 // Not built under sanitizers (support/allocation_count.hpp).
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "limber/contact/contact_pair.hpp"
 #include "limber/contact/shapes/shape_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "support/allocation_count.hpp"
@@ -41,6 +44,49 @@ TEST(Allocation, FindingWhereShapesMeetMakesNone) {
     EXPECT_EQ(limber::testing::allocations - before, 0);
     EXPECT_GT(deepest, -0.2);
     EXPECT_LT(clearance, 0.2);
+  }
+}
+
+// A plane under a ball of more nodes than it may meet, and under the pads of a
+// flat sheet.
+TEST(Allocation, EvaluatingASkinOnAPlaneMakesNone) {
+  auto ball = testing::make_ball_surface(1.0, 2, true);
+  auto sheet = testing::make_sheet_surface(1.0, 4, false,
+                                           [](double, double) { return 0.0; });
+  for (flexbody::ContactSurface* surface : {&ball, &sheet}) {
+    testing::set_modes(*surface, testing::make_fields());
+  }
+  sheet.pads.normal_B = -Vector3::UnitZ();
+  sheet.pads.x_B = sheet.x_B;
+  sheet.pads.Phi_B = sheet.Phi_B;
+  sheet.pads.area = VectorX::Constant(sheet.x_B.cols(), 0.16);
+  sheet.pads.flexibility = 1e-9 * MatrixX::Identity(25, 25);
+  const VectorX eta = VectorX::Constant(4, 0.001);
+  const joints::PairBody plane;
+  for (const auto& surface : {ball, sheet}) {
+    const ContactSide above{Shape{std::make_shared<const Skin>(surface), {}},
+                            SurfaceMaterial{2e11, 0.3}, 1.0};
+    const ContactSide below{Shape{HalfSpace{}, {}}, std::nullopt,
+                            std::numeric_limits<double>::infinity()};
+    const ContactPair pair(below, above, {.friction = {.sliding = 0.3}});
+    joints::PairResponse out(pair.most_points(), 0, 4, pair.couples_points());
+    std::vector<double> memory(pair.memory_size(), 0.0);
+    const joints::PairBody body{
+        .p_WB = {0.0, 0.0, surface.pads.count() > 0 ? -0.05 : 0.8},
+        .modes = 4,
+        .eta = eta.data(),
+        .etadot = eta.data()};
+    const joints::PairBodies bodies{plane, body};
+    const long before = allocations;
+    pair.begin_touch(bodies, 0.0, memory, out);
+    pair.commit(bodies, 0.0, memory, out);
+    out.clear();
+    pair.evaluate(bodies, {.t = 1e-3}, memory, out);
+    const std::size_t points = out.points().size();
+    out.clear();
+    pair.evaluate_over_step({bodies, bodies, bodies, {}}, memory, out);
+    EXPECT_EQ(allocations - before, 0) << surface.name;
+    EXPECT_GT(points, 3U) << surface.name;
   }
 }
 
