@@ -79,6 +79,23 @@ TEST(Advise, PrintsATableThatTheScenarioTakes) {
   EXPECT_TRUE(std::filesystem::exists(place.folder() / "o/advice.json"));
 }
 
+// `coupled` is 19 % off there (docs/theory/nonlinear.md).
+TEST(Advise, CertifiesNoSpinUpAtLevelCoupled) {
+  const Workspace place;
+  const std::string scene = "'" LIMBER_SOURCE_DIR "/examples/spin_up.toml'";
+  const json body = parse(place.limber(
+      "advise " + scene + " --fidelity coupled --json"))["bodies"][0];
+  EXPECT_EQ(body["recommended"], "nonlinear") << body.dump(2);
+  EXPECT_EQ(body["justified"], false);
+  EXPECT_GT(body["load_factor"]["tension"]["value"].get<double>(), 2.0);
+  const json run = parse(place.limber(
+      "run " + scene +
+      " --fidelity coupled --set time.step=0.005 --set output.pictures=false "
+      "--json"))["levels"][0];
+  EXPECT_EQ(run["recommended"], "nonlinear") << run.dump(2);
+  EXPECT_EQ(run["justified"], false);
+}
+
 TEST(Advise, KnowsEveryLinkOfAnArm) {
   const Workspace place;
   const json advice = parse(place.limber("advise '" + kArm + "' --json"));

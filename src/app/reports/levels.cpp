@@ -32,6 +32,13 @@ bool has_all_modes(const SystemModel& model) {
   return true;
 }
 
+bool touches(const SystemModel& model, dynamics::BodyIndex body) {
+  return std::any_of(model.pairs.begin(), model.pairs.end(),
+                     [&](const dynamics::Pair& pair) {
+                       return pair.body_A == body || pair.body_B == body;
+                     });
+}
+
 /// The run's model with every flexible body at `uncoupled`.
 SystemModel find_flexible_model(const scene::Scene& scene,
                                 const scene::BuiltScene& built,
@@ -99,6 +106,11 @@ std::vector<BodyLevel> judge_levels(const SystemModel& model,
     level.peaks = peaks;
     level.limits = dynamics::find_limits(settings, *body.reduced);
     level.advice = dynamics::advise(body, peaks, level.limits);
+    if (level.advice.level >= Fidelity::nonlinear &&
+        touches(model, peaks.body)) {
+      level.advice.reason +=
+          "; links that touch others are at most coupled as yet";
+    }
     level.reduced = body.reduced;
     level.track = std::move(tracks[levels.size()]);
     levels.push_back(std::move(level));
@@ -204,14 +216,6 @@ std::vector<std::string> find_level_warnings(
                                      level.name, to_string(level.used),
                                      to_string(level.advice.level),
                                      level.advice.reason));
-    }
-    if (level.is_stretched()) {
-      warnings.push_back(
-          fmt::format("link '{}' deforms by {:.2g} m at t = {:.6g} s, beyond "
-                      "the linear limit of {:.2g} "
-                      "m: only level full is right",
-                      level.name, level.peaks.deformation.value,
-                      level.peaks.deformation.time, level.limits.linear_limit));
     }
   }
   return warnings;

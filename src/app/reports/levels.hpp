@@ -31,21 +31,8 @@ struct BodyLevel {
   std::vector<dynamics::ImpactSpectrum> impacts;
 
   /// Whether the level used neglects no more than the limits allow.
-  [[nodiscard]] bool is_justified() const {
-    return used >= advice.level && !is_stretched();
-  }
-  /// Advice does not know what `nonlinear` adds to `coupled`, and does not
-  /// judge it.
-  [[nodiscard]] bool is_more_than_needed() const {
-    return used > advice.level &&
-           !(used == dynamics::Fidelity::nonlinear &&
-             advice.level == dynamics::Fidelity::coupled);
-  }
-  /// Whether the deformation is too large for linear elasticity, which all
-  /// levels but `nonlinear` and `full` assume.
-  [[nodiscard]] bool is_stretched() const {
-    return advice.is_beyond_linear && used < dynamics::Fidelity::nonlinear;
-  }
+  [[nodiscard]] bool is_justified() const { return used >= advice.level; }
+  [[nodiscard]] bool is_more_than_needed() const { return used > advice.level; }
 };
 
 /// Advice on every flexible body that `survey` observed.

@@ -136,19 +136,26 @@ Json to_json(const BodyLevel& level) {
   json["limits"] = {{"displacement", level.limits.displacement},
                     {"linear_limit", level.limits.linear_limit},
                     {"force", to_json(level.limits.force)}};
-  json["peaks"] = {{"alpha", to_json(peaks.alpha)},
-                   {"omega", to_json(peaks.Omega)},
-                   {"alpha_plus_omega_squared", to_json(peaks.report)},
-                   {"nodal_inertial_force", to_json(peaks.force)},
-                   {"angle", peaks.angle},
-                   {"deformation", to_json(peaks.deformation)},
-                   {"displacement", to_json(peaks.total)},
-                   {"static_displacement_of_loads", to_json(peaks.loads)},
-                   {"static_displacement_of_inertia", to_json(peaks.inertial)}};
+  json["peaks"] = {
+      {"alpha", to_json(peaks.alpha)},
+      {"omega", to_json(peaks.Omega)},
+      {"alpha_plus_omega_squared", to_json(peaks.report)},
+      {"nodal_inertial_force", to_json(peaks.force)},
+      {"angle", peaks.angle},
+      {"deformation", to_json(peaks.deformation)},
+      {"displacement", to_json(peaks.total)},
+      {"interface_rotation", to_json(peaks.turn)},
+      {"relative_interface_rotation", to_json(peaks.relative_turn)},
+      {"static_displacement_of_loads", to_json(peaks.loads)},
+      {"static_displacement_of_inertia", to_json(peaks.inertial)}};
   if (level.bound) json["boundary"] = describe_boundaries(level);
+  // Axial load over that at which the body buckles.
+  json["load_factor"] = {{"tension", to_json(peaks.tension)},
+                         {"compression", to_json(peaks.compression)}};
   json["left_out"] = {{"rigid", advice.errors.rigid},
                       {"uncoupled", advice.errors.uncoupled},
-                      {"one-way", advice.errors.one_way}};
+                      {"one-way", advice.errors.one_way},
+                      {"coupled", advice.errors.coupled}};
   if (!level.impacts.empty()) json["impacts"] = Json::array();
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {
     json["impacts"].push_back(
@@ -179,19 +186,17 @@ std::string to_text(const BodyLevel& level) {
       "               oscillation {:.3g} m at {:.4g} s, of its own nodes "
       "{:.3g} "
       "m at {:.4g} s\n"
-      "  left out     rigid {:.3g} m, uncoupled {:.3g} m, one-way {:.3g} m\n",
+      "  left out     rigid {:.3g} m, uncoupled {:.3g} m, one-way {:.3g} m, "
+      "coupled {:.3g} m\n"
+      "  buckling     tension {:.3g}, compression {:.3g} of the load; "
+      "interfaces turn by {:.3g} rad\n",
       peaks.loads.value, peaks.loads.time, peaks.inertial.value,
       peaks.inertial.time, peaks.total.value, peaks.total.time,
       peaks.deformation.value, peaks.deformation.time, advice.errors.rigid,
-      advice.errors.uncoupled, advice.errors.one_way);
+      advice.errors.uncoupled, advice.errors.one_way, advice.errors.coupled,
+      peaks.tension.value, peaks.compression.value, peaks.turn.value);
   text += fmt::format("  recommended  {}: {}\n", to_string(advice.level),
                       advice.reason);
-  if (advice.is_beyond_linear) {
-    text += fmt::format(
-        "  beware       {:.3g} m is beyond the linear range of {:.3g} m: only "
-        "level full is right\n",
-        peaks.deformation.value, level.limits.linear_limit);
-  }
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {
     text += fmt::format("  impact       {}\n", describe(impact));
   }

@@ -14,6 +14,8 @@ namespace {
 
 /// A sudden force drives a mode to twice its static response.
 constexpr double kSudden = 2.0;
+/// Of the buckling load: nearer to it the estimate does not tell apart [-].
+constexpr double kNearBuckling = 0.1;
 
 void check_setting(const std::optional<double>& value, const char* what,
                    const char* unit) {
@@ -97,8 +99,79 @@ double find_modal_error(const BodyModel& body, const BodyPeaks& peaks) {
   return peaks.mode_sizes.dot(answer + drift);
 }
 
+/// Share of the stiffness that axial load gives and `coupled` lacks, by
+/// differences of its frequencies and deflections from those of the closed
+/// forms (docs/theory/choosing.md). The frame of a held body has the rest.
+double find_missing(const BodyPeaks& peaks) {
+  return peaks.is_held ? 0.25 : 0.6;
+}
+
+/// Error of `coupled`: of static deformation, which tension lessens and
+/// compression raises, and of the phase of oscillation.
+double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
+  const double missing = find_missing(peaks);
+  const double pulled = peaks.tension.value / (1.0 + peaks.tension.value);
+  const double pushed = peaks.compression.value /
+                        std::max(1.0 - peaks.compression.value, kNearBuckling);
+  const double bent = missing * std::max(pulled, pushed) * peaks.total.value;
+  // Damped oscillation is forgotten.
+  const double rate = body.damping.minCoeff();
+  const double most = std::max(peaks.tension.value, peaks.compression.value);
+  double time = peaks.axial_time;
+  if (rate > 0.0) time = std::min(time, 2.0 * most / rate);
+  const double phase = 0.5 * missing * peaks.frequency * time;
+  const double oscillation =
+      std::min(peaks.mode_sizes.dot(peaks.oscillation), peaks.total.value);
+  return bent + std::min(phase, 2.0) * oscillation;
+}
+
 /// "1.2e-06 m".
 std::string metres(double value) { return fmt::format("{:.2g} m", value); }
+
+/// Whether what `coupled` lacks is small, or a small share of the deformation.
+bool is_linear_enough(const BodyPeaks& peaks, const LevelLimits& limits,
+                      const LevelErrors& errors) {
+  return errors.coupled <=
+         std::max(limits.displacement, kCoupledShare * peaks.total.value);
+}
+
+/// Why linear elasticity does not do, or not even `nonlinear`.
+std::string explain_nonlinear(const BodyModel& body, const BodyPeaks& peaks,
+                              const LevelLimits& limits,
+                              const LevelAdvice& advice) {
+  std::string text;
+  const auto add = [&](const std::string& more) {
+    text += (text.empty() ? "" : "; ") + more;
+  };
+  if (peaks.deformation.value > limits.linear_limit) {
+    add(
+        fmt::format("it deforms by {} at t = {:.6g} s, beyond the linear limit "
+                    "of {}",
+                    metres(peaks.deformation.value), peaks.deformation.time,
+                    metres(limits.linear_limit)));
+  }
+  if (peaks.relative_turn.value > kLargestTurn ||
+      peaks.turn.value > kLargestTurn) {
+    add(fmt::format(
+        "its interfaces turn by {:.2g} rad, relative to one another "
+        "by {:.2g} rad, beyond {:g} rad",
+        peaks.turn.value, peaks.relative_turn.value, kLargestTurn));
+  }
+  if (!is_linear_enough(peaks, limits, advice.errors)) {
+    add(fmt::format(
+        "its axial load reaches {:.2g} of that at which it buckles under "
+        "tension, {:.2g} under compression: without geometric stiffness the "
+        "error may reach {} of {}",
+        peaks.tension.value, peaks.compression.value,
+        metres(advice.errors.coupled), metres(peaks.total.value)));
+  }
+  if (advice.level == Fidelity::full) {
+    add(body.clamped ? "only level full is right, since a clamped link has no "
+                       "level nonlinear"
+                     : "only level full is right");
+  }
+  return text;
+}
 
 std::string explain(const BodyModel& body, const BodyPeaks& peaks,
                     const LevelLimits& limits, const LevelAdvice& advice) {
@@ -129,9 +202,10 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
           "inertial forces move it by {}, more than {}; what one-way neglects, "
           "by {}",
           metres(e.uncoupled), limit, metres(e.one_way));
-    case Fidelity::coupled:
     case Fidelity::nonlinear:
     case Fidelity::full:
+      return explain_nonlinear(body, peaks, limits, advice);
+    case Fidelity::coupled:
       break;
   }
   return fmt::format(
@@ -162,6 +236,7 @@ LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {
   LevelErrors errors;
   errors.rigid = peaks.total.value;
   if (body.modes == 0 || body.clamped) return errors;
+  errors.coupled = find_axial_error(body, peaks);
   errors.one_way = find_modal_error(body, peaks) + peaks.turned_aside;
   errors.rigid += peaks.turned_aside;
   errors.uncoupled = kSudden * peaks.inertial.value + errors.one_way;
@@ -184,8 +259,16 @@ LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
   } else if (is_small(advice.errors.one_way)) {
     advice.level = Fidelity::one_way;
   }
+  advice.is_beyond_linear = peaks.deformation.value > limits.linear_limit ||
+                            peaks.relative_turn.value > kLargestTurn;
+  if (advice.is_beyond_linear ||
+      (advice.level > Fidelity::rigid &&
+       !is_linear_enough(peaks, limits, advice.errors))) {
+    const bool is_too_far = body.clamped || peaks.turn.value > kLargestTurn ||
+                            peaks.compression.value > kLargestLoad;
+    advice.level = is_too_far ? Fidelity::full : Fidelity::nonlinear;
+  }
   advice.reason = explain(body, peaks, limits, advice);
-  advice.is_beyond_linear = peaks.deformation.value > limits.linear_limit;
   return advice;
 }
 

@@ -36,11 +36,14 @@ struct LevelErrors {
   double rigid = 0.0;      ///< [m]
   double uncoupled = 0.0;  ///< [m]
   double one_way = 0.0;    ///< [m]
+  double coupled = 0.0;    ///< [m]
 };
 
 /// Equation   rigid      u + s
 ///            uncoupled  2 u_i + e
 ///            one-way    e = s + sum_k |phi_k| (f_k / lambda_k + d_k)
+///            coupled    g u + min(d, 2) o, g = k N / (P + N), P the load at
+///            which the body buckles, d = k omega int |N| / P dt / 2
 /// Source     docs/theory/choosing.md, "Which level"; u, u_i and s are
 ///            BodyPeaks' total, inertial and turned_aside; f_k bounds the
 ///            forces on mode k that one-way neglects, d_k the effect of
@@ -50,12 +53,23 @@ struct LevelErrors {
 [[nodiscard]] LevelErrors estimate_errors(const BodyModel& body,
                                           const BodyPeaks& peaks);
 
+/// What a level may be off by of the deformation, where it is above what the
+/// user neglects [-].
+inline constexpr double kCoupledShare = 0.1;
+/// Rotation of interfaces relative to one another beyond which linear
+/// kinematics, and relative to the mean axes beyond which those of second order
+/// are off by 2 % [rad].
+inline constexpr double kLargestTurn = 0.4;
+/// Share of the buckling load beyond which `nonlinear` is not to be trusted
+/// [-].
+inline constexpr double kLargestLoad = 0.8;
+
 /// The lowest adequate level for one body, and why.
 struct LevelAdvice {
   Fidelity level = Fidelity::coupled;
   std::string reason;  ///< one sentence with its numbers
   LevelErrors errors;
-  /// Linear elasticity may not be valid: then only level `full` is.
+  /// Deformation or rotation of interfaces is too large for linear elasticity.
   bool is_beyond_linear = false;
 };
 /// @param body with its modes, at Fidelity::uncoupled

@@ -37,6 +37,9 @@ bool is_held(const SystemModel& model, BodyIndex body) {
       });
 }
 
+void include_largest(Peak& largest, double value, double t) {
+  if (value > largest.value) largest = {value, t};
+}
 void include_largest(VectorX& largest, const VectorX& values) {
   largest = largest.cwiseMax(values);
 }
@@ -58,7 +61,8 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
       inertial(*anywhere),
       loads(*anywhere),
       total(*anywhere),
-      deformation(*own) {
+      deformation(*own),
+      axial(model, index_of_body) {
   const BodyModel& b = model.bodies[index(body)];
   LIMBER_EXPECT(b.fidelity == Fidelity::uncoupled);
   peaks.body = body;
@@ -102,6 +106,7 @@ void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
     const BodyModel& to = model_.bodies[index(watch.body)];
     LIMBER_EXPECT(from.modes == to.modes || from.modes == 0);
     watch.is_observed = from.modes > 0;
+    watch.is_unreduced = from.full >= 0;
     watch.misses_inertial = from.fidelity == Fidelity::uncoupled;
     if (!watch.is_observed) continue;
     state_.eta.segment(to.offset, to.modes) =
@@ -123,6 +128,7 @@ void LevelSurvey::include(const SystemState& state, Side side) {
       include_rotation(state, terms, watch);
     }
     if (model_.bodies[index(watch.body)].modes > 0) {
+      include_axial_load(state, side, watch);
       include_deformation(state, terms, watch);
     }
     watch.last_time = state.t;
@@ -169,6 +175,26 @@ void LevelSurvey::include_rotation(const SystemState& state,
   if (count_ % stride_ == 0) watch.track.push_back({alpha, Omega});
 }
 
+void LevelSurvey::include_axial_load(const SystemState& state, Side side,
+                                     Watch& watch) const {
+  if (watch.is_unreduced) return;
+  // Bending follows the mean over its own time, no single step.
+  const double now = watch.axial.calc_share(state, side, terms_);
+  const double time = state.t - watch.last_time;
+  const double share = watch.has_begun
+                           ? now + (watch.last_share - now) *
+                                       std::exp(-time * watch.axial.frequency())
+                           : now;
+  BodyPeaks& peaks = watch.peaks;
+  include_largest(peaks.tension, share, state.t);
+  include_largest(peaks.compression, -share, state.t);
+  if (watch.has_begun) {
+    peaks.axial_time +=
+        0.5 * (std::abs(share) + std::abs(watch.last_share)) * time;
+  }
+  watch.last_share = share;
+}
+
 // Oscillation after a change of the static response: the whole change if
 // sudden, its rate over the frequency if a ramp.
 void LevelSurvey::add_oscillation(const Watch& watch, const VectorX& eta,
@@ -211,6 +237,9 @@ void LevelSurvey::include_deformation(const SystemState& state,
   include_largest(watch.peaks.oscillation, watch.swings);
   watch.total.include(eta, state.t);
   watch.deformation.include(eta, state.t);
+  const InterfaceTurn turn = find_turn(model_, watch.body, eta);
+  include_largest(watch.peaks.turn, turn.own, state.t);
+  include_largest(watch.peaks.relative_turn, turn.relative, state.t);
   watch.peaks.modes = watch.peaks.modes.cwiseMax(eta.cwiseAbs());
   if (!body.clamped) include_slip(body, eta, state, watch);
 }
@@ -252,6 +281,10 @@ std::vector<BodyPeaks> LevelSurvey::find_peaks() const {
     peaks.deformation = watch.deformation.peak();
     peaks.deformation.value *= factor;
     peaks.modes *= factor;
+    peaks.turn.value *= factor;
+    peaks.relative_turn.value *= factor;
+    peaks.is_held = watch.axial.is_held();
+    peaks.frequency = watch.axial.frequency();
     peaks.oscillation *= factor;
     if (watch.is_observed && watch.misses_inertial) {
       // The static response is included; oscillation may add as much again.
@@ -278,7 +311,11 @@ void LevelSurvey::exchange_memory(Archive& archive, Watch& watch) {
           watch.slipped);
   BodyPeaks& peaks = watch.peaks;
   archive(peaks.angle, peaks.Omega_B, peaks.turned_aside, peaks.oscillation,
-          peaks.modes);
+          peaks.modes, peaks.axial_time, watch.last_share);
+  for (Peak* peak : {&peaks.tension, &peaks.compression, &peaks.turn,
+                     &peaks.relative_turn}) {
+    archive(peak->value, peak->time);
+  }
   std::size_t points = watch.track.size();
   archive.pass_size(points);
   watch.track.resize(points);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "limber/dynamics/analysis/axial_load.hpp"
 #include "limber/dynamics/equations/displacement_measure.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/refined_peak.hpp"
@@ -41,6 +42,19 @@ struct BodyPeaks {
   VectorX oscillation;
   VectorX modes;       ///< largest |eta_k|, as `total` [kg^1/2 m]
   VectorX mode_sizes;  ///< of the measure [kg^-1/2]
+  /// Axial load over that at which the body buckles (AxialLoad), its mean over
+  /// 1 / frequency [-].
+  Peak tension;
+  Peak compression;
+  /// Of AxialLoad: whether a joint holds the body, and its lowest frequency.
+  bool is_held = false;
+  double frequency = 0.0;  ///< [rad/s]
+  /// Integral of the share's magnitude [s].
+  double axial_time = 0.0;
+  /// Largest rotations of interfaces, relative to the body's mean axes and to
+  /// one another [rad].
+  Peak turn;
+  Peak relative_turn;
 };
 
 /// Observes a motion and estimates, for each flexible body, the response of its
@@ -90,8 +104,11 @@ class LevelSurvey {
     PeakDisplacement loads;
     PeakDisplacement total;
     PeakDisplacement deformation;
+    AxialLoad axial;
+    double last_share = 0.0;       ///< magnitude
     bool is_observed = false;      ///< source computes its modes
     bool misses_inertial = false;  ///< but without inertial forces on them
+    bool is_unreduced = false;     ///< source has its nodes and other forces
     RefinedPeak alpha;
     RefinedPeak Omega;
     RefinedPeak report;
@@ -118,6 +135,8 @@ class LevelSurvey {
                               VectorX& swings);
   void include_deformation(const SystemState& state, const BodyTerms& terms,
                            Watch& watch);
+  void include_axial_load(const SystemState& state, Side side,
+                          Watch& watch) const;
   static void include_slip(const BodyModel& body, const VectorX& eta,
                            const SystemState& state, Watch& watch);
   void thin_tracks();

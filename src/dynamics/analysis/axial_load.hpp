@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/common/types.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+
+namespace limber::dynamics {
+
+/// What a body carries along itself, against what makes it buckle: an estimate
+/// of the geometric stiffness that levels up to `coupled` lack, without tables
+/// of second order.
+///
+/// Equation   N_a / P_a = a' T a / (c lambda S_a) for each long axis a, with
+/// the
+///            integral of the stress T = sym(sum r f' - S0 [w]^2), r and f of
+///            the forces on the body, S0 = int x x' dm, S_a = a' S0 a, and
+///            lambda the lowest eigenvalue of the body, held at a joint if it
+///            has one
+/// Source     T: virial theorem; c: ratio of the first eigenvalue to Euler's
+///            load P L^2 / (E I) of a uniform beam: 2.467 * 12 / 12.36 = 2.4
+///            (clamped, free), and of a free one that to the slope of its mode,
+///            12 / 49.48 = 0.243 [@blevins1979]
+/// Limits     long axes: S_a at least a tenth of the largest. Contacts, files
+///            of nodal forces and moments are left out; a clamped body has
+///            none.
+class AxialLoad {
+ public:
+  AxialLoad(const SystemModel& model, BodyIndex body);
+
+  /// @param terms at the state, with the forces of couplers
+  /// @returns N_a / P_a of the axis where its magnitude is largest, > 0 under
+  /// tension [-]
+  [[nodiscard]] double calc_share(const SystemState& state, Side side,
+                                  const SystemTerms& terms) const;
+  /// Lowest frequency of the body alone, held at a joint if it has one [rad/s].
+  [[nodiscard]] double frequency() const { return frequency_; }
+  [[nodiscard]] bool is_held() const { return is_held_; }
+
+ private:
+  [[nodiscard]] Matrix3 calc_stress(const SystemState& state, Side side,
+                                    const SystemTerms& terms) const;
+
+  const SystemModel* model_;
+  BodyIndex body_;
+  bool is_held_ = false;
+  double frequency_ = 0.0;
+  Matrix3 axes_ = Matrix3::Identity();  // columns, principal axes of S0
+  Vector3 loads_ = Vector3::Zero();     // c lambda S_a, 0: not long [J]
+  Matrix3 S0_ = Matrix3::Zero();        // [kg m^2]
+};
+
+/// Largest rotation of the body's interfaces relative to its mean axes, and to
+/// one another [rad].
+struct InterfaceTurn {
+  double own = 0.0;
+  double relative = 0.0;
+};
+/// To first order. @param eta m, the body's modal coordinates [kg^1/2 m]
+[[nodiscard]] InterfaceTurn find_turn(const SystemModel& model, BodyIndex body,
+                                      const VectorX& eta);
+
+}  // namespace limber::dynamics
