@@ -45,6 +45,7 @@ set(public_headers
   dynamics/analysis/equilibrium.hpp
   dynamics/analysis/level_advice.hpp
   dynamics/analysis/natural_frequencies.hpp
+  dynamics/analysis/steady_spin.hpp
   dynamics/equations/coupler_motion.hpp
   dynamics/equations/energy.hpp
   dynamics/equations/joint_state.hpp

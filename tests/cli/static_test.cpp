@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "cli/command.hpp"
 
@@ -232,14 +234,48 @@ TEST(Static, RunFromAnEquilibriumStaysAtRestWhereOneWithoutRings) {
   EXPECT_GT(find_fastest(place), 1e-2);
 }
 
-TEST(Static, EquilibriumWithVelocitiesIsRefused) {
+TEST(Static, EquilibriumWithVelocitiesAndGravityAcrossThemIsRefused) {
   const Workspace place;
   write_arm(place,
             "[initial]\nequilibrium = true\n"
             "joints = { shoulder = { velocity = 1.0 } }\n");
   const CommandResult r = place.limber("run s.toml --out o --cache c");
   EXPECT_EQ(r.status, kBadInput);
-  EXPECT_THAT(r.errors, HasSubstr("'equilibrium' starts at rest"));
+  EXPECT_THAT(r.errors, HasSubstr("gravity across the axis of rotation"));
+}
+
+TEST(Static, SteadyRotationIsNotFoundByRelaxation) {
+  const Workspace place;
+  const CommandResult r = place.limber(
+      "frequencies '" LIMBER_SOURCE_DIR
+      "/examples/blade.toml' --set initial.equilibrium_method=relaxation");
+  EXPECT_EQ(r.status, kBadInput);
+  EXPECT_THAT(r.errors, HasSubstr("relaxation is for systems at rest"));
+}
+
+// Lag and flap of a cantilever that turns as fast as sqrt(E I / (rho A L^4)),
+// 3 and 6 times as fast: Wright et al., J. Appl. Mech. 49, 1982.
+TEST(Static, BladeInSteadyRotationHasTheClosedFormFrequencies) {
+  const Workspace place;
+  const double unit = std::sqrt(1.4e4 / 1.2) / 100.0;
+  for (const auto& [eta, lag, flap] :
+       {std::array{1.0, 3.5432, 3.6817}, std::array{3.0, 3.7435, 4.7973},
+        std::array{6.0, 4.2632, 7.3604}}) {
+    const CommandResult r = place.limber(
+        fmt::format("frequencies '{0}/examples/blade.toml' --json --cache c "
+                    "--set initial.joints.axle.velocity={1:.17g} "
+                    "--set drive.axle.signal.value={1:.17g}",
+                    LIMBER_SOURCE_DIR, eta * unit));
+    ASSERT_EQ(r.status, 0) << r.errors;
+    EXPECT_EQ(r.errors, "");
+    const json modes = json::parse(r.out).at("modes");
+    const auto value = [&](std::size_t i) {
+      return 2.0 * std::numbers::pi *
+             modes.at(i).at("damped_frequency").get<double>() / unit;
+    };
+    EXPECT_NEAR(value(1), lag, 1e-4 * lag) << eta;  // after the hub's own
+    EXPECT_NEAR(value(2), flap, 1e-4 * flap) << eta;
+  }
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct Steps {
 };
 const std::map<std::string, Steps> kShortSteps = {
     {"ball_on_link", {3e-8}},
+    {"blade", {5e-4}},
     {"catch", {1e-4}},
     {"claw", {1.5e-5}},
     {"four_bar", {5e-5}},

@@ -12,19 +12,6 @@
 namespace limber::dynamics {
 namespace {
 
-Vector3 find_drift(const SystemModel& model, const SystemState& state) {
-  std::size_t free = 0;
-  for (const auto& group : find_free_groups(model)) free += group.size();
-  Vector3 drift = Vector3::Zero();
-  if (free < model.bodies.size()) return drift;
-  double mass = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    drift += model.bodies[b].mass * state.bodies[b].v_WB_W;
-    mass += model.bodies[b].mass;
-  }
-  return drift / mass;
-}
-
 double sum_forces(const SystemModel& model, const SystemState& state,
                   const SystemTerms& terms) {
   double sum = 0.0;
@@ -59,6 +46,19 @@ void note(double size, const std::string& body, double& largest,
 }
 
 }  // namespace
+
+Vector3 find_drift(const SystemModel& model, const SystemState& state) {
+  std::size_t free = 0;
+  for (const auto& group : find_free_groups(model)) free += group.size();
+  Vector3 drift = Vector3::Zero();
+  if (free < model.bodies.size()) return drift;
+  double mass = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    drift += model.bodies[b].mass * state.bodies[b].v_WB_W;
+    mass += model.bodies[b].mass;
+  }
+  return drift / mass;
+}
 
 bool moves(const SystemState& state) {
   return !state.etadot.isZero(0.0) || !state.udot_H.isZero(0.0) ||

@@ -24,6 +24,11 @@ struct Imbalance {
 
 [[nodiscard]] bool moves(const SystemState& state);
 
+/// Velocity of the mass centre of a system that nothing ties to the world; else
+/// 0 [m/s].
+[[nodiscard]] Vector3 find_drift(const SystemModel& model,
+                                 const SystemState& state);
+
 /// Equation   left = m (a - w x (v - v_0)),  J (w_b' - w x w_b) of each body,
 ///            w that of the axes, v_0 that of the mass centre if nothing ties
 ///            the system to the world, else 0; for modes sqrt(m) |eta''|

@@ -5,6 +5,8 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/analysis/steady_motion.hpp"
+#include "limber/dynamics/analysis/steady_spin.hpp"
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
@@ -15,10 +17,22 @@ namespace limber::scene {
 
 namespace {
 
+void spin(const Scene& scene, BuiltScene& built) {
+  if (scene.scenario.equilibrium == dynamics::EquilibriumMethod::relaxation) {
+    throw InputError(
+        "relaxation is for systems at rest; this one starts with velocities");
+  }
+  built.initial = dynamics::find_steady_spin(built.model, built.initial);
+}
+
 void settle(const Scene& scene, BuiltScene& built) {
   const std::string who = "[initial] equilibrium";
   try {
     with_context(who, [&] {
+      if (dynamics::moves(built.initial)) {
+        spin(scene, built);
+        return;
+      }
       built.initial =
           dynamics::find_equilibrium(built.model, built.initial,
                                      {.method = *scene.scenario.equilibrium})

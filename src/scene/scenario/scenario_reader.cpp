@@ -179,27 +179,6 @@ void read_starts(TomlTable& table, const std::string& section,
   }
 }
 
-bool has_velocities(const Scenario& scenario) {
-  const auto moves = [](const std::vector<double>& v) {
-    return std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; });
-  };
-  const auto is_moving = [](const BodyStart& start) {
-    return !start.velocity.isZero(0.0) || !start.angular_velocity.isZero(0.0);
-  };
-  return is_moving(scenario.base) ||
-         std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                     [&](const auto& r) { return is_moving(r.start); }) ||
-         std::any_of(scenario.projectiles.begin(), scenario.projectiles.end(),
-                     [&](const auto& p) { return is_moving(p.start); }) ||
-         std::any_of(scenario.joints.begin(), scenario.joints.end(),
-                     [&](const auto& j) { return moves(j.second.velocity); }) ||
-         std::any_of(scenario.link_starts.begin(), scenario.link_starts.end(),
-                     [&](const auto& l) {
-                       return moves(l.second.etadot) ||
-                              !l.second.velocity.empty();
-                     });
-}
-
 void read_equilibrium(TomlTable& table, Scenario& scenario) {
   const bool is_asked = table.boolean("equilibrium").value_or(false);
   const auto method = read_name(table, "equilibrium_method",
@@ -212,9 +191,6 @@ void read_equilibrium(TomlTable& table, Scenario& scenario) {
     return;
   }
   scenario.equilibrium = method;
-  if (has_velocities(scenario)) {
-    table.fail("'equilibrium' starts at rest; leave the velocities out");
-  }
 }
 
 void read_initial(TomlTable& table, Scenario& scenario) {

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/analysis/steady_spin.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/analysis/steady_motion.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kSame = 1e-9;        // velocities of one rotation
+constexpr double kTolerance = 1e-12;  // of the extent
+constexpr double kFine = 1e-9;        // from here corrections may be round-off
+constexpr double kLongest = 0.2;      // largest correction, of the extent
+constexpr double kShift = 1e-3;       // of M, in w^2
+constexpr int kIterations = 60;
+
+bool is_across(const Vector3& vector, const Vector3& w) {
+  return vector.cross(w).norm() > kSame * vector.norm() * w.norm();
+}
+
+class Spin {
+ public:
+  Spin(const SystemModel& model, const SystemState& start)
+      : model_(model),
+        w_(find_fastest_spin(start)),
+        drift_(find_drift(model, start)),
+        p_0_(start.bodies.front().p_WB),
+        v_0_(start.bodies.front().v_WB_W),
+        terms_(make_terms(model)),
+        rates_(make_rates(model)),
+        weights_(find_length_weights(model)),
+        extent_(find_extent(model, start)) {
+    check_model();
+    check_velocities(start);
+    check_loads(start);
+  }
+
+  SystemState solve(SystemState state) {
+    double last = 0.0;
+    for (int i = 0; i < kIterations; ++i) {
+      turn(state);
+      const VectorX correction = correct(state);
+      const double length = correction.cwiseProduct(weights_).norm() / extent_;
+      if (!std::isfinite(length)) break;
+      displace(model_, correction, std::min(1.0, kLongest / length), state);
+      const bool is_round_off = length < kFine && length > 0.5 * last;
+      if (length <= kTolerance || (i > 0 && is_round_off)) {
+        turn(state);
+        return state;
+      }
+      last = length;
+    }
+    throw NumericalError(fmt::format(
+        "no steady rotation at {:.6g} rad/s near the start: Newton's method "
+        "ends with a correction of {:.2g} of the system's extent",
+        w_.norm(), last));
+  }
+
+ private:
+  void check_model() const {
+    if (!model_.pairs.empty()) {
+      throw InputError(fmt::format(
+          "pair '{}': steady rotations are not found with pairs yet",
+          model_.pairs[0].name));
+    }
+    for (const FullModel& full : model_.full_bodies) {
+      throw InputError(fmt::format(
+          "body '{}': steady rotations are not found at level full; take "
+          "nonlinear",
+          model_.bodies[static_cast<std::size_t>(full.body)].name));
+    }
+  }
+
+  [[nodiscard]] Vector3 find_velocity(const Vector3& p) const {
+    return v_0_ + w_.cross(p - p_0_);
+  }
+
+  void check_velocities(const SystemState& start) const {
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyState& at = start.bodies[b];
+      const double scale = w_.norm() * extent_ + v_0_.norm();
+      const bool turns =
+          (at.quat_WB * at.w_WB_B - w_).norm() <= kSame * w_.norm();
+      const bool follows =
+          (at.v_WB_W - find_velocity(at.p_WB)).norm() <= kSame * scale;
+      if (turns && follows && model_.bodies[b].has_rigid_motion()) continue;
+      throw InputError(fmt::format(
+          "body '{}' does not rotate with the others at ({:.6g}, {:.6g}, "
+          "{:.6g}) rad/s: a moving system is in equilibrium only if all of it "
+          "rotates about one axis",
+          model_.bodies[b].name, w_.x(), w_.y(), w_.z()));
+    }
+    if (!start.etadot.isZero(0.0)) {
+      throw InputError(
+          "modes that move at the start are in no steady rotation; leave their "
+          "velocities out");
+    }
+  }
+
+  void check_loads(const SystemState& start) const {
+    if (is_across(model_.gravity_W, w_)) {
+      throw InputError(
+          "gravity across the axis of rotation: no rotation is steady in it");
+    }
+    for (const Load& load : model_.loads) {
+      if (!load.in_world || evaluate(load.function, now_of(start)) == 0.0 ||
+          !(is_across(load.force, w_) || is_across(load.moment, w_))) {
+        continue;
+      }
+      throw InputError(
+          "a load in the world's axes across the axis of rotation: no rotation "
+          "is steady under it; take frame = \"body\"");
+    }
+  }
+
+  // Velocities of the rotation.
+  void turn(SystemState& state) const {
+    state.etadot.setZero();
+    for (BodyState& at : state.bodies) {
+      at.v_WB_W = find_velocity(at.p_WB);
+      at.w_WB_B = at.quat_WB.conjugate() * w_;
+    }
+  }
+
+  VectorX find_residual(const SystemState& state) {
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      rates_.translation[b] = w_.cross(state.bodies[b].v_WB_W - drift_);
+    }
+    calc_terms(model_, state, Side::right, terms_);
+    VectorX residual = VectorX::Zero(count_unknowns(model_));
+    calc_residual(model_, rates_, terms_, residual);
+    return residual;
+  }
+
+  VectorX correct(const SystemState& state) {
+    const VectorX residual = find_residual(state);
+    const SmallMotion motion =
+        find_small_motion(model_, state, {Matrix3::Identity(), w_});
+    const Index n = motion.size();
+    MatrixX S = motion.project_stiffness(MatrixX::Identity(n, n)) +
+                kShift * w_.squaredNorm() * motion.M;
+    VectorX right(n);
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const Index row = first_row(model_.bodies[b], b);
+      const Index p = motion.places[b];
+      right.segment<3>(p) = -residual.segment<3>(row);
+      right.segment<3>(p + 3) =
+          -(state.bodies[b].quat_WB * Vector3(residual.segment<3>(row + 3)));
+      right.segment(motion.modes[b], model_.bodies[b].modes) =
+          -residual.segment(row + 6, model_.bodies[b].modes);
+    }
+    // Of one size, so that stiff couplers leave soft modes their digits.
+    const VectorX scale =
+        S.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    S = (scale.asDiagonal() * S * scale.asDiagonal()).eval();
+    const VectorX x =
+        scale.cwiseProduct(S.partialPivLu().solve(scale.cwiseProduct(right)));
+    VectorX correction = VectorX::Zero(residual.size());
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const Index row = first_row(model_.bodies[b], b);
+      const Index p = motion.places[b];
+      correction.segment<3>(row) = x.segment<3>(p);
+      correction.segment<3>(row + 3) =
+          state.bodies[b].quat_WB.conjugate() * Vector3(x.segment<3>(p + 3));
+      correction.segment(row + 6, model_.bodies[b].modes) =
+          x.segment(motion.modes[b], model_.bodies[b].modes);
+    }
+    return correction;
+  }
+
+  const SystemModel& model_;
+  Vector3 w_;      // [rad/s]
+  Vector3 drift_;  // [m/s]
+  Vector3 p_0_;    // a point of the rotation [m]
+  Vector3 v_0_;    // and its velocity [m/s]
+  SystemTerms terms_;
+  Rates rates_;
+  VectorX weights_;
+  double extent_;
+};
+
+}  // namespace
+
+SystemState find_steady_spin(const SystemModel& model,
+                             const SystemState& start) {
+  LIMBER_EXPECT(!model.bodies.empty());
+  if (find_fastest_spin(start).isZero(0.0)) {
+    throw InputError(
+        "a system that moves without rotation has no steady rotation; leave "
+        "the velocities out");
+  }
+  return Spin(model, start).solve(start);
+}
+
+}  // namespace limber::dynamics
