@@ -35,6 +35,7 @@ void describe(const scene::Geometry& geometry, results::SceneryShape& shape) {
                    shape.size = {capsule.radius, capsule.length, 0.0};
                  },
                  [&](const scene::PlaneGeometry&) { shape.kind = "plane"; },
+                 [](const scene::MeshGeometry&) {},
                  [](const scene::OtherGeometry&) {}},
       geometry);
 }

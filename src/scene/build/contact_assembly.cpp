@@ -5,12 +5,14 @@
 
 #include <limits>
 #include <utility>
+#include <variant>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/shapes/skin.hpp"
+#include "limber/scene/contacts/collision_mesh.hpp"
 #include "limber/scene/contacts/contact_shapes.hpp"
 #include "limber/scene/text/error_context.hpp"
 
@@ -45,6 +47,15 @@ void make_rigid_pads(flexbody::ContactSurface& surface) {
   pads.Phi_B.resize(pads.Phi_B.rows(), 0);
   pads.flexibility = contact::calc_half_space_compliance(
       pads.x_B, pads.area, surface.youngs_modulus / (1.0 - nu * nu));
+}
+
+// A mesh is a surface in the frame of its body, without modes.
+contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
+  const auto* mesh = std::get_if<MeshGeometry>(&geometry);
+  if (mesh == nullptr) return {make_shape(geometry), X_BS};
+  return {
+      std::make_shared<const contact::Skin>(read_collision_mesh(*mesh, X_BS)),
+      Pose{}};
 }
 
 std::string describe(const Scene& scene, const TouchingPair& pair) {
@@ -117,11 +128,13 @@ ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
     const std::string number = source.collisions.size() > 1
                                    ? fmt::format(".{}", sides.size() + 1)
                                    : "";
-    sides.push_back({source.name + number,
-                     site.body,
-                     {{make_shape(collision.geometry), site.X_BF},
-                      source.contact.material,
-                      find_mass(sites_.plan_of(link))}});
+    const contact::Shape shape = with_context(
+        fmt::format("link '{}'", source.name),
+        [&] { return make_rigid_shape(collision.geometry, site.X_BF); });
+    sides.push_back(
+        {source.name + number,
+         site.body,
+         {shape, source.contact.material, find_mass(sites_.plan_of(link))}});
   }
   return sides;
 }

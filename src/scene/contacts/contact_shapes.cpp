@@ -7,6 +7,7 @@
 namespace limber::scene {
 
 contact::ShapeKind make_shape(const Geometry& geometry) {
+  LIMBER_EXPECT(!std::holds_alternative<MeshGeometry>(geometry));
   LIMBER_EXPECT(!std::holds_alternative<OtherGeometry>(geometry));
   using contact::ShapeKind;
   return std::visit(

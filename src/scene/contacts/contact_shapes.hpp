@@ -9,7 +9,7 @@
 /// From what files say to what contacts compute with.
 namespace limber::scene {
 
-/// @param geometry any but OtherGeometry
+/// @param geometry any but MeshGeometry and OtherGeometry
 [[nodiscard]] contact::ShapeKind make_shape(const Geometry& geometry);
 
 [[nodiscard]] contact::ContactParameters make_parameters(

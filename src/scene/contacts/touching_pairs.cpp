@@ -73,12 +73,10 @@ void check_shapes(const Link& link) {
     const auto* other = std::get_if<OtherGeometry>(&collision.geometry);
     if (other == nullptr) continue;
     throw InputError(fmt::format(
-        "link '{}' has a <{}> in its <collision>{}; give <sphere>, <box>, "
-        "<cylinder> or <capsule>, or make the link flexible: its own mesh "
-        "touches then",
-        link.name, other->tag,
-        other->tag == "mesh" ? ": collision meshes are not supported yet"
-                             : ", which contacts do not know"));
+        "link '{}' has a <{}> in its <collision>, which contacts do not know; "
+        "give <sphere>, <box>, <cylinder>, <capsule> or <mesh>, or make the "
+        "link flexible: its own mesh touches then",
+        link.name, other->tag));
   }
 }
 

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,8 +45,35 @@ const std::map<std::string, GeometryReader>& geometry_readers() {
   return readers;
 }
 
-// urdf_names checks which names there are.
-Geometry read_shape(const TiXmlElement& element, Problems& problems) {
+// @param folder of the robot's file
+Geometry read_mesh(XmlElement& element, const std::filesystem::path& folder) {
+  MeshGeometry mesh;
+  const std::string name = element.required_text("filename");
+  constexpr std::string_view kFile = "file://";
+  const bool is_place = name.rfind(kFile, 0) == 0;
+  if (!is_place && name.find("://") != std::string::npos) {
+    element.fail(fmt::format(
+        "filename=\"{}\" names a package; expected a path from this file's "
+        "folder, such as meshes/part.stl",
+        name));
+  }
+  mesh.file = (folder / (is_place ? name.substr(kFile.size()) : name))
+                  .lexically_normal();
+  mesh.scale = element.vector("scale").value_or(mesh.scale);
+  if ((mesh.scale.array() == 0.0).any()) {
+    element.fail("scale: a factor is 0; expected three others");
+  }
+  return mesh;
+}
+
+// urdf_names checks which names there are. Meshes for pictures are not drawn.
+Geometry read_shape(const TiXmlElement& element,
+                    const std::filesystem::path& folder, bool is_collision,
+                    Problems& problems) {
+  if (is_collision && element.ValueStr() == "mesh") {
+    XmlElement mesh(element, problems);
+    return read_mesh(mesh, folder);
+  }
   const auto found = geometry_readers().find(element.ValueStr());
   if (found == geometry_readers().end()) {
     return OtherGeometry{element.ValueStr()};
@@ -54,6 +83,7 @@ Geometry read_shape(const TiXmlElement& element, Problems& problems) {
 }
 
 std::optional<Geometry> read_geometry(const TiXmlElement& collision,
+                                      const std::filesystem::path& folder,
                                       Problems& problems) {
   const TiXmlElement* geometry = collision.FirstChildElement("geometry");
   const TiXmlElement* shape =
@@ -68,10 +98,12 @@ std::optional<Geometry> read_geometry(const TiXmlElement& collision,
     problems.add(geometry->Row(),
                  "<geometry> has several shapes; give each a <collision>");
   }
-  return read_shape(*shape, problems);
+  return read_shape(*shape, folder, collision.ValueStr() == kCollision,
+                    problems);
 }
 
 std::vector<Collision> read_link(const TiXmlElement& element, const char* tag,
+                                 const std::filesystem::path& folder,
                                  Problems& problems) {
   std::vector<Collision> all;
   for (const TiXmlElement* at = element.FirstChildElement(tag); at != nullptr;
@@ -80,7 +112,7 @@ std::vector<Collision> read_link(const TiXmlElement& element, const char* tag,
     if (const TiXmlElement* origin = at->FirstChildElement("origin")) {
       collision.X_LS = XmlElement(*origin, problems).pose();
     }
-    if (const auto geometry = read_geometry(*at, problems)) {
+    if (const auto geometry = read_geometry(*at, folder, problems)) {
       collision.geometry = *geometry;
       all.push_back(collision);
     }
@@ -128,14 +160,16 @@ std::string remove_collisions(const TiXmlDocument& robot,
 void read_collisions(const TiXmlElement& root, Robot& robot,
                      Problems& problems) {
   for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
-    link.collisions = read_link(element, kCollision, problems);
+    link.collisions =
+        read_link(element, kCollision, robot.file.parent_path(), problems);
   });
 }
 
 void read_visuals(const TiXmlElement& root, Robot& robot) {
   for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
     Problems problems(robot.file.string());
-    std::vector<Collision> visuals = read_link(element, "visual", problems);
+    std::vector<Collision> visuals =
+        read_link(element, "visual", robot.file.parent_path(), problems);
     try {
       problems.raise();
       link.visuals = std::move(visuals);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <variant>
 
@@ -27,11 +28,17 @@ struct CapsuleGeometry {
 };
 /// z <= 0
 struct PlaneGeometry {};
-/// What robots have and contacts cannot take, such as a mesh.
+/// A closed surface in a file of triangles.
+struct MeshGeometry {
+  std::filesystem::path file;
+  Vector3 scale = Vector3::Ones();  ///< of its coordinates, none 0 [m]
+};
+/// What robots have and contacts cannot take, such as a mesh for pictures.
 struct OtherGeometry {
   std::string tag;
 };
-using Geometry = std::variant<SphereGeometry, BoxGeometry, CylinderGeometry,
-                              CapsuleGeometry, PlaneGeometry, OtherGeometry>;
+using Geometry =
+    std::variant<SphereGeometry, BoxGeometry, CylinderGeometry, CapsuleGeometry,
+                 PlaneGeometry, MeshGeometry, OtherGeometry>;
 
 }  // namespace limber::scene

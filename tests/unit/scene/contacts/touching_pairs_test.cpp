@@ -176,17 +176,17 @@ TEST(TouchingPairs, FlexibleLinksTouchWithTheirOwnMesh) {
               ElementsAre("1:finger_1/target"));
 }
 
-TEST(TouchingPairs, RefusesMeshesForCollisionsOfLinksThatContactsAskFor) {
+TEST(TouchingPairs, RefusesShapesThatItDoesNotKnowOfLinksThatContactsAskFor) {
   Robot robot = make_hand();
-  robot.links[1].collisions.emplace_back().geometry = OtherGeometry{"mesh"};
+  robot.links[1].collisions.emplace_back().geometry = OtherGeometry{"cone"};
   EXPECT_THAT(list(touch({{"finger_2", "target"}}), robot),
               ElementsAre("1:finger_2/target"));
   for (const char* name : {"finger_1", "finger_*"}) {
     EXPECT_THAT(
         error_of(touch({{name, "target"}}), robot),
-        HasSubstr("link 'finger_1' has a <mesh> in its <collision>: collision "
-                  "meshes are not supported yet; give <sphere>, <box>, "
-                  "<cylinder> or <capsule>, or make the link flexible"));
+        HasSubstr("link 'finger_1' has a <cone> in its <collision>, which "
+                  "contacts do not know; give <sphere>, <box>, <cylinder>, "
+                  "<capsule> or <mesh>, or make the link flexible"));
   }
 }
 

@@ -40,9 +40,20 @@ TEST(CollisionReader, ReadsShapes) {
       read_shape<CapsuleGeometry>("<capsule radius='2' length='3'/>");
   EXPECT_EQ(capsule.radius, 2.0);
   EXPECT_EQ(capsule.length, 3.0);
-  EXPECT_EQ(
-      read_shape<OtherGeometry>("<mesh filename='m.stl' scale='1 1 1'/>").tag,
-      "mesh");
+  const auto mesh =
+      read_shape<MeshGeometry>("<mesh filename='m.stl' scale='1 -2 3'/>");
+  EXPECT_EQ(mesh.file.filename(), "m.stl");
+  EXPECT_EQ(mesh.scale, Vector3(1, -2, 3));
+  EXPECT_EQ(read_shape<MeshGeometry>("<mesh filename='file:///a/m.stl'/>").file,
+            "/a/m.stl");
+}
+
+TEST(CollisionReader, RefusesMeshesThatItCannotFind) {
+  EXPECT_THAT(error_of(collision("<mesh/>")), HasSubstr("needs 'filename'"));
+  EXPECT_THAT(error_of(collision("<mesh filename='package://p/m.stl'/>")),
+              HasSubstr("names a package; expected a path from this file's"));
+  EXPECT_THAT(error_of(collision("<mesh filename='m' scale='1 0 1'/>")),
+              HasSubstr("scale: a factor is 0"));
 }
 
 TEST(CollisionReader, ReadsSeveralShapesAndTheirPoses) {

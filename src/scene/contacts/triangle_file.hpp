@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "limber/common/types.hpp"
+
+namespace limber::scene {
+
+/// Corners, outward (right-hand), in the file's unit.
+using Triangle = std::array<Vector3, 3>;
+
+/// The triangles of an STL file (text or binary) or of an OBJ file, whose
+/// polygons are split from their first corner. Normals, colours and groups are
+/// not read.
+/// @throws InputError naming the file, and the line or triangle: a file that
+/// cannot be read, of another kind or damaged, without triangles, with more
+/// than 500 000, or with a coordinate that is no finite number.
+[[nodiscard]] std::vector<Triangle> read_triangles(
+    const std::filesystem::path& file);
+
+}  // namespace limber::scene
