@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
 #include "limber/contact/meetings.hpp"
 #include "limber/contact/pads_on_plane.hpp"
@@ -75,15 +76,6 @@ void set_place(const PairBody& body, const Shape& shape,
   set_shape_functions(shape, surface, out.Phi_B);
   out.x_B.setZero();
   out.x_B = body.R_WB.transpose() * (p_W - body.p_WB) - find_arm(body, out);
-}
-
-// Where the material point at which the force acted at the last commit is now.
-Vector3 find_former(const PairBody& body, const Shape& shape,
-                    const PlaceMemory& former, joints::PairPlace& scratch) {
-  const SurfacePlace surface = to_place(former);
-  set_shape_functions(shape, surface, scratch.Phi_B);
-  scratch.x_B = surface.x_B;
-  return find_position(body, scratch);
 }
 
 joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
@@ -204,8 +196,8 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
   // At the commit both were at one point: their distance has come since.
   if (law_.has_friction() && memory.is_touching()) {
     motion.increment_W =
-        find_former(bodies.B, B_.shape, memory.on_B, point.on_B) -
-        find_former(bodies.A, A_.shape, memory.on_A, point.on_A);
+        find_point(bodies.B, B_.shape, to_place(memory.on_B), point.on_B) -
+        find_point(bodies.A, A_.shape, to_place(memory.on_A), point.on_A);
   }
   set_place(bodies.A, A_.shape, meeting.on_A, meeting.p_W, point.on_A);
   set_place(bodies.B, B_.shape, meeting.on_B, meeting.p_W, point.on_B);
@@ -219,6 +211,7 @@ void ContactPair::meet(const PairBodies& bodies, double reach,
                        std::span<Meeting> out) const {
   shapes_.find(bodies, reach, out);
   if (shapes_.has_loose_features()) follow_memory(memory, out);
+  if (!shapes_.keeps_order()) take_slots(memory, size_, out);
 }
 
 void ContactPair::evaluate_pads(std::span<const Meeting> meetings,

@@ -97,6 +97,10 @@ class ContactPair final : public joints::PairInteraction,
   // Finds all meetings, in the order of the points that remember them.
   void meet(const joints::PairBodies& bodies, double reach,
             std::span<const double> memory, std::span<Meeting> out) const;
+  // The same of a step's begin, middle and end, in one order.
+  void meet(const joints::PairStep& step, std::span<const double> memory,
+            std::span<Meeting> begin, std::span<Meeting> middle,
+            std::span<Meeting> end) const;
   void evaluate_pads(std::span<const Meeting> meetings,
                      PadLaw::Response& out) const;
   // Of a feature as it first touches.

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "limber/contact/contact_pair.hpp"
+#include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
 #include "limber/contact/meetings.hpp"
 #include "limber/contact/pads_on_plane.hpp"
 #include "limber/contact/point_numbers.hpp"
+#include "limber/contact/shape_measures.hpp"
 
 namespace limber::contact {
 namespace {
@@ -17,6 +19,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Below this share of the change of depth the way along the normal does not
 // tell the force [-].
 constexpr double kLeastWay = 0.1;
+
+// A feature of another instant where its material points are now.
+Meeting carry(const Shape& A, const Shape& B, const joints::PairBodies& bodies,
+              const Meeting& known, joints::PairPoint& scratch) {
+  const Vector3 p_A = find_point(bodies.A, A, known.on_A, scratch.on_A);
+  const Vector3 p_B = find_point(bodies.B, B, known.on_B, scratch.on_B);
+  Meeting meeting = known;
+  meeting.depth = known.normal_W.dot(p_A - p_B);
+  meeting.p_W = 0.5 * (p_A + p_B);
+  return meeting;
+}
 
 }  // namespace
 
@@ -45,6 +58,26 @@ ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
   return elastic;
 }
 
+void ContactPair::meet(const joints::PairStep& step,
+                       std::span<const double> memory, std::span<Meeting> begin,
+                       std::span<Meeting> middle,
+                       std::span<Meeting> end) const {
+  if (shapes_.keeps_order()) {
+    meet(step.end, kInfinity, memory, end);
+    shapes_.find(step.begin, kInfinity, begin);
+    shapes_.find(step.middle, kInfinity, middle);
+    if (!shapes_.has_loose_features()) return;
+    follow(end, begin);
+    follow(end, middle);
+    return;
+  }
+  meet(step.begin, kInfinity, memory, begin);
+  shapes_.find(step.end, kInfinity, end);
+  shapes_.find(step.middle, kInfinity, middle);
+  take_slots(std::span<const Meeting>(begin), size_, end);
+  take_slots(std::span<const Meeting>(end), size_, middle);
+}
+
 void ContactPair::evaluate_over_step(const joints::PairStep& step,
                                      std::span<const double> memory,
                                      joints::PairResponse& out) const {
@@ -58,16 +91,20 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
   Meetings begin(count_features());
   Meetings middle(count_features());
   Meetings end(count_features());
-  meet(step.end, kInfinity, memory, end.all());
-  shapes_.find(step.begin, kInfinity, begin.all());
-  shapes_.find(step.middle, kInfinity, middle.all());
-  if (shapes_.has_loose_features()) {
-    follow(end.all(), begin.all());
-    follow(end.all(), middle.all());
-  }
+  meet(step, memory, begin.all(), middle.all(), end.all());
   for (std::size_t i = 0; i < count_features(); ++i) {
     if (!(begin[i].depth > 0.0) && !(end[i].depth > 0.0)) continue;
     joints::PairPoint& point = out.add();
+    // What is a feature at one instant alone.
+    const Meeting& known = end[i].depth > 0.0 ? end[i] : begin[i];
+    const auto complete = [&](const joints::PairBodies& bodies,
+                              Meeting& meeting) {
+      if (meeting.depth != Meeting{}.depth) return;
+      meeting = carry(A_.shape, B_.shape, bodies, known, point);
+    };
+    complete(step.begin, begin.all()[i]);
+    complete(step.middle, middle.all()[i]);
+    complete(step.end, end.all()[i]);
     const PointMemory before = load_memory(numbers_of(i, memory));
     const PointMotion motion =
         place(step.middle, middle[i], before, step.times.middle(), point);

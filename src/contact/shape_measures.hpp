@@ -5,6 +5,7 @@
 
 #include "limber/common/records/manifest.hpp"
 #include "limber/contact/shapes/shape.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
 
@@ -18,6 +19,13 @@ void describe(Manifest& out, std::string_view name, const Shape& shape);
 
 /// The smaller of both shapes' roundnesses; a half space has none [m].
 [[nodiscard]] double find_size(const Shape& A, const Shape& B);
+
+/// Where a material point of a body's shape is now.
+/// @param scratch for the point as a place of the body
+[[nodiscard]] Vector3 find_point(const joints::PairBody& body,
+                                 const Shape& shape,
+                                 const SurfacePlace& surface,
+                                 joints::PairPlace& scratch);
 
 /// Of each mode the largest displacement of a node of the shape, m entries
 /// [kg^-1/2].

@@ -39,6 +39,10 @@ class FacePatch {
   [[nodiscard]] Vector3 find_tangent_v(const FacePlace& at) const {
     return x_v_ + at.u * x_uv_ + at.v * x_vv_;
   }
+  /// Second derivatives, the same everywhere [m].
+  [[nodiscard]] const Vector3& x_uu() const { return x_uu_; }
+  [[nodiscard]] const Vector3& x_uv() const { return x_uv_; }
+  [[nodiscard]] const Vector3& x_vv() const { return x_vv_; }
   /// Not of unit length.
   [[nodiscard]] Vector3 find_normal(const FacePlace& at) const {
     return find_tangent_u(at).cross(find_tangent_v(at));
@@ -54,6 +58,13 @@ class FacePatch {
   /// The largest distance of the patch from the four flat triangles between its
   /// nodes, at most [m].
   [[nodiscard]] double find_bulge() const;
+
+  struct Range {
+    double low = 0.0;   ///< [m]
+    double high = 0.0;  ///< [m]
+  };
+  /// Of way . x over the patch, by its control points: no less than it takes.
+  [[nodiscard]] Range find_range(const Vector3& way) const;
 
   struct FlatNearest {
     FacePlace at;

@@ -40,6 +40,19 @@ void meet_convex(const PlacedShape& A, const PlacedShape& B,
 [[nodiscard]] double find_convex_clearance(const PlacedShape& A,
                                            const PlacedShape& B);
 
+/// Of two skins: the deepest places of their overlap that are apart from each
+/// other, the deepest first, at most so many (SkinPairSearch).
+///
+/// Equation   depth = overlap along the common normal of both places
+/// Limits     which of a contact's features comes first changes with the motion
+inline constexpr std::size_t kSkinFeatures = 8;
+void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
+                std::span<Meeting> out);
+/// A lower bound of the distance, the distance itself unless it is far; < 0 if
+/// they overlap [m].
+[[nodiscard]] double find_skins_clearance(const PlacedShape& A,
+                                          const PlacedShape& B);
+
 /// Of B's features with a half space: how many, and each of them.
 ///
 /// Equation   depth = -height of the feature's lowest point

@@ -9,6 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/contact/shapes/pair_rules.hpp"
 #include "limber/contact/shapes/placed_shape.hpp"
+#include "limber/contact/shapes/shape_skin.hpp"
 
 namespace limber::contact {
 namespace {
@@ -20,6 +21,14 @@ bool is_a(const Shape& shape) {
 
 bool is_convex(const Shape& shape) {
   return is_a<Box>(shape) || is_a<Cylinder>(shape) || is_a<Capsule>(shape);
+}
+
+bool is_skin(const Shape& shape) {
+  return is_a<std::shared_ptr<const Skin>>(shape);
+}
+
+bool has_skin(const Shape& shape) {
+  return is_skin(shape) || is_a<Box>(shape) || is_a<Capsule>(shape);
 }
 
 }  // namespace
@@ -41,11 +50,16 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
   } else if (is_convex(A_) && is_convex(B_)) {
     rule_ = Rule::kConvex;
     most_points_ = count_convex_features(A_, B_);
+  } else if (has_skin(A_) && has_skin(B_)) {
+    rule_ = Rule::kSkins;
+    skin_A_ = make_skin(A_);
+    skin_B_ = make_skin(B_);
+    most_points_ = kSkinFeatures;
   } else {
     throw InputError(fmt::format(
         "contact: there is no rule for a {} with a {}; there are rules for a "
-        "sphere with any shape, a half space with any other, and boxes, "
-        "cylinders and capsules among each other",
+        "sphere with any shape, a half space with any other, and skins, boxes "
+        "and capsules among each other",
         name_kind(A_), name_kind(B_)));
   }
 }
@@ -69,6 +83,10 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
       break;
     case Rule::kConvex:
       meet_convex(first, second, out);
+      break;
+    case Rule::kSkins:
+      meet_skins(PlacedShape(skin_A_, bodies.A), PlacedShape(skin_B_, bodies.B),
+                 reach, out);
       break;
   }
   if (!is_swapped_) return;
@@ -96,6 +114,10 @@ double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
       break;
     case Rule::kConvex:
       distance = find_convex_clearance(first, second);
+      break;
+    case Rule::kSkins:
+      distance = find_skins_clearance(PlacedShape(skin_A_, bodies.A),
+                                      PlacedShape(skin_B_, bodies.B));
       break;
   }
   return distance > 0.0 ? distance : 0.0;

@@ -13,14 +13,16 @@ namespace limber::contact {
 
 /// Where two shapes are closest. Immutable.
 ///
-/// Their features are of a fixed number in a fixed order, so that a feature
-/// keeps its identity from step to step:
+/// Their features are of a fixed number, most in a fixed order, so that a
+/// feature keeps its identity from step to step:
 ///
 ///     sphere with any other        1
 ///     capsule with capsule         1
 ///     of box, cylinder, capsule
 ///       any other two              corners of both faces, where each edge of
 ///                                  A enters and leaves B's, and the nearest
+///     skin with skin, box, capsule 8, the deepest that are apart: these have
+///                                  no order that lasts (keeps_order())
 ///     half space with capsule      2, its ends
 ///                     box          8, its corners
 ///                     cylinder     6, three of each rim
@@ -41,6 +43,9 @@ class ShapePair {
   /// another; its SurfacePlace tells which one it is.
   [[nodiscard]] bool has_loose_features() const { return is_loose_; }
 
+  /// Whether a feature is always at the same place of `out`.
+  [[nodiscard]] bool keeps_order() const { return rule_ != Rule::kSkins; }
+
   /// Fills `out`, one Meeting a feature. Allocates nothing.
   /// @param reach >= 0: a feature whose surfaces are farther apart may have
   /// the depth -infinity, which is found cheaply [m]
@@ -53,10 +58,12 @@ class ShapePair {
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:
-  enum class Rule { kSphere, kHalfSpace, kCapsules, kConvex };
+  enum class Rule { kSphere, kHalfSpace, kCapsules, kConvex, kSkins };
 
   Shape A_;
   Shape B_;
+  Shape skin_A_;  // of skins with others: their surfaces
+  Shape skin_B_;
   Rule rule_ = Rule::kSphere;
   bool is_swapped_ = false;  // B is the rule's first shape
   bool is_loose_ = false;

@@ -30,6 +30,7 @@ Skin::Skin(flexbody::ContactSurface surface) : surface_(std::move(surface)) {
   set_bounds();
   tree_ = SkinTree(surface_.faces, surface_.x_B,
                    modes_.rows() > 0 ? surface_.Phi_B : MatrixX(3 * n, 0));
+  measure();
 }
 
 void Skin::check() const {

@@ -107,6 +107,47 @@ class Skin {
   [[nodiscard]] double find_residual(const SurfacePlace& place) const;
   /// A bound of the distance of the deformed surface from Bo [m].
   [[nodiscard]] double find_extent(const ModalView& eta) const;
+  /// Boxes about its faces.
+  [[nodiscard]] const SkinTree& tree() const { return tree_; }
+  [[nodiscard]] std::size_t face_count() const { return surface_.faces.size(); }
+  /// A face as it is deformed, then moved.
+  [[nodiscard]] FacePatch make_patch(int f, const ModalView& eta,
+                                     const Pose& X) const;
+  /// Of the undeformed surface.
+  struct FaceMeasures {
+    double edge = 0.0;  ///< mean length of its edges [m]
+    /// How far straight inward the surface's other side is, at least, from the
+    /// face's middle and corners; infinite where there is none [m].
+    double thickness = std::numeric_limits<double>::infinity();
+    /// Whether the surface is convex there by more than 20 degrees, at the
+    /// edges 01, 12, 20.
+    std::array<bool, 3> is_sharp = {};
+    /// Whether no such edge and no border meets the face.
+    bool is_inner = true;
+  };
+  [[nodiscard]] const FaceMeasures& measures(int f) const {
+    return measures_[index(f)];
+  }
+  /// The largest of all measures().edge [m].
+  [[nodiscard]] double longest_edge() const { return longest_edge_; }
+  [[nodiscard]] double mean_edge() const { return mean_edge_; }
+  struct Ball {
+    Vector3 centre = Vector3::Zero();  ///< [m]
+    double radius = 0.0;               ///< [m]
+  };
+  /// All of the surface is within it.
+  [[nodiscard]] Ball find_ball(const ModalView& eta) const {
+    return {centre_, radius_ + find_deformation_bound(eta)};
+  }
+  /// Whether the deformed surface rises along a direction nowhere next to a
+  /// place on a corner or an edge of its face, by slopes above `tolerance`.
+  /// True within a face and on a border.
+  /// @param way unit, body frame
+  [[nodiscard]] bool is_summit(const SurfacePlace& place, const ModalView& eta,
+                               const Vector3& way, double tolerance) const;
+
+  /// The place on a face with its undeformed position.
+  [[nodiscard]] SurfacePlace make_place(int f, const FacePlace& at) const;
   /// A place of the surface as it is deformed [m].
   [[nodiscard]] Vector3 find_position(const SurfacePlace& place,
                                       const ModalView& eta) const;
@@ -134,7 +175,6 @@ class Skin {
   [[nodiscard]] Eigen::Index pad_of(const SurfacePlace& place) const;
   [[nodiscard]] Vector3 deform(int node, const ModalView& eta) const;
   [[nodiscard]] FacePatch deform_face(int f, const ModalView& eta) const;
-  [[nodiscard]] SurfacePlace make_place(int f, const FacePlace& at) const;
   [[nodiscard]] NodeHit make_node_hit(int node, double height, const Vector3& x,
                                       const ModalView& eta) const;
   [[nodiscard]] std::span<const int> find_faces_of(int node) const;
@@ -151,7 +191,13 @@ class Skin {
   [[nodiscard]] Vector3 sum_edge_normals(int f, int edge, const FacePlace& at,
                                          const ModalView& eta) const;
 
+  // The face beyond an edge of a face; -1: a border.
+  [[nodiscard]] int find_neighbour(int f, int edge) const;
+  [[nodiscard]] double find_thickness(int f, const FacePlace& at) const;
+
   void check() const;
+  void measure();
+  void mark_inner();
   void connect();
   void mark_border();
   void set_bounds();
@@ -168,6 +214,9 @@ class Skin {
   double radius_ = 0.0;
   VectorX largest_motions_;  // m, of any control point under each mode
   SkinTree tree_;
+  std::vector<FaceMeasures> measures_;
+  double longest_edge_ = 0.0;
+  double mean_edge_ = 0.0;
 };
 
 /// Those of the body if the skin has modes, or else none.

@@ -51,7 +51,6 @@ SkinTree::SkinTree(const std::vector<Face>& faces, const Matrix3X& X,
 }
 
 int SkinTree::build(const Matrix3X& centres, int first, int count) {
-  constexpr int kLeafFaces = 2;
   const int me = static_cast<int>(nodes_.size());
   nodes_.push_back({.first = first, .count = count});
   if (count <= kLeafFaces) return me;

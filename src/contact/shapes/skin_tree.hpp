@@ -44,6 +44,9 @@ class SkinTree {
   /// Deepest nesting: the tree is balanced.
   static constexpr int kMostLevels = 64;
 
+  /// Faces of a leaf, at most.
+  static constexpr int kLeafFaces = 2;
+
   SkinTree() = default;
   /// @param faces rows of nodes as those of flexbody::ContactSurface, not none
   /// @param X 3 x n [m]
@@ -55,6 +58,10 @@ class SkinTree {
   [[nodiscard]] const Node& node(int i) const { return nodes_[index(i)]; }
   [[nodiscard]] std::span<const int> find_faces(const Node& node) const {
     return std::span(order_).subspan(index(node.first), index(node.count));
+  }
+  /// Of node i as the surface is without deformation.
+  [[nodiscard]] const Box& undeformed_box(int i) const {
+    return boxes_[index(i)];
   }
   /// Of node i as the surface is deformed.
   [[nodiscard]] Box find_box(int i, const ModalView& eta) const;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/contact/shapes/shape.hpp"
+
+namespace limber::contact {
+
+/// The surface of a box or a capsule as a Skin without modes, in the body
+/// frame; of a Skin itself.
+///
+/// Limits     a capsule is of quadratic faces, 32 around, which leave its
+///            surface by 1.5e-5 of its radius, at its ends by up to 1e-4
+/// @throws ContractError for another kind.
+[[nodiscard]] Shape make_skin(const Shape& shape);
+
+}  // namespace limber::contact

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of Skin that contacts of two surfaces need.
+#include <algorithm>
+#include <cmath>
+
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+namespace {
+
+constexpr std::array<FacePlace, 3> kCorners = {
+    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
+
+// Whether a ray from `from` may meet a box, within `most`.
+bool may_meet(const SkinTree::Box& box, const Vector3& from, const Vector3& way,
+              double most) {
+  double first = 0.0;
+  double last = most;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double arm = box.centre[axis] - from[axis];
+    const double half = box.half[axis];
+    if (std::abs(way[axis]) < 1e-300) {
+      if (std::abs(arm) > half) return false;
+      continue;
+    }
+    const double a = (arm - half) / way[axis];
+    const double b = (arm + half) / way[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last;
+}
+
+// How far along a ray a flat triangle is; infinite: it misses [@moller1997].
+double find_way_to(const Vector3& a, const Vector3& b, const Vector3& c,
+                   const Vector3& from, const Vector3& way) {
+  constexpr double kMissed = std::numeric_limits<double>::infinity();
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const Vector3 h = way.cross(ac);
+  const double determinant = ab.dot(h);
+  if (determinant == 0.0) return kMissed;
+  const Vector3 s = from - a;
+  const Vector3 q = s.cross(ab);
+  const double u = s.dot(h) / determinant;
+  const double v = way.dot(q) / determinant;
+  if (u < 0.0 || v < 0.0 || u + v > 1.0) return kMissed;
+  return ac.dot(q) / determinant;
+}
+
+}  // namespace
+
+FacePatch Skin::make_patch(int f, const ModalView& eta, const Pose& X) const {
+  const Face& nodes = face(f);
+  if (nodes[3] < 0) {
+    return FacePatch(std::array<Vector3, 3>{X * deform(nodes[0], eta),
+                                            X * deform(nodes[1], eta),
+                                            X * deform(nodes[2], eta)});
+  }
+  std::array<Vector3, 6> x;
+  for (std::size_t i = 0; i < 6; ++i) x[i] = X * deform(nodes[i], eta);
+  return FacePatch(x);
+}
+
+int Skin::find_neighbour(int f, int edge) const {
+  const int a = face(f)[index(edge)];
+  const int b = face(f)[index((edge + 1) % 3)];
+  for (const int other : find_faces_of(a)) {
+    const Face& corners = face(other);
+    const bool has_b = corners[0] == b || corners[1] == b || corners[2] == b;
+    if (other != f && has_b) return other;
+  }
+  return -1;
+}
+
+void Skin::measure() {
+  constexpr double kSharpCosine = 0.94;  // of 20 degrees
+  constexpr double kMiddle = 1.0 / 3.0;
+  constexpr double kNearCorner = 0.1;
+  const auto at = [this](int node) -> Vector3 {
+    return surface_.x_B.col(node);
+  };
+  const auto find_normal = [&](int f) -> Vector3 {
+    const Face& n = face(f);
+    return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).normalized();
+  };
+  measures_.resize(face_count());
+  double sum = 0.0;
+  for (int f = 0; f < static_cast<int>(face_count()); ++f) {
+    FaceMeasures& of = measures_[index(f)];
+    const Face& nodes = face(f);
+    for (int edge = 0; edge < 3; ++edge) {
+      const int a = nodes[index(edge)];
+      const int b = nodes[index((edge + 1) % 3)];
+      of.edge += (at(b) - at(a)).norm() / 3.0;
+      const int other = find_neighbour(f, edge);
+      if (other < 0) continue;
+      const Face& beyond = face(other);
+      Vector3 far = at(a);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (beyond[i] != a && beyond[i] != b) far = at(beyond[i]);
+      }
+      const Vector3 normal = find_normal(f);
+      of.is_sharp[index(edge)] = normal.dot(far - at(a)) < 0.0 &&
+                                 normal.dot(find_normal(other)) < kSharpCosine;
+    }
+    for (const FacePlace& place :
+         {FacePlace{kMiddle, kMiddle}, FacePlace{kNearCorner, kNearCorner},
+          FacePlace{1.0 - 2.0 * kNearCorner, kNearCorner},
+          FacePlace{kNearCorner, 1.0 - 2.0 * kNearCorner}}) {
+      of.thickness = std::min(of.thickness, find_thickness(f, place));
+    }
+    longest_edge_ = std::max(longest_edge_, of.edge);
+    sum += of.edge;
+  }
+  mean_edge_ = sum / static_cast<double>(face_count());
+  mark_inner();
+}
+
+void Skin::mark_inner() {
+  std::vector<bool> is_edge = is_border_node_;
+  for (std::size_t f = 0; f < face_count(); ++f) {
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      if (!measures_[f].is_sharp[edge]) continue;
+      is_edge[index(surface_.faces[f][edge])] = true;
+      is_edge[index(surface_.faces[f][(edge + 1) % 3])] = true;
+    }
+  }
+  for (std::size_t f = 0; f < face_count(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (is_edge[index(surface_.faces[f][i])]) measures_[f].is_inner = false;
+    }
+  }
+}
+
+double Skin::find_thickness(int f, const FacePlace& from) const {
+  const Face& start = face(f);
+  const auto at = [this](int node) -> Vector3 {
+    return surface_.x_B.col(node);
+  };
+  const Vector3 ab = at(start[1]) - at(start[0]);
+  const Vector3 ac = at(start[2]) - at(start[0]);
+  const Vector3 p = at(start[0]) + from.u * ab + from.v * ac;
+  const Vector3 way = -ab.cross(ac).normalized();
+  double least = std::numeric_limits<double>::infinity();
+  std::array<int, SkinTree::kMostLevels> stack{};
+  std::size_t size = 1;
+  while (size > 0) {
+    const int i = stack[--size];
+    if (!may_meet(tree_.undeformed_box(i), p, way, least)) continue;
+    const SkinTree::Node& node = tree_.node(i);
+    if (!node.is_leaf()) {
+      stack[size++] = node.right;
+      stack[size++] = i + 1;
+      continue;
+    }
+    for (const int g : tree_.find_faces(node)) {
+      const Face& n = face(g);
+      if (g == f) continue;
+      // Neighbours that rise inward are no other side.
+      const Vector3 normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
+      if (!(normal.dot(way) > 0.0)) continue;
+      const double far = find_way_to(at(n[0]), at(n[1]), at(n[2]), p, way);
+      if (far > 0.0) least = std::min(least, far);
+    }
+  }
+  return least;
+}
+
+bool Skin::is_summit(const SurfacePlace& place, const ModalView& eta,
+                     const Vector3& way, double tolerance) const {
+  const auto rises = [&](const Vector3& tangent) {
+    return way.dot(tangent) > tolerance * tangent.norm();
+  };
+  const auto weights = FacePlace{place.u, place.v}.weights();
+  const Face& nodes = face(place.face);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (weights[i] < 1.0 - kOnEdge) continue;
+    for (const int f : find_faces_of(nodes[i])) {
+      const Face& corners = face(f);
+      const std::size_t me = corners[0] == nodes[i]   ? 0
+                             : corners[1] == nodes[i] ? 1
+                                                      : 2;
+      const FacePatch patch = deform_face(f, eta);
+      const FacePlace& at = kCorners[me];
+      const Vector3 x_u = patch.find_tangent_u(at);
+      const Vector3 x_v = patch.find_tangent_v(at);
+      const std::array<Vector3, 2> ways =
+          me == 0   ? std::array<Vector3, 2>{x_u, x_v}
+          : me == 1 ? std::array<Vector3, 2>{-x_u, x_v - x_u}
+                    : std::array<Vector3, 2>{-x_v, x_u - x_v};
+      if (rises(ways[0]) || rises(ways[1])) return false;
+    }
+    return true;
+  }
+  for (int edge = 0; edge < 3; ++edge) {
+    if (weights[index((edge + 2) % 3)] > kOnEdge) continue;
+    const int a = nodes[index(edge)];
+    const int b = nodes[index((edge + 1) % 3)];
+    for (const int f : {place.face, find_neighbour(place.face, edge)}) {
+      if (f < 0) continue;  // a border
+      std::array<double, 3> there{};
+      std::size_t far = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int node = face(f)[i];
+        if (node == a) there[i] = weights[index(edge)];
+        if (node == b) there[i] = weights[index((edge + 1) % 3)];
+        if (node != a && node != b) far = i;
+      }
+      const FacePatch patch = deform_face(f, eta);
+      const FacePlace at{there[1], there[2]};
+      // Towards the corner that the edge has not.
+      if (rises(patch.find_tangent_u(at) * (kCorners[far].u - at.u) +
+                patch.find_tangent_v(at) * (kCorners[far].v - at.v))) {
+        return false;
+      }
+    }
+    return true;
+  }
+  return true;
+}
+
+}  // namespace limber::contact

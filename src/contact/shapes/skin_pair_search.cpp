@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/shapes/skin_pair_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace limber::contact {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr FacePlace kMiddle{1.0 / 3.0, 1.0 / 3.0};
+constexpr std::array<FacePlace, 3> kCorners = {
+    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
+// Cosine between sides that are turned to each other, at most [-].
+constexpr double kFacing = -0.05;
+// The same of sides in parallel, and the bulge of flat ones, of an edge [-].
+constexpr double kParallel = -0.995;
+constexpr double kFlatBulge = 0.01;
+constexpr double kExactlyFlat = 1e-6;
+// Slope beyond an edge that is round-off [-].
+constexpr double kRises = 1e-7;
+// First overlap that is looked for, of an edge, and its growth [-].
+constexpr double kFirstSlack = 0.1;
+constexpr double kMoreSlack = 4.0;
+constexpr double kSamePlace = 1e-6;  // of an edge [-]
+constexpr double kShallow = 0.02;    // of an edge [-]
+
+double find_gap(const SkinTree::Box& a, const SkinTree::Box& b) {
+  return ((a.centre - b.centre).cwiseAbs() - a.half - b.half)
+      .cwiseMax(0.0)
+      .norm();
+}
+
+bool is_flat(const FacePatch& patch, double edge) {
+  return patch.is_straight() || patch.find_bulge() < kFlatBulge * edge;
+}
+
+}  // namespace
+
+struct SkinPairSearch::Entry {
+  int node_A = 0;
+  int node_B = 0;
+  SkinTree::Box box_A;
+  SkinTree::Box box_B;
+  double gap = 0.0;
+};
+
+SkinPairSearch::SkinPairSearch(const DeformedSkin& A, const DeformedSkin& B,
+                               const Pose& X_AB)
+    : A_(A),
+      B_(B),
+      X_AB_(X_AB),
+      spread_(X_AB.R.cwiseAbs()),
+      edge_(std::min(A.skin.mean_edge(), B.skin.mean_edge())) {
+  deepest_.at.depth = -kInfinity;
+}
+
+SkinTree::Box SkinPairSearch::find_box_B(int node) const {
+  const SkinTree::Box box = B_.skin.tree().find_box(node, B_.eta);
+  return {X_AB_ * box.centre, spread_ * box.half};
+}
+
+double SkinPairSearch::limit() const {
+  return std::min({reach_, nearest_, std::max(-deepest_.at.depth, 0.0)}) +
+         slack_;
+}
+
+// Whether there may be an overlap deeper than what was looked for.
+bool SkinPairSearch::must_look_deeper() const {
+  if (!has_overlap_) return false;
+  double summit = -kInfinity;
+  for (std::size_t i = 0; i < count_; ++i) {
+    summit = std::max(summit, features_[i].at.depth);
+  }
+  return summit == -kInfinity || summit > 0.5 * slack_;
+}
+
+void SkinPairSearch::run(double reach) {
+  reach_ = reach;
+  const double most = std::min(A_.skin.find_ball(A_.eta).radius,
+                               B_.skin.find_ball(B_.eta).radius);
+  slack_ = std::min(kFirstSlack * edge_, most);
+  while (true) {
+    count_ = 0;
+    has_overlap_ = false;
+    deepest_.at.depth = -kInfinity;
+    least_gap_ = nearest_ = kInfinity;
+    descend(reach);
+    if (slack_ >= most || looked_ > kMostLooks || !must_look_deeper()) return;
+    slack_ = std::min(kMoreSlack * slack_, most);
+  }
+}
+
+std::array<SkinPairSearch::Entry, 2> SkinPairSearch::split(
+    const Entry& entry) const {
+  const SkinTree::Node& a = A_.skin.tree().node(entry.node_A);
+  const SkinTree::Node& b = B_.skin.tree().node(entry.node_B);
+  const bool splits_A =
+      b.is_leaf() || (!a.is_leaf() && entry.box_A.half.squaredNorm() >=
+                                          entry.box_B.half.squaredNorm());
+  std::array<Entry, 2> children = {entry, entry};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Entry& child = children[i];
+    if (splits_A) {
+      child.node_A = i == 0 ? entry.node_A + 1 : a.right;
+      child.box_A = A_.skin.tree().find_box(child.node_A, A_.eta);
+    } else {
+      child.node_B = i == 0 ? entry.node_B + 1 : b.right;
+      child.box_B = find_box_B(child.node_B);
+    }
+    child.gap = find_gap(child.box_A, child.box_B);
+  }
+  return children;
+}
+
+double SkinPairSearch::find_box_gap() const {
+  std::array<Entry, 2 * SkinTree::kMostLevels> stack;
+  std::size_t size = 0;
+  stack[size++] = make_root();
+  double least = kInfinity;
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry.gap >= least) continue;
+    if (A_.skin.tree().node(entry.node_A).is_leaf() &&
+        B_.skin.tree().node(entry.node_B).is_leaf()) {
+      least = entry.gap;
+      continue;
+    }
+    for (const Entry& child : split(entry)) stack[size++] = child;
+    if (stack[size - 1].gap > stack[size - 2].gap) {
+      std::swap(stack[size - 1], stack[size - 2]);
+    }
+  }
+  return least;
+}
+
+SkinPairSearch::Entry SkinPairSearch::make_root() const {
+  Entry root{.box_A = A_.skin.tree().find_box(0, A_.eta),
+             .box_B = find_box_B(0)};
+  root.gap = find_gap(root.box_A, root.box_B);
+  return root;
+}
+
+void SkinPairSearch::descend(double reach) {
+  std::array<Entry, 2 * SkinTree::kMostLevels> stack;
+  std::size_t size = 0;
+  const SkinTree& tree_A = A_.skin.tree();
+  const SkinTree& tree_B = B_.skin.tree();
+  stack[size++] = make_root();
+  if (stack[0].gap > reach) least_gap_ = stack[0].gap;
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry.gap > limit()) continue;
+    const SkinTree::Node& a = tree_A.node(entry.node_A);
+    const SkinTree::Node& b = tree_B.node(entry.node_B);
+    if (a.is_leaf() && b.is_leaf()) {
+      look_at_leaves(entry);
+      continue;
+    }
+    for (const Entry& child : split(entry)) stack[size++] = child;
+    // The nearer one first.
+    if (stack[size - 1].gap > stack[size - 2].gap) {
+      std::swap(stack[size - 1], stack[size - 2]);
+    }
+  }
+}
+
+void SkinPairSearch::look_at_leaves(const Entry& entry) {
+  const auto faces_A =
+      A_.skin.tree().find_faces(A_.skin.tree().node(entry.node_A));
+  const auto faces_B =
+      B_.skin.tree().find_faces(B_.skin.tree().node(entry.node_B));
+  has_overlap_ = has_overlap_ || entry.gap == 0.0;
+  least_gap_ = std::min(least_gap_, entry.gap);
+  std::array<std::optional<FacePatch>, SkinTree::kLeafFaces> patches_B;
+  for (std::size_t j = 0; j < faces_B.size(); ++j) {
+    patches_B[j].emplace(B_.skin.make_patch(faces_B[j], B_.eta, X_AB_));
+  }
+  for (const int f : faces_A) {
+    const FacePatch A = A_.skin.make_patch(f, A_.eta, Pose{});
+    for (std::size_t j = 0; j < faces_B.size(); ++j) {
+      look_at(f, A, faces_B[j], *patches_B[j]);
+    }
+  }
+}
+
+void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
+                             const FacePatch& B) {
+  ++looked_;
+  const Vector3 normal_A = A.find_normal(kMiddle).normalized();
+  const Vector3 normal_B = B.find_normal(kMiddle).normalized();
+  const double cosine = normal_A.dot(normal_B);
+  if (!(cosine < kFacing)) return;
+  const Vector3 normal = (normal_A - normal_B).normalized();
+  nearest_ = std::min(nearest_,
+                      (A.find_point(kMiddle) - B.find_point(kMiddle)).norm());
+  const FacePatch::Range on_A = A.find_range(normal);
+  const FacePatch::Range on_B = B.find_range(normal);
+  if (on_B.low - on_A.high > limit()) return;
+  if (!is_in_range(face_A, face_B, on_A.low - on_B.high)) return;
+  if (cosine < kParallel && is_flat(A, edge_) && is_flat(B, edge_)) {
+    look_at_corners(face_A, A, face_B, B, normal);
+    look_at_edges(face_A, A, face_B, B, normal);
+    // Of flat faces there is nothing else.
+    if (is_flat(A, kExactlyFlat * edge_) && is_flat(B, kExactlyFlat * edge_)) {
+      return;
+    }
+  }
+  const auto at = find_opposite(
+      A, B, normal, slack_,
+      A_.skin.measures(face_A).is_inner && B_.skin.measures(face_B).is_inner);
+  if (!at || !is_in_range(face_A, face_B, at->depth)) return;
+  if (-at->depth > limit()) return;
+  const Feature feature = make_feature(face_A, A, face_B, B, *at);
+  if (at->depth > deepest_.at.depth && is_genuine(feature)) deepest_ = feature;
+  if (is_summit(face_A, face_B, *at)) add(feature);
+}
+
+// Sides that are turned away from each other beyond a thin part are none that
+// overlap.
+bool SkinPairSearch::is_in_range(int face_A, int face_B, double depth) const {
+  return depth <= slack_ && depth <= 0.5 * (A_.skin.measures(face_A).thickness +
+                                            B_.skin.measures(face_B).thickness);
+}
+
+// Of a point in A's frame above a surface, < 0 inside.
+double SkinPairSearch::find_height(const DeformedSkin& over,
+                                   const Vector3& p) const {
+  const Vector3 at = &over == &A_ ? p : X_AB_.inverse() * p;
+  const auto hit = over.skin.find_nearest(at, over.eta, kInfinity, kInfinity);
+  return hit ? hit->nearest.distance : kInfinity;
+}
+
+bool SkinPairSearch::is_genuine(const Feature& feature) const {
+  constexpr double kLeast = 0.3;  // of the depth [-]
+  const double depth = feature.at.depth;
+  if (!(depth > 0.0)) return true;
+  const Vector3 half = 0.5 * depth * feature.at.normal;
+  const Vector3 a = feature.middle + half;
+  if (!feature.inward.isZero(0.0)) {
+    const Vector3 probe = a + 0.5 * depth * feature.inward;
+    return find_height(B_, probe) <= -kLeast * depth &&
+           std::abs(find_height(A_, probe)) <= kLeast * depth;
+  }
+  return find_height(B_, a) <= -kLeast * depth ||
+         find_height(A_, feature.middle - half) <= -kLeast * depth;
+}
+
+bool SkinPairSearch::is_summit(int face_A, int face_B,
+                               const FacePairPlace& at) const {
+  const SurfacePlace on_A{.face = face_A, .u = at.on_A.u, .v = at.on_A.v};
+  const SurfacePlace on_B{.face = face_B, .u = at.on_B.u, .v = at.on_B.v};
+  return A_.skin.is_summit(on_A, A_.eta, at.normal, kRises) &&
+         B_.skin.is_summit(on_B, B_.eta, -(X_AB_.R.transpose() * at.normal),
+                           kRises);
+}
+
+void SkinPairSearch::look_at_corners(int face_A, const FacePatch& A, int face_B,
+                                     const FacePatch& B,
+                                     const Vector3& normal) {
+  // Of `corner` of a face above the other one; `sign` 1: of A.
+  const auto look = [&](const FacePatch& from, const FacePatch& to,
+                        const FacePlace& corner, double sign) {
+    const Vector3 p = from.find_point(corner);
+    const FacePlace at = to.find_nearest(p, to.find_nearest_of_flat(p).at);
+    const Vector3 out = to.find_normal(at).normalized();
+    const Vector3 arm = p - to.find_point(at);
+    const double height = out.dot(arm);
+    if ((arm - height * out).norm() > kSamePlace * edge_) return;
+    if (out.dot(-sign * normal) < 0.5) return;
+    FacePairPlace pair{.on_A = sign > 0.0 ? corner : at,
+                       .on_B = sign > 0.0 ? at : corner,
+                       .normal = -sign * out,
+                       .depth = -height};
+    if (-pair.depth > limit() || !is_in_range(face_A, face_B, pair.depth)) {
+      return;
+    }
+    add(make_feature(face_A, A, face_B, B, pair));
+  };
+  for (const FacePlace& corner : kCorners) {
+    look(A, B, corner, 1.0);
+    look(B, A, corner, -1.0);
+  }
+}
+
+void SkinPairSearch::look_at_edges(int face_A, const FacePatch& A, int face_B,
+                                   const FacePatch& B, const Vector3& normal) {
+  const auto& sharp_A = A_.skin.measures(face_A).is_sharp;
+  const auto& sharp_B = B_.skin.measures(face_B).is_sharp;
+  const auto find_between = [](std::size_t edge, double s) {
+    const FacePlace& from = kCorners[edge];
+    const FacePlace& to = kCorners[(edge + 1) % 3];
+    return FacePlace{from.u + s * (to.u - from.u),
+                     from.v + s * (to.v - from.v)};
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const bool are_sharp = sharp_A[i] && sharp_B[j];
+      const auto at = find_crossing(
+          A.find_point(kCorners[i]), A.find_point(kCorners[(i + 1) % 3]),
+          B.find_point(kCorners[j]), B.find_point(kCorners[(j + 1) % 3]),
+          normal);
+      if (!at) continue;
+      FacePairPlace pair{.on_A = find_between(i, at->s),
+                         .on_B = find_between(j, at->t),
+                         .normal = normal};
+      pair.depth =
+          normal.dot(A.find_point(pair.on_A) - B.find_point(pair.on_B));
+      if (-pair.depth > limit() || !is_in_range(face_A, face_B, pair.depth)) {
+        continue;
+      }
+      if (!are_sharp && !is_summit(face_A, face_B, pair)) continue;
+      Feature feature = make_feature(face_A, A, face_B, B, pair);
+      const auto find_inward = [&normal](const FacePatch& face,
+                                         std::size_t edge) -> Vector3 {
+        const Vector3 from = face.find_point(kCorners[edge]);
+        const Vector3 along = face.find_point(kCorners[(edge + 1) % 3]) - from;
+        const Vector3 across = normal.cross(along).normalized();
+        const Vector3 far = face.find_point(kCorners[(edge + 2) % 3]) - from;
+        return across.dot(far) > 0.0 ? across : Vector3(-across);
+      };
+      feature.inward = (find_inward(A, i) + find_inward(B, j)).normalized();
+      add(feature);
+    }
+  }
+}
+
+SkinPairSearch::Feature SkinPairSearch::make_feature(
+    int face_A, const FacePatch& A, int face_B, const FacePatch& B,
+    const FacePairPlace& at) const {
+  const double curvature =
+      A.find_mean_curvature(at.on_A) + B.find_mean_curvature(at.on_B);
+  return {.face_A = face_A,
+          .face_B = face_B,
+          .at = at,
+          .middle = 0.5 * (A.find_point(at.on_A) + B.find_point(at.on_B)),
+          .curvature = std::max(0.0, curvature)};
+}
+
+void SkinPairSearch::add(const Feature& feature) {
+  // Many of flat faces are shallow; of these only those that count are tested.
+  if (feature.at.depth > kShallow * edge_ && !is_genuine(feature)) return;
+  if (feature.at.depth > deepest_.at.depth) deepest_ = feature;
+  std::size_t shallowest = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double far = (features_[i].middle - feature.middle).norm();
+    if (far < kSamePlace * edge_) {
+      if (feature.at.depth > features_[i].at.depth) features_[i] = feature;
+      return;
+    }
+    if (features_[i].at.depth < features_[shallowest].at.depth) shallowest = i;
+  }
+  if (count_ < kMostFeatures) {
+    features_[count_++] = feature;
+  } else if (feature.at.depth > features_[shallowest].at.depth) {
+    features_[shallowest] = feature;
+  }
+}
+
+// Of the area around a feature in which both overlap, enlarged a little; flat
+// parts count as round as the whole.
+double SkinPairSearch::find_radius(const Feature& feature) const {
+  constexpr double kLarger = 1.2;
+  constexpr double kLeast = 0.25;  // of an edge
+  const double size = std::min(A_.skin.find_ball(A_.eta).radius,
+                               B_.skin.find_ball(B_.eta).radius);
+  const double curvature = std::max(feature.curvature, 1.0 / size);
+  const double depth = std::max(feature.at.depth, 0.0);
+  return std::max(kLarger * std::sqrt(2.0 * depth / curvature), kLeast * edge_);
+}
+
+std::size_t SkinPairSearch::select(std::span<Feature> out) const {
+  constexpr double kWider = 1.5;
+  constexpr double kNoShare = 1e-6;
+  // Of equally deep features those farther out count first.
+  constexpr double kOuter = 1e-3;
+  Vector3 centre = Vector3::Zero();
+  for (std::size_t i = 0; i < count_; ++i) centre += features_[i].middle;
+  centre /= std::max<double>(1.0, static_cast<double>(count_));
+  double extent = edge_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    extent = std::max(extent, (features_[i].middle - centre).norm());
+  }
+  std::array<double, kMostFeatures> shares;
+  std::array<double, kMostFeatures> room;  // from those taken, of the extent
+  std::array<bool, kMostFeatures> is_left;
+  for (std::size_t i = 0; i < count_; ++i) {
+    shares[i] = 1.0;
+    room[i] = (features_[i].middle - centre).norm() / extent;
+    is_left[i] = true;
+  }
+  std::size_t taken = 0;
+  while (taken < out.size()) {
+    std::size_t best = count_;
+    double highest = -kInfinity;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!is_left[i] || shares[i] < kNoShare) continue;
+      const double depth = features_[i].at.depth;
+      const double score = depth + kOuter * std::abs(depth) * room[i];
+      if (!(score > highest)) continue;
+      highest = score;
+      best = i;
+    }
+    if (best == count_) break;
+    if (!is_genuine(features_[best])) {
+      is_left[best] = false;
+      continue;
+    }
+    out[taken] = features_[best];
+    out[taken].share = shares[best];
+    ++taken;
+    is_left[best] = false;
+    const double radius = find_radius(features_[best]);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double far = (features_[i].middle - features_[best].middle).norm();
+      room[i] = taken == 1 ? far / extent : std::min(room[i], far / extent);
+      shares[i] *= std::clamp((far / radius - 1.0) / (kWider - 1.0), 0.0, 1.0);
+    }
+  }
+  if (taken == 0 && deepest() > -kInfinity && !out.empty()) {
+    out[taken++] = deepest_;
+  }
+  return taken;
+}
+
+}  // namespace limber::contact

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+
+#include "limber/common/pose.hpp"
+#include "limber/contact/shapes/face_pair.hpp"
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+
+/// A skin with the coordinates of its body.
+struct DeformedSkin {
+  const Skin& skin;
+  ModalView eta;
+};
+
+/// Searches where two skins are nearest or overlap, in the frame of A.
+///
+/// Equation   both trees are descended together; of every two faces within
+///            reach whose sides are turned to each other find_opposite, which
+///            counts where neither surface rises beyond the edges that it is
+///            held by. Of flat faces in parallel the corners of their common
+///            area: corners of either above the other, and crossing sharp edges
+/// Limits     overlaps up to half of the sum of both thicknesses there
+class SkinPairSearch {
+ public:
+  struct Feature {
+    int face_A = -1;
+    int face_B = -1;
+    FacePairPlace at;
+    Vector3 middle = Vector3::Zero();  ///< between both points, in A [m]
+    double curvature = 0.0;            ///< of both, >= 0 [1/m]
+    double share = 1.0;                ///< [-]
+    /// Of edges that cross: into both faces, unit; otherwise 0 [-].
+    Vector3 inward = Vector3::Zero();
+  };
+
+  /// @param X_AB pose of B's body in A's
+  SkinPairSearch(const DeformedSkin& A, const DeformedSkin& B,
+                 const Pose& X_AB);
+
+  /// @param reach >= 0: pairs farther apart do not count [m]
+  void run(double reach);
+
+  /// A lower bound of the distance by boxes alone, cheap [m].
+  [[nodiscard]] double find_box_gap() const;
+
+  /// -distance or depth of the deepest of all pairs; -infinity: none [m].
+  [[nodiscard]] double deepest() const { return deepest_.at.depth; }
+  /// A lower bound of the distance where there is no feature [m].
+  [[nodiscard]] double least_gap() const { return least_gap_; }
+
+  /// The deepest features that are apart from each other, the deepest first. A
+  /// feature near to a deeper one is part of the same area of contact: its
+  /// share falls to 0 from 1.5 to once the radius within which both overlap.
+  /// @returns how many there are
+  std::size_t select(std::span<Feature> out) const;
+
+ private:
+  struct Entry;
+
+  void descend(double reach);
+  // The pair of both roots, and those below a pair.
+  [[nodiscard]] Entry make_root() const;
+  [[nodiscard]] std::array<Entry, 2> split(const Entry& entry) const;
+  void look_at_leaves(const Entry& entry);
+  void look_at(int face_A, const FacePatch& A, int face_B, const FacePatch& B);
+  void look_at_corners(int face_A, const FacePatch& A, int face_B,
+                       const FacePatch& B, const Vector3& normal);
+  void look_at_edges(int face_A, const FacePatch& A, int face_B,
+                     const FacePatch& B, const Vector3& normal);
+  [[nodiscard]] bool is_summit(int face_A, int face_B,
+                               const FacePairPlace& at) const;
+  void add(const Feature& feature);
+  // Whether nothing of either surface is much nearer than the opposite place:
+  // sides that pass each other beside the contact are no overlap.
+  [[nodiscard]] bool is_genuine(const Feature& feature) const;
+  [[nodiscard]] double find_height(const DeformedSkin& over,
+                                   const Vector3& p) const;
+  [[nodiscard]] bool is_in_range(int face_A, int face_B, double depth) const;
+  [[nodiscard]] Feature make_feature(int face_A, const FacePatch& A, int face_B,
+                                     const FacePatch& B,
+                                     const FacePairPlace& at) const;
+  [[nodiscard]] SkinTree::Box find_box_B(int node) const;
+  [[nodiscard]] double limit() const;
+  [[nodiscard]] double find_radius(const Feature& feature) const;
+  [[nodiscard]] bool must_look_deeper() const;
+
+  static constexpr std::size_t kMostFeatures = 96;
+  // Pairs of faces after which it looks for no deeper overlaps.
+  static constexpr int kMostLooks = 60000;
+
+  DeformedSkin A_;
+  DeformedSkin B_;
+  Pose X_AB_;
+  Matrix3 spread_;  // |R_AB|
+  double edge_;     // shorter mean edge
+  double reach_ = 0.0;
+  double slack_ = 0.0;  // up to which overlaps are looked for
+  bool has_overlap_ = false;
+  int looked_ = 0;  // pairs of faces
+  double least_gap_ = std::numeric_limits<double>::infinity();
+  // An upper bound of the distance.
+  double nearest_ = std::numeric_limits<double>::infinity();
+  Feature deepest_;  // of all, summits or not
+  std::array<Feature, kMostFeatures> features_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace limber::contact
