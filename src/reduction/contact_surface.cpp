@@ -4,17 +4,150 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <vector>
 
 #include "limber/common/index.hpp"
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
-#include "limber/reduction/contact_pads.hpp"
 #include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_radii.hpp"
 #include "limber/reduction/contact_residual.hpp"
 
 namespace limber::flexbody {
 namespace {
+
+constexpr double kFlat = 1e-6;  // of the surface's size, and of the normals
+constexpr double kSame = 1e-6;  // distances that differ by less are equal [-]
+
+Vector3 find_centre(const fem::Surface& surface) {
+  Vector3 centre = Vector3::Zero();
+  for (const fem::SurfacePoint& point : surface.points) centre += point.x;
+  return centre / static_cast<double>(surface.points.size());
+}
+
+std::vector<Vector3> list_corners(const fem::Surface& surface) {
+  std::vector<Vector3> corners;
+  for (const fem::SurfacePoint& point : surface.points) {
+    if (point.is_corner()) corners.push_back(point.x);
+  }
+  return corners;
+}
+
+// The farthest from all chosen ones first, with its distance.
+struct Spread {
+  std::vector<Vector3> places;
+  std::vector<double> distances;
+};
+
+Spread spread_out(const std::vector<Vector3>& corners, const Vector3& centre) {
+  const std::size_t most =
+      std::min(corners.size(), static_cast<std::size_t>(kMostPads) + 1);
+  std::vector<double> distance;
+  for (const Vector3& x : corners) distance.push_back((x - centre).norm());
+  Spread spread;
+  while (spread.places.size() < most) {
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      if (distance[i] > (1.0 + kSame) * distance[next]) next = i;
+    }
+    spread.places.push_back(corners[next]);
+    spread.distances.push_back(distance[next]);
+    const bool is_first = spread.places.size() == 1;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const double d = (corners[i] - corners[next]).norm();
+      distance[i] = is_first ? d : std::min(distance[i], d);
+    }
+  }
+  return spread;
+}
+
+std::vector<Vector3> choose_places(const std::vector<Vector3>& corners,
+                                   const Vector3& centre) {
+  constexpr std::size_t kFewest = 9;
+  constexpr double kDrop = 0.9;
+  Spread spread = spread_out(corners, centre);
+  std::size_t count = std::min<std::size_t>(spread.places.size(), kMostPads);
+  if (spread.places.size() > kMostPads) {
+    for (std::size_t k = count; k >= kFewest; --k) {
+      if (spread.distances[k] > kDrop * spread.distances[k - 1]) continue;
+      count = k;
+      break;
+    }
+  }
+  spread.places.resize(count);
+  return spread.places;
+}
+
+// Those among `places` that are nearest to x.
+std::vector<std::size_t> find_nearest(const std::vector<Vector3>& places,
+                                      const Vector3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3& place : places) {
+    least = std::min(least, (place - x).norm());
+  }
+  std::vector<std::size_t> nearest;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if ((places[i] - x).norm() <= (1.0 + kSame) * least) nearest.push_back(i);
+  }
+  return nearest;
+}
+
+// Of every pad the area that its nodes carry.
+using Shares = std::vector<std::map<int, double>>;
+
+void add_shares(const fem::Mesh& mesh, const fem::SurfaceFace& face,
+                const fem::FaceTable& rule, const std::vector<Vector3>& places,
+                Shares& shares) {
+  const Matrix3X x = mesh.x(Eigen::all, face.nodes);
+  const Matrix3X points = x * rule.shape;
+  const Matrix3X along_u = x * rule.along_u;
+  const Matrix3X along_v = x * rule.along_v;
+  for (Eigen::Index q = 0; q < points.cols(); ++q) {
+    const double area =
+        rule.weights[q] *
+        Vector3(along_u.col(q)).cross(Vector3(along_v.col(q))).norm();
+    const std::vector<std::size_t> pads = find_nearest(places, points.col(q));
+    for (const std::size_t pad : pads) {
+      for (std::size_t k = 0; k < face.nodes.size(); ++k) {
+        shares[pad][face.nodes[k]] +=
+            area / static_cast<double>(pads.size()) *
+            rule.shape(static_cast<Eigen::Index>(k), q);
+      }
+    }
+  }
+}
+
+std::vector<ContactPatch> divide(const fem::Mesh& mesh,
+                                 const fem::Surface& surface,
+                                 const Vector3& normal,
+                                 const std::vector<Vector3>& places,
+                                 VectorX& area) {
+  // Even, so that pads' borders amid a face are those of its cells.
+  constexpr int kDivisions = 16;
+  std::vector<fem::FaceTable> rules;
+  for (const fem::FaceShape& shape : surface.shapes) {
+    rules.push_back(shape.make_rule(kDivisions));
+  }
+  Shares shares(places.size());
+  for (const fem::SurfaceFace& face : surface.faces) {
+    add_shares(mesh, face, rules[face.shape], places, shares);
+  }
+  area.setZero(std::ssize(places));
+  std::vector<ContactPatch> pads;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ContactPatch pad{normal, 0.0, {}, VectorX(std::ssize(shares[i]))};
+    for (const auto& [node, share] : shares[i]) {
+      pad.weights[std::ssize(pad.nodes)] = share;
+      pad.nodes.push_back(node);
+    }
+    area[static_cast<Eigen::Index>(i)] = pad.weights.sum();
+    pad.weights /= pad.weights.sum();
+    pads.push_back(std::move(pad));
+  }
+  return pads;
+}
 
 /// Of corners by solution, of the points between them as their mean.
 VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
@@ -85,6 +218,39 @@ std::vector<ContactSurface> make_contact_surfaces(
     surfaces.push_back(
         make_contact_surface(body, group, basis, Phi, center, progress));
   return surfaces;
+}
+
+bool is_flat(const fem::Surface& surface, const Matrix3X& normals) {
+  const Vector3 normal = normals.rowwise().sum().normalized();
+  const Vector3 centre = find_centre(surface);
+  double size = 0.0;
+  double height = 0.0;
+  for (const fem::SurfacePoint& point : surface.points) {
+    size = std::max(size, (point.x - centre).norm());
+    height = std::max(height, std::abs(normal.dot(point.x - centre)));
+  }
+  return height <= kFlat * size &&
+         ((normal.transpose() * normals).array() > 1.0 - kFlat).all();
+}
+
+ContactPads make_contact_pads(const MeshedBody& body,
+                              const fem::Surface& surface,
+                              const Matrix3X& normals,
+                              const ReducedBasis& basis, const MatrixX& Phi,
+                              const Vector3& center) {
+  const std::vector<Vector3> places =
+      choose_places(list_corners(surface), find_centre(surface));
+  ContactPads pads;
+  pads.normal_B = normals.rowwise().sum().normalized();
+  pads.x_B.resize(3, std::ssize(places));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    pads.x_B.col(static_cast<Eigen::Index>(i)) = places[i] - center;
+  }
+  const std::vector<ContactPatch> patches =
+      divide(body.mesh, surface, pads.normal_B, places, pads.area);
+  pads.Phi_B = average(Phi, patches);
+  pads.flexibility = calc_residual_matrix(body, basis, patches);
+  return pads;
 }
 
 }  // namespace limber::flexbody

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "limber/fem/mesh/surface.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/reduction/meshed_body.hpp"
@@ -17,5 +18,30 @@ namespace limber::flexbody {
 [[nodiscard]] std::vector<ContactSurface> make_contact_surfaces(
     const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center, const Progress& progress);
+
+/// Most pads of a surface.
+inline constexpr int kMostPads = 25;
+
+/// Whether all points lie in one plane, to a millionth of the surface's size.
+[[nodiscard]] bool is_flat(const fem::Surface& surface,
+                           const Matrix3X& normals);
+
+/// Divides a flat surface into pads about some of its corner nodes, at most
+/// kMostPads of them: each is what is nearer to its node than to the others.
+///
+/// Equation   nodes that are farthest from those chosen before, from the one
+///            farthest from the centre on, up to where the distance drops, so
+///            that regular meshes have regular pads; weights of a pad
+///            w_n = int_pad N_n dA / int_pad dA
+/// Source     [@gonzalez1985] for the nodes
+/// @param normals 3 x n, unit, outward
+/// @param basis on the free nodes; @param Phi its 3N x m rows of all nodes
+/// @param center of mass, mesh frame [m]
+[[nodiscard]] ContactPads make_contact_pads(const MeshedBody& body,
+                                            const fem::Surface& surface,
+                                            const Matrix3X& normals,
+                                            const ReducedBasis& basis,
+                                            const MatrixX& Phi,
+                                            const Vector3& center);
 
 }  // namespace limber::flexbody

@@ -78,8 +78,8 @@ joints::PairResponse make_response(const SystemModel& model, const Pair& pair) {
   const auto modes_of = [&](BodyIndex b) {
     return b == kWorld ? 0 : model.bodies[index(b)].modes;
   };
-  return {pair.law->most_points(), modes_of(pair.body_A),
-          modes_of(pair.body_B), pair.law->couples_points()};
+  return {pair.law->most_points(), modes_of(pair.body_A), modes_of(pair.body_B),
+          pair.law->couples_points()};
 }
 
 PairTerms make_pair_terms(const SystemModel& model) {

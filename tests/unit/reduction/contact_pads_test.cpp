@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/reduction/contact_pads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include "limber/fem/mesh/node_weights.hpp"
 #include "limber/reduction/contact_groups.hpp"
 #include "limber/reduction/contact_radii.hpp"
+#include "limber/reduction/contact_surface.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"
 
