@@ -48,8 +48,8 @@ struct SystemState {
   std::vector<ControllerState> controllers;  ///< one a controller
   /// Memory of pairs, one after the other; changes only at accepted steps.
   std::vector<double> pair_memory;
-  /// Of each pair 1 if it is so far apart that it has no points in the coming
-  /// step, and is not evaluated; empty if nothing is known.
+  /// Of each pair 1 if its bodies do not touch: it then has no points in the
+  /// coming step, and is not evaluated; empty if nothing is known.
   std::vector<char> far_pairs;
 };
 
