@@ -54,9 +54,9 @@ class Connected {
   std::vector<std::size_t> above_;
 };
 
-// Rows of D = de/dq at p, a column a mode in P.
-using RowsOfD = Eigen::Matrix<double, kRows, Eigen::Dynamic, 0, kRows,
-                              QuadraticStrain::kMostPaired>;
+// Columns are rows of D = de/dq at p.
+using RowsOfD = Eigen::Matrix<double, Eigen::Dynamic, kRows, 0,
+                              QuadraticStrain::kMostPaired, kRows>;
 
 }  // namespace
 
@@ -151,14 +151,30 @@ void QuadraticStrain::add_force(const Block& block, const Paired& p,
   }
   Chunk weights;
   for (Eigen::Index first = 0; first < block.Q.rows(); first += kChunk) {
-    weights.resize(std::min(kChunk, block.Q.rows() - first));
-    weights.noalias() = block.Q.middleRows(first, weights.size()) * w;
+    weights.setZero(std::min(kChunk, block.Q.rows() - first));
+    const auto Q = block.Q.middleRows(first, weights.size());
+    // Column by column, as they are in memory: a product by rows would wait for
+    // it.
+    Eigen::Index r = 0;
+    for (; r + 3 < w.size(); r += 4) {
+      weights += w[r] * Q.col(r) + w[r + 1] * Q.col(r + 1) +
+                 w[r + 2] * Q.col(r + 2) + w[r + 3] * Q.col(r + 3);
+    }
+    for (; r < w.size(); ++r) weights += w[r] * Q.col(r);
     const int* i = block.i.data() + first;
     const int* j = block.j.data() + first;
+    int row = i[0];  // pairs are in order of i
+    double sum = 0.0;
     for (Eigen::Index k = 0; k < weights.size(); ++k) {
-      force[i[k]] += weights[k] * p[j[k]];
-      force[j[k]] += weights[k] * p[i[k]];
+      if (i[k] != row) {
+        force[row] += sum;
+        sum = 0.0;
+        row = i[k];
+      }
+      sum += weights[k] * p[j[k]];
+      force[j[k]] += weights[k] * p[row];
     }
+    force[row] += sum;
   }
 }
 
@@ -202,29 +218,35 @@ void QuadraticStrain::add_tangent(const Block& block, const Paired& a,
                                   ModesSquare tangent) const {
   const Eigen::Index pairs = block.Q.rows();
   const auto find_rows = [&](Eigen::Index first, const Paired& p) {
-    RowsOfD D = RowsOfD::Zero(kRows, p.size());
-    for (Eigen::Index r = 0; r < std::min(kRows, w.size() - first); ++r) {
-      D(r, block.rows[static_cast<std::size_t>(first + r)]) =
+    RowsOfD D = RowsOfD::Zero(p.size(), kRows);
+    const Eigen::Index rows = std::min(kRows, w.size() - first);
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      D(block.rows[static_cast<std::size_t>(first + r)], r) =
           block.roots[first + r];
-      const double* q = block.Q.col(first + r).data();
-      for (Eigen::Index k = 0; k < pairs; ++k) {
-        const int i = block.i[static_cast<std::size_t>(k)];
-        const int j = block.j[static_cast<std::size_t>(k)];
-        D(r, i) += q[k] * p[j];
-        D(r, j) += q[k] * p[i];
+    }
+    for (Eigen::Index k = 0, n = 0; k < pairs; k += n) {
+      // A run of pairs i, j; i, j + 1; ..
+      const int* i = block.i.data() + k;
+      const int* j = block.j.data() + k;
+      n = 1;
+      while (k + n < pairs && i[n] == i[0] && j[n] == j[0] + n) ++n;
+      for (Eigen::Index r = 0; r < rows; ++r) {
+        const auto q = block.Q.col(first + r).segment(k, n);
+        D(i[0], r) += q.dot(p.segment(j[0], n));
+        D.col(r).segment(j[0], n) += p[i[0]] * q;
       }
     }
     return D;
   };
+  Paired sum(a.size());
   for (Eigen::Index first = 0; first < w.size(); first += kRows) {
     const RowsOfD D_a = find_rows(first, a);
-    const RowsOfD D_b = find_rows(first, b);
+    const RowsOfD D_b = &a == &b ? D_a : find_rows(first, b);
     for (Eigen::Index j = 0; j < b.size(); ++j) {
-      if (D_b.col(j).isZero(0.0)) continue;
+      if (D_b.row(j).isZero(0.0)) continue;
+      sum.noalias() = D_a.lazyProduct(D_b.row(j).transpose());
       double* column = tangent.col(mode(j)).data();
-      for (Eigen::Index i = 0; i < a.size(); ++i) {
-        column[mode(i)] += D_a.col(i).dot(D_b.col(j));
-      }
+      for (Eigen::Index i = 0; i < sum.size(); ++i) column[mode(i)] += sum[i];
     }
   }
   for (Eigen::Index k = 0; k < pairs; ++k) {
