@@ -325,6 +325,8 @@ joints::PairTouch ContactPair::find_touch(const PairBodies& bodies,
   shapes_.find(bodies, kInfinity, meetings.all());
   const std::size_t i = meetings.find_deepest();
   const Meeting& deepest = meetings[i];
+  if (deepest.depth == Meeting{}.depth)
+    return {.depth = -find_clearance(bodies)};
   scratch.clear();
   const PointMotion motion = place(bodies, deepest, {}, 0.0, scratch.add());
   return {.depth = motion.depth,

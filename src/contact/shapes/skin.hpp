@@ -122,7 +122,9 @@ class Skin {
     /// Whether the surface is convex there by more than 20 degrees, at the
     /// edges 01, 12, 20.
     std::array<bool, 3> is_sharp = {};
-    /// Whether no such edge and no border meets the face.
+    /// Whether such edges or borders end or turn in its corners.
+    std::array<bool, 3> is_corner = {};
+    /// Whether neither such an edge nor a border meets the face.
     bool is_inner = true;
   };
   [[nodiscard]] const FaceMeasures& measures(int f) const {

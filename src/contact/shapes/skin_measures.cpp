@@ -117,18 +117,37 @@ void Skin::measure() {
   mark_inner();
 }
 
+// A node where sharp edges or borders meet is on an edge; unless these are two
+// that go on straight, it is a corner.
 void Skin::mark_inner() {
-  std::vector<bool> is_edge = is_border_node_;
+  constexpr double kStraight = 0.996;  // cosine of 5 degrees
+  const std::size_t n = node_count();
+  std::vector<int> counts(n, 0);
+  std::vector<Vector3> sums(n, Vector3::Zero());
+  const auto add = [&](int node, int other) {
+    const Vector3 way = surface_.x_B.col(other) - surface_.x_B.col(node);
+    ++counts[index(node)];
+    sums[index(node)] += way.normalized();
+  };
   for (std::size_t f = 0; f < face_count(); ++f) {
     for (std::size_t edge = 0; edge < 3; ++edge) {
-      if (!measures_[f].is_sharp[edge]) continue;
-      is_edge[index(surface_.faces[f][edge])] = true;
-      is_edge[index(surface_.faces[f][(edge + 1) % 3])] = true;
+      if (!measures_[f].is_sharp[edge] && !is_border_[f][edge]) continue;
+      const int a = surface_.faces[f][edge];
+      const int b = surface_.faces[f][(edge + 1) % 3];
+      add(a, b);
+      add(b, a);
     }
   }
+  // Inner edges count twice. Of two ways |sum|^2 = 2 + 2 cos, from both faces 4
+  // times that.
+  const double straight = 8.0 * (1.0 - kStraight);
   for (std::size_t f = 0; f < face_count(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (is_edge[index(surface_.faces[f][i])]) measures_[f].is_inner = false;
+      const std::size_t node = index(surface_.faces[f][i]);
+      if (counts[node] == 0) continue;
+      measures_[f].is_inner = false;
+      measures_[f].is_corner[i] =
+          counts[node] > 4 || sums[node].squaredNorm() > straight;
     }
   }
 }

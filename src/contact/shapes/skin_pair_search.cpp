@@ -26,6 +26,7 @@ constexpr double kFirstSlack = 0.1;
 constexpr double kMoreSlack = 4.0;
 constexpr double kSamePlace = 1e-6;  // of an edge [-]
 constexpr double kShallow = 0.02;    // of an edge [-]
+constexpr double kNoDepth = 1e-7;    // up to which round-off tells, likewise
 
 double find_gap(const SkinTree::Box& a, const SkinTree::Box& b) {
   return ((a.centre - b.centre).cwiseAbs() - a.half - b.half)
@@ -172,7 +173,6 @@ void SkinPairSearch::look_at_leaves(const Entry& entry) {
       A_.skin.tree().find_faces(A_.skin.tree().node(entry.node_A));
   const auto faces_B =
       B_.skin.tree().find_faces(B_.skin.tree().node(entry.node_B));
-  has_overlap_ = has_overlap_ || entry.gap == 0.0;
   least_gap_ = std::min(least_gap_, entry.gap);
   std::array<std::optional<FacePatch>, SkinTree::kLeafFaces> patches_B;
   for (std::size_t j = 0; j < faces_B.size(); ++j) {
@@ -181,18 +181,19 @@ void SkinPairSearch::look_at_leaves(const Entry& entry) {
   for (const int f : faces_A) {
     const FacePatch A = A_.skin.make_patch(f, A_.eta, Pose{});
     for (std::size_t j = 0; j < faces_B.size(); ++j) {
-      look_at(f, A, faces_B[j], *patches_B[j]);
+      look_at(f, A, faces_B[j], *patches_B[j], entry.gap == 0.0);
     }
   }
 }
 
 void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
-                             const FacePatch& B) {
+                             const FacePatch& B, bool do_boxes_meet) {
   ++looked_;
   const Vector3 normal_A = A.find_normal(kMiddle).normalized();
   const Vector3 normal_B = B.find_normal(kMiddle).normalized();
   const double cosine = normal_A.dot(normal_B);
   if (!(cosine < kFacing)) return;
+  has_overlap_ = has_overlap_ || do_boxes_meet;
   const Vector3 normal = (normal_A - normal_B).normalized();
   nearest_ = std::min(nearest_,
                       (A.find_point(kMiddle) - B.find_point(kMiddle)).norm());
@@ -236,7 +237,7 @@ double SkinPairSearch::find_height(const DeformedSkin& over,
 bool SkinPairSearch::is_genuine(const Feature& feature) const {
   constexpr double kLeast = 0.3;  // of the depth [-]
   const double depth = feature.at.depth;
-  if (!(depth > 0.0)) return true;
+  if (!(depth > kNoDepth * edge_)) return true;
   const Vector3 half = 0.5 * depth * feature.at.normal;
   const Vector3 a = feature.middle + half;
   if (!feature.inward.isZero(0.0)) {
@@ -262,7 +263,7 @@ void SkinPairSearch::look_at_corners(int face_A, const FacePatch& A, int face_B,
                                      const Vector3& normal) {
   // Of `corner` of a face above the other one; `sign` 1: of A.
   const auto look = [&](const FacePatch& from, const FacePatch& to,
-                        const FacePlace& corner, double sign) {
+                        const FacePlace& corner, double sign, bool is_outer) {
     const Vector3 p = from.find_point(corner);
     const FacePlace at = to.find_nearest(p, to.find_nearest_of_flat(p).at);
     const Vector3 out = to.find_normal(at).normalized();
@@ -277,11 +278,13 @@ void SkinPairSearch::look_at_corners(int face_A, const FacePatch& A, int face_B,
     if (-pair.depth > limit() || !is_in_range(face_A, face_B, pair.depth)) {
       return;
     }
-    add(make_feature(face_A, A, face_B, B, pair));
+    Feature feature = make_feature(face_A, A, face_B, B, pair);
+    feature.is_outer = is_outer;
+    add(feature);
   };
-  for (const FacePlace& corner : kCorners) {
-    look(A, B, corner, 1.0);
-    look(B, A, corner, -1.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    look(A, B, kCorners[i], 1.0, A_.skin.measures(face_A).is_corner[i]);
+    look(B, A, kCorners[i], -1.0, B_.skin.measures(face_B).is_corner[i]);
   }
 }
 
@@ -343,19 +346,23 @@ void SkinPairSearch::add(const Feature& feature) {
   // Many of flat faces are shallow; of these only those that count are tested.
   if (feature.at.depth > kShallow * edge_ && !is_genuine(feature)) return;
   if (feature.at.depth > deepest_.at.depth) deepest_ = feature;
-  std::size_t shallowest = 0;
+  // Inner nodes of flat parts give way to their corners.
+  const auto is_less = [](const Feature& a, const Feature& b) {
+    return a.is_outer != b.is_outer ? b.is_outer : a.at.depth < b.at.depth;
+  };
+  std::size_t least = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     const double far = (features_[i].middle - feature.middle).norm();
     if (far < kSamePlace * edge_) {
       if (feature.at.depth > features_[i].at.depth) features_[i] = feature;
       return;
     }
-    if (features_[i].at.depth < features_[shallowest].at.depth) shallowest = i;
+    if (is_less(features_[i], features_[least])) least = i;
   }
   if (count_ < kMostFeatures) {
     features_[count_++] = feature;
-  } else if (feature.at.depth > features_[shallowest].at.depth) {
-    features_[shallowest] = feature;
+  } else if (is_less(features_[least], feature)) {
+    features_[least] = feature;
   }
 }
 
@@ -386,8 +393,10 @@ std::size_t SkinPairSearch::select(std::span<Feature> out) const {
   std::array<double, kMostFeatures> shares;
   std::array<double, kMostFeatures> room;  // from those taken, of the extent
   std::array<bool, kMostFeatures> is_left;
+  bool has_outer = false;
   for (std::size_t i = 0; i < count_; ++i) {
     shares[i] = 1.0;
+    has_outer = has_outer || features_[i].is_outer;
     room[i] = (features_[i].middle - centre).norm() / extent;
     is_left[i] = true;
   }
@@ -397,6 +406,7 @@ std::size_t SkinPairSearch::select(std::span<Feature> out) const {
     double highest = -kInfinity;
     for (std::size_t i = 0; i < count_; ++i) {
       if (!is_left[i] || shares[i] < kNoShare) continue;
+      if (has_outer && !features_[i].is_outer) continue;
       const double depth = features_[i].at.depth;
       const double score = depth + kOuter * std::abs(depth) * room[i];
       if (!(score > highest)) continue;

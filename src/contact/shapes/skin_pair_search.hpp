@@ -34,6 +34,7 @@ class SkinPairSearch {
     Vector3 middle = Vector3::Zero();  ///< between both points, in A [m]
     double curvature = 0.0;            ///< of both, >= 0 [1/m]
     double share = 1.0;                ///< [-]
+    bool is_outer = true;  ///< false: a node of a flat part that is no corner
     /// Of edges that cross: into both faces, unit; otherwise 0 [-].
     Vector3 inward = Vector3::Zero();
   };
@@ -67,7 +68,8 @@ class SkinPairSearch {
   [[nodiscard]] Entry make_root() const;
   [[nodiscard]] std::array<Entry, 2> split(const Entry& entry) const;
   void look_at_leaves(const Entry& entry);
-  void look_at(int face_A, const FacePatch& A, int face_B, const FacePatch& B);
+  void look_at(int face_A, const FacePatch& A, int face_B, const FacePatch& B,
+               bool do_boxes_meet);
   void look_at_corners(int face_A, const FacePatch& A, int face_B,
                        const FacePatch& B, const Vector3& normal);
   void look_at_edges(int face_A, const FacePatch& A, int face_B,
