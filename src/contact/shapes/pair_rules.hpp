@@ -48,6 +48,10 @@ void meet_convex(const PlacedShape& A, const PlacedShape& B,
 inline constexpr std::size_t kSkinFeatures = 8;
 void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
                 std::span<Meeting> out);
+/// The corner of a face of either that is deepest inside the other, however
+/// deep; of depth -infinity: none is. Slow.
+[[nodiscard]] Meeting find_enclosed_corner(const PlacedShape& A,
+                                           const PlacedShape& B);
 /// A lower bound of the distance, the distance itself unless it is far; < 0 if
 /// they overlap [m].
 [[nodiscard]] double find_skins_clearance(const PlacedShape& A,

@@ -96,6 +96,12 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
   }
 }
 
+Meeting ShapePair::find_enclosed(const joints::PairBodies& bodies) const {
+  if (rule_ != Rule::kSkins) return {};
+  return find_enclosed_corner(PlacedShape(skin_A_, bodies.A),
+                              PlacedShape(skin_B_, bodies.B));
+}
+
 double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
   const PlacedShape A(A_, bodies.A);
   const PlacedShape B(B_, bodies.B);

@@ -53,6 +53,11 @@ class ShapePair {
   void find(const joints::PairBodies& bodies, double reach,
             std::span<Meeting> out) const;
 
+  /// How deep bodies are in each other that overlap by more than `find` looks
+  /// for, and where, at the start of a run: depth and p_W alone. The depth is
+  /// -infinity for pairs whose features are found at any depth.
+  [[nodiscard]] Meeting find_enclosed(const joints::PairBodies& bodies) const;
+
   /// A lower bound of the distance between both, near to it where they are
   /// close; 0 if they touch [m].
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;

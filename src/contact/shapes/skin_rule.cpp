@@ -69,6 +69,33 @@ void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
   }
 }
 
+Meeting find_enclosed_corner(const PlacedShape& A, const PlacedShape& B) {
+  Meeting deepest;
+  if (find_far(deform(A), deform(B), A.X_WB.inverse() * B.X_WB) > 0.0) {
+    return deepest;
+  }
+  const auto look = [&deepest](const PlacedShape& from, const PlacedShape& in) {
+    const DeformedSkin inner = deform(from);
+    const DeformedSkin outer = deform(in);
+    if (!outer.skin.is_closed()) return;
+    const Pose X = in.X_WB.inverse() * from.X_WB;
+    for (int f = 0; f < static_cast<int>(inner.skin.face_count()); ++f) {
+      const FacePatch patch = inner.skin.make_patch(f, inner.eta, X);
+      for (const FacePlace& corner :
+           {FacePlace{0.0, 0.0}, FacePlace{1.0, 0.0}, FacePlace{0.0, 1.0}}) {
+        const Vector3 p = patch.find_point(corner);
+        const auto hit = outer.skin.find_nearest(p, outer.eta, 0.0, 0.0);
+        if (!hit || !(-hit->nearest.distance > deepest.depth)) continue;
+        deepest.depth = -hit->nearest.distance;
+        deepest.p_W = in.X_WB * p;
+      }
+    }
+  };
+  look(A, B);
+  look(B, A);
+  return deepest;
+}
+
 double find_skins_clearance(const PlacedShape& A, const PlacedShape& B) {
   const DeformedSkin skin_A = deform(A);
   const DeformedSkin skin_B = deform(B);

@@ -22,12 +22,17 @@ double find_limit(const PlacedPair& pair, const contact::Meeting& meeting) {
 }
 
 /// Where two overlap most; none if they do not.
-std::optional<contact::Meeting> find_overlap(const contact::ShapePair& shapes,
+std::optional<contact::Meeting> find_overlap(const PlacedPair& pair,
                                              const joints::PairBodies& bodies) {
-  contact::Meetings meetings(shapes.most_points());
-  shapes.find(bodies, 0.0, meetings.all());
+  contact::Meetings meetings(pair.shapes.most_points());
+  pair.shapes.find(bodies, 0.0, meetings.all());
   const contact::Meeting& deepest = meetings[meetings.find_deepest()];
-  if (!(deepest.depth > 0.0)) return std::nullopt;
+  const contact::Meeting enclosed = pair.shapes.find_enclosed(bodies);
+  const bool is_found = deepest.depth > 0.0;
+  // Corners of a shallow overlap are found as well, less exactly.
+  const double limit = is_found ? find_limit(pair, deepest) : 0.0;
+  if (enclosed.depth > limit) return enclosed;
+  if (!is_found) return std::nullopt;
   return deepest;
 }
 
@@ -66,7 +71,7 @@ std::vector<std::string> check_overlaps(const std::vector<PlacedPair>& pairs,
   for (const PlacedPair& pair : pairs) {
     const dynamics::PairMotion motion =
         dynamics::find_pair_motion(model, model.pairs[index(pair.pair)], state);
-    const auto deepest = find_overlap(pair.shapes, motion.bodies());
+    const auto deepest = find_overlap(pair, motion.bodies());
     if (!deepest) continue;
     const double limit = find_limit(pair, *deepest);
     if (deepest->depth <= limit) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Links whose collisions are meshes, as the command reports them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace limber::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// A cube of 0.1 m as an OBJ file. @param faces how many of its six
+std::string make_cube(std::size_t faces = 6) {
+  std::string text;
+  for (const char* z : {" -0.05", " 0.05"}) {
+    for (const char* y : {" -0.05", " 0.05"}) {
+      for (const char* x : {" -0.05", " 0.05"}) {
+        text += std::string("v") + x + y + z + "\n";
+      }
+    }
+  }
+  const std::vector<std::string> all = {"f 1 3 4 2\n", "f 5 6 8 7\n",
+                                        "f 1 2 6 5\n", "f 3 7 8 4\n",
+                                        "f 1 5 7 3\n", "f 2 4 8 6\n"};
+  for (std::size_t i = 0; i < faces; ++i) text += all[i];
+  return text;
+}
+
+/// A cube above a table, whose top is at z = -0.05 - gap.
+CommandResult run_cube(const Workspace& place, const std::string& mesh,
+                       double gap) {
+  place.write("cube.obj", mesh);
+  place.write("cube.urdf",
+              "<robot name='r'><link name='cube'><inertial><mass value='2'/>"
+              "<inertia ixx='0.0033' iyy='0.0033' izz='0.0033' ixy='0' "
+              "ixz='0' iyz='0'/></inertial><collision><geometry><mesh "
+              "filename='cube.obj'/></geometry></collision></link><contact "
+              "link='cube' youngs_modulus='1e10' poisson_ratio='0.3'/>"
+              "</robot>");
+  place.write("scene.toml",
+              "robot = 'cube.urdf'\n[output]\npictures = false\n"
+              "[[probe]]\nname = 'p'\nlink = 'cube'\nquantity = 'position'\n"
+              "[[obstacle]]\nname = 'table'\nshape = 'box'\n"
+              "size = [0.5, 0.5, 0.1]\nposition = [0.0, 0.0, " +
+                  std::to_string(-0.1 - gap) +
+                  "]\n[[contact]]\nbetween = ['cube', 'table']\n"
+                  "friction = 0.3\nrestitution = 0.2\n[gravity]\n"
+                  "acceleration = [1.70354, 0.0, -9.66136]\n"
+                  "[time]\nduration = 0.3\nstep = 1e-3\n");
+  return place.limber("run scene.toml --out o --json");
+}
+
+// A slope of 10 degrees, on which a cube without friction slides 77 mm.
+TEST(MeshOnABox, HoldsOnASlope) {
+  const Workspace place;
+  const CommandResult result = run_cube(place, make_cube(), 1e-6);
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json run = json::parse(result.out, nullptr, false);
+  EXPECT_LT(std::abs(run["probes"]["p.x"]["final"].get<double>()), 3e-6);
+  ASSERT_EQ(run["contacts"].size(), 1U);
+  EXPECT_NEAR(run["contacts"][0]["impulse"].get<double>(), 0.6 * 9.66136, 0.05);
+}
+
+TEST(MeshOnABox, IsRefusedWhereItIsOpen) {
+  const Workspace place;
+  const CommandResult result = run_cube(place, make_cube(5), 1e-6);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("cube.obj' is open: the edge from ("));
+}
+
+TEST(MeshOnABox, IsRefusedWhereItOverlapsDeeply) {
+  const Workspace place;
+  const CommandResult result = run_cube(place, make_cube(), -0.02);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("both overlap by 0.02 m at the start"));
+}
+
+}  // namespace
+}  // namespace limber::test
