@@ -31,9 +31,11 @@ struct Steps {
 };
 const std::map<std::string, Steps> kShortSteps = {
     {"ball_on_link", {3e-8}},
+    {"beam_stress", {4e-5}},
     {"blade", {5e-4}},
     {"catch", {1e-4}},
     {"claw", {1.5e-5}},
+    {"damped_slew", {1e-4}},
     {"four_bar", {5e-5}},
     {"joint_chain", {2e-5}},
     {"pendulum_chain", {5e-5}},

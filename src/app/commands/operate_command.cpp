@@ -61,6 +61,12 @@ void write_fields(const OperatingAnswer& answer,
     out.write("u", MatrixX(answer.u), "m", "their displacements, 3 x N");
     out.write("internal_force", MatrixX(answer.internal_force), "N",
               "elastic nodal forces K u, 3 x N");
+    out.write("stress_tags",
+              std::vector<std::int64_t>(answer.stress_tags.begin(),
+                                        answer.stress_tags.end()),
+              "1", "Gmsh tags of the nodes of 'stress'");
+    out.write("stress", MatrixX(answer.stress), "Pa",
+              "nodal stress, 6 x p: xx, yy, zz, xy, yz, xz");
     out.close();
   });
 }

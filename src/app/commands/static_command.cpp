@@ -12,6 +12,7 @@
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/reports/static_report.hpp"
+#include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
@@ -45,6 +46,7 @@ struct StaticRun {
   dynamics::Equilibrium found;
   results::History history;
   StaticReport report;
+  std::vector<StressPeak> stress;  ///< of the equilibrium
   std::vector<std::string> warnings;
 };
 
@@ -113,6 +115,8 @@ StaticRun find(const Options& options) {
   }
   observe(run);
   run.report = report_equilibrium(run.built, run.found);
+  run.stress = find_stress_peaks(run.built, run.history,
+                                 record_state(run.built, run.found.state));
   warn(options, run);
   return run;
 }
@@ -133,6 +137,7 @@ Json summarize(const StaticRun& run) {
              {"unit", run.history.columns[i].unit}};
   }
   json["probes"] = probes;
+  if (run.scene.scenario.output.stress) json["stress"] = to_json(run.stress);
   json["warnings"] = run.warnings;
   return json;
 }
@@ -177,6 +182,7 @@ void print(const StaticRun& run, const std::filesystem::path& folder) {
     fmt::print("{:<28} {:13.6g} {}\n", run.history.columns[i].name,
                run.history.probe_rows[0][i], run.history.columns[i].unit);
   }
+  fmt::print("{}", to_text(run.stress));
   fmt::print("results in {}\n", folder.string());
 }
 

@@ -13,6 +13,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/results/energy_audit.hpp"
 #include "limber/scene/build/load_scene.hpp"
+#include "limber/scene/probes/stress_points.hpp"
 
 namespace limber::app {
 namespace {
@@ -98,6 +99,9 @@ class Runner {
     overrides.rows = flexbody::KeptRows{flexbody::KeptRows::Extent::all, {}};
     scene::Scene scene = scene::load_scene(settings_.scenario, overrides);
     scene.scenario.settings.output_times = times_;
+    if (!have_all_stress() && leave_out_stress(scene.scenario)) {
+      warn({"stress is not compared: not every one of these levels has it"});
+    }
     ++started_;
     const double cost = estimate_cost(choice, plan_.reference);
     const Progress progress = [this, cost](std::string_view what,
@@ -111,6 +115,15 @@ class Runner {
     clear_progress_bar();
     warn(run.built.warnings);
     return run;
+  }
+
+  /// All runs have the same probes.
+  [[nodiscard]] bool have_all_stress() const {
+    return scene::has_linear_stress(plan_.reference.level) &&
+           std::all_of(plan_.runs.begin(), plan_.runs.end(),
+                       [](const Choice& choice) {
+                         return scene::has_linear_stress(choice.level);
+                       });
   }
 
   /// Progress over all simulations of the plan together; other work unchanged.

@@ -82,6 +82,18 @@ Json describe_surfaces(const flexbody::ReducedBody& body) {
   return surfaces;
 }
 
+// Null without stress modes; the averaging's error is that of each mode.
+Json describe_stress(const flexbody::ReducedBody& body) {
+  if (!body.stress) return nullptr;
+  const VectorX errors = body.stress->averaging.diagonal()
+                             .cwiseQuotient(body.lambda)
+                             .cwiseMax(0.0)
+                             .cwiseSqrt();
+  return Json{{"points", body.stress->rows.size()},
+              {"materials", body.stress->constants.cols()},
+              {"averaging_error", to_json(errors)}};
+}
+
 Json describe_body(const std::filesystem::path& file) {
   const flexbody::ReducedBody body = flexbody::read_body(file);
   std::vector<std::string> interfaces;
@@ -104,7 +116,8 @@ Json describe_body(const std::filesystem::path& file) {
             {"frequencies_hz", to_json(hz)},
             {"interfaces", interfaces},
             {"groups", groups},
-            {"contact_surfaces", describe_surfaces(body)}};
+            {"contact_surfaces", describe_surfaces(body)},
+            {"stress", describe_stress(body)}};
   add_choices(body, json);
   return json;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,6 +12,8 @@
 #include "limber/common/names.hpp"
 #ifdef LIMBER_HAS_REDUCTION
 #include "limber/fem/mesh/node_weights.hpp"
+#include "limber/fem/solid/stress_recovery.hpp"
+#include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/reduction/operating_states.hpp"
 #endif
 
@@ -120,6 +123,42 @@ Json describe_figures(const OperatingState& state) {
                 {"rotation", state.trust.rotation}}}};
 }
 
+// The largest von Mises stress of all nodes.
+Json describe_largest(const fem::Mesh& mesh, const fem::NodalStress& nodal,
+                      double strain_energy) {
+  double largest = -1.0;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < nodal.nodes.size(); ++i) {
+    const double value = flexbody::calc_von_mises(
+        nodal.stress.col(static_cast<Eigen::Index>(i)));
+    if (value > largest) {
+      largest = value;
+      at = i;
+    }
+  }
+  const double error =
+      std::sqrt(std::max(0.0, nodal.averaging(0, 0)) / (2.0 * strain_energy));
+  const auto node = static_cast<std::size_t>(nodal.nodes[at]);
+  return Json{{"von_mises", largest},
+              {"node", mesh.tags[node]},
+              {"place", list(mesh.x.col(nodal.nodes[at]))},
+              {"averaging_error", strain_energy > 0.0 ? error : 0.0}};
+}
+
+void add_stress(const MeshedBody& body, const flexbody::Recipe& recipe,
+                const OperatingState& state, OperatingAnswer& answer) {
+  const fem::NodalStress nodal =
+      fem::recover_stress(body.mesh, find_materials(body.mesh, recipe),
+                          MatrixX(state.u.reshaped()));
+  for (const int node : nodal.nodes) {
+    answer.stress_tags.push_back(
+        body.mesh.tags[static_cast<std::size_t>(node)]);
+  }
+  answer.stress = nodal.stress;
+  answer.figures["stress"] =
+      describe_largest(body.mesh, nodal, state.strain_energy);
+}
+
 #endif
 
 }  // namespace
@@ -155,6 +194,7 @@ OperatingAnswer find_operating_state(const flexbody::Recipe& recipe,
   }
   answer.u = state.u;
   answer.internal_force = state.internal_force;
+  add_stress(body, recipe, state, answer);
   answer.size = body.mesh.size().maxCoeff();
   if (!state.trust.is_linear()) answer.trust = flexbody::describe(state.trust);
   return answer;

@@ -40,12 +40,16 @@ struct OperatingRequest {
 /// Key figures of a flexbody::OperatingState, and its fields.
 struct OperatingAnswer {
   Json figures;
-  std::vector<std::size_t> tags;     ///< Gmsh node tags
-  results::Surface surface;          ///< all nodes, undeformed
-  Matrix3X u;                        ///< 3 x N [m]
-  Matrix3X internal_force;           ///< 3 x N [N]
-  double size = 0.0;                 ///< the mesh's longest edge [m]
-  std::string trust;                 ///< a warning if linear theory is doubtful
+  std::vector<std::size_t> tags;  ///< Gmsh node tags
+  results::Surface surface;       ///< all nodes, undeformed
+  Matrix3X u;                     ///< 3 x N [m]
+  Matrix3X internal_force;        ///< 3 x N [N]
+  /// Tags of the nodes of `stress`; one at a border of materials has a column
+  /// for each of them.
+  std::vector<std::size_t> stress_tags;
+  Matrix6X stress;    ///< 6 x p, mesh frame: xx, yy, zz, xy, yz, xz [Pa]
+  double size = 0.0;  ///< the mesh's longest edge [m]
+  std::string trust;  ///< a warning if linear theory is doubtful
   std::vector<std::string> notices;  ///< of the mesh
 };
 

@@ -9,6 +9,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/event_report.hpp"
+#include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/results/energy_audit.hpp"
@@ -71,6 +72,8 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("{}", to_text(run.history.events));
   fmt::print("{}", to_text(run.record.contacts));
   print_probes(run.history, run.record.peaks);
+  fmt::print("{}",
+             to_text(find_stress_peaks(run.built, run.history, run.record)));
   fmt::print("results in {}\n", folder.string());
 }
 

@@ -11,6 +11,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/event_report.hpp"
+#include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_manifest.hpp"
 #include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
@@ -83,8 +84,10 @@ Json summarize_energy(const results::History& history,
   return json;
 }
 
-Json summarize_probes(const results::History& history,
-                      const std::vector<dynamics::Extreme>& peaks) {
+Json summarize_probes(const Run& run) {
+  const results::History& history = run.history;
+  const std::vector<dynamics::Extreme>& peaks = run.record.peaks;
+  const auto nodes = find_peak_nodes(run.built, run.record);
   Json json = Json::object();
   if (history.probe_rows.empty()) return json;
   for (std::size_t i = 0; i < history.columns.size(); ++i) {
@@ -93,6 +96,7 @@ Json summarize_probes(const results::History& history,
     if (!peaks.empty()) {
       probe["peak"] = peaks[i].value;
       probe["peak_time"] = peaks[i].time;
+      if (nodes[i]) probe["peak_node"] = *nodes[i];
     }
     probe["unit"] = history.columns[i].unit;
     json[history.columns[i].name] = probe;
@@ -229,7 +233,11 @@ Json summarize(const Run& run) {
   if (!run.built.model.pairs.empty()) {
     json["contacts"] = to_json(run.record.contacts);
   }
-  json["probes"] = summarize_probes(run.history, run.record.peaks);
+  json["probes"] = summarize_probes(run);
+  if (run.scene.scenario.output.stress) {
+    json["stress"] =
+        to_json(find_stress_peaks(run.built, run.history, run.record));
+  }
   json["levels"] = Json::array();
   for (const BodyLevel& level : run.levels) {
     json["levels"].push_back(to_json(level));

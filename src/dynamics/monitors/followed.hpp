@@ -17,8 +17,11 @@ struct Extreme {
   double value = 0.0;  ///< [unit of the scalar]
   double time = 0.0;   ///< [s]
 
-  void include(double v, double t) {
-    if (std::abs(v) > std::abs(value)) *this = {v, t};
+  /// @returns whether it is the largest so far
+  bool include(double v, double t) {
+    if (!(std::abs(v) > std::abs(value))) return false;
+    *this = {v, t};
+    return true;
   }
   bool operator==(const Extreme&) const = default;
 };
@@ -48,6 +51,9 @@ struct Followed {
       std::function<void(const SystemState&, std::vector<double>&)>;
   std::vector<Course> courses = {};  ///< one per scalar
   Evaluate evaluate = {};
+  /// Where a scalar had its value in the last evaluation, as a number that its
+  /// owner knows, -1 for nowhere; may be empty.
+  std::function<int(std::size_t scalar)> find_place = {};
   /// Largest time between evaluations, for motion faster than the steps [s].
   double longest = std::numeric_limits<double>::infinity();
   std::optional<Spectator> spectator = {};

@@ -52,7 +52,8 @@ Parabola fit(const PeakPoints& points) {
 
 PeakPoint find_vertex(const PeakPoints& points, const Parabola& parabola) {
   const double move = -0.5 * parabola.slope / parabola.bend;
-  return {points[1].t + move, points[1].y + 0.5 * parabola.slope * move};
+  return {points[1].t + move, points[1].y + 0.5 * parabola.slope * move,
+          points[1].place};
 }
 
 // The three of four points about the one with the largest sign * y.
@@ -76,7 +77,7 @@ void exchange(Archive& archive, Extreme& extreme) {
 }
 
 void exchange(Archive& archive, PeakWatch::Sample& sample) {
-  archive(sample.state, sample.values);
+  archive(sample.state, sample.values, sample.places);
 }
 
 PeakWatch::PeakWatch(const SystemModel& model, Followed followed)
@@ -87,6 +88,7 @@ void PeakWatch::start(const SystemState& state) {
   for (Sample& s : samples_) s.state = state;
   begin_ = between_ = within_ = state;
   peaks_.assign(followed_.courses.size(), {0.0, state.t});
+  places_.assign(peaks_.size(), -1);
   if (followed_.spectator) followed_.spectator->begin();
   show(state);
   begin_anew(state);
@@ -105,8 +107,10 @@ void PeakWatch::add(const SystemState& state, double t) {
   s.state.t = t;
   if (!peaks_.empty()) followed_.evaluate(s.state, s.values);
   s.state.t = state.t;
+  s.places.resize(peaks_.size());
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
-    peaks_[i].include(s.values[i], s.state.t);
+    s.places[i] = find_place(i);
+    include(i, {s.state.t, s.values[i], s.places[i]});
   }
   if (count_ >= 3) look({count_ == 3, false});
 }
@@ -173,9 +177,9 @@ void PeakWatch::look(Edges edges) {
   const Sample& c = sample(0);
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     look(i,
-         {{{a.state.t, a.values[i]},
-           {b.state.t, b.values[i]},
-           {c.state.t, c.values[i]}}},
+         {{{a.state.t, a.values[i], a.places[i]},
+           {b.state.t, b.values[i], b.places[i]},
+           {c.state.t, c.values[i], c.places[i]}}},
          edges);
   }
 }
@@ -205,16 +209,16 @@ void PeakWatch::look(std::size_t scalar, const PeakPoints& points,
     if (!(sign * found.y <= largest + most)) found = top;
   }
   found.y = sign * std::min(sign * found.y, largest + most);
-  peaks_[scalar].include(found.y, found.t);
+  include(scalar, found);
 }
 
-double PeakWatch::evaluate_at(std::size_t scalar, double t) {
+PeakPoint PeakWatch::evaluate_at(std::size_t scalar, double t) {
   const bool is_early = t < sample(1).state.t;
   const SystemState& begin = sample(is_early ? 2 : 1).state;
   const SystemState& end = sample(is_early ? 1 : 0).state;
   interpolate(model_, begin, end, (t - begin.t) / (end.t - begin.t), within_);
   followed_.evaluate(within_, values_);
-  return values_[scalar];
+  return {t, values_[scalar], find_place(scalar)};
 }
 
 // The largest of sign * y near t, by parabolas through the three best points.
@@ -222,7 +226,7 @@ PeakPoint PeakWatch::search(std::size_t scalar, PeakPoints points, double sign,
                             double t) {
   const double close = kClose * (points[2].t - points[0].t);
   for (int i = 0; i < kMostSearches; ++i) {
-    const PeakPoint next{t, evaluate_at(scalar, t)};
+    const PeakPoint next = evaluate_at(scalar, t);
     points = replace(points, next, sign);
     const PeakPoint top = find_vertex(points, fit(points));
     if (!(top.t > points[0].t && top.t < points[2].t)) break;
@@ -239,7 +243,7 @@ PeakPoint PeakWatch::search(std::size_t scalar, PeakPoints points, double sign,
 }
 
 void PeakWatch::exchange_memory(Archive& archive) {
-  archive(samples_, newest_, count_, peaks_);
+  archive(samples_, newest_, count_, peaks_, places_);
   if (!is_idle() && peaks_.size() != followed_.courses.size()) {
     throw InputError("the record is of a run that followed other scalars");
   }

@@ -14,6 +14,7 @@ namespace limber::dynamics {
 struct PeakPoint {
   double t = 0.0;  ///< [s]
   double y = 0.0;  ///< [unit of the value]
+  int place = -1;  ///< Followed::find_place
 };
 using PeakPoints = std::array<PeakPoint, 3>;  ///< in order of time
 
@@ -45,6 +46,12 @@ class PeakWatch {
   void cross_jump(const SystemState& state);
   /// Ends the monitoring. @returns one entry per scalar
   const std::vector<Extreme>& finish();
+  /// finish(), and where each extreme was, -1 for nowhere
+  /// (Followed::find_place).
+  void tell(std::vector<Extreme>& peaks, std::vector<int>& places) {
+    peaks = finish();
+    places = places_;
+  }
 
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
@@ -54,6 +61,7 @@ class PeakWatch {
   struct Sample {
     SystemState state;
     std::vector<double> values;
+    std::vector<int> places;  // of the values
   };
   friend void exchange(Archive& archive, Sample& sample);
 
@@ -76,7 +84,15 @@ class PeakWatch {
   void look(std::size_t scalar, const PeakPoints& points, Edges edges);
   [[nodiscard]] PeakPoint search(std::size_t scalar, PeakPoints points,
                                  double sign, double t);
-  [[nodiscard]] double evaluate_at(std::size_t scalar, double t);
+  [[nodiscard]] PeakPoint evaluate_at(std::size_t scalar, double t);
+  [[nodiscard]] int find_place(std::size_t scalar) const {
+    return followed_.find_place ? followed_.find_place(scalar) : -1;
+  }
+  void include(std::size_t scalar, const PeakPoint& point) {
+    if (peaks_[scalar].include(point.y, point.t)) {
+      places_[scalar] = point.place;
+    }
+  }
 
   const SystemModel& model_;
   Followed followed_;
@@ -88,6 +104,7 @@ class PeakWatch {
   SystemState within_;
   std::vector<double> values_;
   std::vector<Extreme> peaks_;
+  std::vector<int> places_;  // of the peaks
 };
 
 }  // namespace limber::dynamics

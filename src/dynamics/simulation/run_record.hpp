@@ -18,6 +18,7 @@ namespace limber::dynamics {
 /// Results of monitoring all steps of a run, independent of its outputs.
 struct RunRecord {
   std::vector<Extreme> peaks;  ///< of the followed scalars, in their order
+  std::vector<int> places;     ///< of the peaks, -1: none (find_place)
   EnergyRecord energy;
   std::vector<ContactRecord> contacts;  ///< in the order of time
 };

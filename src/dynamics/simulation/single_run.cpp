@@ -59,7 +59,7 @@ void pass_time(const SystemModel& model, SystemState& state,
     peaks.include(now);
     if (mark.is_jump) peaks.cross_jump(now);
   }
-  job.record.peaks = peaks.finish();
+  peaks.tell(job.record.peaks, job.record.places);
   for (const double t : times) {
     state.t = t;
     visit(state, {});

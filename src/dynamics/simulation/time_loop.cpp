@@ -138,7 +138,7 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
 }
 
 void TimeLoop::tell(RunRecord& record) {
-  record.peaks = peaks_.finish();
+  peaks_.tell(record.peaks, record.places);
   record.energy = audit_.find_energy();
   record.contacts = contacts_.find_records();
   audit_.add_warnings(statistics_.warnings);

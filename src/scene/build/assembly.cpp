@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/joint_state.hpp"
@@ -12,8 +14,10 @@
 #include "limber/scene/build/interface_tables.hpp"
 #include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
+#include "limber/scene/build/recipes.hpp"
 #include "limber/scene/build/rotation_check.hpp"
 #include "limber/scene/control/controller_assembly.hpp"
+#include "limber/scene/probes/stress_points.hpp"
 #include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
@@ -176,12 +180,52 @@ std::vector<Probe> Assembly::make_probes(
                                        scene_.scenario, written->controller)}});
       continue;
     }
+    if (const auto* stress = std::get_if<StressProbeSpec>(&spec.of)) {
+      probes.push_back(
+          {spec.name,
+           with_context(who + " on link '" + stress->where.link + "'",
+                        [&] { return make_stress_probe(*stress); })});
+      continue;
+    }
     const auto& coupler = std::get<CouplerProbeSpec>(spec.of);
     probes.push_back({spec.name, with_context(who, [&] {
                         return make_coupler_probe(coupler, model);
                       })});
   }
+  if (scene_.scenario.output.stress) add_stress_of_links(probes);
   return probes;
+}
+
+StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec) const {
+  const int link = find_link(scene_.robot, spec.where.link);
+  const dynamics::Fidelity level = scene_.scenario.level_of(spec.where.link);
+  if (!has_linear_stress(level)) throw InputError(explain_no_stress(level));
+  StressProbe probe = scene::make_stress_probe(
+      spec.quantity, *sites_.plan_of(link).reduced,
+      {find_place_interface(spec.where), spec.where.nodes}, sites_.X_BL(link));
+  probe.body = sites_.body_of(link);
+  return probe;
+}
+
+void Assembly::add_stress_of_links(std::vector<Probe>& probes) const {
+  for (const BodyPlan& plan : plans_.bodies) {
+    if (!plan.reduced || !needs_stress(scene_.scenario, plan.name)) continue;
+    const std::string name = plan.name + ".surface";
+    with_context("[output] stress: link '" + plan.name + "'", [&] {
+      const auto is_taken = [&](const Probe& probe) {
+        return probe.name == name;
+      };
+      if (std::any_of(probes.begin(), probes.end(), is_taken)) {
+        throw InputError("its columns are called like probe '" + name +
+                         "'; rename that");
+      }
+      StressProbeSpec everywhere;
+      everywhere.where.link = plan.name;
+      StressProbe probe = make_stress_probe(everywhere);
+      probe.is_of_link = true;
+      probes.push_back({name, std::move(probe)});
+    });
+  }
 }
 
 ContactProbe Assembly::make_contact_probe(

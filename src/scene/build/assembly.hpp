@@ -48,6 +48,8 @@ class Assembly {
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;
+  StressProbe make_stress_probe(const StressProbeSpec& spec) const;
+  void add_stress_of_links(std::vector<Probe>& probes) const;
   PointProbe make_followed_point(const Place& where, bool turns) const;
   ContactProbe make_contact_probe(const ContactProbeSpec& spec,
                                   const dynamics::SystemModel& model) const;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/scene/build/basis_choice.hpp"
@@ -15,6 +17,7 @@
 #include "limber/scene/build/unused_keys.hpp"
 #include "limber/scene/contacts/projectiles.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
+#include "limber/scene/probes/stress_points.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/toml_file.hpp"
 #include "limber/scene/text/toml_settings.hpp"
@@ -55,6 +58,31 @@ void apply(const Overrides& overrides, Scene& scene) {
   for (Link& link : scene.robot.links) {
     if (link.flexible) link.flexible->rows = *overrides.rows;
   }
+}
+
+// Probes of stress of links without it: an error of the file, but of a level of
+// the command line, for all links, no more than a warning.
+void check_stress(const Overrides& overrides, Scene& scene) {
+  Scenario& scenario = scene.scenario;
+  std::vector<std::string> problems;
+  const auto lacks_stress = [&](const ProbeSpec& probe) {
+    const auto* stress = std::get_if<StressProbeSpec>(&probe.of);
+    if (stress == nullptr) return false;
+    const dynamics::Fidelity level = scenario.level_of(stress->where.link);
+    if (has_linear_stress(level)) return false;
+    const std::string why = fmt::format("link '{}': {}", stress->where.link,
+                                        explain_no_stress(level));
+    if (overrides.fidelity) {
+      scenario.warnings.push_back(
+          fmt::format("probe '{}' of stress is left out: {}", probe.name, why));
+    } else {
+      problems.push_back(fmt::format("{}: probe '{}' on {}",
+                                     scenario.file.string(), probe.name, why));
+    }
+    return true;
+  };
+  std::erase_if(scenario.probes, lacks_stress);
+  if (!problems.empty()) throw InputError(problems);
 }
 
 // Problems that do not name the setting which made them may come from any.
@@ -111,6 +139,7 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides) {
   add_contacts(scene);
   choose_bases(scene.scenario, overrides.basis, scene.robot);
   apply(overrides, scene);
+  check_stress(overrides, scene);
   for (std::string& text : find_unused_keys(table, scene, overrides)) {
     scene.scenario.warnings.push_back(std::move(text));
   }

@@ -5,6 +5,7 @@
 
 #include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
+#include "limber/scene/probes/stress_points.hpp"
 
 namespace limber::scene {
 namespace {
@@ -102,6 +103,15 @@ void add_connections(Recipe& recipe, const Robot& robot, int index) {
   }
 }
 
+/// Null if it is not of a place on a link.
+const Place* find_probed_place(const ProbeSpec& probe) {
+  if (const auto* point = std::get_if<PointProbeSpec>(&probe.of)) {
+    return &point->where;
+  }
+  const auto* stress = std::get_if<StressProbeSpec>(&probe.of);
+  return stress == nullptr ? nullptr : &stress->where;
+}
+
 }  // namespace
 
 std::string find_joint_interface(const FlexibleLink& link,
@@ -135,6 +145,7 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   }
   recipe.manifold =
       scenario.level_of(link.name) == dynamics::Fidelity::nonlinear;
+  recipe.stress = needs_stress(scenario, link.name);
   add_connections(recipe, robot, index);
   for (const LoadSpec& load : scenario.loads) {
     if (load.where.link != link.name) continue;
@@ -149,11 +160,10 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
     add_initial_fields(*start, recipe);
   }
   for (const ProbeSpec& probe : scenario.probes) {
-    const auto* point = std::get_if<PointProbeSpec>(&probe.of);
-    if (point == nullptr || point->where.link != link.name) continue;
-    const auto& nodes = point->where.nodes;
-    if (nodes && flexbody::is_single_node(*nodes)) continue;
-    require_place(recipe, point->where);
+    const Place* where = find_probed_place(probe);
+    if (where == nullptr || where->link != link.name) continue;
+    if (where->nodes && flexbody::is_single_node(*where->nodes)) continue;
+    require_place(recipe, *where);
   }
   for (const ProbeSpec& probe : scenario.probes) {
     const auto* point = std::get_if<PointProbeSpec>(&probe.of);

@@ -10,6 +10,7 @@
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/recipes.hpp"
+#include "limber/scene/probes/stress_points.hpp"
 #include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
@@ -68,6 +69,7 @@ class Reduction {
           "level nonlinear needs second-order tables, which its saved body "
           "does not have; make that anew by 'limber reduce --second-order'");
     }
+    if (needs_stress(scene_.scenario, link.name)) require_stress(*body);
     if (const LinkStart* start = find_start(scene_.scenario, link.name)) {
       check_saved_fields(*start, *body);
     }

@@ -163,6 +163,18 @@ class Checker {
     }
   }
 
+  void check_probe(const std::string& who, const StressProbeSpec& probe) {
+    const Place& where = probe.where;
+    const Link* link = find(where.link);
+    const bool is_everywhere =
+        !where.nodes && !where.point && where.interface.empty();
+    if (link == nullptr || !link->flexible) {
+      check_flexible(who, where.link);
+      return;
+    }
+    if (!is_everywhere) check_flexible_place(who, where);
+  }
+
   void check_probe(const std::string& who, const PointProbeSpec& probe) {
     check_place(who, probe.where);
     const Link* link = find(probe.where.link);

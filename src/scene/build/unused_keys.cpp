@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "limber/scene/probes/stress_points.hpp"
+
 namespace limber::scene {
 namespace {
 
@@ -26,6 +28,7 @@ class Finder {
     look_at_integrator();
     look_at_levels();
     look_at_flexible_links();
+    look_at_stress();
     for (std::size_t i = 0; i < scenario_.loads.size(); ++i) look_at_load(i);
     look_at_controllers();
     look_at_releases();
@@ -112,8 +115,19 @@ class Finder {
     if (scenario_.fidelity != Fidelity::rigid && !overrides_.fidelity) {
       tell("fidelity", "default", why);
     }
+    if (scenario_.output.stress) tell("output", "stress", why);
     for (const char* table : {"basis", "advice"}) {
       if (file_.contains(table)) tell(fmt::format("[{}]", table), why);
+    }
+  }
+
+  void look_at_stress() {
+    if (!scenario_.output.stress) return;
+    for (const Link& link : links_) {
+      const Fidelity level = scenario_.level_of(link.name);
+      if (!link.flexible || has_linear_stress(level)) continue;
+      tell("[output] stress of link '" + link.name + "'",
+           explain_no_stress(level));
     }
   }
 

@@ -14,6 +14,9 @@ using dynamics::Course;
 
 Course find_course(const PointProbe& /*probe*/) { return Course::motion; }
 
+// Stress follows from the modal coordinates alone.
+Course find_course(const StressProbe& /*probe*/) { return Course::motion; }
+
 // A joint's coordinate follows from the bodies; forces of stiff couplers cannot
 // be evaluated at an interpolated state.
 Course find_course(const CouplerProbe& probe) {
@@ -57,12 +60,14 @@ void append(const Probe& probe, const dynamics::SystemModel& model,
 dynamics::Followed follow(const std::vector<Probe>& probes,
                           const dynamics::SystemModel& model) {
   dynamics::Followed followed;
-  std::vector<std::size_t> ends;  // of each probe's columns
+  std::vector<std::size_t> ends;             // of each probe's columns
+  std::vector<const StressProbe*> stresses;  // a column; null: another probe
   for (const Probe& probe : probes) {
     followed.courses.resize(
         followed.courses.size() + column_names(probe).size(),
         std::visit([](const auto& of) { return find_course(of); }, probe.of));
     ends.push_back(followed.courses.size());
+    stresses.resize(ends.back(), std::get_if<StressProbe>(&probe.of));
   }
   followed.evaluate = [&probes, &model, ends](
                           const dynamics::SystemState& state,
@@ -75,6 +80,10 @@ dynamics::Followed follow(const std::vector<Probe>& probes,
         values.resize(ends[i], std::numeric_limits<double>::quiet_NaN());
       }
     }
+  };
+  followed.find_place = [stresses](std::size_t scalar) {
+    const StressProbe* stress = stresses[scalar];
+    return stress == nullptr ? -1 : stress->scratch.place;
   };
   return followed;
 }

@@ -9,13 +9,16 @@
 #include "limber/scene/probes/controller_probe.hpp"
 #include "limber/scene/probes/coupler_probe.hpp"
 #include "limber/scene/probes/point_probe.hpp"
+#include "limber/scene/probes/stress_probe.hpp"
 
 namespace limber::scene {
 
-/// What a run records at every output: one to three columns.
+/// What a run records at every output: one to six columns.
 struct Probe {
   std::string name;
-  std::variant<PointProbe, CouplerProbe, ContactProbe, ControllerProbe> of;
+  std::variant<PointProbe, CouplerProbe, ContactProbe, ControllerProbe,
+               StressProbe>
+      of;
 };
 
 /// Name and unit of each of a probe's columns: "tip.ux" [m], ...

@@ -38,6 +38,12 @@ constexpr auto fields_of(const ControllerProbe*) {
   return list_fields("controller", "input index");
 }
 
+constexpr auto fields_of(const StressProbe*) {
+  return list_fields("stress", "quantity", "body", "of the whole link", "nodes",
+                     "places [m]", "Sigma_L [kg^1/2 m^-2 s^-2]", nullptr,
+                     nullptr);
+}
+
 constexpr auto fields_of(const Probe*) {
   return list_fields("probe", "name", "of");
 }

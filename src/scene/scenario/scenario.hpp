@@ -122,10 +122,24 @@ struct ControllerProbeSpec {
   std::string controller;
 };
 
+/// Of linear isotropic elasticity, at nodes of a flexible link.
+enum class StressQuantity {
+  stress,         ///< six components, link frame [Pa]
+  von_mises,      ///< [Pa]
+  max_principal,  ///< largest principal stress, tension positive [Pa]
+};
+
+/// A probe of stress at a node, or of the largest at several; without an
+/// interface or selection of nodes, on the link's whole surface.
+struct StressProbeSpec {
+  Place where;
+  StressQuantity quantity = StressQuantity::von_mises;
+};
+
 struct ProbeSpec {
   std::string name;
   std::variant<PointProbeSpec, CouplerProbeSpec, ContactProbeSpec,
-               ControllerProbeSpec>
+               ControllerProbeSpec, StressProbeSpec>
       of;
 };
 
@@ -176,6 +190,7 @@ struct OutputSpec {
   std::filesystem::path folder;  ///< empty: out/<scenario name>
   bool xdmf = false;
   bool pictures = true;
+  bool stress = false;  ///< of every flexible link, over its whole surface
   double checkpoint_interval = 60.0;  ///< wall time, >= 0 [s]
 };
 

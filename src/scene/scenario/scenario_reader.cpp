@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <variant>
 
 #include "limber/common/echo.hpp"
 #include "limber/scene/robot/place_reader.hpp"
@@ -104,20 +105,39 @@ std::optional<Place> read_base(TomlTable& table) {
   return place;
 }
 
-PointProbeSpec read_point_probe(TomlTable& table) {
+StressProbeSpec read_stress_probe(TomlTable& table, StressQuantity quantity) {
+  for (const char* key : {"relative_to", "distribution"}) {
+    if (!table.has(key)) continue;
+    table.skip(key);
+    table.fail(key,
+               "is not for stress, which is that at a node, in the link's "
+               "axes; leave it out");
+  }
+  return {read_place(table), quantity};
+}
+
+ProbeSpec read_link_probe(TomlTable& table, const std::string& name) {
+  using Either = std::variant<Quantity, StressQuantity>;
+  const auto quantity =
+      read_choice<Either>(table, "quantity",
+                          {{"displacement", Quantity::displacement},
+                           {"position", Quantity::position},
+                           {"velocity", Quantity::velocity},
+                           {"rotation", Quantity::rotation},
+                           {"angular_velocity", Quantity::angular_velocity},
+                           {"deformation", Quantity::deformation},
+                           {"stress", StressQuantity::stress},
+                           {"von_mises", StressQuantity::von_mises},
+                           {"max_principal", StressQuantity::max_principal}},
+                          Quantity::displacement);
+  if (const auto* stress = std::get_if<StressQuantity>(&quantity)) {
+    return {name, read_stress_probe(table, *stress)};
+  }
   PointProbeSpec probe;
   probe.where = read_place(table);
   probe.relative_to = read_base(table);
-  probe.quantity =
-      read_choice<Quantity>(table, "quantity",
-                            {{"displacement", Quantity::displacement},
-                             {"position", Quantity::position},
-                             {"velocity", Quantity::velocity},
-                             {"rotation", Quantity::rotation},
-                             {"angular_velocity", Quantity::angular_velocity},
-                             {"deformation", Quantity::deformation}},
-                            Quantity::displacement);
-  return probe;
+  probe.quantity = std::get<Quantity>(quantity);
+  return {name, probe};
 }
 
 ProbeSpec read_probe(TomlTable& table) {
@@ -127,7 +147,7 @@ ProbeSpec read_probe(TomlTable& table) {
     return {name, ControllerProbeSpec{table.required_text("controller")}};
   }
   if (table.has("coupler")) return {name, read_coupler_probe(table)};
-  return {name, read_point_probe(table)};
+  return read_link_probe(table, name);
 }
 
 JointStart read_joint_start(TomlTable& table) {
@@ -216,6 +236,7 @@ OutputSpec read_output(TomlTable& table) {
   output.folder = table.text("folder").value_or("");
   output.xdmf = table.boolean("xdmf").value_or(false);
   output.pictures = table.boolean("pictures").value_or(true);
+  output.stress = table.boolean("stress").value_or(false);
   output.checkpoint_interval = table.number("checkpoint_interval", kNonNegative)
                                    .value_or(output.checkpoint_interval);
   return output;

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/reports/stress_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <variant>
+
+#include "limber/common/index.hpp"
+#include "limber/flexbody/model/stress_modes.hpp"
+#include "limber/scene/probes/followed_probes.hpp"
+
+namespace limber::app {
+namespace {
+
+/// A stress probe's column in a run.
+struct Column {
+  std::size_t index = 0;
+  const scene::StressProbe* stress = nullptr;
+};
+
+std::vector<Column> list_columns(const scene::BuiltScene& built) {
+  std::vector<Column> columns;
+  std::size_t next = 0;
+  for (const scene::Probe& probe : built.probes) {
+    const auto* stress = std::get_if<scene::StressProbe>(&probe.of);
+    const std::size_t count = column_names(probe).size();
+    for (std::size_t i = 0; stress != nullptr && i < count; ++i) {
+      columns.push_back({next + i, stress});
+    }
+    next += count;
+  }
+  return columns;
+}
+
+/// Of the output nearest to `time`.
+const dynamics::SystemState& find_nearest(const results::History& history,
+                                          double time) {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < history.times.size(); ++i) {
+    if (std::abs(history.times[i] - time) <
+        std::abs(history.times[nearest] - time)) {
+      nearest = i;
+    }
+  }
+  return history.states[nearest];
+}
+
+double find_error(const scene::BuiltScene& built, dynamics::BodyIndex b,
+                  const dynamics::SystemState& state) {
+  const dynamics::BodyModel& body = built.model.bodies[index(b)];
+  return flexbody::find_averaging_error(
+      *body.reduced->stress, body.reduced->lambda,
+      state.eta.segment(body.offset, body.modes));
+}
+
+}  // namespace
+
+std::vector<StressPeak> find_stress_peaks(const scene::BuiltScene& built,
+                                          const results::History& history,
+                                          const dynamics::RunRecord& record) {
+  std::vector<StressPeak> peaks;
+  if (history.states.empty() || record.peaks.empty()) return peaks;
+  for (const Column& column : list_columns(built)) {
+    const int place = record.places[column.index];
+    if (!column.stress->is_of_link || place < 0) continue;
+    const dynamics::Extreme& peak = record.peaks[column.index];
+    const dynamics::SystemState& near = find_nearest(history, peak.time);
+    peaks.push_back({built.model.bodies[index(column.stress->body)].name,
+                     peak.value, peak.time, column.stress->tags[index(place)],
+                     column.stress->p_L.col(place),
+                     find_error(built, column.stress->body, near)});
+  }
+  return peaks;
+}
+
+dynamics::RunRecord record_state(const scene::BuiltScene& built,
+                                 const dynamics::SystemState& state) {
+  const dynamics::Followed followed = scene::follow(built.probes, built.model);
+  std::vector<double> values;
+  followed.evaluate(state, values);
+  dynamics::RunRecord record;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    record.peaks.push_back({values[i], state.t});
+    record.places.push_back(followed.find_place(i));
+  }
+  return record;
+}
+
+std::vector<std::optional<std::size_t>> find_peak_nodes(
+    const scene::BuiltScene& built, const dynamics::RunRecord& record) {
+  std::vector<std::optional<std::size_t>> nodes(record.peaks.size());
+  for (const Column& column : list_columns(built)) {
+    if (column.index >= nodes.size()) continue;
+    const int place = record.places[column.index];
+    const std::vector<std::size_t>& tags = column.stress->tags;
+    if (place >= 0 && tags.size() > 1) {
+      nodes[column.index] = tags[index(place)];
+    }
+  }
+  return nodes;
+}
+
+Json to_json(const std::vector<StressPeak>& peaks) {
+  Json json = Json::array();
+  for (const StressPeak& peak : peaks) {
+    json.push_back(Json{{"link", peak.link},
+                        {"von_mises", peak.von_mises},
+                        {"time", peak.time},
+                        {"node", peak.node},
+                        {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
+                        {"averaging_error", peak.averaging_error}});
+  }
+  return json;
+}
+
+std::string to_text(const std::vector<StressPeak>& peaks) {
+  if (peaks.empty()) return "";
+  std::string text = fmt::format("{:<20} {:>14} {:>8} {:>30} {:>11} {:>10}\n",
+                                 "von Mises stress", "largest [Pa]", "node",
+                                 "at [m]", "time [s]", "averaging");
+  for (const StressPeak& peak : peaks) {
+    text += fmt::format("{:<20} {:>14.6g} {:>8} {:>30} {:>11.6g} {:>9.2g}%\n",
+                        peak.link, peak.von_mises, peak.node,
+                        fmt::format("({:.4g}, {:.4g}, {:.4g})", peak.p_L.x(),
+                                    peak.p_L.y(), peak.p_L.z()),
+                        peak.time, 100.0 * peak.averaging_error);
+  }
+  return text;
+}
+
+}  // namespace limber::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limber/app/console/json.hpp"
+#include "limber/common/types.hpp"
+#include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/results/history.hpp"
+#include "limber/scene/build/build_system.hpp"
+
+namespace limber::app {
+
+/// Largest von Mises stress on a link's surface, over all steps of a run.
+struct StressPeak {
+  std::string link;
+  double von_mises = 0.0;         ///< [Pa]
+  double time = 0.0;              ///< [s]
+  std::size_t node = 0;           ///< Gmsh node tag
+  Vector3 p_L = Vector3::Zero();  ///< the node, undeformed, link frame [m]
+  /// Error of the averaging over elements in the energy norm, at the output
+  /// nearest to the peak (flexbody::find_averaging_error) [-].
+  double averaging_error = 0.0;
+};
+
+/// One for each link whose stress [output] asks for, that was ever deformed.
+[[nodiscard]] std::vector<StressPeak> find_stress_peaks(
+    const scene::BuiltScene& built, const results::History& history,
+    const dynamics::RunRecord& record);
+
+/// The record of a single state, such as an equilibrium: its values are peaks.
+[[nodiscard]] dynamics::RunRecord record_state(
+    const scene::BuiltScene& built, const dynamics::SystemState& state);
+
+/// The node where a column of a stress probe had its peak, one entry a column;
+/// nothing for other probes and for stress at a single node.
+[[nodiscard]] std::vector<std::optional<std::size_t>> find_peak_nodes(
+    const scene::BuiltScene& built, const dynamics::RunRecord& record);
+
+[[nodiscard]] Json to_json(const std::vector<StressPeak>& peaks);
+[[nodiscard]] std::string to_text(const std::vector<StressPeak>& peaks);
+
+}  // namespace limber::app

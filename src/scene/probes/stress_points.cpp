@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/scene/probes/stress_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+
+namespace limber::scene {
+namespace {
+
+using dynamics::Fidelity;
+using flexbody::ReducedBody;
+
+// All rows of the surface.
+std::set<std::size_t> find_surface(const ReducedBody& body) {
+  const flexbody::StressModes& modes = *body.stress;
+  std::set<std::size_t> rows;
+  for (std::size_t i = 0; i < modes.rows.size(); ++i) {
+    if (modes.on_surface[i] != 0) rows.insert(modes.rows[i]);
+  }
+  if (rows.size() < body.mesh_boundary_nodes) {
+    throw InputError(fmt::format(
+        "its body keeps {} of the {} nodes of its surface, and the largest "
+        "stress may be at the others; keep them by rows=\"boundary\" (or "
+        "'limber reduce --rows boundary'), or say where by 'group', 'node', "
+        "'nearest', ...",
+        rows.size(), body.mesh_boundary_nodes));
+  }
+  return rows;
+}
+
+std::set<std::size_t> find_rows(const ReducedBody& body,
+                                const StressPlace& place) {
+  if (place.interface.empty()) return find_surface(body);
+  for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
+    if (body.interfaces[i].name != place.interface) continue;
+    const auto& rows = body.stress->interface_rows[i];
+    return {rows.begin(), rows.end()};
+  }
+  const auto select = [&](const auto& one) -> std::set<std::size_t> {
+    using Selection = std::decay_t<decltype(one)>;
+    if constexpr (std::is_same_v<Selection, flexbody::TaggedNode>) {
+      return {find_row(body, one.tag)};
+    } else if constexpr (std::is_same_v<Selection, flexbody::NearestNode>) {
+      return {find_nearest_row(body, one.point)};
+    } else if constexpr (std::is_same_v<Selection, flexbody::GroupNodes>) {
+      for (const flexbody::NodeGroup& group : body.groups) {
+        if (group.name != one.group) continue;
+        std::set<std::size_t> rows;
+        for (const std::size_t tag : group.tags) {
+          rows.insert(find_row(body, tag));
+        }
+        return rows;
+      }
+    }
+    return {};
+  };
+  if (place.nodes) {
+    std::set<std::size_t> rows = std::visit(select, *place.nodes);
+    if (!rows.empty()) return rows;
+  }
+  static_cast<void>(find_interface(body, place.interface));  // throws
+  return {};
+}
+
+Eigen::Index find_row_of(const flexbody::StressModes& modes,
+                         Eigen::Index point) {
+  return static_cast<Eigen::Index>(modes.rows[static_cast<std::size_t>(point)]);
+}
+
+}  // namespace
+
+bool has_linear_stress(Fidelity level) {
+  return level == Fidelity::uncoupled || level == Fidelity::one_way ||
+         level == Fidelity::coupled;
+}
+
+std::string explain_no_stress(Fidelity level) {
+  if (level == Fidelity::rigid) {
+    return "it is rigid in this run, and a rigid link has no stress; take "
+           "level uncoupled, one-way or coupled";
+  }
+  return fmt::format(
+      "stress is that of small strain, linear in the modal coordinates, which "
+      "level {} is not; take level uncoupled, one-way or coupled",
+      to_string(level));
+}
+
+bool needs_stress(const Scenario& scenario, const std::string& link) {
+  if (!has_linear_stress(scenario.level_of(link))) return false;
+  if (scenario.output.stress) return true;
+  return std::any_of(scenario.probes.begin(), scenario.probes.end(),
+                     [&](const ProbeSpec& probe) {
+                       const auto* of = std::get_if<StressProbeSpec>(&probe.of);
+                       return of != nullptr && of->where.link == link;
+                     });
+}
+
+bool leave_out_stress(Scenario& scenario) {
+  const bool is_of_links = std::exchange(scenario.output.stress, false);
+  const auto count = std::erase_if(scenario.probes, [](const ProbeSpec& probe) {
+    return std::holds_alternative<StressProbeSpec>(probe.of);
+  });
+  return is_of_links || count > 0;
+}
+
+void require_stress(const ReducedBody& body) {
+  if (body.stress) return;
+  throw InputError(
+      "stress is asked for, but its saved body has no stress modes; make that "
+      "anew by 'limber reduce --stress'");
+}
+
+StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
+                              const StressPlace& place, const Pose& X_BL) {
+  require_stress(body);
+  const std::set<std::size_t> rows = find_rows(body, place);
+  const flexbody::StressModes& modes = *body.stress;
+  std::vector<Eigen::Index> points;
+  for (std::size_t i = 0; i < modes.rows.size(); ++i) {
+    if (rows.count(modes.rows[i]) > 0) {
+      points.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(points.size());
+  const Pose X_LB = X_BL.inverse();
+  Matrix3X p_L(3, count);
+  MatrixX Sigma_L(6 * count, body.mode_count());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index point = points[static_cast<std::size_t>(i)];
+    const Eigen::Index row = find_row_of(modes, point);
+    p_L.col(i) = X_LB * Vector3(body.rows.x_B.col(row));
+    for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+      Sigma_L.block<6, 1>(6 * i, k) = flexbody::turn_stress(
+          modes.Sigma_B.block<6, 1>(6 * point, k), X_BL.R);
+    }
+  }
+  StressProbe probe;
+  probe.quantity = quantity;
+  probe.clusters = StressClusters(p_L, Sigma_L);
+  const std::vector<int>& order = probe.clusters.order();
+  probe.p_L = p_L(Eigen::all, order);
+  probe.Sigma_L.resize(Sigma_L.rows(), Sigma_L.cols());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    probe.Sigma_L.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
+        Sigma_L.middleRows<6>(6 * Eigen::Index{order[i]});
+    const Eigen::Index row = find_row_of(modes, points[index(order[i])]);
+    probe.tags.push_back(body.rows.tags[static_cast<std::size_t>(row)]);
+  }
+  return probe;
+}
+
+}  // namespace limber::scene

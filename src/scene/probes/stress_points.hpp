@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "limber/common/pose.hpp"
+#include "limber/dynamics/system/fidelity.hpp"
+#include "limber/flexbody/model/node_selection.hpp"
+#include "limber/flexbody/model/reduced_body.hpp"
+#include "limber/scene/probes/stress_probe.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+
+/// Which links have stress, and at which of their nodes it is wanted.
+namespace limber::scene {
+
+/// Whether stress follows from the modal coordinates alone: at levels
+/// uncoupled, one-way and coupled.
+[[nodiscard]] bool has_linear_stress(dynamics::Fidelity level);
+
+/// Why there is no stress at another level, and what to do: for messages.
+[[nodiscard]] std::string explain_no_stress(dynamics::Fidelity level);
+
+/// Whether a probe or [output] wants the stress of this flexible link.
+[[nodiscard]] bool needs_stress(const Scenario& scenario,
+                                const std::string& link);
+
+/// Removes probes of stress, and that of [output].
+/// @returns whether there was any
+bool leave_out_stress(Scenario& scenario);
+
+/// @throws InputError saying how to make stress modes for a body without them
+void require_stress(const flexbody::ReducedBody& body);
+
+/// Where a stress is wanted.
+struct StressPlace {
+  std::string interface;                         ///< name, or empty
+  std::optional<flexbody::NodeSelection> nodes;  ///< if it is not an interface
+};
+
+/// Without a place, on the whole surface.
+/// @param X_BL link frame in the body's
+/// @throws InputError for a body without stress modes, an unknown place, and
+/// rows that leave out part of the surface.
+[[nodiscard]] StressProbe make_stress_probe(StressQuantity quantity,
+                                            const flexbody::ReducedBody& body,
+                                            const StressPlace& place,
+                                            const Pose& X_BL);
+
+}  // namespace limber::scene

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/scene/probes/probe_column.hpp"
+#include "limber/scene/probes/stress_clusters.hpp"
+#include "limber/scene/scenario/scenario.hpp"
+
+namespace limber::scene {
+
+/// A probe of stress at a link's nodes, of the largest if there are several.
+///
+/// Equation   sigma = Sigma_L eta; of several points the one with the largest
+///            von Mises stress, or the largest principal stress
+/// Source     flexbody/model/stress_modes.hpp
+/// Limits     small strain. Not to be evaluated by two threads at once: copy it
+struct StressProbe {
+  /// For evaluations.
+  struct Scratch {
+    VectorX stress;  ///< 6p [Pa]
+    int place = -1;  ///< index of the point of the last value
+  };
+  StressQuantity quantity = StressQuantity::von_mises;
+  dynamics::BodyIndex body;
+  bool is_of_link = false;        ///< asked for by [output], not by a probe
+  std::vector<std::size_t> tags;  ///< p: Gmsh node tags of the points
+  Matrix3X p_L;                   ///< 3 x p: places, undeformed [m]
+  MatrixX Sigma_L;          ///< 6p x m, axes of the link [kg^1/2 m^-2 s^-2]
+  StressClusters clusters;  ///< of the points, which are in its order
+  mutable Scratch scratch = {};
+};
+
+/// Name and unit of its columns: "NAME.sxx" [Pa], ..., "NAME.von_mises" [Pa].
+[[nodiscard]] std::vector<ProbeColumnName> column_names(
+    const StressProbe& probe, const std::string& name);
+
+/// Appends the value of each column in `state`, in the units of column_names(),
+/// and stores the place in `probe.scratch`.
+void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
+                   const dynamics::SystemState& state,
+                   std::vector<double>& values);
+
+}  // namespace limber::scene
