@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -51,6 +52,21 @@ MatrixX take_nodes(const MatrixX& all, const std::vector<Eigen::Index>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     taken.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
         all.middleRows<3>(3 * rows[i]);
+  }
+  return taken;
+}
+
+/// Stress per modal coordinate at the rows, 6n x m; at a border of materials
+/// that of the first.
+MatrixX take_stress(const flexbody::StressModes& modes,
+                    const std::vector<Eigen::Index>& rows, Eigen::Index m) {
+  MatrixX taken(6 * std::ssize(rows), m);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto point = std::lower_bound(modes.rows.begin(), modes.rows.end(),
+                                        static_cast<std::size_t>(rows[i])) -
+                       modes.rows.begin();
+    taken.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
+        modes.Sigma_B.middleRows<6>(6 * point).leftCols(m);
   }
   return taken;
 }
@@ -108,6 +124,13 @@ class SurfaceWriter {
     write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
                   take_nodes(body.reduced->rows.Phi_B.leftCols(body.modes),
                              surface.rows));
+    if (body.reduced->stress && body.modes > 0) {
+      out_.write_single(
+          "scene/surfaces/" + name + "/Sigma_B",
+          take_stress(*body.reduced->stress, surface.rows, body.modes),
+          "kg^1/2 m^-2 s^-2",
+          "stress of the shapes, 6n x m: xx, yy, zz, xy, yz, xz");
+    }
     shared_[key] = name;
     return name;
   }

@@ -74,6 +74,12 @@ class PageWriter {
     const auto to_unsigned = [](const std::vector<std::int64_t>& values) {
       return std::vector<std::uint32_t>(values.begin(), values.end());
     };
+    json stress = json::array();
+    for (Eigen::Index k = 0; k < surface.Sigma_B.cols(); ++k) {
+      const Quantised mode = quantise(surface.Sigma_B.col(k));
+      stress.push_back(
+          {{"scale", mode.scale}, {"values", arrays_.add(mode.integers)}});
+    }
     packed.header = {{"body", surface.body},
                      {"nodes", surface.tags.size()},
                      {"tags", arrays_.add(to_unsigned(surface.tags))},
@@ -82,6 +88,7 @@ class PageWriter {
                      {"x", arrays_.add(x.integers)},
                      {"shapes", shapes},
                      {"triangles", arrays_.add(to_unsigned(surface.corners))}};
+    if (!stress.empty()) packed.header["stress"] = stress;
     return packed;
   }
 

@@ -99,6 +99,9 @@ class RecordingReader {
       const auto n = std::ssize(surface.tags);
       surface.x_B = matrix(at + "x_B", 3, n);
       surface.Phi_B = matrix(at + "Phi_B", 3 * n, -1);
+      if (in_.has(at + "Sigma_B")) {
+        surface.Sigma_B = matrix(at + "Sigma_B", 6 * n, surface.Phi_B.cols());
+      }
       surface.corners = in_.read_integers(at + "triangles");
       const bool is_inside =
           std::all_of(surface.corners.begin(), surface.corners.end(),

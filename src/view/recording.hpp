@@ -18,6 +18,8 @@ struct Surface {
   std::vector<std::int64_t> tags;     ///< n Gmsh node tags
   Matrix3X x_B;                       ///< 3 x n undeformed, from the c.m. [m]
   MatrixX Phi_B;                      ///< 3n x m [kg^-1/2]
+  MatrixX Sigma_B;                    ///< 6n x m, or none: stress of the shapes
+                                      ///< [kg^1/2 m^-2 s^-2]
   std::vector<std::int64_t> corners;  ///< three a triangle: nodes, outward
 };
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The page of `limber view` in headless Chromium, or the glTF scene of `limber
-export` in readers that are not ours: check.py page|gltf LIMBER SCENARIO NODE
+export` in readers that are not ours: check.py page|gltf|stress LIMBER SCENARIO NODE
 NODE_MODULES FOLDER. Ends with 77, and says why, where packages of node, Chromium
 or h5py are missing.
 
@@ -94,13 +94,20 @@ def main():
         skip("python3-h5py is not installed")
     if not os.path.isdir(f"{modules}/playwright-core"):
         skip("npm could not fetch the packages of the page")
-    chromium = find_chromium() if what == "page" else None
+    chromium = None if what == "gltf" else find_chromium()
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
 
     def run(*arguments):
         subprocess.run([limber, *arguments], check=True, stdout=subprocess.DEVNULL)
     cache = ["--cache", f"{folder}/cache"]
+    here = os.path.dirname(os.path.abspath(__file__))
+    if what == "stress":
+        run("run", scenario, "--out", f"{folder}/run", *cache)
+        page = f"{folder}/page.html"
+        run("view", f"{folder}/run", "-o", page)
+        sys.exit(subprocess.run([node, f"{here}/drive_stress.mjs", modules, page, chromium,
+                                 folder]).returncode)
     run("run", scenario, "--out", f"{folder}/run", "--xdmf", *cache)
     points = f"{folder}/points.json"
     with open(points, "w") as out:
@@ -114,7 +121,6 @@ def main():
         check_script(f"{folder}/run", list_points(f"{folder}/run"))
         run("export", f"{folder}/run", "-o", f"{folder}/scene.glb")
         command = ["check_gltf.mjs", modules, f"{folder}/scene.glb", points]
-    here = os.path.dirname(os.path.abspath(__file__))
     result = subprocess.run([node, f"{here}/{command[0]}", *command[1:]])
     sys.exit(result.returncode)
 

@@ -2,8 +2,9 @@
 import * as THREE from 'three';
 import { colourOfLink } from './colours.js';
 import { findSemiAxes } from './ellipsoid.js';
-import { makeMaterial } from './material.js';
+import { kStressField, makeMaterial } from './material.js';
 import { locate } from './motion.js';
+import { Stress } from './stress.js';
 
 function makeSurface({ x, shapes, triangles }) {
   const geometry = new THREE.BufferGeometry();
@@ -14,6 +15,20 @@ function makeSurface({ x, shapes, triangles }) {
     geometry.morphTargetsRelative = true;
   }
   geometry.computeBoundingSphere();
+  return geometry;
+}
+
+// The surface's geometry with a list of stress of a body's own.
+function addStress(shared, stress) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', shared.getAttribute('position'));
+  geometry.setIndex(shared.getIndex());
+  geometry.morphAttributes = shared.morphAttributes;
+  geometry.morphTargetsRelative = shared.morphTargetsRelative;
+  geometry.boundingSphere = shared.boundingSphere;
+  const attribute = new THREE.BufferAttribute(stress.values, 1);
+  attribute.setUsage(THREE.DynamicDrawUsage);
+  geometry.setAttribute('limberStress', attribute);
   return geometry;
 }
 
@@ -72,9 +87,13 @@ export class Bodies {
       body: b,
     };
     const modes = body.surface >= 0 ? body.modes : 0;
-    const material = makeMaterial(link.colour, modes, ghost === null ? shared : makeBlank());
+    const surface = ghost === null && modes > 0 ? this.result.surfaces[body.surface] : null;
+    const stress = surface?.stress ? new Stress(surface) : null;
+    const material = makeMaterial(
+      link.colour, modes, ghost === null ? shared : makeBlank(), stress !== null);
     this.setGhost(material, ghost);
     const geometries = this.makeGeometries(body, b, extent);
+    if (stress) geometries[0].geometry = addStress(geometries[0].geometry, stress);
     const meshes = geometries.map(({ geometry, p, q, needsBake }) => {
       if (needsBake) {
         geometry.applyMatrix4(
@@ -107,7 +126,7 @@ export class Bodies {
     this.links.push(link);
     this.group.add(link.group);
     this.moving.push({
-      b, link, meshes, material, modes, eta, rate: new Float64Array(modes),
+      b, link, meshes, material, modes, eta, stress, rate: new Float64Array(modes),
       back: startMatrix.invert(),
     });
   }
@@ -152,9 +171,10 @@ export class Bodies {
     material.polygonOffsetUnits = 4;
   }
 
-  /// Places everything at a time.
-  update(t, magnification) {
+  /// Places everything at a time; stress only for its field.
+  update(t, magnification, field) {
     const at = locate(this.motion.times, t);
+    this.largestStress = 0;
     for (const item of this.moving) {
       const { b, link, meshes, material, modes, eta, rate, back } = item;
       const pose = this.motion.pose(b, at);
@@ -169,6 +189,10 @@ export class Bodies {
       this.motion.eta(b, at, eta);
       this.motion.etadot(b, at, rate);
       own.limberRates.value.set(rate);
+      if (item.stress && field === kStressField) {
+        this.largestStress = Math.max(this.largestStress, item.stress.update(eta));
+        meshes[0].geometry.getAttribute('limberStress').needsUpdate = true;
+      }
       for (const mesh of meshes) {
         for (let k = 0; k < modes; ++k) mesh.morphTargetInfluences[k] = magnification * eta[k];
       }

@@ -35,6 +35,11 @@ export function makeMap() {
 /// 1.23 mm, 4.5 um, ...: a value with a prefix of its unit.
 export function format(value, unit) {
   if (value === 0) return `0 ${unit}`;
+  if (unit === 'Pa') {
+    const [factor, prefix] = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, '']].find(
+      ([f]) => Math.abs(value) >= 0.9995 * f) ?? [1, ''];
+    return `${Number((value / factor).toPrecision(4))} ${prefix}Pa`;
+  }
   const prefixes = [[1, ''], [1e-3, 'm'], [1e-6, '\u00b5'], [1e-9, 'n'], [1e-12, 'p']];
   const size = Math.abs(value);
   const known = /^(m|s|m\/s|rad|N|J|N m|rad\/s)$/.test(unit);

@@ -46,6 +46,11 @@ function unpackSurface(surface) {
     for (let i = 0; i < 3 * n; ++i) shape[i] = scale * values[i];
     return shape;
   });
+  surface.stress = surface.stress?.map(({ scale, values }) => {
+    const mode = new Float32Array(6 * n);
+    for (let i = 0; i < 6 * n; ++i) mode[i] = scale * values[i];
+    return mode;
+  });
 }
 
 /// Results, the shown one first. Lists that are empty may be absent in the file.

@@ -81,7 +81,7 @@ function makeActions(view, player, name) {
     '\\': () => player.setInterval(player.start, player.end),
     m: () => view.setMagnification(2 * view.magnification),
     M: () => view.setMagnification(view.magnification / 2),
-    c: () => view.setField((view.field + 1) % 4),
+    c: () => view.setField((view.field + 1) % view.fields.length),
     f: () => {
       view.camera.frame();
       view.redraw();
@@ -156,7 +156,8 @@ function showPick(view, player, pick) {
     const now = describeNode(view.motion, view.pick.body, node, player.time);
     box.querySelector('p').innerHTML =
       `node <b>${now.tag}</b> of <b></b><br>at ${now.position.map((c) => format(c, 'm')).join(', ')}` +
-      `<br>displaced ${format(now.displacement, 'm')}, deformed ${format(now.deformation, 'm')}`;
+      `<br>displaced ${format(now.displacement, 'm')}, deformed ${format(now.deformation, 'm')}` +
+      (now.stress === null ? '' : `<br>von Mises stress ${format(now.stress, 'Pa')}`);
     box.querySelectorAll('b')[1].textContent = body.name;
   };
   if (pick.node >= 0) {
@@ -175,8 +176,8 @@ function readHash(view, player) {
   if (wishes.has('peak')) player.seek(view.ranges.peak);
   if (wishes.has('t')) player.seek(Number(wishes.get('t')) || 0);
   if (wishes.has('magnification')) view.setMagnification(Number(wishes.get('magnification')));
-  const field = ['none', 'deformation', 'displacement', 'velocity'].indexOf(wishes.get('field'));
-  if (field >= 0) view.setField(field);
+  const field = view.fields.find(({ name }) => name === wishes.get('field'));
+  if (field) view.setField(field.index);
   if (wishes.has('dark')) setDark(true, view);
   if (wishes.has('plots') && view.probeGroups.length > 0) togglePlots(view);
 }

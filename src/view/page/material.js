@@ -2,12 +2,16 @@
 // the vertex shader.
 import * as THREE from 'three';
 
+/// The field that only results with stress have.
+export const kStressField = 4;
+
 /// Fields by which surfaces are coloured; `index` is that of the shader.
 export const kFields = [
   { name: 'none', label: 'by link', unit: '', index: 0 },
   { name: 'deformation', label: 'deformation', unit: 'm', index: 1 },
   { name: 'displacement', label: 'displacement from the start', unit: 'm', index: 2 },
   { name: 'velocity', label: 'velocity', unit: 'm/s', index: 3 },
+  { name: 'von_mises', label: 'von Mises stress', unit: 'Pa', index: kStressField },
 ];
 
 const kDeclarations = /* glsl */ `
@@ -20,6 +24,9 @@ uniform vec2 limberRange;
 #ifdef LIMBER_MODES
 uniform float limberRates[LIMBER_MODES];
 uniform float limberStart[LIMBER_MODES];
+#endif
+#ifdef LIMBER_STRESS
+attribute float limberStress;
 #endif
 varying float limberValue;
 `;
@@ -58,11 +65,19 @@ if (limberField == 2) {
 if (limberField == 3) {
   limberSize = length(limberVelocity + cross(limberSpin, limberX + limberU) + limberUdot);
 }
+#ifdef LIMBER_STRESS
+if (limberField == 4) limberSize = limberStress;
+#endif
 limberValue = (limberSize - limberRange.x) / (limberRange.y - limberRange.x);
 `;
 
 const kColour = /* glsl */ `
-if (limberField > 0) {
+#ifdef LIMBER_STRESS
+bool limberHasField = limberField > 0;
+#else
+bool limberHasField = limberField > 0 && limberField != 4;
+#endif
+if (limberHasField) {
   diffuseColor.rgb = texture2D(limberMap, vec2(clamp(limberValue, 0.002, 0.998), 0.5)).rgb;
 }
 `;
@@ -78,7 +93,8 @@ export function makeSharedUniforms(map) {
 }
 
 /// @param shared makeSharedUniforms(), or null: one colour, such as a ghost's
-export function makeMaterial(colour, modes, shared) {
+/// @param hasStress whether its geometry has the attribute limberStress
+export function makeMaterial(colour, modes, shared, hasStress) {
   const material = new THREE.MeshLambertMaterial({
     color: colour,
     flatShading: true,
@@ -92,6 +108,7 @@ export function makeMaterial(colour, modes, shared) {
     own.limberRates = { value: new Float32Array(modes) };
     own.limberStart = { value: new Float32Array(modes) };
     material.defines = { LIMBER_MODES: modes };
+    if (hasStress) material.defines.LIMBER_STRESS = '';
   }
   material.userData.own = own;
   material.onBeforeCompile = (shader) => {
@@ -106,6 +123,6 @@ export function makeMaterial(colour, modes, shared) {
       )
       .replace('#include <color_fragment>', `#include <color_fragment>\n${kColour}`);
   };
-  material.customProgramCacheKey = () => `limber${modes}`;
+  material.customProgramCacheKey = () => `limber${modes}${hasStress ? 'stress' : ''}`;
   return material;
 }

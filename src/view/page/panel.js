@@ -1,6 +1,5 @@
 // The panel beside the picture: deformation, colours, links, probes, ghosts.
 import { colourOfGhost, format, toText } from './colours.js';
-import { kFields } from './material.js';
 
 function make(tag, properties = {}, children = []) {
   const element = Object.assign(document.createElement(tag), properties);
@@ -33,7 +32,7 @@ function deformationSection(view) {
 }
 
 function colourSection(view) {
-  const select = make('select', { id: 'field' }, kFields.map((field) =>
+  const select = make('select', { id: 'field' }, view.fields.map((field) =>
     make('option', { value: field.index, textContent: field.label })));
   select.onchange = () => view.setField(Number(select.value));
   const each = make('input', { type: 'checkbox' });

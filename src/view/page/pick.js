@@ -1,6 +1,7 @@
 // A click on a surface: the node there, and its motion.
 import * as THREE from 'three';
 import { locate } from './motion.js';
+import { stressAt } from './stress.js';
 
 const kStillPixels = 4;
 
@@ -62,7 +63,8 @@ export function traceNode(motion, body, node) {
   };
 }
 
-/// Displacement and deformation of a node at a time, as lengths [m].
+/// Displacement and deformation of a node at a time, as lengths [m], and its
+/// von Mises stress [Pa], null without.
 export function describeNode(motion, body, node, t) {
   const b = motion.result.bodies[body];
   const now = motion.position(body, node, t);
@@ -73,5 +75,6 @@ export function describeNode(motion, body, node, t) {
     position: now,
     displacement: Math.hypot(...now.map((value, c) => value - start[c])),
     deformation: Math.hypot(...motion.deformation(body, node, eta)),
+    stress: stressAt(motion, body, node, eta),
   };
 }

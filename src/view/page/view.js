@@ -4,8 +4,9 @@ import { Bodies } from './bodies.js';
 import { Camera } from './camera.js';
 import { colourOfGhost, makeMap, showLegend } from './colours.js';
 import { findBox, findRanges, findRangesAt } from './extents.js';
+import { findLargestStress, hasStress } from './stress.js';
 import { Marks } from './marks.js';
-import { makeSharedUniforms } from './material.js';
+import { kFields, kStressField, makeSharedUniforms } from './material.js';
 import { Motion } from './motion.js';
 import { Names } from './names.js';
 import { groupProbes, Plots } from './plots.js';
@@ -39,6 +40,8 @@ export class View {
     const box = joinBoxes(this.motions.map(findBox));
     this.ranges = findRanges(this.motion);
     this.magnification = 1;
+    this.fields = kFields.filter(
+      (field) => field.index !== kStressField || hasStress(this.motion.result));
     this.field = 0;
     this.scalePerFrame = false;
     this.listeners = { magnification: [], field: [], links: [], plots: [] };
@@ -172,12 +175,22 @@ export class View {
     this.isStale = true;
   }
 
+  /// Largest value of the field, of the run or of this moment.
+  findMost() {
+    if (this.field === kStressField) {
+      if (this.scalePerFrame) return this.bodies.largestStress;
+      this.largestStress ??= findLargestStress(this.motion);
+      return this.largestStress;
+    }
+    return this.scalePerFrame
+      ? findRangesAt(this.motion, this.player.time)[this.field]
+      : this.ranges.most[this.field];
+  }
+
   updateColours() {
     this.shared.limberField.value = this.field;
     this.shared.limberMagnification.value = this.magnification;
-    const most = this.scalePerFrame
-      ? findRangesAt(this.motion, this.player.time)[this.field]
-      : this.ranges.most[this.field];
+    const most = this.findMost();
     const range = [0, most > 0 ? most : 1];
     this.shared.limberRange.value.set(...range);
     const note = this.scalePerFrame ? 'of this moment' : 'of the whole run';
@@ -187,7 +200,7 @@ export class View {
   draw() {
     const { time } = this.player;
     this.isStale = false;
-    this.bodies.update(time, this.magnification);
+    this.bodies.update(time, this.magnification, this.field);
     for (const ghost of this.ghosts) ghost.update(time, this.magnification);
     this.marks.update(time, this.magnification);
     this.camera.update();

@@ -1,0 +1,79 @@
+// Von Mises stress at the nodes of surfaces whose results have it.
+import { locate } from './motion.js';
+
+const kTimes = 60; // searched for the largest
+
+/// Components (xx, yy, zz, xy, yz, xz) at all nodes: 6n [Pa].
+function addStress(stress, eta, all) {
+  all.fill(0);
+  for (let k = 0; k < stress.length; ++k) {
+    const mode = stress[k];
+    const e = eta[k];
+    if (e === 0) continue;
+    for (let i = 0; i < all.length; ++i) all[i] += e * mode[i];
+  }
+}
+
+function misesAt(s, i) {
+  const a = s[i] - s[i + 1];
+  const b = s[i + 1] - s[i + 2];
+  const c = s[i + 2] - s[i];
+  const shear = s[i + 3] * s[i + 3] + s[i + 4] * s[i + 4] + s[i + 5] * s[i + 5];
+  return Math.sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear);
+}
+
+/// Of one body; `values` [Pa] are those of the last update.
+export class Stress {
+  constructor(surface) {
+    this.modes = surface.stress;
+    this.all = new Float32Array(6 * surface.nodes);
+    this.values = new Float32Array(surface.nodes);
+  }
+
+  /// @returns the largest [Pa]
+  update(eta) {
+    addStress(this.modes, eta, this.all);
+    let most = 0;
+    for (let n = 0; n < this.values.length; ++n) {
+      this.values[n] = misesAt(this.all, 6 * n);
+      most = Math.max(most, this.values[n]);
+    }
+    return most;
+  }
+}
+
+/// At one node, or null if the result has no stress of it.
+export function stressAt(motion, b, node, eta) {
+  const { stress } = motion.result.surfaces[motion.result.bodies[b].surface];
+  if (!stress) return null;
+  const s = [0, 1, 2, 3, 4, 5].map((c) =>
+    stress.reduce((sum, mode, k) => sum + mode[6 * node + c] * eta[k], 0));
+  return misesAt(s, 0);
+}
+
+export const hasStress = (result) =>
+  result.bodies.some((b) => b.surface >= 0 && result.surfaces[b.surface].stress);
+
+/// Largest of the run: at all nodes at up to 60 outputs, and of the recorded
+/// largest of each link.
+export function findLargestStress(motion) {
+  const { result, times } = motion;
+  let most = 0;
+  for (const probe of result.probes) {
+    if (!probe.name.endsWith('.surface.von_mises')) continue;
+    for (const value of probe.values) most = Math.max(most, value);
+  }
+  result.bodies.forEach((body, b) => {
+    const surface = result.surfaces[body.surface];
+    if (!surface?.stress) return;
+    const stress = new Stress(surface);
+    const eta = new Float64Array(body.modes);
+    const count = Math.min(kTimes, times.length);
+    for (let k = 0; k < count; ++k) {
+      const i = Math.round((k / Math.max(1, count - 1)) * (times.length - 1));
+      motion.eta(b, locate(times, times[i]), eta);
+      most = Math.max(most, stress.update(eta));
+    }
+  });
+  return most;
+}
