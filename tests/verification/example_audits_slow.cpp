@@ -31,7 +31,7 @@ struct Steps {
 };
 const std::map<std::string, Steps> kShortSteps = {
     {"ball_on_link", {3e-8}},
-    {"beam_stress", {4e-5}},
+    {"beam_stress", {1e-5}},
     {"blade", {5e-4}},
     {"catch", {1e-4}},
     {"claw", {1.5e-5}},
