@@ -30,7 +30,8 @@ TEST(Allocation, FindingWhereShapesMeetMakesNone) {
   Matrix3X Phi(3, 4);
   for (const ShapePair& pair :
        {ShapePair(skin, {Sphere{0.3}, {}}), ShapePair(skin, {HalfSpace{}, {}}),
-        ShapePair(capsule, capsule)}) {
+        ShapePair(capsule, capsule),
+        ShapePair(skin, {Box{{0.3, 0.3, 0.3}}, {}})}) {
     std::vector<Meeting> out(pair.most_points());
     double deepest = -1e9;
     double clearance = 1e9;
