@@ -78,7 +78,7 @@ TEST(Allocation, EvaluatingASkinOnAPlaneMakesNone) {
         .eta = eta.data(),
         .etadot = eta.data()};
     const joints::PairBodies bodies{plane, body};
-    const long before = allocations;
+    const long before = limber::testing::allocations;
     pair.begin_touch(bodies, 0.0, memory, out);
     pair.commit(bodies, 0.0, memory, out);
     out.clear();
@@ -86,7 +86,7 @@ TEST(Allocation, EvaluatingASkinOnAPlaneMakesNone) {
     const std::size_t points = out.points().size();
     out.clear();
     pair.evaluate_over_step({bodies, bodies, bodies, {}}, memory, out);
-    EXPECT_EQ(allocations - before, 0) << surface.name;
+    EXPECT_EQ(limber::testing::allocations - before, 0) << surface.name;
     EXPECT_GT(points, 3U) << surface.name;
   }
 }
