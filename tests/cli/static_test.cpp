@@ -244,6 +244,28 @@ TEST(Static, EquilibriumWithVelocitiesAndGravityAcrossThemIsRefused) {
   EXPECT_THAT(r.errors, HasSubstr("gravity across the axis of rotation"));
 }
 
+TEST(Static, EquilibriumOfWhatFliesWithoutTurningIsRefused) {
+  const Workspace place;
+  place.write("ball.urdf",
+              "<robot name='b'><link name='body'><inertial><mass value='1'/>"
+              "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+              "</inertial></link></robot>");
+  const std::string head =
+      "[initial]\nequilibrium = true\n[time]\nduration = 0.5\nstep = "
+      "0.001\n";
+  for (const std::string& moving :
+       {head + "[[robot]]\nname = 'a'\nfile = 'ball.urdf'\n"
+               "velocity = [1.0, 0.0, 0.0]\n",
+        "robot = 'ball.urdf'\n" + head +
+            "[[projectile]]\nname = 'p'\nradius = 0.1\nmass = 1\n"
+            "position = [5, 0, 0]\nvelocity = [1, 0, 0]\n"}) {
+    place.write("s.toml", moving);
+    const CommandResult result = place.limber("run s.toml --out o");
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.errors, HasSubstr("moves without rotation"));
+  }
+}
+
 TEST(Static, SteadyRotationIsNotFoundByRelaxation) {
   const Workspace place;
   const CommandResult r = place.limber(

@@ -322,7 +322,8 @@ TEST(ConvexPairs, AFaceThatSlidesOffAnotherKeepsItsForce) {
 
 TEST(ConvexPairs, ACapsuleLiesOnABoxWithBothEnds) {
   const Matrix3 R = exp_rotation(Vector3(0.5 * M_PI, 0, 0));
-  const ShapePair pair({Box{{1, 1, 1}}, {}}, {Capsule{0.2, 0.5}, {R, {}}});
+  const ShapePair pair({Box{{1, 1, 1}}, {}},
+                       {Capsule{0.2, 0.5}, {R, Vector3::Zero()}});
   std::vector<Meeting> touching;
   for (const Meeting& m :
        meet(pair, {}, {Matrix3::Identity(), {0, 0.3, 1.19}})) {

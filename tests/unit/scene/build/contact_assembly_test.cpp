@@ -333,12 +333,13 @@ TEST_F(TouchingBody, HasNoResidualFlexibilityAtLevelRigid) {
 }
 
 TEST_F(TouchingBody, IsRefusedWithAShapeThatHasNoRule) {
-  EXPECT_THAT(error_of(Vector3(0.0, 0.0, 2.0), "",
-                       "[[obstacle]]\nname = 'wall'\nshape = 'cylinder'\nradius = "
-                       "1.0\nlength = 1.0\nposition = [9.0, 0.0, 0.0]\n" +
-                           contact("body", "wall")),
-              AllOf(HasSubstr("between 'body' and 'wall'"),
-                    HasSubstr("there is no rule for")));
+  EXPECT_THAT(
+      error_of(Vector3(0.0, 0.0, 2.0), "",
+               "[[obstacle]]\nname = 'wall'\nshape = 'cylinder'\nradius = "
+               "1.0\nlength = 1.0\nposition = [9.0, 0.0, 0.0]\n" +
+                   contact("body", "wall")),
+      AllOf(HasSubstr("between 'body' and 'wall'"),
+            HasSubstr("there is no rule for")));
 }
 
 TEST_F(TouchingBody, IsRefusedAtLevelFull) {

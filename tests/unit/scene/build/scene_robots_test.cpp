@@ -224,9 +224,6 @@ TEST_F(Robots, AreRefusedIfTheyAreNotClear) {
       {two + "[[projectile]]\nname = 'a'\nradius = 1.0\nmass = 1.0\nposition = "
              "[9.0, 9.0, 9.0]\n",
        "projectile 'a' is called like another link, robot"},
-      {"[initial]\nequilibrium = true\n" + time +
-           robot("a", "ball", "velocity = [1.0, 0.0, 0.0]\n"),
-       "'equilibrium' starts at rest"},
   };
   for (const auto& [text, problem] : wrong) {
     EXPECT_THAT(error_of(text), HasSubstr(problem)) << text;

@@ -75,13 +75,6 @@ TEST(ContactReader, TellsEveryProblemOfAProjectile) {
   }
 }
 
-TEST(ContactReader, RefusesAProjectileThatMovesFromEquilibrium) {
-  EXPECT_THAT(
-      error_of(kBall +
-               "mass=1\nvelocity=[1,0,0]\n[initial]\nequilibrium=true\n"),
-      HasSubstr("starts at rest"));
-}
-
 std::string obstacle(const std::string& more) {
   return "[[obstacle]]\nname='o'\nposition=[1,2,3]\n" + more;
 }
