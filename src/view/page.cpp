@@ -9,6 +9,7 @@
 #include <string>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/files/own_file.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/view/page_arrays.hpp"
 #include "limber/view/page_data.hpp"
@@ -37,8 +38,7 @@ std::string read_template() {
 
 fs::path find_template() {
   std::error_code unknown;
-  const fs::path folder =
-      fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  const fs::path folder = find_own_file().parent_path();
   const std::array<fs::path, 3> places = {
       folder / kName, folder.parent_path() / "share/limber" / kName,
       fs::path(LIMBER_DATA_DIR) / kName};

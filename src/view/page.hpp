@@ -8,7 +8,7 @@
 
 namespace limber::view {
 
-/// The page without data that the build makes: beside the running program, in
+/// The page without data that the build makes: beside Limber's own file, in
 /// ../share/limber from there, or where Limber was configured to be installed.
 /// @throws InputError if it is not there.
 std::filesystem::path find_template();

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "limber/common/files/own_file.hpp"
+
 namespace limber {
 namespace {
 
@@ -43,8 +45,23 @@ std::string read_notes(std::string_view notes) {
   return {};
 }
 
-// The program itself comes first; the rest is skipped.
-int read_program(dl_phdr_info* info, std::size_t /*size*/, void* result) {
+bool has_code(const dl_phdr_info& info, const void* code) {
+  const auto address = reinterpret_cast<ElfW(Addr)>(code);
+  for (int i = 0; i < info.dlpi_phnum; ++i) {
+    const auto& part = info.dlpi_phdr[i];
+    const ElfW(Addr) begin = info.dlpi_addr + part.p_vaddr;
+    if (part.p_type == PT_LOAD && address >= begin &&
+        address - begin < part.p_memsz) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The program itself comes first. All but Limber's own file is skipped.
+int read_own(dl_phdr_info* info, std::size_t /*size*/, void* result) {
+  const void* const code = find_own_code();
+  if (code != nullptr && !has_code(*info, code)) return 0;
   auto& id = *static_cast<std::string*>(result);
   for (int i = 0; i < info->dlpi_phnum && id.empty(); ++i) {
     const auto& part = info->dlpi_phdr[i];
@@ -60,7 +77,7 @@ int read_program(dl_phdr_info* info, std::size_t /*size*/, void* result) {
 
 std::string find_build_id() {
   std::string id;
-  dl_iterate_phdr(&read_program, &id);
+  dl_iterate_phdr(&read_own, &id);
   return id;
 }
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/files/own_file.hpp"
 
 namespace limber {
 
@@ -23,14 +24,12 @@ bool can_run(const std::filesystem::path& program) {
 std::filesystem::path find_helper(const std::string& what,
                                   const std::string& name,
                                   const std::string& remedy) {
-  std::error_code unknown;
-  const std::filesystem::path folder =
-      std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
+  const std::filesystem::path folder = find_own_file().parent_path();
   const std::array<std::filesystem::path, 3> places = {
       folder / name, folder.parent_path() / "libexec/limber" / name,
       std::filesystem::path(LIMBER_LIBEXEC_DIR) / name};
   for (const std::filesystem::path& place : places) {
-    if (can_run(place)) return place;
+    if (can_run(place)) return std::filesystem::canonical(place);
   }
   throw InputError(fmt::format(
       "{} '{}' is not there: looked for {}, {} and {}. {}", what, name,

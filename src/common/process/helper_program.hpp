@@ -9,9 +9,9 @@ namespace limber {
 /// Whether this user may run the file as a program.
 [[nodiscard]] bool can_run(const std::filesystem::path& program);
 
-/// A program that Limber starts, by name: beside the running program, in
-/// ../libexec/limber from there, or where Limber was configured to be
-/// installed.
+/// A program that Limber starts, by name: beside its own file
+/// (files/own_file.hpp), in ../libexec/limber from there, or where Limber was
+/// configured to be installed.
 /// @param what it is to the user, as "the mesher"
 /// @param remedy a sentence that ends the error
 /// @throws InputError if it is in none of these places
