@@ -71,6 +71,10 @@ Simulator::Simulator(const SystemModel& model, const SystemState& start,
 Simulator::~Simulator() = default;
 
 bool Simulator::advance_to(double t, const std::stop_token& stop) {
+  return advance_to(t, [&stop] { return stop.stop_requested(); });
+}
+
+bool Simulator::advance_to(double t, const std::function<bool()>& stops) {
   const double now = parts_->state.t;
   const double end = parts_->settings.end_time;
   if (!(t >= now) || !(t <= end)) {
@@ -82,7 +86,7 @@ bool Simulator::advance_to(double t, const std::stop_token& stop) {
   if (t == now) return true;
   bool is_there = false;
   try {
-    is_there = parts_->loop.run_to(t, parts_->state, stop);
+    is_there = parts_->loop.run_to(t, parts_->state, stops);
   } catch (const NumericalError&) {
     parts_->show();
     throw;

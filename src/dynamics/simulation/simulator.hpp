@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stop_token>
 
@@ -38,6 +39,8 @@ class Simulator {
   /// that of the last good step), also at end_time if more than half of the
   /// energy does not balance.
   bool advance_to(double t, const std::stop_token& stop = {});
+  /// The same, for a caller who is asked before every step whether to stop.
+  bool advance_to(double t, const std::function<bool()>& stops);
 
   [[nodiscard]] const SystemState& state() const;
   /// Current energies and momenta, work and dissipation since the start.

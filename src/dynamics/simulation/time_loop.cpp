@@ -380,11 +380,11 @@ void TimeLoop::run(SystemState& state, const Visit& visit,
 }
 
 bool TimeLoop::run_to(double t, SystemState& state,
-                      const std::stop_token& stop) {
+                      const std::function<bool()>& stops) {
   const auto ignore = [](const SystemState&, const Losses&) {};
   if (!has_started_) begin(state);
   const AddedBreakpoint target = add_breakpoint(t);
-  while (next_ <= target.index && !stop.stop_requested()) {
+  while (next_ <= target.index && !stops()) {
     try {
       take_step(state, ignore, {}, {});
     } catch (...) {

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <functional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -56,10 +55,11 @@ class TimeLoop {
            const CheckpointKeeper& keeper);
 
   /// Advances `state` to t [s], at most the end time, and ends a step there;
-  /// ends after the current step once `stop` is requested.
+  /// ends after the current step once `stops` says so.
+  /// @param stops called before every step
   /// @returns whether t was reached
   /// @throws NumericalError as run() does.
-  bool run_to(double t, SystemState& state, const std::stop_token& stop);
+  bool run_to(double t, SystemState& state, const std::function<bool()>& stops);
 
   /// A checkpoint for resume(). Discards cached factors, so that both runs
   /// continue identically to the bit.
