@@ -33,9 +33,10 @@ SystemState just_after(const SystemState& state) {
 class Derivatives {
  public:
   Derivatives(const SystemModel& model, const SystemState& state,
-              SmallMotion& out)
+              const std::vector<AttachmentIndex>& frames, SmallMotion& out)
       : model_(model),
         state_(just_after(state)),
+        frames_(frames),
         out_(out),
         terms_(make_terms(model)),
         acceleration_(make_rates(model)),
@@ -55,12 +56,17 @@ class Derivatives {
     out_.lambda = VectorX::Zero(n);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) fill_body(b);
     fill_links();
-    MatrixX laws;
-    MatrixX rate_laws;
-    out_.rest = differentiate(0.0, laws);
-    const MatrixX by_rate = differentiate(1.0, rate_laws) - out_.rest;
-    out_.rest -= out_.G.transpose() * laws;
-    out_.D += by_rate + out_.G.transpose() * (damp(out_.G) - rate_laws + laws);
+    const Changes still = differentiate(0.0);
+    const Changes moving = differentiate(1.0);
+    out_.velocities = -still.laws;
+    out_.velocities_by_rate = out_.G - (moving.laws - still.laws);
+    out_.rest = still.residual + out_.G.transpose() * damp(out_.velocities);
+    out_.D += moving.residual - still.residual +
+              out_.G.transpose() * damp(out_.velocities_by_rate);
+    out_.frames = still.frames;
+    out_.frame_velocities = still.frame_velocities;
+    out_.frame_velocities_by_rate =
+        moving.frame_velocities - still.frame_velocities;
     fill_noise();
   }
 
@@ -112,15 +118,19 @@ class Derivatives {
     out_.coupled.push_back({m, std::move(K)});
   }
 
-  // Laws of unit stiffness change by minus the motions.
+  // Laws of unit stiffness change by minus the motions, those of unit damping
+  // by minus the velocities.
   void fill_links() {
     for (CouplerTerms& c : terms_.couplers) {
       out_.K.push_back(c.response.stiffness);
+      out_.damping.push_back(c.response.damping);
       c.response.stiffness.setIdentity();
     }
     for (TransmissionTerms& t : terms_.transmissions) {
       out_.K.emplace_back(Matrix6::Zero());
       out_.K.back()(0, 0) = t.response.stiffness;
+      out_.damping.emplace_back(Matrix6::Zero());
+      out_.damping.back()(0, 0) = t.response.damping;
       t.response.stiffness = 1.0;
     }
     NewtonMatrix matrix(model_);
@@ -138,6 +148,8 @@ class Derivatives {
       }
     }
     fill_pair_motions(6 * links);
+    for (CouplerTerms& c : terms_.couplers) c.response.damping.setIdentity();
+    for (TransmissionTerms& t : terms_.transmissions) t.response.damping = 1.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(links); ++i) {
       const auto t = static_cast<Index>(i) - couplers;
       if (t < 0) {
@@ -182,57 +194,64 @@ class Derivatives {
     });
   }
 
-  MatrixX damp(const MatrixX& motions) const {
-    MatrixX forces(motions.rows(), motions.cols());
+  [[nodiscard]] MatrixX damp(const MatrixX& velocities) const {
+    MatrixX forces(velocities.rows(), velocities.cols());
     Index row = 0;
-    for (const CouplerTerms& c : terms_.couplers) {
-      forces.middleRows<6>(row) =
-          c.response.damping * motions.middleRows<6>(row);
-      row += 6;
-    }
-    for (const TransmissionTerms& t : terms_.transmissions) {
-      forces.middleRows<6>(row) =
-          t.response.damping * motions.middleRows<6>(row);
+    for (const Matrix6& C : out_.damping) {
+      forces.middleRows<6>(row) = C * velocities.middleRows<6>(row);
       row += 6;
     }
     for_each_point([&](const Pair& /*pair*/, const joints::PairPoint& point) {
-      forces.middleRows<3>(row) = point.damping * motions.middleRows<3>(row);
+      forces.middleRows<3>(row) = point.damping * velocities.middleRows<3>(row);
       forces.middleRows<3>(row + 3).setZero();
       row += 6;
     });
     return forces;
   }
 
-  // Derivative of all terms without stiffness that are not yet in M and D, with
-  // velocities changing by `velocity` times the positions.
-  MatrixX differentiate(double velocity, MatrixX& laws) {
+  // By each coordinate, velocities changing by `velocity` times the positions:
+  // all terms without stiffness that are not yet in M and D, laws as
+  // ResidualDerivative has them, the frames asked for.
+  struct Changes {
+    MatrixX residual;
+    MatrixX laws;
+    MatrixX frames;
+    MatrixX frame_velocities;
+  };
+  Changes differentiate(double velocity) {
     const Index n = std::ssize(rows_);
-    MatrixX rest(n, n);
-    laws.setZero(out_.G.rows(), n);
+    Changes out{MatrixX(n, n), MatrixX::Zero(out_.G.rows(), n),
+                MatrixX(6 * std::ssize(frames_), n),
+                MatrixX(6 * std::ssize(frames_), n)};
     derivative_.set_point(state_, terms_, acceleration_, no_turn_,
                           {0.0, velocity});
     VectorX residual;
-    std::vector<Vector6> changes;
+    std::vector<Vector6> laws;
     for (Index j = 0; j < n; ++j) {
-      derivative_.apply_rest(unit(j), residual, changes);
-      rest.col(j) = residual(rows_);
-      for (std::size_t i = 0; i < changes.size(); ++i) {
-        laws.block<6, 1>(6 * static_cast<Index>(i), j) = changes[i];
+      derivative_.apply_rest(unit(j), residual, laws);
+      out.residual.col(j) = residual(rows_);
+      for (std::size_t i = 0; i < laws.size(); ++i) {
+        out.laws.block<6, 1>(6 * static_cast<Index>(i), j) = laws[i];
+      }
+      for (std::size_t i = 0; i < frames_.size(); ++i) {
+        const auto& change = derivative_.frame_change(frames_[i]);
+        const Index row = 6 * static_cast<Index>(i);
+        out.frames.block<6, 1>(row, j) << change.p, change.phi;
+        out.frame_velocities.block<6, 1>(row, j) << change.v, change.w;
       }
     }
-    return rest;
+    return out;
   }
 
   // Rotating forces are linear in the wrenches.
   void fill_noise() {
     std::vector<Vector6> gaps;
     find_roundoff_gaps(model_, terms_, 0.0, gaps);
-    MatrixX laws;
     exert(gaps);
-    out_.noise = differentiate(0.0, laws);
+    out_.noise = differentiate(0.0).residual;
     for (Vector6& gap : gaps) gap.setZero();
     exert(gaps);
-    out_.noise -= differentiate(0.0, laws);
+    out_.noise -= differentiate(0.0).residual;
   }
 
   void exert(const std::vector<Vector6>& wrenches) {
@@ -251,6 +270,7 @@ class Derivatives {
 
   const SystemModel& model_;
   SystemState state_;
+  const std::vector<AttachmentIndex>& frames_;
   SmallMotion& out_;
   SystemTerms terms_;
   Rates acceleration_;
@@ -296,10 +316,10 @@ std::pair<MatrixX, MatrixX> make_spins(const SmallMotion& motion,
 void check_levels(const SystemModel& model) {
   for (const FullModel& full : model.full_bodies) {
     throw InputError(fmt::format(
-        "body '{}' is at level full, with {} coordinates of nodes: frequencies "
-        "are those of a dense matrix, which is made of reduced bodies alone. "
+        "body '{}' is at level full, with {} coordinates of nodes: small "
+        "motion has dense matrices, which are made of reduced bodies alone. "
         "Take --fidelity coupled, with as many eigenmodes as the frequencies "
-        "asked for need",
+        "of interest need",
         model.bodies[static_cast<std::size_t>(full.body)].name, full.dofs()));
   }
 }
@@ -381,11 +401,11 @@ MatrixX SmallMotion::find_holds() const {
 }
 
 SmallMotion find_small_motion(const SystemModel& model,
-                              const SystemState& state,
-                              const TurningAxes& axes) {
+                              const SystemState& state, const TurningAxes& axes,
+                              const std::vector<AttachmentIndex>& frames) {
   check_levels(model);
   SmallMotion motion;
-  Derivatives(model, state, motion).fill();
+  Derivatives(model, state, frames, motion).fill();
   const MatrixX P = make_turn(motion, state, axes.R);
   const auto [W, V] = make_spins(motion, state, axes);
   const MatrixX C = P.transpose() * motion.D * P;
@@ -395,6 +415,13 @@ SmallMotion find_small_motion(const SystemModel& model,
   motion.rest =
       (P.transpose() * motion.rest * P + C * W + motion.M * V * W).eval();
   motion.noise = (P.transpose() * motion.noise * P).eval();
+  const auto turn_velocities = [&](MatrixX& by_x, MatrixX& by_rate) {
+    by_rate *= P;
+    by_x = (by_x * P + by_rate * W).eval();
+  };
+  turn_velocities(motion.velocities, motion.velocities_by_rate);
+  turn_velocities(motion.frame_velocities, motion.frame_velocities_by_rate);
+  motion.frames *= P;
   return motion;
 }
 

@@ -48,6 +48,18 @@ struct SmallMotion {
   MatrixX G;
   std::vector<Matrix6>
       K;  ///< stiffness of these, one per six rows [N/m, N/rad; N, N m/rad]
+  /// Damping of couplers and transmissions, likewise [N s/m, N s/rad; N s, N m
+  /// s/rad].
+  std::vector<Matrix6> damping;
+  /// Velocities of couplers and transmissions by x and by x', rows as G
+  /// [m/s or rad/s / column's, or its rate's].
+  MatrixX velocities;
+  MatrixX velocities_by_rate;
+  /// Of the frames asked for, six rows each, translation first: motion in the
+  /// world by x [m or rad], velocity by x and by x' [m/s or rad/s].
+  MatrixX frames;
+  MatrixX frame_velocities;
+  MatrixX frame_velocities_by_rate;
   MatrixX rest;  ///< of rotating forces, and of inertia [row's / column's]
   /// Round-off of `rest` due to couplers' wrenches [row's / column's].
   MatrixX noise;
@@ -66,9 +78,11 @@ struct SmallMotion {
 
 /// About the motion of the system from `state`, with loads after a jump at its
 /// time.
+/// @param frames attachments whose motion is asked for, too
 /// @throws InputError for a body at level `full`.
-[[nodiscard]] SmallMotion find_small_motion(const SystemModel& model,
-                                            const SystemState& state,
-                                            const TurningAxes& axes = {});
+[[nodiscard]] SmallMotion find_small_motion(
+    const SystemModel& model, const SystemState& state,
+    const TurningAxes& axes = {},
+    const std::vector<AttachmentIndex>& frames = {});
 
 }  // namespace limber::dynamics

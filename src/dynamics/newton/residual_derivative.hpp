@@ -42,12 +42,17 @@ class ResidualDerivative {
   void apply_rest(const VectorX& increments, VectorX& residual,
                   std::vector<Vector6>& laws);
 
- private:
-  // Change of an attachment's frame, world frame.
+  /// Change of an attachment's frame, world frame.
   struct FrameChange {
-    Vector3 p = Vector3::Zero(), phi = Vector3::Zero();  // [m], [rad]
-    Vector3 v = Vector3::Zero(), w = Vector3::Zero();    // [m/s], [rad/s]
+    Vector3 p = Vector3::Zero(), phi = Vector3::Zero();  ///< [m], [rad]
+    Vector3 v = Vector3::Zero(), w = Vector3::Zero();    ///< [m/s], [rad/s]
   };
+  /// Of the last apply_rest.
+  [[nodiscard]] const FrameChange& frame_change(AttachmentIndex i) const {
+    return frames_[static_cast<std::size_t>(i)];
+  }
+
+ private:
   // Change of a coupler's relative motion: translation over rotation
   // [m, rad] and their rates [m/s, rad/s].
   struct MotionChange {
