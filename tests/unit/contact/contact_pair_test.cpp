@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/analysis/linear_system.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
@@ -307,6 +308,24 @@ TEST(ContactPair, HoldsABlockOnASlope) {
   run(scene, {.end_time = 10.0, .step = 1e-3});
   const Vector3 after_ten = scene.state.bodies[0].p_WB;
   EXPECT_LT((after_ten - after_one).norm(), 1e-9);
+}
+
+// A contact that opens, slips or rolls has no linear model.
+TEST(ContactPair, HasALinearModelOnlyWhileBodiesAreApart) {
+  for (const double gap : {1e-6, -1e-6}) {
+    const Scene scene = make_ball_and_floor({}, gap, Vector3::Zero());
+    std::string refusal;
+    try {
+      EXPECT_EQ(dynamics::linearise(scene.model, scene.state).free, 6);
+    } catch (const InputError& error) {
+      refusal = error.what();
+    }
+    if (gap > 0.0) {
+      EXPECT_EQ(refusal, "");
+    } else {
+      EXPECT_THAT(refusal, ::testing::HasSubstr("the world and 'ball' touch"));
+    }
+  }
 }
 
 }  // namespace

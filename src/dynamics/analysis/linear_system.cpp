@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/analysis/linear_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/analysis/steady_linearisation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using Index = Eigen::Index;
+
+/// x = x_of_position (s q), x' = x_of_rate q'.
+struct Coordinates {
+  MatrixX x_of_position;
+  MatrixX x_of_rate;
+};
+
+MatrixX join(const MatrixX& by_position, const MatrixX& by_rate) {
+  MatrixX rows(by_position.rows(), by_position.cols() + by_rate.cols());
+  rows << by_position, by_rate;
+  return rows;
+}
+
+MatrixX multiply_blocks(const std::vector<Matrix6>& blocks,
+                        const MatrixX& rows) {
+  MatrixX product(rows.rows(), rows.cols());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Index row = 6 * static_cast<Index>(i);
+    product.middleRows<6>(row) = blocks[i] * rows.middleRows<6>(row);
+  }
+  return product;
+}
+
+/// Frequencies of coordinates, at least 1e-6 of the largest; 1 if free.
+VectorX find_scale(const MatrixX& S, Index free) {
+  constexpr double kLeast = 1e-6;
+  VectorX scale = VectorX::Ones(S.rows());
+  const Index held = S.rows() - free;
+  if (held == 0) return scale;
+  const VectorX sizes = S.diagonal().tail(held).cwiseAbs().cwiseSqrt();
+  const double least = kLeast * sizes.maxCoeff();
+  if (least > 0.0) scale.tail(held) = sizes.cwiseMax(least);
+  return scale;
+}
+
+/// Q' S Q, without the round-off that is known to be one.
+MatrixX find_stiffness(const SteadyMotion& steady) {
+  const PrincipalBasis& basis = steady.basis;
+  MatrixX S = steady.motion.project_stiffness(basis.Q);
+  const bool is_still = steady.axes.w_W.isZero(0.0);
+  const Index first = is_still ? 0 : basis.drift;
+  S.middleCols(first, basis.free - first).setZero();
+  if (is_still && is_conservative(steady.motion, basis)) {
+    S = MatrixX(S.diagonal().asDiagonal());
+  }
+  return S;
+}
+
+std::vector<LinearSignal> name_states(Index free, Index n) {
+  std::vector<LinearSignal> states;
+  for (const char* what : {"", ".rate"}) {
+    const bool is_rate = *what != '\0';
+    for (Index i = 0; i < n; ++i) {
+      const bool is_free = i < free;
+      states.push_back({is_free ? fmt::format("free{}{}", i + 1, what)
+                                : fmt::format("mode{}{}", i + 1 - free, what),
+                        is_free && !is_rate ? "kg^1/2 m" : "kg^1/2 m/s", 0.0});
+    }
+  }
+  return states;
+}
+
+void fill_equations(const SteadyMotion& steady, const MatrixX& S,
+                    const VectorX& scale, LinearSystem& out) {
+  const MatrixX& Q = steady.basis.Q;
+  const Index n = Q.cols();
+  out.A = MatrixX::Zero(2 * n, 2 * n);
+  out.A.topRightCorner(n, n) = scale.asDiagonal();
+  out.A.bottomLeftCorner(n, n) = -S * scale.cwiseInverse().asDiagonal();
+  out.A.bottomRightCorner(n, n) = -Q.transpose() * steady.motion.D * Q;
+  out.B = MatrixX::Zero(2 * n, std::ssize(out.inputs));
+  for (Index i = 0; i < out.B.cols(); ++i) {
+    out.B.col(i).tail(n) =
+        Q.transpose() * out.inputs[static_cast<std::size_t>(i)].force;
+  }
+}
+
+void fill_links(const SmallMotion& motion, const Coordinates& c,
+                LinearSystem& out) {
+  const Index rows = 6 * std::ssize(motion.damping);
+  const MatrixX moved = motion.G.topRows(rows) * c.x_of_position;
+  out.links = join(moved, MatrixX::Zero(rows, moved.cols()));
+  out.link_velocities =
+      join(motion.velocities.topRows(rows) * c.x_of_position,
+           motion.velocities_by_rate.topRows(rows) * c.x_of_rate);
+  const std::vector<Matrix6> stiffness(
+      motion.K.begin(), motion.K.begin() + std::ssize(motion.damping));
+  out.wrenches = -multiply_blocks(stiffness, out.links) -
+                 multiply_blocks(motion.damping, out.link_velocities);
+  out.wrenches_by_input.resize(rows, std::ssize(out.inputs));
+  for (Index i = 0; i < out.wrenches_by_input.cols(); ++i) {
+    out.wrenches_by_input.col(i) =
+        out.inputs[static_cast<std::size_t>(i)].wrenches.head(rows);
+  }
+}
+
+void fill_motions(const SystemModel& model, const SmallMotion& motion,
+                  const Coordinates& c, LinearSystem& out) {
+  const Index n = motion.size();
+  out.frames = join(motion.frames * c.x_of_position,
+                    MatrixX::Zero(motion.frames.rows(), n));
+  out.frame_velocities = join(motion.frame_velocities * c.x_of_position,
+                              motion.frame_velocities_by_rate * c.x_of_rate);
+  out.modes = MatrixX::Zero(model.modal_count, 2 * n);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    out.modes.block(body.offset, 0, body.modes, n) =
+        c.x_of_position.middleRows(motion.modes[b], body.modes);
+  }
+}
+
+void check_apart(const SystemModel& model, const SystemState& state) {
+  if (model.pairs.empty()) return;
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  const auto name = [&](BodyIndex body) {
+    return body == kWorld ? std::string("the world")
+                          : "'" + model.bodies[index(body)].name + "'";
+  };
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    const Pair& pair = model.pairs[i];
+    if (pair.law->touching() == nullptr) continue;
+    for (const joints::PairPoint& point : terms.pairs.responses[i].points()) {
+      if (point.force_W.isZero(0.0) && point.stiffness.isZero(0.0)) continue;
+      throw InputError(fmt::format(
+          "{} and {} touch at t = {:g} s: a contact that opens, slips or rolls "
+          "has no linear model. Take a time at which they are apart, or join "
+          "them by a coupler",
+          name(pair.body_A), name(pair.body_B), state.t));
+    }
+  }
+}
+
+}  // namespace
+
+LinearSystem linearise(const SystemModel& model, const SystemState& state,
+                       const std::vector<AttachmentIndex>& frames,
+                       const DriveNames& names) {
+  check_apart(model, state);
+  const SteadyMotion steady = linearise_steadily(model, state);
+  if (steady.motion.size() == 0) {
+    throw InputError("no body moves or deforms: there is nothing to linearise");
+  }
+  const SmallMotion motion =
+      find_small_motion(model, state, steady.axes, frames);
+  LinearSystem out;
+  out.axes = steady.axes;
+  out.is_moving = moves(state);
+  out.change = steady.change;
+  out.imbalance = find_imbalance(model, state, steady.axes);
+  out.free = steady.basis.free;
+  out.states = name_states(out.free, motion.size());
+  out.inputs = find_linear_inputs(model, state, motion, names);
+  const MatrixX S = find_stiffness(steady);
+  const VectorX scale = find_scale(S, out.free);
+  const MatrixX& Q = steady.basis.Q;
+  fill_equations(steady, S, scale, out);
+  const Coordinates c{Q * scale.cwiseInverse().asDiagonal(), Q};
+  fill_links(motion, c, out);
+  fill_motions(model, motion, c, out);
+  return out;
+}
+
+}  // namespace limber::dynamics

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/dynamics/analysis/linear_inputs.hpp"
+#include "limber/dynamics/analysis/linear_model.hpp"
+#include "limber/dynamics/analysis/steady_motion.hpp"
+
+namespace limber::dynamics {
+
+/// A system linearised about the motion from a state: equations of motion of
+/// first order, and what outputs are made of.
+///
+/// Equation   z' = A z + B du,   z = (s q, q'),   x = Q q
+///            q'' = -Q' S Q q - Q' D Q q' + Q' F du
+///            of SmallMotion in PrincipalBasis; s the frequency of a
+///            coordinate, which scales A, and 1 of free motion
+/// Limits     dense. Coefficients are those of the state: exact where the
+///            motion is steady (`imbalance`, `change`). Controllers are not in
+///            it: their inputs are inputs. What switches stays as it is;
+///            friction is the damper that it is near rest
+///
+/// Rows by the states: of links (couplers, then transmissions) six each, as
+/// SmallMotion::G; of the frames asked for six each, world frame, translation
+/// first.
+struct LinearSystem {
+  TurningAxes axes;  ///< R = 1; vectors are in these axes
+  bool is_moving = false;
+  Imbalance imbalance;    ///< of the reference
+  double change = 0.0;    ///< of the coefficients while it rotates by 1 rad [-]
+  Eigen::Index free = 0;  ///< coordinates of free motion
+  MatrixX A;
+  MatrixX B;
+  std::vector<LinearSignal> states;
+  std::vector<LinearInput> inputs;
+  MatrixX links;              ///< motion [m, rad]
+  MatrixX link_velocities;    ///< [m/s, rad/s]
+  MatrixX wrenches;           ///< of the links' laws [N, N m]
+  MatrixX wrenches_by_input;  ///< likewise, by the inputs [N, N m]
+  MatrixX frames;             ///< motion [m, rad]
+  MatrixX frame_velocities;   ///< [m/s, rad/s]
+  MatrixX modes;              ///< of all bodies, order of the state [kg^1/2 m]
+};
+
+/// @param frames attachments whose motion outputs need
+/// @param names of drives; default: find_linear_inputs
+/// @throws InputError for a body at level `full`, bodies that touch, or if
+/// nothing moves.
+[[nodiscard]] LinearSystem linearise(
+    const SystemModel& model, const SystemState& state,
+    const std::vector<AttachmentIndex>& frames = {},
+    const DriveNames& names = {});
+
+}  // namespace limber::dynamics
