@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "limber/app/reports/levels.hpp"
-#include "limber/results/trade_picture.hpp"
+#include "limber/results/charts/trade_picture.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::bench::trade {

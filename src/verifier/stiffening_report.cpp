@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "limber/results/order_picture.hpp"
+#include "limber/results/charts/order_picture.hpp"
 
 namespace limber::app {
 namespace {

@@ -6,7 +6,7 @@
 #include "limber/app/compare/comparison_selection.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/reports/probe_pictures.hpp"
-#include "limber/results/trade_picture.hpp"
+#include "limber/results/charts/trade_picture.hpp"
 
 namespace limber::app {
 namespace {

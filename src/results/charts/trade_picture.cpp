@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/trade_picture.hpp"
+#include "limber/results/charts/trade_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,9 @@
 #include <limits>
 #include <numeric>
 
+#include "limber/results/charts/label_placement.hpp"
+#include "limber/results/charts/tics.hpp"
 #include "limber/results/gnuplot.hpp"
-#include "limber/results/label_placement.hpp"
 
 namespace limber::results {
 namespace {
@@ -65,8 +66,11 @@ struct Range {
   [[nodiscard]] double find_share(double value) const {
     return std::log(value / least) / std::log(most / least);
   }
-  [[nodiscard]] std::string text() const {
-    return fmt::format("[{:.6g}:{:.6g}]", least, most);
+  /// Of `set xrange` and `set xtics`, for axis 'x' or 'y'.
+  [[nodiscard]] std::string text(char axis) const {
+    return fmt::format("set {0}range [{1:.6g}:{2:.6g}]; set {0}tics {3}", axis,
+                       least, most,
+                       to_tics(list_logarithmic_tics(least, most)));
   }
 };
 
@@ -187,8 +191,8 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
   set_lines(script, reference_cost, tolerance);
   add_labels(script, points, panel.errors, front, costs, errors, tolerance);
   script.add("set title " + quote(panel.title));
-  script.add("set xrange " + costs.text());
-  script.add("set yrange " + errors.text());
+  script.add(costs.text('x'));
+  script.add(errors.text('y'));
   std::string plot = fmt::format(
       "plot $f{} using 1:2 with lines lc rgb '#bbbbbb' lw 2.2 title {}", p,
       p == 0 ? "'front'" : "''");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/order_picture.hpp"
+#include "limber/results/charts/order_picture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "temporary_folder.hpp"
+#include "unit/results/temporary_folder.hpp"
 
 namespace limber::results {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/label_placement.hpp"
+#include "limber/results/charts/label_placement.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/trade_picture.hpp"
+#include "limber/results/charts/trade_picture.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cstdlib>
 #include <limits>
 
-#include "temporary_folder.hpp"
+#include "unit/results/temporary_folder.hpp"
 
 namespace limber::results {
 namespace {

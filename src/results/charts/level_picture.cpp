@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/level_picture.hpp"
+#include "limber/results/charts/level_picture.hpp"
 
 #include <fmt/format.h>
 
