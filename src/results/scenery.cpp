@@ -193,10 +193,17 @@ void write_shapes(Hdf5File& out, const Scenery& scenery,
     out.write(at + "name", shape.name, "link or obstacle");
     out.write(at + "body", name_body(model, shape.body),
               "body that carries it; empty: the world");
-    out.write(at + "kind", shape.kind,
-              "box, sphere, cylinder, capsule or plane");
-    out.write(at + "size", MatrixX(shape.size.transpose()), "m",
+    out.write(at + "kind", shape.form.kind,
+              "box, sphere, cylinder, capsule, plane or mesh");
+    out.write(at + "size", MatrixX(shape.form.size.transpose()), "m",
               "edges, or radius and length");
+    if (shape.form.kind == "mesh") {
+      out.write_single(at + "x", shape.form.x, "m", "corners, 3 x n");
+      out.write(at + "triangles",
+                std::vector<std::int64_t>(shape.form.corners.begin(),
+                                          shape.form.corners.end()),
+                "1", "indices of corners, three a triangle, outward");
+    }
     out.write(at + "p_BS", MatrixX(shape.X_BS.p.transpose()), "m",
               "middle, body frame");
     out.write(at + "quat_BS", rotation, "1", "shape to body, w x y z");

@@ -8,24 +8,21 @@
 #include "limber/common/pose.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/results/history.hpp"
+#include "limber/results/solids.hpp"
 
 /// What a picture of a run needs beside its states, so that results.h5 can be
 /// drawn without the scenario, the robot and the reduced bodies.
 namespace limber::results {
 
 /// Layout of the group `scene`.
-inline constexpr int kSceneryVersion = 1;
+inline constexpr int kSceneryVersion = 2;
 
 /// A shape fixed to a body, or to the world.
 struct SceneryShape {
   std::string name;  ///< of its link or obstacle
   dynamics::BodyIndex body = dynamics::kWorld;
   Pose X_BS;  ///< of the shape's frame
-  /// "box", "sphere", "cylinder", "capsule" or "plane"
-  std::string kind;
-  /// Box: whole edges; sphere: radius; cylinder and capsule: radius, length
-  /// (of a capsule that of its axis); plane: none [m].
-  Vector3 size = Vector3::Zero();
+  SolidShape form;
 };
 
 struct SceneryRobot {

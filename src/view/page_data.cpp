@@ -132,13 +132,17 @@ class PageWriter {
 
   void add_marks(const Recording& recording, json& result) {
     for (const Shape& shape : recording.shapes) {
-      const Quaternion& q = shape.quat_BS;
-      result["shapes"].push_back({{"name", shape.name},
-                                  {"body", shape.body},
-                                  {"kind", shape.kind},
-                                  {"size", to_json(shape.size)},
-                                  {"p", to_json(shape.p_BS)},
-                                  {"q", {q.w(), q.x(), q.y(), q.z()}}});
+      const Quaternion q(shape.X_BS.R);
+      json packed = {
+          {"name", shape.name},         {"body", shape.body},
+          {"kind", shape.form.kind},    {"size", to_json(shape.form.size)},
+          {"p", to_json(shape.X_BS.p)}, {"q", {q.w(), q.x(), q.y(), q.z()}}};
+      if (shape.form.kind == "mesh") {
+        // A column a corner.
+        packed["x"] = arrays_.add(MatrixX(shape.form.x.transpose()));
+        packed["triangles"] = arrays_.add(shape.form.corners);
+      }
+      result["shapes"].push_back(std::move(packed));
     }
     for (const Mark& mark : recording.marks) {
       json points = json::array();

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/run/run_scenery.hpp"
 
-#include <variant>
+#include <fmt/format.h>
 
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
 #include "limber/common/overloaded.hpp"
+#include "limber/scene/contacts/triangle_file.hpp"
 
 namespace limber::app {
 namespace {
@@ -16,46 +26,75 @@ std::string read_whole(const std::filesystem::path& file) {
   return read_input(file, kText);
 }
 
-void describe(const scene::Geometry& geometry, results::SceneryShape& shape) {
-  std::visit(
-      Overloaded{[&](const scene::SphereGeometry& sphere) {
-                   shape.kind = "sphere";
-                   shape.size = {sphere.radius, 0.0, 0.0};
-                 },
-                 [&](const scene::BoxGeometry& box) {
-                   shape.kind = "box";
-                   shape.size = box.size;
-                 },
-                 [&](const scene::CylinderGeometry& cylinder) {
-                   shape.kind = "cylinder";
-                   shape.size = {cylinder.radius, cylinder.length, 0.0};
-                 },
-                 [&](const scene::CapsuleGeometry& capsule) {
-                   shape.kind = "capsule";
-                   shape.size = {capsule.radius, capsule.length, 0.0};
-                 },
-                 [&](const scene::PlaneGeometry&) { shape.kind = "plane"; },
-                 [](const scene::MeshGeometry&) {},
-                 [](const scene::OtherGeometry&) {}},
+/// Triangles whose corners at one place are one.
+results::SolidShape read_mesh(const scene::MeshGeometry& geometry) {
+  results::SolidShape form{"mesh", Vector3::Zero(), {}, {}};
+  std::map<std::array<double, 3>, std::uint32_t> known;
+  std::vector<Vector3> points;
+  for (const scene::Triangle& triangle : scene::read_triangles(geometry)) {
+    for (const Vector3& x : triangle) {
+      const auto [place, is_new] = known.try_emplace(
+          {x.x(), x.y(), x.z()}, static_cast<std::uint32_t>(points.size()));
+      if (is_new) points.push_back(x);
+      form.corners.push_back(place->second);
+    }
+  }
+  form.x.resize(3, std::ssize(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    form.x.col(static_cast<Eigen::Index>(i)) = points[i];
+  }
+  return form;
+}
+
+/// Nothing of what has no shape here.
+std::optional<results::SolidShape> describe(const scene::Geometry& geometry) {
+  using Form = std::optional<results::SolidShape>;
+  const auto make = [](const char* kind, const Vector3& size) -> Form {
+    return results::SolidShape{kind, size, {}, {}};
+  };
+  return std::visit(
+      Overloaded{
+          [&](const scene::SphereGeometry& sphere) {
+            return make("sphere", {sphere.radius, 0.0, 0.0});
+          },
+          [&](const scene::BoxGeometry& box) { return make("box", box.size); },
+          [&](const scene::CylinderGeometry& cylinder) {
+            return make("cylinder", {cylinder.radius, cylinder.length, 0.0});
+          },
+          [&](const scene::CapsuleGeometry& capsule) {
+            return make("capsule", {capsule.radius, capsule.length, 0.0});
+          },
+          [&](const scene::PlaneGeometry&) {
+            return make("plane", Vector3::Zero());
+          },
+          [](const scene::MeshGeometry& mesh) -> Form {
+            return read_mesh(mesh);
+          },
+          [](const scene::OtherGeometry&) -> Form { return {}; }},
       geometry);
 }
 
-void add_link(const scene::Link& link, const scene::PlacedLink& place,
-              results::Scenery& scenery) {
-  const auto& given = link.visuals.empty() ? link.collisions : link.visuals;
-  for (const scene::Collision& collision : given) {
-    results::SceneryShape shape;
-    shape.name = link.name;
-    shape.body = place.body;
-    shape.X_BS = place.X_BL * collision.X_LS;
-    describe(collision.geometry, shape);
-    if (!shape.kind.empty()) scenery.shapes.push_back(shape);
+void add_link(const scene::Link& link, results::Scenery& scenery,
+              std::vector<std::string>& problems) {
+  const bool has_visuals = !link.visuals.empty();
+  const auto& given = has_visuals ? link.visuals : link.collisions;
+  for (const scene::Collision& shape : given) {
+    try {
+      if (auto form = describe(shape.geometry)) {
+        scenery.shapes.push_back(
+            {link.name, dynamics::kWorld, shape.X_LS, std::move(*form)});
+      }
+    } catch (const InputError& error) {
+      problems.push_back(fmt::format(
+          "<{}> of link '{}': {}. Pictures need it: correct or remove it",
+          has_visuals ? "visual" : "collision", link.name, error.what()));
+    }
   }
 }
 
 }  // namespace
 
-results::Scenery read_scenery_texts(const scene::Scene& scene) {
+results::Scenery read_scenery(const scene::Scene& scene) {
   results::Scenery scenery;
   scenery.name = scene.scenario.name;
   scenery.scenario = read_whole(scene.scenario.file);
@@ -68,21 +107,30 @@ results::Scenery read_scenery_texts(const scene::Scene& scene) {
   for (const scene::Setting& setting : scene.settings) {
     scenery.settings += to_string(setting) + "\n";
   }
+  std::vector<std::string> problems;
+  for (const scene::Link& link : scene.robot.links) {
+    if (!link.flexible) add_link(link, scenery, problems);
+  }
+  if (!problems.empty()) throw InputError(problems);
   return scenery;
 }
 
-void add_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
-                results::Scenery& scenery) {
+void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
+                  results::Scenery& scenery) {
+  std::map<std::string, scene::PlacedLink> places;
   for (std::size_t i = 0; i < scene.robot.links.size(); ++i) {
-    const scene::Link& link = scene.robot.links[i];
-    if (!link.flexible) add_link(link, built.links[i], scenery);
+    places[scene.robot.links[i].name] = built.links[i];
+  }
+  for (results::SceneryShape& shape : scenery.shapes) {
+    const scene::PlacedLink& place = places.at(shape.name);
+    shape.body = place.body;
+    shape.X_BS = place.X_BL * shape.X_BS;
   }
   for (const scene::ObstacleSpec& obstacle : scene.scenario.obstacles) {
-    results::SceneryShape shape;
-    shape.name = obstacle.name;
-    shape.X_BS = obstacle.X_WS;
-    describe(obstacle.geometry, shape);
-    if (!shape.kind.empty()) scenery.shapes.push_back(shape);
+    if (auto form = describe(obstacle.geometry)) {
+      scenery.shapes.push_back(
+          {obstacle.name, dynamics::kWorld, obstacle.X_WS, std::move(*form)});
+    }
   }
 }
 

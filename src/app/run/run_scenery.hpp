@@ -7,14 +7,16 @@
 
 namespace limber::app {
 
-/// The scenario's name, and the texts of its file and its robots', as they are
-/// now, and the settings that were applied to them.
-/// @throws InputError if one cannot be read.
-[[nodiscard]] results::Scenery read_scenery_texts(const scene::Scene& scene);
+/// What pictures need of files, as they are now: the scenario's name, its text
+/// and its robots', the settings that were applied to them, and the shapes of
+/// rigid links, <visual> or else <collision>, in the frames of their links.
+/// @throws InputError if one cannot be read: all such meshes at once.
+[[nodiscard]] results::Scenery read_scenery(const scene::Scene& scene);
 
-/// Adds the shapes of rigid links, <visual> or else <collision>, and of
-/// obstacles. Meshes are left out.
-void add_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
-                results::Scenery& scenery);
+/// Puts the shapes of links into the frames of their bodies, and adds those of
+/// obstacles.
+/// @param scenery read_scenery(scene)
+void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
+                  results::Scenery& scenery);
 
 }  // namespace limber::app

@@ -84,10 +84,11 @@ class Joiner {
     }
     box_ = high - low;
     const double size = box_.maxCoeff();
-    if (!(size > 0.0) || !std::isfinite(box_.norm())) {
+    const double same = kSame * size;
+    if (!(same > 0.0) || !std::isfinite(box_.norm())) {
       refuse("has no size that numbers can hold");
     }
-    Corners corners(low, kSame * size);
+    Corners corners(low, same);
     for (const Triangle& triangle : triangles) {
       faces_.push_back({corners.find(triangle[0]), corners.find(triangle[1]),
                         corners.find(triangle[2])});
@@ -214,14 +215,8 @@ flexbody::ContactSurface join_triangles(const std::vector<Triangle>& triangles,
 
 flexbody::ContactSurface read_collision_mesh(const MeshGeometry& mesh,
                                              const Pose& X_BS) {
-  std::vector<Triangle> triangles = read_triangles(mesh.file);
-  const bool mirrors = mesh.scale.prod() < 0.0;
-  for (Triangle& triangle : triangles) {
-    for (Vector3& x : triangle) x = x.cwiseProduct(mesh.scale);
-    if (mirrors) std::swap(triangle[1], triangle[2]);
-  }
   flexbody::ContactSurface surface =
-      join_triangles(triangles, mesh.file.string());
+      join_triangles(read_triangles(mesh), mesh.file.string());
   for (Eigen::Index i = 0; i < surface.x_B.cols(); ++i) {
     surface.x_B.col(i) = X_BS * Vector3(surface.x_B.col(i));
   }

@@ -11,15 +11,18 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
 #include "limber/common/parse_number.hpp"
+#include "limber/scene/contacts/dae_file.hpp"
 
 namespace limber::scene {
 namespace {
 
-constexpr InputKind kMesh = {"collision mesh", std::uint64_t{1} << 28};
+constexpr InputKind kMesh = {"mesh", std::uint64_t{1} << 28};
 constexpr std::size_t kMostTriangles = 500000;
 // Binary STL: 80 bytes of text, their number, and for each a normal, three
 // corners and two bytes.
@@ -128,7 +131,8 @@ class Reader {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto number = parse_number(words[i + 1]);
       if (!number) {
-        refuse_line(fmt::format("'{}' is no finite number", words[i + 1]));
+        refuse_line(
+            fmt::format("'{}' is no finite number", echo(words[i + 1])));
       }
       point[static_cast<Eigen::Index>(i)] = *number;
     }
@@ -149,7 +153,7 @@ class Reader {
       refuse_line(
           fmt::format("corner '{}'; expected the number of one of the {} "
                       "points above",
-                      word, points));
+                      echo(word), points));
     }
     return static_cast<std::size_t>(number > 0 ? number - 1 : most + number);
   }
@@ -187,12 +191,13 @@ std::string find_kind(const std::filesystem::path& file) {
 }  // namespace
 
 std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
-  const std::string text = read_input(file, kMesh);
-  Reader reader(file, text);
+  std::string text = read_input(file, kMesh);
   const std::string kind = find_kind(file);
+  if (kind == ".dae") text = convert_dae(file, text);
+  Reader reader(file, text);
   if (kind == ".obj") return reader.read_obj();
-  if (kind != ".stl") {
-    reader.refuse("its kind is not known; expected a file .stl or .obj");
+  if (kind != ".stl" && kind != ".dae") {
+    reader.refuse("its kind is not known; expected a file .stl, .obj or .dae");
   }
   if (reader.is_binary_stl()) return reader.read_binary_stl();
   if (text.rfind("solid", 0) != 0) {
@@ -201,6 +206,16 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
         "of the length that it names");
   }
   return reader.read_text_stl();
+}
+
+std::vector<Triangle> read_triangles(const MeshGeometry& mesh) {
+  std::vector<Triangle> triangles = read_triangles(mesh.file);
+  const bool mirrors = mesh.scale.prod() < 0.0;
+  for (Triangle& triangle : triangles) {
+    for (Vector3& x : triangle) x = x.cwiseProduct(mesh.scale);
+    if (mirrors) std::swap(triangle[1], triangle[2]);
+  }
+  return triangles;
 }
 
 }  // namespace limber::scene

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -45,20 +46,51 @@ const std::map<std::string, GeometryReader>& geometry_readers() {
   return readers;
 }
 
+/// A package of robot software is a folder with its name: where the robot's
+/// file is, or above. Nothing if there is no such file.
+std::filesystem::path find_in_package(const std::filesystem::path& folder,
+                                      const std::filesystem::path& name) {
+  std::filesystem::path above =
+      std::filesystem::absolute(folder.empty() ? "." : folder);
+  for (;;) {
+    std::error_code unknown;
+    if (std::filesystem::exists(above / name, unknown)) return above / name;
+    if (!above.has_relative_path()) return {};
+    above = above.parent_path();
+  }
+}
+
+/// A path from `folder`, absolute, file://PATH or package://NAME/PATH.
+std::filesystem::path find_mesh(XmlElement& element, const std::string& name,
+                                const std::filesystem::path& folder) {
+  constexpr std::string_view kFile = "file://";
+  constexpr std::string_view kPackage = "package://";
+  if (name.rfind(kFile, 0) == 0) return name.substr(kFile.size());
+  if (name.rfind(kPackage, 0) == 0) {
+    const std::string in_package = name.substr(kPackage.size());
+    std::filesystem::path file = find_in_package(folder, in_package);
+    if (file.empty()) {
+      element.fail(fmt::format(
+          "filename=\"{}\": there is no {} in this file's folder or one above "
+          "it; expected a path from here, such as meshes/part.stl",
+          name, in_package));
+    }
+    return file;
+  }
+  if (name.find("://") != std::string::npos) {
+    element.fail(
+        fmt::format("filename=\"{}\": expected a path from this file's folder, "
+                    "such as meshes/part.stl, file:// or package://",
+                    name));
+  }
+  return name;
+}
+
 // @param folder of the robot's file
 Geometry read_mesh(XmlElement& element, const std::filesystem::path& folder) {
   MeshGeometry mesh;
   const std::string name = element.required_text("filename");
-  constexpr std::string_view kFile = "file://";
-  const bool is_place = name.rfind(kFile, 0) == 0;
-  if (!is_place && name.find("://") != std::string::npos) {
-    element.fail(fmt::format(
-        "filename=\"{}\" names a package; expected a path from this file's "
-        "folder, such as meshes/part.stl",
-        name));
-  }
-  mesh.file = (folder / (is_place ? name.substr(kFile.size()) : name))
-                  .lexically_normal();
+  mesh.file = (folder / find_mesh(element, name, folder)).lexically_normal();
   mesh.scale = element.vector("scale").value_or(mesh.scale);
   if ((mesh.scale.array() == 0.0).any()) {
     element.fail("scale: a factor is 0; expected three others");
@@ -66,11 +98,10 @@ Geometry read_mesh(XmlElement& element, const std::filesystem::path& folder) {
   return mesh;
 }
 
-// urdf_names checks which names there are. Meshes for pictures are not drawn.
+// urdf_names checks which names there are.
 Geometry read_shape(const TiXmlElement& element,
-                    const std::filesystem::path& folder, bool is_collision,
-                    Problems& problems) {
-  if (is_collision && element.ValueStr() == "mesh") {
+                    const std::filesystem::path& folder, Problems& problems) {
+  if (element.ValueStr() == "mesh") {
     XmlElement mesh(element, problems);
     return read_mesh(mesh, folder);
   }
@@ -90,16 +121,17 @@ std::optional<Geometry> read_geometry(const TiXmlElement& collision,
       geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (shape == nullptr) {
     problems.add(collision.Row(),
-                 "<collision> needs a <geometry> with a shape: <sphere>, "
-                 "<box>, <cylinder>, <capsule> or <mesh>");
+                 fmt::format("<{}> needs a <geometry> with a shape: <sphere>, "
+                             "<box>, <cylinder>, <capsule> or <mesh>",
+                             collision.ValueStr()));
     return std::nullopt;
   }
   if (shape->NextSiblingElement() != nullptr) {
     problems.add(geometry->Row(),
-                 "<geometry> has several shapes; give each a <collision>");
+                 fmt::format("<geometry> has several shapes; give each a <{}>",
+                             collision.ValueStr()));
   }
-  return read_shape(*shape, folder, collision.ValueStr() == kCollision,
-                    problems);
+  return read_shape(*shape, folder, problems);
 }
 
 std::vector<Collision> read_link(const TiXmlElement& element, const char* tag,
@@ -165,18 +197,11 @@ void read_collisions(const TiXmlElement& root, Robot& robot,
   });
 }
 
-void read_visuals(const TiXmlElement& root, Robot& robot) {
+void read_visuals(const TiXmlElement& root, Robot& robot, Problems& problems) {
   for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
-    Problems problems(robot.file.string());
-    std::vector<Collision> visuals =
+    if (link.flexible) return;
+    link.visuals =
         read_link(element, "visual", robot.file.parent_path(), problems);
-    try {
-      problems.raise();
-      link.visuals = std::move(visuals);
-    } catch (const InputError& error) {
-      robot.warnings.push_back(fmt::format(
-          "<visual> of link '{}' is not drawn: {}", link.name, error.what()));
-    }
   });
 }
 

@@ -20,9 +20,8 @@ namespace limber::scene {
 void read_collisions(const TiXmlElement& root, Robot& robot,
                      Problems& problems);
 
-/// The same of <visual>. One that cannot be drawn, such as a mesh, is left out
-/// or an OtherGeometry: it has no effect on the motion.
-void read_visuals(const TiXmlElement& root, Robot& robot);
+/// The same of the <visual> of rigid links. @param robot with its extension
+void read_visuals(const TiXmlElement& root, Robot& robot, Problems& problems);
 
 /// Content of <contact link="...">.
 [[nodiscard]] LinkContact read_link_contact(XmlElement& element);

@@ -266,8 +266,8 @@ Robot read_robot(const std::filesystem::path& file,
   read_standard_part(remove_collisions(document, xml), robot, problems);
   problems.raise();
   read_collisions(root, robot, problems);
-  read_visuals(root, robot);
   read_extension(root, robot, problems);
+  read_visuals(root, robot, problems);
   problems.raise();
   return robot;
 }

@@ -35,7 +35,14 @@ function addStress(shared, stress) {
 // Axes of cylinders and capsules are z here, y in three.js.
 const upright = (geometry) => geometry.rotateX(Math.PI / 2);
 
-function makeShape({ kind, size }, extent) {
+function makeShape(shape, extent) {
+  const { kind, size } = shape;
+  if (kind === 'mesh') {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(shape.x, 3));
+    geometry.setIndex(new THREE.BufferAttribute(shape.triangles, 1));
+    return geometry.clone(); // it may be moved, and a ghost has the same
+  }
   if (kind === 'box') return new THREE.BoxGeometry(...size);
   if (kind === 'sphere') return new THREE.SphereGeometry(size[0], 32, 16);
   if (kind === 'cylinder') {

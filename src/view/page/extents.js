@@ -13,22 +13,38 @@ function sampleNodes(surface) {
   return nodes;
 }
 
-// Box of a rigid shape or body about its origin, as points.
+// Half of the edges of a rigid shape's box about its origin.
+function halfEdges({ kind, size }) {
+  const [a, b, c] = size;
+  if (kind === 'box') return [a / 2, b / 2, c / 2];
+  if (kind === 'sphere') return [a, a, a];
+  if (kind === 'cylinder') return [a, a, b / 2];
+  if (kind === 'capsule') return [a, a, a + b / 2];
+  return [0, 0, 0]; // a plane
+}
+
+// Corners of the box [lower, upper].
+const boxCorners = (lower, upper) =>
+  Array.from({ length: 8 }, (_, i) =>
+    lower.map((value, k) => (i & (1 << k) ? upper[k] : value)));
+
+function meshCorners({ x }) {
+  const lower = [Infinity, Infinity, Infinity];
+  const upper = [-Infinity, -Infinity, -Infinity];
+  x.forEach((value, i) => {
+    lower[i % 3] = Math.min(lower[i % 3], value);
+    upper[i % 3] = Math.max(upper[i % 3], value);
+  });
+  return boxCorners(lower, upper);
+}
+
+// Box of a rigid shape, as points of its body.
 function shapePoints(shape) {
-  const [a, b, c] = shape.size;
-  const half = {
-    box: [a / 2, b / 2, c / 2],
-    sphere: [a, a, a],
-    cylinder: [a, a, b / 2],
-    capsule: [a, a, a + b / 2],
-    plane: [0, 0, 0],
-  }[shape.kind];
-  const points = [];
-  for (let i = 0; i < 8; ++i) {
-    const corner = half.map((h, k) => (i & (1 << k) ? h : -h));
-    points.push(rotate(shape.q, corner).map((value, k) => value + shape.p[k]));
-  }
-  return points;
+  const half = halfEdges(shape);
+  const corners =
+    shape.kind === 'mesh' ? meshCorners(shape) : boxCorners(half.map((h) => -h), half);
+  return corners.map((corner) =>
+    rotate(shape.q, corner).map((value, k) => value + shape.p[k]));
 }
 
 /// Points of a body in its own frame, undeformed.

@@ -167,8 +167,8 @@ TEST(Scenery, ShapesKeepKindSizeAndPlace) {
   SceneryShape shape;
   shape.name = "hull";
   shape.body = BodyIndex(3);
-  shape.kind = "capsule";
-  shape.size = {0.1, 0.5, 0.0};
+  shape.form.kind = "capsule";
+  shape.form.size = {0.1, 0.5, 0.0};
   shape.X_BS.p = {1.0, 2.0, 3.0};
   shape.X_BS.R =
       Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitZ()).matrix();
@@ -178,7 +178,7 @@ TEST(Scenery, ShapesKeepKindSizeAndPlace) {
   const std::string at = "scene/shapes/0000/";
   EXPECT_EQ(in->read_text(at + "body"), "ball");
   EXPECT_EQ(in->read_text(at + "kind"), "capsule");
-  EXPECT_EQ(Vector3(in->read_matrix(at + "size").transpose()), shape.size);
+  EXPECT_EQ(Vector3(in->read_matrix(at + "size").transpose()), shape.form.size);
   EXPECT_EQ(Vector3(in->read_matrix(at + "p_BS").transpose()), shape.X_BS.p);
   const double root = std::sqrt(0.5);
   EXPECT_LT((in->read_matrix(at + "quat_BS") -

@@ -125,6 +125,63 @@ TEST(CollisionMesh, IsScaledMirroredAndPlaced) {
   EXPECT_LT(least, 1e-14);
 }
 
+/// A tetrahedron with its legs 0.1, 0.2 and 0.3 m along x, y, z of its node,
+/// which is at x = 0.01 m: in millimetres.
+std::string write_dae(const std::string& up) {
+  return "<?xml version='1.0' encoding='utf-8'?><COLLADA "
+         "xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset><unit name='millimeter' meter='0.001'/>"
+         "<up_axis>" +
+         up +
+         "</up_axis></asset><library_geometries><geometry id='g'><mesh><source "
+         "id='p'><float_array id='a' count='12'>0 0 0 100 0 0 0 200 0 0 0 300"
+         "</float_array><technique_common><accessor source='#a' count='4' "
+         "stride='3'><param name='X' type='float'/><param name='Y' "
+         "type='float'/><param name='Z' type='float'/></accessor>"
+         "</technique_common></source><vertices id='v'><input "
+         "semantic='POSITION' source='#p'/></vertices><triangles count='4'>"
+         "<input semantic='VERTEX' source='#v' offset='0'/><p>0 2 1 0 1 3 0 3 "
+         "2 1 2 3</p></triangles></mesh></geometry></library_geometries>"
+         "<library_visual_scenes><visual_scene id='s'><node id='n'><translate>"
+         "10 0 0</translate><instance_geometry url='#g'/></node>"
+         "</visual_scene></library_visual_scenes><scene>"
+         "<instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+// As robot software has it: units count, and what is up does not.
+TEST(CollisionMesh, OfColladaIsInMetresAndItsOwnAxes) {
+  for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
+    const TemporaryFile file("part.dae", write_dae(up));
+    std::vector<Triangle> triangles;
+    try {
+      triangles = read_triangles(file.path());
+    } catch (const InputError& error) {
+      ASSERT_THAT(error.what(), HasSubstr("assimp-utils"));
+      GTEST_SKIP() << error.what();
+    }
+    ASSERT_EQ(triangles.size(), 4U);
+    Vector3 least = triangles[0][0];
+    Vector3 most = triangles[0][0];
+    for (const Triangle& triangle : triangles) {
+      for (const Vector3& x : triangle) {
+        least = least.cwiseMin(x);
+        most = most.cwiseMax(x);
+      }
+    }
+    EXPECT_LT((least - Vector3(0.01, 0.0, 0.0)).norm(), 1e-7) << up;
+    EXPECT_LT((most - Vector3(0.11, 0.2, 0.3)).norm(), 1e-7) << up;
+    EXPECT_NEAR(find_volume(join_triangles(triangles, "m")), 1e-3, 1e-9) << up;
+  }
+}
+
+TEST(CollisionMesh, OfDamagedColladaSaysWhatIsWrong) {
+  const TemporaryFile file("a.dae", "<xml/>");
+  const std::string why =
+      input_error([&] { (void)read_triangles(file.path()); });
+  EXPECT_THAT(why, HasSubstr("a.dae"));
+  EXPECT_THAT(why, HasSubstr("assimp"));
+}
+
 TEST(CollisionMesh, JoinsCornersThatRoundOffParted) {
   auto triangles = make_cube();
   triangles[3][1] += Vector3(3e-7, -3e-7, 3e-7);
@@ -169,7 +226,7 @@ TEST(CollisionMesh, RefusesDamagedFilesAndSaysWhere) {
     const TemporaryFile file(name, text);
     return input_error([&] { (void)read_triangles(file.path()); });
   };
-  EXPECT_THAT(refusal("a.dae", "<xml/>"), HasSubstr("expected a file .stl or"));
+  EXPECT_THAT(refusal("a.ply", "ply"), HasSubstr("expected a file .stl, .obj"));
   EXPECT_THAT(refusal("a.stl", ""), HasSubstr("neither a text"));
   EXPECT_THAT(refusal("a.stl", "solid x\nendsolid\n"),
               HasSubstr("has no triangles"));

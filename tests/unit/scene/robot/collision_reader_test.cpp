@@ -51,7 +51,10 @@ TEST(CollisionReader, ReadsShapes) {
 TEST(CollisionReader, RefusesMeshesThatItCannotFind) {
   EXPECT_THAT(error_of(collision("<mesh/>")), HasSubstr("needs 'filename'"));
   EXPECT_THAT(error_of(collision("<mesh filename='package://p/m.stl'/>")),
-              HasSubstr("names a package; expected a path from this file's"));
+              HasSubstr("there is no p/m.stl in this file's folder or one "
+                        "above it"));
+  EXPECT_THAT(error_of(collision("<mesh filename='http://p/m.stl'/>")),
+              HasSubstr("expected a path from this file's folder"));
   EXPECT_THAT(error_of(collision("<mesh filename='m' scale='1 0 1'/>")),
               HasSubstr("scale: a factor is 0"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/view/solids.hpp"
+#include "limber/results/solids.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limber::view {
+namespace limber::results {
 namespace {
 
 constexpr int kAround = 24;
@@ -75,7 +75,9 @@ Solid make_square(double edge) {
   return solid;
 }
 
-Solid make_centred(const Shape& shape, double edge) {
+}  // namespace
+
+Solid make_solid(const SolidShape& shape, double edge) {
   const Vector3& s = shape.size;
   if (shape.kind == "box") return make_box(s);
   if (shape.kind == "sphere") return revolve(make_arc(s.x(), 0.0));
@@ -84,14 +86,12 @@ Solid make_centred(const Shape& shape, double edge) {
     const double h = s.y() / 2.0;
     return revolve({{0.0, -h}, {s.x(), -h}, {s.x(), h}, {0.0, h}});
   }
+  if (shape.kind == "mesh") return {shape.x, shape.corners};
   return make_square(edge);
 }
 
-}  // namespace
-
-Solid make_solid(const Shape& shape, double edge) {
-  Solid solid = make_centred(shape, edge);
-  solid.x = (shape.quat_BS.toRotationMatrix() * solid.x).colwise() + shape.p_BS;
+Solid place_solid(Solid solid, const Pose& X_BS) {
+  solid.x = (X_BS.R * solid.x).colwise() + X_BS.p;
   return solid;
 }
 
@@ -109,4 +109,4 @@ Solid make_ellipsoid(double mass, const Matrix3& inertia) {
   return solid;
 }
 
-}  // namespace limber::view
+}  // namespace limber::results

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/view/solids.hpp"
+#include "limber/results/solids.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace limber::view {
+namespace limber::results {
 namespace {
 
 /// Volume, centre times volume, and second moments, by the divergence theorem
@@ -34,11 +34,8 @@ Moments integrate(const Solid& solid) {
   return all;
 }
 
-Shape make_shape(const char* kind, const Vector3& size) {
-  Shape shape;
-  shape.kind = kind;
-  shape.size = size;
-  return shape;
+SolidShape make_shape(const char* kind, const Vector3& size) {
+  return {kind, size, {}, {}};
 }
 
 // Chords of a circle in 24, arcs in 12: volumes are a few percent too small.
@@ -64,16 +61,25 @@ TEST(Solids, HaveTheVolumesOfTheirShapes) {
               1.0, kChords);
 }
 
-TEST(Solids, AreWhereTheirShapesAre) {
-  Shape shape = make_shape("box", {1.0, 2.0, 3.0});
-  shape.p_BS = {0.3, -0.2, 0.7};
-  shape.quat_BS = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitX());
-  const Moments moments = integrate(make_solid(shape, 1.0));
-  EXPECT_LT((moments.first / moments.volume - shape.p_BS).norm(), 1e-12);
-  const Solid solid = make_solid(shape, 1.0);
+TEST(Solids, AreWhereTheyArePlaced) {
+  const Matrix3 R = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitX())
+                        .toRotationMatrix();
+  const Vector3 p(0.3, -0.2, 0.7);
+  const Solid solid =
+      place_solid(make_solid(make_shape("box", {1.0, 2.0, 3.0}), 1.0), {R, p});
+  const Moments moments = integrate(solid);
+  EXPECT_LT((moments.first / moments.volume - p).norm(), 1e-12);
   const Vector3 edges =
       solid.x.rowwise().maxCoeff() - solid.x.rowwise().minCoeff();
   EXPECT_LT((edges - Vector3(1.0, 3.0, 2.0)).norm(), 1e-12);
+}
+
+TEST(Solids, OfMeshesAreTheirTriangles) {
+  SolidShape shape = make_shape("mesh", Vector3::Zero());
+  shape.x.resize(3, 4);
+  shape.x << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  shape.corners = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  EXPECT_NEAR(integrate(make_solid(shape, 1.0)).volume, 1.0 / 6.0, 1e-15);
 }
 
 TEST(Ellipsoid, HasTheInertiaThatItStandsFor) {
@@ -89,4 +95,4 @@ TEST(Ellipsoid, HasTheInertiaThatItStandsFor) {
 }
 
 }  // namespace
-}  // namespace limber::view
+}  // namespace limber::results
