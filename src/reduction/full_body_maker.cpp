@@ -11,10 +11,12 @@
 #include "limber/fem/linalg/factor_cost.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/cauchy_stress.hpp"
 #include "limber/fem/solid/nodal_mass.hpp"
 #include "limber/fem/solid/nonlinear_solid.hpp"
 #include "limber/fem/solid/tangent.hpp"
 #include "limber/flexbody/file/cache.hpp"
+#include "limber/flexbody/model/full_stress.hpp"
 #include "limber/reduction/interfaces.hpp"
 #include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/support.hpp"
@@ -65,7 +67,24 @@ struct SolidParts {
   std::optional<fem::NodalMass> free_mass;  // of the free nodes
 };
 
-class MeshSolver : public FullBodySolver {
+class MeshStress : public FullStress {
+ public:
+  MeshStress(const SolidParts& parts, const std::vector<int>& nodes)
+      : stress_(parts.mesh, parts.materials, parts.law, nodes) {}
+
+  [[nodiscard]] const std::vector<int>& nodes() const override {
+    return stress_.nodes();
+  }
+  void calc_stress(FullBodySolver::ConstField u,
+                   Eigen::Ref<Matrix6X> stress) const override {
+    stress_.evaluate(u, stress);
+  }
+
+ private:
+  fem::CauchyStress stress_;
+};
+
+class MeshSolver : public StressedSolver {
  public:
   explicit MeshSolver(std::shared_ptr<const SolidParts> parts)
       : parts_(std::move(parts)),
@@ -91,6 +110,11 @@ class MeshSolver : public FullBodySolver {
     for (Eigen::Index i = 0; i < free_force_.cols(); ++i) {
       a.col(free[static_cast<std::size_t>(i)]) = free_a_.col(i);
     }
+  }
+
+  [[nodiscard]] std::shared_ptr<const FullStress> make_stress(
+      const std::vector<int>& nodes) const override {
+    return std::make_shared<MeshStress>(*parts_, nodes);
   }
 
   void factor(ConstField u, double c) override {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -46,12 +47,40 @@ const dynamics::SystemState& find_nearest(const results::History& history,
   return history.states[nearest];
 }
 
-double find_error(const scene::BuiltScene& built, dynamics::BodyIndex b,
-                  const dynamics::SystemState& state) {
+std::optional<double> find_error(const scene::BuiltScene& built,
+                                 dynamics::BodyIndex b,
+                                 const dynamics::SystemState& state) {
   const dynamics::BodyModel& body = built.model.bodies[index(b)];
+  if (body.full >= 0) return std::nullopt;
   return flexbody::find_averaging_error(
       *body.reduced->stress, body.reduced->lambda,
       state.eta.segment(body.offset, body.modes));
+}
+
+// @param place index of a point of the probe
+std::optional<double> find_correction(const scene::BuiltScene& built,
+                                      const scene::StressProbe& probe,
+                                      int place,
+                                      const dynamics::SystemState& state) {
+  if (probe.eigenmodes < 0) return std::nullopt;
+  const dynamics::BodyModel& body = built.model.bodies[index(probe.body)];
+  const auto modes = probe.Sigma_L.middleRows<6>(6 * Eigen::Index{place});
+  const auto eta = state.eta.segment(body.offset, body.modes);
+  const Eigen::Index corrections =
+      std::max<Eigen::Index>(0, body.modes - probe.eigenmodes);
+  const double whole = flexbody::calc_von_mises(modes * eta);
+  if (!(whole > 0.0)) return std::nullopt;
+  return flexbody::calc_von_mises(modes.rightCols(corrections) *
+                                  eta.tail(corrections)) /
+         whole;
+}
+
+Json to_json_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::string to_percent(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2g}%", 100.0 * *value) : "-";
 }
 
 }  // namespace
@@ -69,7 +98,8 @@ std::vector<StressPeak> find_stress_peaks(const scene::BuiltScene& built,
     peaks.push_back({built.model.bodies[index(column.stress->body)].name,
                      peak.value, peak.time, column.stress->tags[index(place)],
                      column.stress->p_L.col(place),
-                     find_error(built, column.stress->body, near)});
+                     find_error(built, column.stress->body, near),
+                     find_correction(built, *column.stress, place, near)});
   }
   return peaks;
 }
@@ -104,27 +134,31 @@ std::vector<std::optional<std::size_t>> find_peak_nodes(
 Json to_json(const std::vector<StressPeak>& peaks) {
   Json json = Json::array();
   for (const StressPeak& peak : peaks) {
-    json.push_back(Json{{"link", peak.link},
-                        {"von_mises", peak.von_mises},
-                        {"time", peak.time},
-                        {"node", peak.node},
-                        {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
-                        {"averaging_error", peak.averaging_error}});
+    json.push_back(
+        Json{{"link", peak.link},
+             {"von_mises", peak.von_mises},
+             {"time", peak.time},
+             {"node", peak.node},
+             {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
+             {"averaging_error", to_json_or_null(peak.averaging_error)},
+             {"correction_share", to_json_or_null(peak.correction_share)}});
   }
   return json;
 }
 
 std::string to_text(const std::vector<StressPeak>& peaks) {
   if (peaks.empty()) return "";
-  std::string text = fmt::format("{:<20} {:>14} {:>8} {:>30} {:>11} {:>10}\n",
-                                 "von Mises stress", "largest [Pa]", "node",
-                                 "at [m]", "time [s]", "averaging");
+  std::string text = fmt::format(
+      "{:<20} {:>14} {:>8} {:>30} {:>11} {:>10} {:>10}\n", "von Mises stress",
+      "largest [Pa]", "node", "at [m]", "time [s]", "averaging", "static");
   for (const StressPeak& peak : peaks) {
-    text += fmt::format("{:<20} {:>14.6g} {:>8} {:>30} {:>11.6g} {:>9.2g}%\n",
-                        peak.link, peak.von_mises, peak.node,
-                        fmt::format("({:.4g}, {:.4g}, {:.4g})", peak.p_L.x(),
-                                    peak.p_L.y(), peak.p_L.z()),
-                        peak.time, 100.0 * peak.averaging_error);
+    text +=
+        fmt::format("{:<20} {:>14.6g} {:>8} {:>30} {:>11.6g} {:>10} {:>10}\n",
+                    peak.link, peak.von_mises, peak.node,
+                    fmt::format("({:.4g}, {:.4g}, {:.4g})", peak.p_L.x(),
+                                peak.p_L.y(), peak.p_L.z()),
+                    peak.time, to_percent(peak.averaging_error),
+                    to_percent(peak.correction_share));
   }
   return text;
 }

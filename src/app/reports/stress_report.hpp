@@ -22,8 +22,13 @@ struct StressPeak {
   std::size_t node = 0;           ///< Gmsh node tag
   Vector3 p_L = Vector3::Zero();  ///< the node, undeformed, link frame [m]
   /// Error of the averaging over elements in the energy norm, at the output
-  /// nearest to the peak (flexbody::find_averaging_error) [-].
-  double averaging_error = 0.0;
+  /// nearest to the peak (flexbody::find_averaging_error); none at level full
+  /// [-].
+  std::optional<double> averaging_error;
+  /// There and then, von Mises stress of the static-deformation modes over that
+  /// of all modes: what the eigenmodes alone would leave out; none if it is not
+  /// known which modes are which [-].
+  std::optional<double> correction_share;
 };
 
 /// One for each link whose stress [output] asks for, that was ever deformed.

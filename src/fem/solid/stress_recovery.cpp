@@ -120,9 +120,9 @@ class Recovery {
   Recovery(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
            const MatrixX& Phi)
       : mesh_(mesh), materials_(materials), Phi_(Phi) {
-    for (const ElasticMaterial& material : materials) {
-      material_of_region_.push_back(find_material(material));
-    }
+    IndexedMaterials indexed = index_materials(materials);
+    material_of_region_ = std::move(indexed.of_region);
+    result_.constants = std::move(indexed.constants);
     for (const ElementBlock& block : mesh.blocks) {
       fits_.emplace_back(*block.element);
     }
@@ -136,19 +136,6 @@ class Recovery {
   }
 
  private:
-  // Index of the material with these constants; density does not matter.
-  int find_material(const ElasticMaterial& material) {
-    auto& known = result_.constants;
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const auto& other) {
-          return other.youngs_modulus == material.youngs_modulus &&
-                 other.poisson_ratio == material.poisson_ratio;
-        });
-    const auto i = found - known.begin();
-    if (found == known.end()) known.push_back(material);
-    return static_cast<int>(i);
-  }
-
   template <typename Visit>  // visit(block index, element)
   void for_each_element(const Visit& visit) const {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
@@ -269,6 +256,22 @@ MatrixX make_stress_fit(const ReferenceElement& element,
   const MatrixX coefficients =
       at_points.colPivHouseholderQr().solve(MatrixX(roots.asDiagonal()));
   return evaluate(terms, element.node_uvw) * coefficients;
+}
+
+IndexedMaterials index_materials(
+    const std::vector<ElasticMaterial>& materials) {
+  IndexedMaterials indexed;
+  auto& known = indexed.constants;
+  for (const ElasticMaterial& material : materials) {
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& other) {
+          return other.youngs_modulus == material.youngs_modulus &&
+                 other.poisson_ratio == material.poisson_ratio;
+        });
+    indexed.of_region.push_back(static_cast<int>(found - known.begin()));
+    if (found == known.end()) known.push_back(material);
+  }
+  return indexed;
 }
 
 NodalStress recover_stress(const Mesh& mesh,

@@ -21,6 +21,15 @@ namespace limber::fem {
 [[nodiscard]] MatrixX make_stress_fit(const ReferenceElement& element,
                                       const Quadrature& rule);
 
+/// Materials by what matters for stress: equal E and nu are one.
+struct IndexedMaterials {
+  std::vector<ElasticMaterial> constants;
+  std::vector<int> of_region;  ///< index into `constants`
+};
+/// @param materials one per region
+[[nodiscard]] IndexedMaterials index_materials(
+    const std::vector<ElasticMaterial>& materials);
+
 /// Stress of k fields at nodes, a point for each material that a node is of.
 struct NodalStress {
   std::vector<int> nodes;      ///< p, increasing

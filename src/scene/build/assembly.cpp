@@ -199,17 +199,26 @@ std::vector<Probe> Assembly::make_probes(
 StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec) const {
   const int link = find_link(scene_.robot, spec.where.link);
   const dynamics::Fidelity level = scene_.scenario.level_of(spec.where.link);
-  if (!has_linear_stress(level)) throw InputError(explain_no_stress(level));
-  StressProbe probe = scene::make_stress_probe(
-      spec.quantity, *sites_.plan_of(link).reduced,
-      {find_place_interface(spec.where), spec.where.nodes}, sites_.X_BL(link));
+  if (!has_stress(level)) throw InputError(explain_no_stress(level));
+  const BodyPlan& plan = sites_.plan_of(link);
+  const StressPlace place = {find_place_interface(spec.where),
+                             spec.where.nodes};
+  StressProbe probe =
+      plan.full ? make_full_stress_probe(spec.quantity, *plan.reduced,
+                                         *plan.full, place, sites_.X_BL(link))
+                : scene::make_stress_probe(spec.quantity, *plan.reduced, place,
+                                           sites_.X_BL(link));
   probe.body = sites_.body_of(link);
+  const FlexibleLink& flexible = *scene_.robot.links[index(link)].flexible;
+  if (flexible.reduced_file.empty() && !flexible.basis.automatic) {
+    probe.eigenmodes = flexible.basis.eigenmodes;
+  }
   return probe;
 }
 
 void Assembly::add_stress_of_links(std::vector<Probe>& probes) const {
   for (const BodyPlan& plan : plans_.bodies) {
-    if (!plan.reduced || !needs_stress(scene_.scenario, plan.name)) continue;
+    if (!plan.reduced || !wants_stress(scene_.scenario, plan.name)) continue;
     const std::string name = plan.name + ".surface";
     with_context("[output] stress: link '" + plan.name + "'", [&] {
       const auto is_taken = [&](const Probe& probe) {

@@ -69,7 +69,7 @@ void check_stress(const Overrides& overrides, Scene& scene) {
     const auto* stress = std::get_if<StressProbeSpec>(&probe.of);
     if (stress == nullptr) return false;
     const dynamics::Fidelity level = scenario.level_of(stress->where.link);
-    if (has_linear_stress(level)) return false;
+    if (has_stress(level)) return false;
     const std::string why = fmt::format("link '{}': {}", stress->where.link,
                                         explain_no_stress(level));
     if (overrides.fidelity) {

@@ -145,7 +145,7 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   }
   recipe.manifold =
       scenario.level_of(link.name) == dynamics::Fidelity::nonlinear;
-  recipe.stress = needs_stress(scenario, link.name);
+  recipe.stress = needs_stress_modes(scenario, link.name);
   add_connections(recipe, robot, index);
   for (const LoadSpec& load : scenario.loads) {
     if (load.where.link != link.name) continue;

@@ -125,7 +125,7 @@ class Finder {
     if (!scenario_.output.stress) return;
     for (const Link& link : links_) {
       const Fidelity level = scenario_.level_of(link.name);
-      if (!link.flexible || has_linear_stress(level)) continue;
+      if (!link.flexible || has_stress(level)) continue;
       tell("[output] stress of link '" + link.name + "'",
            explain_no_stress(level));
     }

@@ -38,14 +38,9 @@ std::set<std::size_t> find_surface(const ReducedBody& body) {
   return rows;
 }
 
-std::set<std::size_t> find_rows(const ReducedBody& body,
-                                const StressPlace& place) {
-  if (place.interface.empty()) return find_surface(body);
-  for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
-    if (body.interfaces[i].name != place.interface) continue;
-    const auto& rows = body.stress->interface_rows[i];
-    return {rows.begin(), rows.end()};
-  }
+// Of selections that need no interface; else none.
+std::set<std::size_t> select_rows(const ReducedBody& body,
+                                  const StressPlace& place) {
   const auto select = [&](const auto& one) -> std::set<std::size_t> {
     using Selection = std::decay_t<decltype(one)>;
     if constexpr (std::is_same_v<Selection, flexbody::TaggedNode>) {
@@ -64,12 +59,44 @@ std::set<std::size_t> find_rows(const ReducedBody& body,
     }
     return {};
   };
-  if (place.nodes) {
-    std::set<std::size_t> rows = std::visit(select, *place.nodes);
-    if (!rows.empty()) return rows;
+  if (!place.nodes) return {};
+  return std::visit(select, *place.nodes);
+}
+
+std::set<std::size_t> find_rows(const ReducedBody& body,
+                                const StressPlace& place) {
+  if (place.interface.empty()) return find_surface(body);
+  for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
+    if (body.interfaces[i].name != place.interface) continue;
+    const auto& rows = body.stress->interface_rows[i];
+    return {rows.begin(), rows.end()};
   }
+  std::set<std::size_t> rows = select_rows(body, place);
+  if (!rows.empty()) return rows;
   static_cast<void>(find_interface(body, place.interface));  // throws
   return {};
+}
+
+// Nodes of the whole mesh, which are the rows of the body.
+std::set<std::size_t> find_full_rows(const ReducedBody& body,
+                                     const flexbody::FullBody& full,
+                                     const StressPlace& place) {
+  std::set<std::size_t> rows;
+  if (place.interface.empty()) {
+    for (const auto& triangle : body.triangles) {
+      rows.insert(triangle.begin(), triangle.end());
+    }
+    return rows;
+  }
+  for (const flexbody::NodeSet& set : full.interfaces) {
+    if (set.name != place.interface) continue;
+    return {set.nodes.begin(), set.nodes.end()};
+  }
+  rows = select_rows(body, place);
+  if (rows.empty()) {
+    static_cast<void>(find_node_set(full, place.interface));  // throws
+  }
+  return rows;
 }
 
 Eigen::Index find_row_of(const flexbody::StressModes& modes,
@@ -84,19 +111,28 @@ bool has_linear_stress(Fidelity level) {
          level == Fidelity::coupled;
 }
 
+bool has_stress(Fidelity level) {
+  return has_linear_stress(level) || level == Fidelity::full;
+}
+
 std::string explain_no_stress(Fidelity level) {
   if (level == Fidelity::rigid) {
     return "it is rigid in this run, and a rigid link has no stress; take "
-           "level uncoupled, one-way or coupled";
+           "level uncoupled, one-way, coupled or full";
   }
   return fmt::format(
       "stress is that of small strain, linear in the modal coordinates, which "
-      "level {} is not; take level uncoupled, one-way or coupled",
+      "level {} is not; take level uncoupled, one-way, coupled or full",
       to_string(level));
 }
 
-bool needs_stress(const Scenario& scenario, const std::string& link) {
-  if (!has_linear_stress(scenario.level_of(link))) return false;
+bool needs_stress_modes(const Scenario& scenario, const std::string& link) {
+  return has_linear_stress(scenario.level_of(link)) &&
+         wants_stress(scenario, link);
+}
+
+bool wants_stress(const Scenario& scenario, const std::string& link) {
+  if (!has_stress(scenario.level_of(link))) return false;
   if (scenario.output.stress) return true;
   return std::any_of(scenario.probes.begin(), scenario.probes.end(),
                      [&](const ProbeSpec& probe) {
@@ -155,6 +191,28 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
         Sigma_L.middleRows<6>(6 * Eigen::Index{order[i]});
     const Eigen::Index row = find_row_of(modes, points[index(order[i])]);
     probe.tags.push_back(body.rows.tags[static_cast<std::size_t>(row)]);
+  }
+  return probe;
+}
+
+StressProbe make_full_stress_probe(StressQuantity quantity,
+                                   const ReducedBody& body,
+                                   const flexbody::FullBody& full,
+                                   const StressPlace& place, const Pose& X_BL) {
+  LIMBER_EXPECT(std::ssize(body.rows.tags) == full.node_count());
+  const std::set<std::size_t> rows = find_full_rows(body, full, place);
+  StressProbe probe;
+  probe.quantity = quantity;
+  probe.R_BL = X_BL.R;
+  probe.full = make_full_stress(full, {rows.begin(), rows.end()});
+  LIMBER_EXPECT(probe.full != nullptr);
+  const std::vector<int>& nodes = probe.full->nodes();
+  const Pose X_LB = X_BL.inverse();
+  probe.p_L.resize(3, std::ssize(nodes));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    probe.tags.push_back(body.rows.tags[index(nodes[i])]);
+    probe.p_L.col(static_cast<Eigen::Index>(i)) =
+        X_LB * Vector3(body.rows.x_B.col(nodes[i]));
   }
   return probe;
 }

@@ -6,6 +6,7 @@
 
 #include "limber/common/pose.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
+#include "limber/flexbody/model/full_body.hpp"
 #include "limber/flexbody/model/node_selection.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/scene/probes/stress_probe.hpp"
@@ -18,12 +19,20 @@ namespace limber::scene {
 /// uncoupled, one-way and coupled.
 [[nodiscard]] bool has_linear_stress(dynamics::Fidelity level);
 
+/// Whether there is stress at all: also at level full.
+[[nodiscard]] bool has_stress(dynamics::Fidelity level);
+
 /// Why there is no stress at another level, and what to do: for messages.
 [[nodiscard]] std::string explain_no_stress(dynamics::Fidelity level);
 
-/// Whether a probe or [output] wants the stress of this flexible link.
-[[nodiscard]] bool needs_stress(const Scenario& scenario,
+/// Whether a probe or [output] wants the stress of this flexible link, at a
+/// level that has one.
+[[nodiscard]] bool wants_stress(const Scenario& scenario,
                                 const std::string& link);
+
+/// The same at a level that needs stress modes for it.
+[[nodiscard]] bool needs_stress_modes(const Scenario& scenario,
+                                      const std::string& link);
 
 /// Removes probes of stress, and that of [output].
 /// @returns whether there was any
@@ -46,5 +55,11 @@ struct StressPlace {
                                             const flexbody::ReducedBody& body,
                                             const StressPlace& place,
                                             const Pose& X_BL);
+
+/// The same at level `full`. @param body of the same mesh, with rows at all
+/// nodes, and its interfaces
+[[nodiscard]] StressProbe make_full_stress_probe(
+    StressQuantity quantity, const flexbody::ReducedBody& body,
+    const flexbody::FullBody& full, const StressPlace& place, const Pose& X_BL);
 
 }  // namespace limber::scene

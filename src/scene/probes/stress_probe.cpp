@@ -6,6 +6,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 
 namespace limber::scene {
@@ -14,12 +15,9 @@ namespace {
 constexpr double kRoundOff = 1e-9;  // of a bound
 
 // The largest principal stress is at most the mean plus 2/3 of von Mises'.
-void append_principal(const StressProbe& probe,
-                      const Eigen::Ref<const VectorX>& eta,
+// @param all stress at all points, 6p
+void append_principal(const StressProbe& probe, const VectorX& all,
                       std::vector<double>& values) {
-  VectorX& all = probe.scratch.stress;
-  all.resize(probe.Sigma_L.rows());
-  all.noalias() = probe.Sigma_L * eta;
   double largest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(probe.tags.size()); ++i) {
     const Vector6 s = all.segment<6>(6 * Eigen::Index{i});
@@ -33,6 +31,46 @@ void append_principal(const StressProbe& probe,
     }
   }
   values.push_back(largest);
+}
+
+// Of all points, in the axes of the link as it has moved.
+void calc_full(const StressProbe& probe, const dynamics::SystemModel& model,
+               const dynamics::BodyModel& body,
+               const dynamics::SystemState& state) {
+  const dynamics::FullModel& full = model.full_bodies[index(body.full)];
+  Matrix6X& whole = probe.scratch.whole;
+  whole.resize(6, std::ssize(probe.tags));
+  probe.full->calc_stress(nodes_of(full, state.u_H), whole);
+  dynamics::MeanFrame frame;
+  calc_mean_frame(model, full, state, frame);
+  const Matrix3 R_HL = frame.R_HB * probe.R_BL;
+  VectorX& all = probe.scratch.stress;
+  all.resize(whole.size());
+  for (Eigen::Index i = 0; i < whole.cols(); ++i) {
+    all.segment<6>(6 * i) = flexbody::turn_stress(whole.col(i), R_HL);
+  }
+}
+
+void append_largest(const StressProbe& probe,
+                    const StressClusters::Largest& largest,
+                    std::vector<double>& values) {
+  probe.scratch.place = largest.point;
+  if (probe.quantity == StressQuantity::von_mises) {
+    values.push_back(largest.von_mises);
+  } else {
+    values.insert(values.end(), largest.stress.begin(), largest.stress.end());
+  }
+}
+
+// Of the probe's scratch.
+StressClusters::Largest find_largest(const StressProbe& probe) {
+  StressClusters::Largest largest;
+  for (int i = 0; i < static_cast<int>(probe.tags.size()); ++i) {
+    const Vector6 s = probe.scratch.stress.segment<6>(6 * Eigen::Index{i});
+    const double mises = flexbody::calc_von_mises(s);
+    if (mises > largest.von_mises) largest = {i, mises, s};
+  }
+  return largest;
 }
 
 }  // namespace
@@ -56,19 +94,23 @@ void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
                    const dynamics::SystemState& state,
                    std::vector<double>& values) {
   const dynamics::BodyModel& body = model.bodies[index(probe.body)];
-  LIMBER_EXPECT(body.modes == probe.Sigma_L.cols());
-  const auto eta = state.eta.segment(body.offset, body.modes);
-  if (probe.quantity == StressQuantity::max_principal) {
-    append_principal(probe, eta, values);
-    return;
-  }
-  const auto largest = probe.clusters.find(probe.Sigma_L, eta);
-  probe.scratch.place = largest.point;
-  if (probe.quantity == StressQuantity::von_mises) {
-    values.push_back(largest.von_mises);
+  const bool is_principal = probe.quantity == StressQuantity::max_principal;
+  VectorX& all = probe.scratch.stress;
+  if (probe.full) {
+    LIMBER_EXPECT(body.full >= 0);
+    calc_full(probe, model, body, state);
+    if (!is_principal) append_largest(probe, find_largest(probe), values);
   } else {
-    values.insert(values.end(), largest.stress.begin(), largest.stress.end());
+    LIMBER_EXPECT(body.modes == probe.Sigma_L.cols());
+    const auto eta = state.eta.segment(body.offset, body.modes);
+    if (is_principal) {
+      all.resize(probe.Sigma_L.rows());
+      all.noalias() = probe.Sigma_L * eta;
+    } else {
+      append_largest(probe, probe.clusters.find(probe.Sigma_L, eta), values);
+    }
   }
+  if (is_principal) append_principal(probe, all, values);
 }
 
 }  // namespace limber::scene

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
+#include "limber/flexbody/model/full_stress.hpp"
 #include "limber/scene/probes/probe_column.hpp"
 #include "limber/scene/probes/stress_clusters.hpp"
 #include "limber/scene/scenario/scenario.hpp"
@@ -15,14 +17,17 @@ namespace limber::scene {
 
 /// A probe of stress at a link's nodes, of the largest if there are several.
 ///
-/// Equation   sigma = Sigma_L eta; of several points the one with the largest
-///            von Mises stress, or the largest principal stress
-/// Source     flexbody/model/stress_modes.hpp
-/// Limits     small strain. Not to be evaluated by two threads at once: copy it
+/// Equation   sigma = Sigma_L eta, at level `full` Cauchy's stress in the axes
+///            of the link as it has moved; of several points the one with the
+///            largest von Mises stress, or the largest principal stress
+/// Source     flexbody/model/stress_modes.hpp, full_stress.hpp
+/// Limits     small strain but at level `full`. Not to be evaluated by two
+///            threads at once: copy it
 struct StressProbe {
   /// For evaluations.
   struct Scratch {
     VectorX stress;  ///< 6p [Pa]
+    Matrix6X whole;  ///< 6 x p, at level `full` [Pa]
     int place = -1;  ///< index of the point of the last value
   };
   StressQuantity quantity = StressQuantity::von_mises;
@@ -32,6 +37,13 @@ struct StressProbe {
   Matrix3X p_L;                   ///< 3 x p: places, undeformed [m]
   MatrixX Sigma_L;          ///< 6p x m, axes of the link [kg^1/2 m^-2 s^-2]
   StressClusters clusters;  ///< of the points, which are in its order
+  /// The first modes, eigenmodes; the others correct for those left out, by
+  /// static deformation. -1: not known, as of saved bodies.
+  int eigenmodes = -1;
+  /// At level `full` in place of the modes: stress at the points, and the axes
+  /// of the link in the body's.
+  std::shared_ptr<const flexbody::FullStress> full;
+  Matrix3 R_BL = Matrix3::Identity();
   mutable Scratch scratch = {};
 };
 
