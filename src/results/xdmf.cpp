@@ -2,203 +2,185 @@
 #include "limber/results/xdmf.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
-#include <fstream>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
 
-#include "limber/common/errors.hpp"
-#include "limber/common/files/hdf5_file.hpp"
-#include "limber/common/files/whole_file.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/flexbody/model/full_stress.hpp"
+#include "limber/flexbody/model/stress_modes.hpp"
+#include "limber/results/scenery_marks.hpp"
+#include "limber/results/xdmf_file.hpp"
 
 namespace limber::results {
 namespace {
 
+using dynamics::BodyModel;
 using dynamics::SystemModel;
 using dynamics::SystemState;
 
 // All surfaces as one mesh: the bodies' rows concatenated.
-struct Surface {
-  std::vector<std::size_t> bodies;    // indices of those with a mesh
-  std::vector<std::int64_t> corners;  // three a triangle
-  std::size_t nodes = 0;
-};
-
-Surface gather_surface(const SystemModel& model) {
-  Surface surface;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const auto& reduced = model.bodies[b].reduced;
-    if (!reduced || reduced->triangles.empty()) continue;
-    surface.bodies.push_back(b);
-    for (const auto& triangle : reduced->triangles) {
-      for (const std::size_t corner : triangle) {
-        surface.corners.push_back(
-            static_cast<std::int64_t>(surface.nodes + corner));
+class Surfaces {
+ public:
+  explicit Surfaces(const SystemModel& model) : model_(model) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const auto& reduced = model.bodies[b].reduced;
+      if (!reduced) continue;
+      if (reduced->triangles.empty()) {
+        bare_.push_back(model.bodies[b].name);
+        continue;
       }
+      bodies_.push_back(b);
+      full_.push_back(make_full(model.bodies[b]));
+      has_stress_ =
+          has_stress_ || has_stress(model.bodies[b]) || full_.back() != nullptr;
     }
-    surface.nodes += reduced->rows.tags.size();
   }
-  return surface;
-}
 
-struct Fields {
-  std::vector<double> points;        // 3 a node [m]
-  std::vector<double> deformation;   // 1 a node [m]
-  std::vector<double> displacement;  // 3 a node, from the start [m]
-  std::vector<double> bending;       // 3 a node, R Phi eta [m]
+  [[nodiscard]] bool is_empty() const { return bodies_.empty(); }
+  [[nodiscard]] const std::vector<std::string>& bare() const { return bare_; }
+
+  MovingSurface gather(const History& history) const {
+    MovingSurface all;
+    all.times = history.times;
+    all.has_stress = has_stress_;
+    for (const std::size_t b : bodies_) {
+      for (const auto& triangle : model_.bodies[b].reduced->triangles) {
+        for (const std::size_t corner : triangle) {
+          all.corners.push_back(all.nodes + static_cast<std::int64_t>(corner));
+        }
+      }
+      all.nodes += count_rows(b);
+    }
+    return all;
+  }
+
+  SurfaceFrame find_frame(const SystemState& start, const SystemState& state,
+                          Eigen::Index nodes) const {
+    SurfaceFrame frame{
+        Matrix3X(3, nodes), Matrix3X(3, nodes), Matrix3X(3, nodes), {}};
+    if (has_stress_) frame.stress.resize(6, nodes);
+    Eigen::Index first = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const std::size_t b = bodies_[i];
+      const Eigen::Index n = count_rows(b);
+      const Matrix3X now = find_positions(b, state);
+      frame.points.middleCols(first, n) = now;
+      frame.displacement.middleCols(first, n) = now - find_positions(b, start);
+      const Matrix3 R_WB = state.bodies[b].quat_WB.toRotationMatrix();
+      MatrixX u_B(3 * n, 1);
+      calc_node_deformations(model_, static_cast<dynamics::BodyIndex>(b),
+                             {&state, 1}, u_B);
+      frame.deformation.middleCols(first, n) = R_WB * u_B.reshaped(3, n);
+      if (has_stress_) {
+        frame.stress.middleCols(first, n) =
+            full_[i] ? find_full_stress(i, state) : find_stress(b, state, R_WB);
+      }
+      first += n;
+    }
+    return frame;
+  }
+
+ private:
+  static bool has_stress(const BodyModel& body) {
+    return body.reduced->stress && body.modes > 0 && moves_linearly(body);
+  }
+
+  [[nodiscard]] Eigen::Index count_rows(std::size_t b) const {
+    return model_.bodies[b].reduced->rows.x_B.cols();
+  }
+
+  [[nodiscard]] Matrix3X find_positions(std::size_t b,
+                                        const SystemState& state) const {
+    MatrixX nodes(3 * count_rows(b), 1);
+    calc_node_positions(model_, static_cast<dynamics::BodyIndex>(b),
+                        {&state, 1}, nodes);
+    return nodes.reshaped(3, count_rows(b));
+  }
+
+  using FullStress = std::shared_ptr<const flexbody::FullStress>;
+
+  // Null below level `full`.
+  [[nodiscard]] FullStress make_full(const BodyModel& body) const {
+    if (body.full < 0) return nullptr;
+    std::vector<int> all(body.reduced->rows.tags.size());
+    std::iota(all.begin(), all.end(), 0);
+    return flexbody::make_full_stress(
+        *model_.full_bodies[index(body.full)].mesh, all);
+  }
+
+  // Of the i-th body; at a border of materials that of the first.
+  [[nodiscard]] Matrix6X find_full_stress(std::size_t i,
+                                          const SystemState& state) const {
+    const auto f = index(model_.bodies[bodies_[i]].full);
+    const std::vector<int>& nodes = full_[i]->nodes();
+    Matrix6X at_points(6, std::ssize(nodes));
+    full_[i]->calc_stress(dynamics::nodes_of(model_.full_bodies[f], state.u_H),
+                          at_points);
+    Matrix6X stress_H(6, count_rows(bodies_[i]));
+    for (std::size_t p = nodes.size(); p-- > 0;) {
+      stress_H.col(nodes[p]) = at_points.col(static_cast<Eigen::Index>(p));
+    }
+    return turn_to_world(stress_H, state.X_WH[f].R);
+  }
+
+  // In world axes; at a border of materials that of the first.
+  [[nodiscard]] Matrix6X find_stress(std::size_t b, const SystemState& state,
+                                     const Matrix3& R_WB) const {
+    const BodyModel& body = model_.bodies[b];
+    Matrix6X stress_B = Matrix6X::Constant(
+        6, count_rows(b), std::numeric_limits<double>::quiet_NaN());
+    if (!has_stress(body)) return stress_B;
+    const flexbody::StressModes& modes = *body.reduced->stress;
+    const VectorX at_points = modes.Sigma_B.leftCols(body.modes) *
+                              state.eta.segment(body.offset, body.modes);
+    for (std::size_t i = modes.rows.size(); i-- > 0;) {
+      stress_B.col(static_cast<Eigen::Index>(modes.rows[i])) =
+          at_points.segment<6>(6 * static_cast<Eigen::Index>(i));
+    }
+    return turn_to_world(stress_B, R_WB);
+  }
+
+  const SystemModel& model_;
+  std::vector<std::size_t> bodies_;  // with a surface
+  std::vector<FullStress> full_;     // one for each
+  std::vector<std::string> bare_;    // names of those whose was not kept
+  bool has_stress_ = false;          // any of them
 };
-
-void append(const MatrixX& nodes, std::vector<double>& values) {
-  values.insert(values.end(), nodes.data(), nodes.data() + nodes.size());
-}
-
-/// @param start positions of each surface's nodes at the start
-Fields move_surface(const SystemModel& model, const Surface& surface,
-                    const SystemState& state,
-                    const std::vector<MatrixX>& start) {
-  Fields fields;
-  for (std::size_t i = 0; i < surface.bodies.size(); ++i) {
-    const std::size_t b = surface.bodies[i];
-    const auto body = static_cast<dynamics::BodyIndex>(b);
-    const Eigen::Index n = model.bodies[b].reduced->rows.x_B.cols();
-    MatrixX nodes(3 * n, 1);
-    calc_node_deformations(model, body, {&state, 1}, nodes);
-    const VectorX sizes = nodes.reshaped(3, n).colwise().norm().transpose();
-    fields.deformation.insert(fields.deformation.end(), sizes.begin(),
-                              sizes.end());
-    const Matrix3 R_WB = state.bodies[b].quat_WB.toRotationMatrix();
-    append(R_WB * nodes.reshaped(3, n), fields.bending);
-    calc_node_positions(model, body, {&state, 1}, nodes);
-    append(nodes, fields.points);
-    append(nodes - start[i], fields.displacement);
-  }
-  return fields;
-}
-
-std::vector<MatrixX> find_start(const SystemModel& model,
-                                const Surface& surface,
-                                const History& history) {
-  std::vector<MatrixX> all;
-  if (history.states.empty()) return all;
-  for (const std::size_t b : surface.bodies) {
-    MatrixX nodes(3 * model.bodies[b].reduced->rows.x_B.cols(), 1);
-    calc_node_positions(model, static_cast<dynamics::BodyIndex>(b),
-                        {history.states.data(), 1}, nodes);
-    all.push_back(std::move(nodes));
-  }
-  return all;
-}
-
-// A file's name as XML text.
-std::string escape(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (c == '&') {
-      text += "&amp;";
-    } else if (c == '<') {
-      text += "&lt;";
-    } else if (c == '>') {
-      text += "&gt;";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
-void write_item(std::ostream& out, const char* number, const std::string& shape,
-                const std::string& place) {
-  fmt::print(out,
-             "<DataItem Dimensions=\"{}\" NumberType=\"{}\" "
-             "Precision=\"8\" Format=\"HDF\">{}</DataItem>\n",
-             shape, number, place);
-}
-
-std::string name_step(std::size_t i) { return fmt::format("steps/{:06}/", i); }
-
-void write_motion(const std::filesystem::path& file, const SystemModel& model,
-                  const Surface& surface, const History& history) {
-  Hdf5File out = Hdf5File::create(file);
-  out.write_array("triangles", surface.corners, {surface.corners.size() / 3, 3},
-                  "1", "node indices");
-  const std::vector<MatrixX> start = find_start(model, surface, history);
-  for (std::size_t i = 0; i < history.times.size(); ++i) {
-    const Fields fields =
-        move_surface(model, surface, history.states[i], start);
-    out.write_array(name_step(i) + "points", fields.points, {surface.nodes, 3},
-                    "m", "positions, world frame");
-    out.write_array(name_step(i) + "deformation", fields.deformation,
-                    {surface.nodes}, "m", "|Phi eta|");
-    out.write_array(name_step(i) + "deformation_vector", fields.bending,
-                    {surface.nodes, 3}, "m", "Phi eta, world frame");
-    out.write_array(name_step(i) + "displacement", fields.displacement,
-                    {surface.nodes, 3}, "m", "from the start, world frame");
-  }
-  out.close();
-}
-
-void write_step(std::ostream& out, const Surface& surface, double time,
-                const std::string& data, const std::string& step) {
-  const std::size_t triangles = surface.corners.size() / 3;
-  fmt::print(out,
-             "<Grid Name=\"bodies\" GridType=\"Uniform\">"
-             "<Time Value=\"{:.17g}\"/>\n<Topology "
-             "TopologyType=\"Triangle\" NumberOfElements=\"{}\">\n",
-             time, triangles);
-  write_item(out, "Int", fmt::format("{} 3", triangles), data + ":/triangles");
-  out << "</Topology><Geometry GeometryType=\"XYZ\">\n";
-  write_item(out, "Float", fmt::format("{} 3", surface.nodes),
-             fmt::format("{}:/{}points", data, step));
-  out << "</Geometry><Attribute Name=\"deformation\" "
-         "AttributeType=\"Scalar\" Center=\"Node\">\n";
-  write_item(out, "Float", fmt::format("{}", surface.nodes),
-             fmt::format("{}:/{}deformation", data, step));
-  out << "</Attribute>";
-  for (const char* name : {"deformation_vector", "displacement"}) {
-    fmt::print(out,
-               "<Attribute Name=\"{}\" AttributeType=\"Vector\" "
-               "Center=\"Node\">\n",
-               name);
-    write_item(out, "Float", fmt::format("{} 3", surface.nodes),
-               fmt::format("{}:/{}{}", data, step, name));
-    out << "</Attribute>";
-  }
-  out << "</Grid>\n";
-}
-
-void write_index(std::ostream& out, const Surface& surface,
-                 const History& history, const std::string& data) {
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
-         "<Grid Name=\"bodies\" GridType=\"Collection\" "
-         "CollectionType=\"Temporal\">\n";
-  for (std::size_t i = 0; i < history.times.size(); ++i) {
-    write_step(out, surface, history.times[i], data, name_step(i));
-  }
-  out << "</Grid></Domain></Xdmf>\n";
-}
 
 }  // namespace
 
-void write_xdmf(const std::filesystem::path& file, const SystemModel& model,
-                const History& history) {
-  const Surface surface = gather_surface(model);
-  if (surface.bodies.empty()) {
-    throw InputError(fmt::format(
-        "'{}': no body of this system has a mesh to show", file.string()));
+std::vector<std::string> write_xdmf(const std::filesystem::path& file,
+                                    const SystemModel& model,
+                                    const History& history) {
+  const Surfaces surfaces(model);
+  std::vector<std::string> missing;
+  const std::string name = file.filename().string();
+  if (!surfaces.bare().empty()) {
+    missing.push_back(fmt::format(
+        "{} is without '{}': the nodes on its surface were not kept; take "
+        "rows=\"boundary\" (the default) in <flexible><basis> of the robot, or "
+        "`limber reduce --rows boundary` for a saved body",
+        name, fmt::join(surfaces.bare(), "', '")));
   }
-  std::filesystem::path data = file;
-  data.replace_extension(".h5");
-  write_whole(data, [&](const std::filesystem::path& part) {
-    write_motion(part, model, surface, history);
-  });
-  write_whole(file, [&](const std::filesystem::path& part) {
-    std::ofstream out(part);
-    write_index(out, surface, history, escape(data.filename().string()));
-    out.flush();
-    if (out) return;
-    throw InputError(fmt::format("'{}' cannot be written; is the disk full?",
-                                 file.string()));
-  });
+  if (surfaces.is_empty()) {
+    missing.push_back(
+        fmt::format("no {}: no body has a mesh whose surface was kept", name));
+    return missing;
+  }
+  MovingSurface all = surfaces.gather(history);
+  all.find_frame = [&](std::size_t i) {
+    return surfaces.find_frame(history.states.front(), history.states[i],
+                               all.nodes);
+  };
+  write_xdmf_file(file, all);
+  return missing;
 }
 
 }  // namespace limber::results

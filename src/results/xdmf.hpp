@@ -2,19 +2,22 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/results/history.hpp"
 
 namespace limber::results {
 
-/// Writes a time series of the flexible bodies' moving surfaces for ParaView:
-/// `file` (XDMF) and its data beside it (the same name with .h5). The point
-/// field "deformation" is |Phi eta| [m], "deformation_vector" that as a vector
-/// and "displacement" from the first output, both in the world frame [m], for
-/// ParaView's filter Warp By Vector. Bodies without a mesh are omitted.
-/// @throws InputError if it cannot be written or no body has a mesh.
-void write_xdmf(const std::filesystem::path& file,
-                const dynamics::SystemModel& model, const History& history);
+/// Writes the flexible bodies' moving surfaces for ParaView, with the fields of
+/// xdmf_file.hpp: all stored nodes, stress of bodies with stress modes and at
+/// level `full`. Bodies without a mesh are omitted.
+/// @returns what is not in it: bodies whose surface was not kept, or the whole
+/// file if no body has one
+/// @throws InputError if it cannot be written.
+[[nodiscard]] std::vector<std::string> write_xdmf(
+    const std::filesystem::path& file, const dynamics::SystemModel& model,
+    const History& history);
 
 }  // namespace limber::results

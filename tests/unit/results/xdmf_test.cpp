@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "limber/dynamics/system/system_builder.hpp"
@@ -42,7 +44,9 @@ struct Written {
 
 Written write_and_read(const SmallRun& run, const std::string& name = "m") {
   const TemporaryFolder folder;
-  write_xdmf(folder.path() / (name + ".xdmf"), run.model, run.history);
+  EXPECT_THAT(
+      write_xdmf(folder.path() / (name + ".xdmf"), run.model, run.history),
+      ::testing::IsEmpty());
   return {test::parse_xml(test::read_bytes(folder.path() / (name + ".xdmf"))),
           test::read_all_datasets(folder.path() / (name + ".h5"))};
 }
@@ -240,26 +244,85 @@ TEST(Xdmf, SystemWithoutAMeshIsAnInputError) {
   const dynamics::SystemModel model = builder.build();
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "motion.xdmf";
-  const std::string why =
-      find_input_error([&] { write_xdmf(file, model, {}); });
-  EXPECT_THAT(why, HasSubstr(file.string()));
-  EXPECT_THAT(why, HasSubstr("mesh"));
+  EXPECT_THAT(write_xdmf(file, model, {}),
+              ElementsAre(HasSubstr("no motion.xdmf: no body has a mesh")));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Xdmf, TellsOfBodiesWhoseSurfaceWasNotKept) {
+  SmallRun run = make_small_run();
+  auto bare = *run.model.bodies[0].reduced;
+  bare.triangles.clear();
+  run.model.bodies[0].reduced =
+      std::make_shared<const flexbody::ReducedBody>(bare);
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "motion.xdmf";
+  EXPECT_THAT(write_xdmf(file, run.model, run.history),
+              ElementsAre(::testing::AllOf(HasSubstr("without 'arm'"),
+                                           HasSubstr("rows=\"boundary\""))));
+  const auto data = test::read_all_datasets(folder.path() / "motion.h5");
+  EXPECT_EQ(data.at("triangles").shape.at(0), kTriangles - 3);
+  EXPECT_EQ(data.count("steps/000000/stress"), 0U);
+}
+
+// Stress modes at rows in the order of the body's: sigma = Sigma_B eta, turned
+// by R sigma R^T, in XDMF's order xx, xy, xz, yy, yz, zz.
+TEST(Xdmf, StressIsThatOfTheModesInTheWorld) {
+  SmallRun run = make_small_run();
+  auto stressed = *run.model.bodies[0].reduced;
+  const auto n = std::ssize(stressed.rows.tags);
+  flexbody::StressModes modes;
+  for (std::size_t i = 0; i < stressed.rows.tags.size(); ++i) {
+    modes.rows.push_back(i);
+    modes.materials.push_back(0);
+    modes.on_surface.push_back(1);
+  }
+  modes.Sigma_B.resize(6 * n, stressed.mode_count());
+  for (Eigen::Index i = 0; i < modes.Sigma_B.size(); ++i) {
+    modes.Sigma_B.data()[i] = std::sin(0.7 * static_cast<double>(i));
+  }
+  stressed.stress = modes;
+  run.model.bodies[0].reduced =
+      std::make_shared<const flexbody::ReducedBody>(stressed);
+  const TemporaryFolder folder;
+  ASSERT_TRUE(
+      write_xdmf(folder.path() / "m.xdmf", run.model, run.history).empty());
+  const auto data = test::read_all_datasets(folder.path() / "m.h5");
+  const auto& state = run.history.states[2];
+  const auto& found = data.at("steps/000002/stress");
+  const auto& mises = data.at("steps/000002/von_mises");
+  ASSERT_THAT(found.shape, ElementsAre(kNodes, 6));
+  const Matrix3 R = state.bodies[0].quat_WB.toRotationMatrix();
+  const VectorX all = modes.Sigma_B * state.eta.head(stressed.mode_count());
+  const std::size_t node = 7;
+  const Vector6 s = all.segment<6>(6 * node);
+  Matrix3 t;
+  t << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  t = R * t * R.transpose();
+  const double wanted[] = {t(0, 0), t(0, 1), t(0, 2),
+                           t(1, 1), t(1, 2), t(2, 2)};
+  for (std::size_t c = 0; c < 6; ++c) {
+    EXPECT_NEAR(found.numbers[6 * node + c], wanted[c], 1e-12 * s.norm());
+  }
+  const Matrix3 deviator = t - t.trace() / 3.0 * Matrix3::Identity();
+  EXPECT_NEAR(mises.numbers[node], std::sqrt(1.5) * deviator.norm(),
+              1e-12 * s.norm());
+  EXPECT_TRUE(std::isnan(mises.numbers[24]));  // of a body without stress
 }
 
 TEST(Xdmf, PlaceThatCannotBeWrittenIsNamed) {
   const SmallRun run = make_empty_run();
   const TemporaryFolder folder;
   EXPECT_THAT(find_input_error([&] {
-                write_xdmf(folder.path() / "no_such/motion.xdmf", run.model,
-                           run.history);
+                (void)write_xdmf(folder.path() / "no_such/motion.xdmf",
+                                 run.model, run.history);
               }),
               HasSubstr((folder.path() / "no_such/motion").string()));
   // The data can be written, but a folder stands where the text should be.
   std::filesystem::create_directory(folder.path() / "motion.xdmf");
   EXPECT_THAT(find_input_error([&] {
-                write_xdmf(folder.path() / "motion.xdmf", run.model,
-                           run.history);
+                (void)write_xdmf(folder.path() / "motion.xdmf", run.model,
+                                 run.history);
               }),
               HasSubstr((folder.path() / "motion.xdmf").string()));
 }
