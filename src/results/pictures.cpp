@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "limber/results/gnuplot.hpp"
 
@@ -117,18 +118,96 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
   script.add(plot);
 }
 
-// Lines through every panel that follows, labels in the next one.
-void add_marks(GnuplotScript& script, const std::vector<Mark>& marks) {
+// Times from the first to the last of all curves.
+struct TimeRange {
+  double first = 0.0;
+  double last = 1.0;
+
+  [[nodiscard]] double share(double t) const {
+    return (t - first) / (last - first);
+  }
+};
+
+TimeRange find_range(const std::vector<Panel>& panels) {
+  double first = std::numeric_limits<double>::infinity();
+  double last = -first;
+  for (const Panel& panel : panels) {
+    for (const Series& series : panel.series) {
+      for (const double t : series.times) {
+        first = std::min(first, t);
+        last = std::max(last, t);
+      }
+    }
+  }
+  if (last > first) return {first, last};
+  const double middle = last == first ? first : 0.0;
+  const double half = std::max(0.5, 1e-3 * std::abs(middle));
+  return {middle - half, middle + half};
+}
+
+constexpr double kLeft = 0.11;  // margins [of the width]
+constexpr double kRight = 0.97;
+constexpr double kLabelWidth = 15.0;  // of a line of a label [pixels]
+constexpr double kLetter = 6.0;       // of a label [pixels]
+constexpr std::size_t kMostLetters = 36;
+
+std::string shorten(const std::string& label) {
+  if (label.size() <= kMostLetters) return label;
+  return label.substr(0, kMostLetters - 2) + "..";
+}
+
+// Of the strip above the panels that holds the labels of marks [pixels].
+double find_strip(const std::vector<Mark>& marks) {
+  std::size_t longest = 0;
   for (const Mark& mark : marks) {
+    longest = std::max(longest, shorten(mark.label).size());
+  }
+  return longest == 0 ? 0.0 : 26.0 + kLetter * static_cast<double>(longest);
+}
+
+// Where labels of places in increasing order go, so that none covers another
+// [pixels].
+std::vector<double> spread_labels(const std::vector<double>& places) {
+  std::vector<double> spread = places;
+  for (std::size_t i = 1; i < spread.size(); ++i) {
+    spread[i] = std::max(spread[i], spread[i - 1] + kLabelWidth);
+  }
+  double most = kRight * kWidth;
+  for (std::size_t i = spread.size(); i-- > 0;) {
+    spread[i] = std::min(spread[i], most);
+    most = spread[i] - kLabelWidth;
+  }
+  return spread;
+}
+
+// Lines through every panel that follows; labels above the panels, where no
+// curve is. @param top of the first panel, height of the picture [pixels]
+void add_marks(GnuplotScript& script, std::vector<Mark> marks,
+               const TimeRange& range, double top, double height) {
+  std::stable_sort(
+      marks.begin(), marks.end(),
+      [](const Mark& a, const Mark& b) { return a.time < b.time; });
+  std::vector<double> places;
+  for (const Mark& mark : marks) {
+    places.push_back(kWidth *
+                     (kLeft + (kRight - kLeft) * range.share(mark.time)));
+  }
+  const std::vector<double> spread = spread_labels(places);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
     script.add(
         fmt::format("set arrow from first {0:.9g}, graph 0 to first {0:.9g}, "
                     "graph 1 nohead back lc rgb '#888888' dt 3 lw 0.9",
-                    mark.time));
+                    marks[i].time));
+    script.add(fmt::format(
+        "set arrow {} from screen {:.5f}, screen {:.5f} to screen {:.5f}, "
+        "screen {:.5f} nohead lc rgb '#888888' lw 0.7",
+        1001 + i, places[i] / kWidth, 1.0 - top / height, spread[i] / kWidth,
+        1.0 - (top - 14.0) / height));
     script.add(
-        fmt::format("set label {} at first {:.9g}, graph 0.97 right "
-                    "rotate by 90 font 'sans,9' tc rgb '#555555' "
-                    "offset character -0.6, 0 front",
-                    quote(mark.label), mark.time));
+        fmt::format("set label {} {} at screen {:.5f}, screen {:.5f} "
+                    "left rotate by 90 font 'sans,9' tc rgb '#555555'",
+                    1001 + i, quote(shorten(marks[i].label)),
+                    spread[i] / kWidth, 1.0 - (top - 18.0) / height));
   }
 }
 
@@ -139,7 +218,9 @@ std::string draw_overlay(const std::filesystem::path& file,
                          const std::vector<Panel>& panels,
                          const std::vector<Mark>& marks) {
   const int count = static_cast<int>(panels.size());
-  GnuplotScript script(file, kWidth, kHeaderHeight + kPanelHeight * count);
+  const double strip = find_strip(marks);
+  const double height = kHeaderHeight + strip + kPanelHeight * count;
+  GnuplotScript script(file, kWidth, static_cast<int>(height));
   double reference = 0.0;
   for (std::size_t p = 0; p < panels.size(); ++p) {
     reference = std::max(reference, largest(panels[p]));
@@ -151,20 +232,28 @@ std::string draw_overlay(const std::filesystem::path& file,
       }
     }
   }
-  const double height = kHeaderHeight + kPanelHeight * count;
   const std::string key_height = fmt::format("{:.4f}", 1.0 - 58.0 / height);
-  const double top = 1.0 - 80.0 / height;
+  const double top = 80.0 + strip;
   script.add(
       fmt::format("set multiplot layout {},1 title {} font 'sans,18' margins "
-                  "0.11,0.97,{:.4f},{:.4f} spacing 0,{:.4f}",
-                  count, quote(title), 70.0 / height, top, 24.0 / height));
+                  "{},{},{:.4f},{:.4f} spacing 0,{:.4f}",
+                  count, quote(title), kLeft, kRight, 70.0 / height,
+                  1.0 - top / height, 24.0 / height));
+  const TimeRange range = find_range(panels);
+  script.add(
+      fmt::format("set xrange [{:.17g}:{:.17g}]", range.first, range.last));
   script.add("set grid lc rgb '#dddddd' dt 1 lw 0.6");
   script.add("set border lc rgb '#555555' lw 0.7");
   script.add("set ytics nomirror; set xtics nomirror");
   script.add("set format y '%.3g'");
-  add_marks(script, marks);
+  add_marks(script, marks, range, top, height);
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    if (p == 1) script.add("unset label");
+    if (p == 1) {
+      script.add("unset label");
+      for (std::size_t i = 0; i < marks.size(); ++i) {
+        script.add(fmt::format("unset arrow {}", 1001 + i));
+      }
+    }
     add_panel(script, p, panels[p], reference, key_height,
               p + 1 == panels.size());
   }

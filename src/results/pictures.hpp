@@ -11,6 +11,7 @@
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/results/history.hpp"
+#include "limber/results/scenery.hpp"
 
 /// PNG pictures by gnuplot. Without gnuplot the results are complete except for
 /// pictures. Each function returns an empty string, or why there is no picture
@@ -54,19 +55,18 @@ struct Surface {
   Matrix3X points;                                    ///< 3 x n [m]
   std::vector<std::array<std::size_t, 3>> triangles;  ///< indices of points
 };
-/// What moves with the frame of a body, or stands in the world (kWorld).
-struct BodySurface {
-  dynamics::BodyIndex body;
-  Surface surface;  ///< body frame, or the world's
-};
 
-/// The surfaces of all flexible bodies (and the frames of rigid ones) at the
-/// given states. @param shapes of rigid bodies and the world, drawn in addition
-[[nodiscard]] std::string draw_scene(
-    const std::filesystem::path& file, const std::string& title,
-    const dynamics::SystemModel& model,
-    const std::vector<dynamics::SystemState>& states,
-    const std::vector<BodySurface>& shapes = {});
+/// The surfaces of all bodies at the start, at the output with the largest
+/// deformation and at the end, from the side of the motion. A deformation that
+/// could not be seen is magnified by the factor that the title states; rigid
+/// motion is not, so that magnified links part at their joints.
+/// @param scenery shapes of rigid bodies, which are their ellipsoid of inertia
+/// without one
+[[nodiscard]] std::string draw_scene(const std::filesystem::path& file,
+                                     const std::string& title,
+                                     const dynamics::SystemModel& model,
+                                     const History& history,
+                                     const Scenery& scenery);
 
 /// The same for an equilibrium and the start; the displacement between them is
 /// magnified by the factor `exaggeration` [-], for all bodies alike, so that
@@ -76,7 +76,8 @@ struct BodySurface {
                                             const dynamics::SystemModel& model,
                                             const dynamics::SystemState& start,
                                             const dynamics::SystemState& state,
-                                            double exaggeration);
+                                            double exaggeration,
+                                            const Scenery& scenery);
 
 /// One body, undeformed and with displacements u (3 x n [m]) magnified by
 /// `exaggeration`.

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/results/gnuplot.hpp"
 #include "limber/results/pictures.hpp"
+#include "limber/results/scene_view.hpp"
+#include "limber/results/solids.hpp"
 
 namespace limber::results {
 namespace {
@@ -34,8 +36,6 @@ struct Bounds {
 struct Shot {
   std::string name;
   std::vector<Surface> surfaces;
-  std::vector<Vector3> marks;
-  std::vector<std::pair<Vector3, Vector3>> lines;
 };
 
 // Magnifies the displacement from one state to another.
@@ -60,53 +60,120 @@ Matrix3X find_rows(const SystemModel& model, std::size_t b,
   return p_WP.reshaped(3, x_B.cols());
 }
 
-// Rigid bodies have no shape: a mark at the centre of mass, lines to their
-// coupler frames.
-void add_rigid_bodies(const SystemModel& model, const Displacement& moved,
-                      Shot& shot) {
-  const auto center = [&](std::size_t b) {
-    return moved.place<Vector3>(moved.from.bodies[b].p_WB,
-                                moved.to.bodies[b].p_WB);
-  };
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].reduced) shot.marks.push_back(center(b));
-  }
-  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
-    const dynamics::BodyIndex b = model.attachments[i].body;
-    if (b == dynamics::kWorld ||
-        model.bodies[static_cast<std::size_t>(b)].reduced) {
-      continue;
-    }
-    const auto frame = [&](const SystemState& state) {
-      return find_frame_motion(model, state, dynamics::AttachmentIndex(i))
-          .X_WF.p;
-    };
-    shot.lines.emplace_back(
-        center(static_cast<std::size_t>(b)),
-        moved.place<Vector3>(frame(moved.from), frame(moved.to)));
-  }
+// The same with the deformation magnified.
+Matrix3X find_magnified_rows(const SystemModel& model, std::size_t b,
+                             const SystemState& state, double magnification) {
+  Matrix3X rows = find_rows(model, b, state);
+  if (magnification == 1.0) return rows;
+  MatrixX u_B(rows.size(), 1);
+  calc_node_deformations(model, static_cast<dynamics::BodyIndex>(b),
+                         {&state, 1}, u_B);
+  rows += (magnification - 1.0) * (state.bodies[b].quat_WB.toRotationMatrix() *
+                                   u_B.reshaped(3, rows.cols()));
+  return rows;
 }
 
+// What moves with the frame of a body, or stands in the world (kWorld).
+struct BodySolid {
+  dynamics::BodyIndex body;
+  Solid solid;  // frame of the body
+};
+
+// The shapes of rigid bodies and of the world. A body without one is the
+// ellipsoid of its inertia; planes have no end and are left out.
+std::vector<BodySolid> find_solids(const SystemModel& model,
+                                   const Scenery& scenery) {
+  std::vector<BodySolid> solids;
+  std::vector<bool> has_shape(model.bodies.size(), false);
+  for (const SceneryShape& shape : scenery.shapes) {
+    if (shape.form.kind == "plane") continue;
+    solids.push_back(
+        {shape.body, place_solid(make_solid(shape.form, 1.0), shape.X_BS)});
+    if (shape.body == dynamics::kWorld) continue;
+    has_shape[static_cast<std::size_t>(shape.body)] = true;
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    if (body.reduced || has_shape[b]) continue;
+    solids.push_back({static_cast<dynamics::BodyIndex>(b),
+                      make_ellipsoid(body.mass, body.J0)});
+  }
+  return solids;
+}
+
+Surface make_surface(const Solid& solid, const Matrix3X& points) {
+  Surface surface{points, {}};
+  for (std::size_t i = 0; i + 2 < solid.corners.size(); i += 3) {
+    surface.triangles.push_back(
+        {solid.corners[i], solid.corners[i + 1], solid.corners[i + 2]});
+  }
+  return surface;
+}
+
+Matrix3X find_points(const BodySolid& of, const SystemState& state) {
+  if (of.body == dynamics::kWorld) return of.solid.x;
+  const auto& body = state.bodies[static_cast<std::size_t>(of.body)];
+  return (body.quat_WB.toRotationMatrix() * of.solid.x).colwise() + body.p_WB;
+}
+
+// @param rows positions of a flexible body's rows, and @param points of a
+// solid, in the world
+template <typename Rows, typename Points>
 Shot take_shot(const std::string& name, const SystemModel& model,
-               const Displacement& moved) {
-  Shot shot{name, {}, {}, {}};
+               const std::vector<BodySolid>& solids, const Rows& rows,
+               const Points& points) {
+  Shot shot{name, {}};
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!model.bodies[b].reduced) continue;
-    shot.surfaces.push_back(
-        {moved.place<Matrix3X>(find_rows(model, b, moved.from),
-                               find_rows(model, b, moved.to)),
-         model.bodies[b].reduced->triangles});
+    shot.surfaces.push_back({rows(b), model.bodies[b].reduced->triangles});
   }
-  add_rigid_bodies(model, moved, shot);
+  for (const BodySolid& of : solids) {
+    shot.surfaces.push_back(make_surface(of.solid, points(of)));
+  }
   return shot;
 }
 
-Surface place(const BodySurface& shape, const SystemState& state) {
-  if (shape.body == dynamics::kWorld) return shape.surface;
-  const auto& body = state.bodies[static_cast<std::size_t>(shape.body)];
-  const Matrix3 R_WB = body.quat_WB.toRotationMatrix();
-  const Matrix3X points = (R_WB * shape.surface.points).colwise() + body.p_WB;
-  return {points, shape.surface.triangles};
+Shot take_magnified(const std::string& name, const SystemModel& model,
+                    const std::vector<BodySolid>& solids,
+                    const SystemState& state, double magnification) {
+  return take_shot(
+      name, model, solids,
+      [&](std::size_t b) {
+        return find_magnified_rows(model, b, state, magnification);
+      },
+      [&](const BodySolid& of) { return find_points(of, state); });
+}
+
+Shot take_displaced(const std::string& name, const SystemModel& model,
+                    const std::vector<BodySolid>& solids,
+                    const Displacement& moved) {
+  return take_shot(
+      name, model, solids,
+      [&](std::size_t b) {
+        return moved.place<Matrix3X>(find_rows(model, b, moved.from),
+                                     find_rows(model, b, moved.to));
+      },
+      [&](const BodySolid& of) {
+        return moved.place<Matrix3X>(find_points(of, moved.from),
+                                     find_points(of, moved.to));
+      });
+}
+
+// Some points of all surfaces, the same ones of every shot.
+Matrix3X sample(const Shot& shot) {
+  constexpr Eigen::Index kSampled = 300;  // of a surface
+  std::vector<Vector3> points;
+  for (const Surface& surface : shot.surfaces) {
+    const Eigen::Index stride = 1 + surface.points.cols() / kSampled;
+    for (Eigen::Index i = 0; i < surface.points.cols(); i += stride) {
+      points.emplace_back(surface.points.col(i));
+    }
+  }
+  Matrix3X all(3, std::ssize(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    all.col(static_cast<Eigen::Index>(i)) = points[i];
+  }
+  return all;
 }
 
 std::size_t count_triangles(const std::vector<Shot>& shots) {
@@ -119,37 +186,25 @@ std::size_t count_triangles(const std::vector<Shot>& shots) {
   return count;
 }
 
-// Blocks of polygons, marks and lines of one shot.
-void add_blocks(GnuplotScript& script, const std::string& block,
-                const Shot& shot, std::size_t stride, Bounds& bounds) {
-  const auto point = [&](const Vector3& p) {
-    bounds.include(p);
-    script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
-  };
+// A block of the polygons of one shot.
+void add_block(GnuplotScript& script, const std::string& block,
+               const Shot& shot, std::size_t stride, Bounds& bounds) {
   script.add(fmt::format("${} << EOD", block));
   for (const Surface& surface : shot.surfaces) {
     for (std::size_t t = 0; t < surface.triangles.size(); t += stride) {
       for (const std::size_t corner : surface.triangles[t]) {
-        point(surface.points.col(static_cast<Eigen::Index>(corner)));
+        const Vector3 p = surface.points.col(static_cast<Eigen::Index>(corner));
+        bounds.include(p);
+        script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
       }
       script.add("");
     }
   }
   script.add("EOD");
-  script.add(fmt::format("${}_marks << EOD", block));
-  for (const Vector3& mark : shot.marks) point(mark);
-  script.add("EOD");
-  script.add(fmt::format("${}_lines << EOD", block));
-  for (const auto& [from, to] : shot.lines) {
-    point(from);
-    point(to);
-    script.add("");
-    script.add("");
-  }
-  script.add("EOD");
 }
 
-void set_view(GnuplotScript& script, const Bounds& bounds) {
+void set_view(GnuplotScript& script, const Bounds& bounds,
+              const ViewAngles& view) {
   const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
   const double half =
       std::max(0.55 * (bounds.upper - bounds.lower).maxCoeff(), 1e-6);
@@ -162,7 +217,8 @@ void set_view(GnuplotScript& script, const Bounds& bounds) {
   script.add("set pm3d border lc rgb '#404040' lw 0.05");
   script.add("set pm3d depthorder");
   script.add("set view equal xyz");
-  script.add("set view 68, 35, 1.25");
+  script.add(
+      fmt::format("set view {:.4g}, {:.4g}, 1.25", view.rot_x, view.rot_z));
   script.add("set xyplane at " + fmt::format("{:g}", center[2] - half));
   script.add("set border 4095 lc rgb '#cccccc' lw 0.6");
   script.add("set ticslevel 0");
@@ -172,75 +228,118 @@ void set_view(GnuplotScript& script, const Bounds& bounds) {
 
 std::string draw(const std::filesystem::path& file, const std::string& heading,
                  const std::vector<Shot>& shots) {
-  if (shots.empty()) return "no picture: there is no state to draw";
+  std::vector<Matrix3X> samples;
+  for (const Shot& shot : shots) samples.push_back(sample(shot));
+  if (shots.empty() || samples.front().cols() == 0) {
+    return "no picture: there is no surface to draw";
+  }
   GnuplotScript script(file, 1200, 1000);
   const std::size_t total = count_triangles(shots);
   const std::size_t stride =
       std::max<std::size_t>(1, (total + kMostTriangles - 1) / kMostTriangles);
   Bounds bounds;
-  std::string plot;
+  std::string plot = "splot ";
   for (std::size_t s = 0; s < shots.size(); ++s) {
     const std::string block = fmt::format("s{}", s);
     const char* colour = kColours[s % kColours.size()];
-    const char* separator = s == 0 ? "splot " : ", ";
-    add_blocks(script, block, shots[s], stride, bounds);
-    if (total > 0) {
-      plot += fmt::format(
-          "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle",
-          separator, block, s == 0 ? 0.25 : 0.8, colour);
-      separator = ", ";
-    }
+    add_block(script, block, shots[s], stride, bounds);
     plot += fmt::format(
-        "{}${}_lines with lines lc rgb '{}' lw 2.5 notitle, ${}_marks with "
-        "points pt 7 ps 1.6 lc rgb '{}' notitle, NaN with lines lw 6 lc rgb "
-        "'{}' title {}",
-        separator, block, colour, block, colour, colour, quote(shots[s].name));
+        "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle, "
+        "NaN with lines lw 6 lc rgb '{}' title {}",
+        s == 0 ? "" : ", ", block, s == 0 ? 0.25 : 0.8, colour, colour,
+        quote(shots[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
-  set_view(script, bounds);
+  set_view(script, bounds, find_view(samples));
   script.add(plot);
   return script.run();
 }
 
-std::string head(const std::string& title, double exaggeration) {
-  if (exaggeration == 1.0) return title;
-  return fmt::format("{} (displacement x {:g})", title, exaggeration);
+std::string head(const std::string& title, const char* what, double factor) {
+  if (factor == 1.0) return title;
+  return fmt::format("{} ({} x {:g})", title, what, factor);
+}
+
+double find_size(const std::vector<Shot>& shots) {
+  Bounds bounds;
+  for (const Shot& shot : shots) {
+    const Matrix3X points = sample(shot);
+    for (const auto& p : points.colwise()) bounds.include(p);
+  }
+  return (bounds.upper - bounds.lower).norm();
+}
+
+// Flexible bodies whose surface was not kept.
+std::string name_missing(const SystemModel& model) {
+  std::string names;
+  for (const BodyModel& body : model.bodies) {
+    if (!body.reduced || !body.reduced->triangles.empty()) continue;
+    names += (names.empty() ? "" : ", ") + body.name;
+  }
+  return names.empty() ? "" : " (without " + names + ": surface not kept)";
 }
 
 }  // namespace
 
 std::string draw_scene(const std::filesystem::path& file,
                        const std::string& title, const SystemModel& model,
-                       const std::vector<SystemState>& states,
-                       const std::vector<BodySurface>& shapes) {
-  std::vector<Shot> shots;
-  for (const SystemState& state : states) {
-    shots.push_back(
-        take_shot(fmt::format("t = {:g} s", state.t), model, {state, state}));
-    for (const BodySurface& shape : shapes) {
-      shots.back().surfaces.push_back(place(shape, state));
-    }
+                       const History& history, const Scenery& scenery) {
+  if (history.states.empty()) return "no picture: there is no state to draw";
+  const DeformationPeak peak = find_largest_deformation(model, history);
+  const std::vector<BodySolid> solids = find_solids(model, scenery);
+  const std::size_t end = history.states.size() - 1;
+  std::vector<std::pair<std::string, const SystemState*>> moments;
+  const auto add = [&](const char* what, std::size_t output) {
+    const SystemState& state = history.states[output];
+    moments.emplace_back(fmt::format("{}, t = {:g} s", what, state.t), &state);
+  };
+  add("start", 0);
+  if (peak.output != 0 && peak.output != end) {
+    add("largest deformation", peak.output);
   }
-  return draw(file, title, shots);
+  if (end != 0) {
+    add(peak.output == end && peak.deformation > 0.0
+            ? "end and largest deformation"
+            : "end",
+        end);
+  }
+  const auto take = [&](double magnification) {
+    std::vector<Shot> shots;
+    for (const auto& [name, state] : moments) {
+      shots.push_back(
+          take_magnified(name, model, solids, *state, magnification));
+    }
+    return shots;
+  };
+  std::vector<Shot> shots = take(1.0);
+  const double magnification =
+      find_magnification(peak.deformation, find_size(shots));
+  if (magnification != 1.0) shots = take(magnification);
+  return draw(file,
+              head(title, "deformation", magnification) + name_missing(model),
+              shots);
 }
 
 std::string draw_displacement(const std::filesystem::path& file,
                               const std::string& title,
                               const SystemModel& model,
                               const SystemState& start,
-                              const SystemState& state, double exaggeration) {
-  return draw(file, head(title, exaggeration),
-              {take_shot("start", model, {start, start}),
-               take_shot("equilibrium", model, {start, state, exaggeration})});
+                              const SystemState& state, double exaggeration,
+                              const Scenery& scenery) {
+  const std::vector<BodySolid> solids = find_solids(model, scenery);
+  return draw(file,
+              head(title, "displacement", exaggeration) + name_missing(model),
+              {take_displaced("start", model, solids, {start, start}),
+               take_displaced("equilibrium", model, solids,
+                              {start, state, exaggeration})});
 }
 
 std::string draw_deformation(const std::filesystem::path& file,
                              const std::string& title, const Surface& surface,
                              const Matrix3X& u, double exaggeration) {
   const Surface deformed{surface.points + exaggeration * u, surface.triangles};
-  return draw(
-      file, head(title, exaggeration),
-      {{"undeformed", {surface}, {}, {}}, {"deformed", {deformed}, {}, {}}});
+  return draw(file, head(title, "displacement", exaggeration),
+              {{"undeformed", {surface}}, {"deformed", {deformed}}});
 }
 
 }  // namespace limber::results

@@ -131,45 +131,37 @@ TEST_F(Pictures, EnergyAndSceneOfARunArePngs) {
   expect_sensible(draw_and_measure(
       [&](const auto& file) { return draw_energy(file, "run", run.history); }));
   expect_sensible(draw_and_measure([&](const auto& file) {
-    return draw_scene(file, "run", run.model,
-                      {run.history.states.front(), run.history.states.back()});
+    return draw_scene(file, "run", run.model, run.history, {});
   }));
   expect_sensible(draw_and_measure([&](const auto& file) {
     return draw_displacement(file, "run", run.model, run.history.states.front(),
-                             run.history.states.back(), 20.0);
+                             run.history.states.back(), 20.0, {});
   }));
 }
 
+// Without a shape it is an ellipsoid of its inertia.
 TEST_F(Pictures, SceneOfRigidBodiesAloneIsAPng) {
   dynamics::SystemBuilder builder;
   const auto ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
-  const dynamics::SystemModel free_ball = builder.build();
-  expect_sensible(draw_and_measure([&](const auto& file) {
-    return draw_scene(file, "ball", free_ball, {make_state(free_ball)});
-  }));
-  builder.attach_frame("handle", ball, {Matrix3::Identity(), {1, 0, 0}});
-  const dynamics::SystemModel held_ball = builder.build();
-  expect_sensible(draw_and_measure([&](const auto& file) {
-    return draw_scene(file, "ball", held_ball, {make_state(held_ball)});
-  }));
-}
-
-TEST_F(Pictures, SceneShowsShapesOfRigidBodies) {
-  dynamics::SystemBuilder builder;
-  const auto ball = builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
   const dynamics::SystemModel model = builder.build();
-  Matrix3X points(3, 4);
-  points << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
-  const BodySurface corner{ball, {points, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}}}};
+  History history;
+  history.states = {make_state(model)};
   expect_sensible(draw_and_measure([&](const auto& file) {
-    return draw_scene(file, "ball", model, {make_state(model)}, {corner});
+    return draw_scene(file, "ball", model, history, {});
+  }));
+  Scenery scenery;
+  scenery.shapes = {
+      {"ball", ball, {}, {"box", Vector3(1.0, 2.0, 3.0), {}, {}}},
+      {"floor", dynamics::kWorld, {}, {"plane", Vector3::Zero(), {}, {}}}};
+  expect_sensible(draw_and_measure([&](const auto& file) {
+    return draw_scene(file, "ball", model, history, scenery);
   }));
 }
 
 TEST_F(Pictures, SceneWithoutAStateSaysSo) {
   const TemporaryFolder folder;
   const std::string why = draw_scene(folder.path() / "scene.png", "run",
-                                     make_empty_run().model, {});
+                                     make_empty_run().model, {}, {});
   EXPECT_THAT(why, HasSubstr("no state"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
@@ -283,7 +275,7 @@ TEST(PicturesWithoutGnuplot, SayWhatToInstallAndLeaveNothing) {
   const Panel panel{"u [m]", {make_series("a", wave(50))}};
   for (const std::string& why :
        {draw_overlay(file, "tip", {panel}), draw_energy(file, "t", run.history),
-        draw_scene(file, "run", run.model, run.history.states)}) {
+        draw_scene(file, "run", run.model, run.history, {})}) {
     EXPECT_THAT(why, HasSubstr("gnuplot is not installed"));
     EXPECT_THAT(why, HasSubstr("gnuplot-nox"));
   }
