@@ -31,6 +31,60 @@ async function compareLargest(tab) {
   return { worst, count: gaps.length };
 }
 
+// A click on the surface offers a plot of the stress there; what it draws is
+// compared with the probe of the library at the node of that probe.
+async function comparePicked(tab) {
+  const place = await tab.evaluate(() => {
+    const { view, player } = window.limber;
+    view.setMagnification(1);
+    player.seek(player.start);
+    view.draw();
+    const eye = view.camera.eye;
+    const { motion } = view;
+    const nodes = motion.result.surfaces[motion.result.bodies[0].surface].nodes;
+    const box = document.getElementById('canvas').getBoundingClientRect();
+    for (let node = 0; node < nodes; ++node) {
+      const at = motion.position(0, node, player.time);
+      const screen = eye.position.clone().set(...at).project(eye);
+      if (window.limber.pickAt(screen.x, screen.y)?.node !== node) continue;
+      return { x: box.left + ((screen.x + 1) / 2) * box.width,
+        y: box.top + ((1 - screen.y) / 2) * box.height };
+    }
+    return null;
+  });
+  assert.ok(place, 'no node can be picked');
+  await tab.mouse.click(place.x, place.y);
+  await tab.locator('#picked button', { hasText: 'stress' }).click();
+  await tab.screenshot({ path: `${folder}/picked.png` });
+  const { shown, gap } = await tab.evaluate(() => {
+    const { view, traceStress } = window.limber;
+    const { result, times } = view.motion;
+    const names = ['xx', 'yy', 'zz', 'xy', 'yz', 'xz'];
+    const probes = names.map((c) => result.probes.find(({ name }) => name === `middle.s${c}`).values);
+    const { nodes } = result.surfaces[result.bodies[0].surface];
+    let nearest = 0;
+    let least = Infinity;
+    for (let n = 0; n < nodes; ++n) {
+      // The link's frame is that of the world at the start.
+      const [x, y, z] = view.motion.position(0, n, times[0]);
+      const far = Math.hypot(x, y - 0.5, z - 2.5);
+      if (far < least) [nearest, least] = [n, far];
+    }
+    const { series } = traceStress(view.motion, 0, nearest);
+    const most = Math.max(...probes[2].map(Math.abs));
+    const gaps = names.flatMap((c, k) => {
+      const { values } = series.find(({ label }) => label === c);
+      return Array.from(times, (t, i) => Math.abs(values[i] - probes[k][i]) / most);
+    });
+    return { shown: view.plots.shown.at(-1).group, gap: Math.max(...gaps) };
+  });
+  assert.match(shown.name, /, node \d+$/);
+  assert.equal(shown.unit, 'Pa');
+  assert.equal(shown.series.length, 7);
+  assert.ok(gap < 1e-3, `stress over time is off by ${gap} of its largest at the probe`);
+  return gap;
+}
+
 async function main() {
   const browser = await playwright.launch({ executablePath: chromium, args: kFlags });
   const problems = [];
@@ -59,7 +113,9 @@ async function main() {
     });
     assert.ok(colours > 50, `the surface has ${colours} colours`);
     const { worst, count } = await compareLargest(tab);
+    const gap = await comparePicked(tab);
     assert.deepEqual(problems, [], 'the page reports errors');
+    console.log(`stress of a picked node within ${gap.toExponential(2)} of the probe's largest`);
     console.log(`largest stress at ${count} outputs within ${worst.toExponential(2)} of the largest`);
   } catch (error) {
     console.error(problems.slice(0, 5).join('\n'));

@@ -3,7 +3,7 @@ import { kPresets } from './camera.js';
 import { format } from './colours.js';
 import { readResults } from './data.js';
 import { fillPanel } from './panel.js';
-import { describeNode, pickAt, traceNode, watchPicks } from './pick.js';
+import { describeNode, pickAt, traceNode, traceStress, watchPicks } from './pick.js';
 import { Player } from './player.js';
 import { save, takeFilm, takePicture } from './record.js';
 import { Timeline } from './timeline.js';
@@ -26,7 +26,7 @@ const kKeys = [
   ['p', 'plots'],
   ['s r', 'save a picture, a film of the interval'],
   ['d', 'dark or light'],
-  ['click', 'a point of a surface: its node, and its displacement'],
+  ['click', 'a point of a surface: its node, displacement and stress'],
 ];
 
 function setDark(isDark, view) {
@@ -145,7 +145,8 @@ function showPick(view, player, pick) {
   const box = find('picked');
   box.hidden = !pick;
   if (!pick) return view.redraw();
-  const body = view.motion.result.bodies[pick.body];
+  const { result } = view.motion;
+  const body = result.bodies[pick.body];
   const fill = () => {
     if (!view.pick) return;
     const { node } = view.pick;
@@ -161,9 +162,15 @@ function showPick(view, player, pick) {
     box.querySelectorAll('b')[1].textContent = body.name;
   };
   if (pick.node >= 0) {
-    box.innerHTML = '<p></p><button>Plot its displacement</button>';
-    box.querySelector('button').onclick = () =>
-      view.plots.add(traceNode(view.motion, pick.body, pick.node));
+    box.innerHTML = '<p></p>';
+    const offer = (what, traceIt) => {
+      const button = document.createElement('button');
+      button.textContent = `Plot its ${what}`;
+      button.onclick = () => view.plots.add(traceIt(view.motion, pick.body, pick.node));
+      box.append(button);
+    };
+    offer('displacement', traceNode);
+    if (result.surfaces[body.surface].stress) offer('stress', traceStress);
   }
   view.fillPick = fill;
   fill();
@@ -218,6 +225,7 @@ async function start() {
   // For tests, and for consoles.
   window.limber = {
     results, player, view, actions, pickAt: (x, y) => pickAt(x, y, view.camera.eye, view.bodies),
+    traceStress,
   };
 }
 

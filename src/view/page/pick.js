@@ -1,7 +1,7 @@
 // A click on a surface: the node there, and its motion.
 import * as THREE from 'three';
 import { locate } from './motion.js';
-import { stressAt } from './stress.js';
+import { misesAt, stressAt, stressComponentsAt } from './stress.js';
 
 const kStillPixels = 4;
 
@@ -46,21 +46,35 @@ export function pickAt(x, y, camera, bodies) {
   return { body, node, point: hit.point.toArray() };
 }
 
-/// Displacement from the start of a surface's node at every output, as a group
-/// of plots.
-export function traceNode(motion, body, node) {
+// A group of plots of a node: `labels` name what `read(t)` returns at every output.
+function trace(motion, body, node, unit, labels, read) {
   const { result, times } = motion;
   const tag = result.surfaces[result.bodies[body].surface].tags[node];
-  const values = [0, 1, 2].map(() => new Float64Array(times.length));
-  const start = motion.position(body, node, times[0]);
-  times.forEach((t, i) => {
-    motion.position(body, node, t).forEach((value, c) => (values[c][i] = value - start[c]));
-  });
+  const values = labels.map(() => new Float64Array(times.length));
+  times.forEach((t, i) => read(t).forEach((value, c) => (values[c][i] = value)));
   return {
     name: `${result.bodies[body].name}, node ${tag}`,
-    unit: 'm',
-    series: ['ux', 'uy', 'uz'].map((label, c) => ({ label, values: values[c], times, ghost: 0 })),
+    unit,
+    series: labels.map((label, c) => ({ label, values: values[c], times, ghost: 0 })),
   };
+}
+
+/// Displacement from the start of a surface's node at every output.
+export function traceNode(motion, body, node) {
+  const start = motion.position(body, node, motion.times[0]);
+  return trace(motion, body, node, 'm', ['ux', 'uy', 'uz'], (t) =>
+    motion.position(body, node, t).map((value, c) => value - start[c]));
+}
+
+/// Its von Mises stress and the components in the axes of its body, for results
+/// that have them.
+export function traceStress(motion, body, node) {
+  const eta = new Float64Array(motion.result.bodies[body].modes);
+  const labels = ['von Mises', 'xx', 'yy', 'zz', 'xy', 'yz', 'xz'];
+  return trace(motion, body, node, 'Pa', labels, (t) => {
+    const s = stressComponentsAt(motion, body, node, motion.eta(body, locate(motion.times, t), eta));
+    return [misesAt(s, 0), ...s];
+  });
 }
 
 /// Displacement and deformation of a node at a time, as lengths [m], and its

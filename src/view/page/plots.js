@@ -3,7 +3,7 @@ import uPlot from 'uplot';
 import { format } from './colours.js';
 
 const kDashes = [[6, 4], [2, 3], [10, 3, 2, 3]]; // of ghosts
-const kColours = ['#4e79a7', '#e15759', '#59a14f', '#f28e2b'];
+const kColours = ['#4e79a7', '#e15759', '#59a14f', '#f28e2b', '#b07aa1', '#76b7b2', '#9c755f'];
 
 /// Probes by the part of their names before the last dot.
 export function groupProbes(results) {

@@ -14,7 +14,8 @@ function addStress(stress, eta, all) {
   }
 }
 
-function misesAt(s, i) {
+/// Of the six components that begin at s[i].
+export function misesAt(s, i) {
   const a = s[i] - s[i + 1];
   const b = s[i + 1] - s[i + 2];
   const c = s[i + 2] - s[i];
@@ -42,13 +43,19 @@ export class Stress {
   }
 }
 
-/// At one node, or null if the result has no stress of it.
-export function stressAt(motion, b, node, eta) {
+/// Components (xx, yy, zz, xy, yz, xz) at one node [Pa], in the axes of its body;
+/// null if the result has no stress of it.
+export function stressComponentsAt(motion, b, node, eta) {
   const { stress } = motion.result.surfaces[motion.result.bodies[b].surface];
   if (!stress) return null;
-  const s = [0, 1, 2, 3, 4, 5].map((c) =>
+  return [0, 1, 2, 3, 4, 5].map((c) =>
     stress.reduce((sum, mode, k) => sum + mode[6 * node + c] * eta[k], 0));
-  return misesAt(s, 0);
+}
+
+/// Von Mises [Pa], null without stress.
+export function stressAt(motion, b, node, eta) {
+  const s = stressComponentsAt(motion, b, node, eta);
+  return s && misesAt(s, 0);
 }
 
 export const hasStress = (result) =>
