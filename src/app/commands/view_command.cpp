@@ -11,6 +11,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/view_page.hpp"
+#include "limber/common/errors.hpp"
 #include "limber/view/page.hpp"
 
 namespace limber::app {
@@ -31,6 +32,12 @@ std::vector<std::filesystem::path> find_compared(
     if (std::filesystem::is_regular_file(entry.path() / "results.h5")) {
       runs.push_back(entry.path());
     }
+  }
+  if (runs.empty()) {
+    throw InputError(
+        fmt::format("'{}' is a comparison that kept no runs to show; repeat it "
+                    "with `limber compare --keep`",
+                    folder.string()));
   }
   std::sort(runs.begin(), runs.end());
   std::stable_partition(runs.begin(), runs.end(), [](const auto& run) {
