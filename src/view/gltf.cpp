@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/view/gltf.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -9,9 +11,10 @@
 #include <numbers>
 #include <vector>
 
+#include "limber/common/errors.hpp"
 #include "limber/common/files/whole_file.hpp"
+#include "limber/results/solids.hpp"
 #include "limber/version.hpp"
-#include "limber/view/solids.hpp"
 
 namespace limber::view {
 namespace {
@@ -88,6 +91,11 @@ class GltfWriter {
   /// @param has_bounds as positions and times need them
   int add_floats(const Singles& columns, const char* type, int target,
                  bool has_bounds) {
+    if (!columns.allFinite()) {
+      throw InputError(
+          "a value exceeds single precision (3.4e38), in which glTF stores it; "
+          "take a smaller --magnification");
+    }
     const auto count = static_cast<std::size_t>(columns.size());
     json accessor = {
         {"bufferView", add_view(columns.data(), 4 * count, target)},
@@ -139,11 +147,16 @@ class GltfWriter {
     return primitive;
   }
 
-  json make_primitive(const Solid& solid) {
+  json make_primitive(const results::Solid& solid) {
     return {{"attributes",
              {{"POSITION",
                add_floats(solid.x.cast<float>(), "VEC3", kVertices, true)}}},
             {"indices", add_indices(solid.corners)}};
+  }
+
+  static results::Solid make_shape(const Shape& shape) {
+    return results::place_solid(results::make_solid(shape.form, 1.0),
+                                shape.X_BS);
   }
 
   json make_primitives(std::size_t b) {
@@ -154,11 +167,11 @@ class GltfWriter {
     }
     for (const Shape& shape : recording_.shapes) {
       if (shape.body != static_cast<int>(b)) continue;
-      primitives.push_back(make_primitive(make_solid(shape, 1.0)));
+      primitives.push_back(make_primitive(make_shape(shape)));
     }
     if (primitives.empty()) {
       primitives.push_back(
-          make_primitive(make_ellipsoid(body.mass, body.inertia)));
+          make_primitive(results::make_ellipsoid(body.mass, body.inertia)));
     }
     const int material = add_material(b);
     for (json& primitive : primitives) primitive["material"] = material;
@@ -224,7 +237,7 @@ class GltfWriter {
   void add_fixed() {
     for (const Shape& shape : recording_.shapes) {
       if (shape.body >= 0) continue;
-      json primitive = make_primitive(make_solid(shape, 1.0));
+      json primitive = make_primitive(make_shape(shape));
       primitive["material"] = add_material(kColours.size() - 1);
       json primitives = json::array();
       primitives.push_back(std::move(primitive));
@@ -251,6 +264,14 @@ class GltfWriter {
 
   std::string join() {
     root_["buffers"] = {{{"byteLength", (bytes_.size() + 3) / 4 * 4}}};
+    // Sizes have 32 bits; the other half is more than enough for the text.
+    constexpr std::size_t kMostBytes = std::size_t{1} << 31;
+    if (bytes_.size() >= kMostBytes) {
+      throw InputError(
+          fmt::format("the scene has {:.3g} GiB of values; a .glb file has at "
+                      "most 2: run the scenario with fewer outputs",
+                      double(bytes_.size()) / double(1 << 30)));
+    }
     std::string chunks;
     add_chunk(chunks, 0x4E4F534A,
               root_.dump(-1, ' ', false, json::error_handler_t::replace), ' ');

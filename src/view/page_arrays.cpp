@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <limits>
 
 #include "limber/common/errors.hpp"
 
@@ -48,7 +49,8 @@ Quantised quantise(const VectorX& values) {
   result.integers.resize(static_cast<std::size_t>(values.size()), 0);
   const double largest =
       values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
-  if (largest == 0.0) return result;
+  // Below this, steps have too few bits.
+  if (largest < std::numeric_limits<double>::min()) return result;
   // What the page multiplies by is a double, too.
   result.scale = largest / kMost;
   for (Eigen::Index i = 0; i < values.size(); ++i) {

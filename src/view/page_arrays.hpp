@@ -34,7 +34,7 @@ struct Quantised {
   double scale = 0.0;                  ///< [unit of the values]
   std::vector<std::int16_t> integers;  ///< values / scale, rounded
 };
-/// @param values within any range; all zero gives a scale of zero
+/// @param values finite; if all are below 2.3e-308, zeros without a scale
 [[nodiscard]] Quantised quantise(const VectorX& values);
 
 /// zlib's format. @throws ContractError if memory is short.

@@ -66,9 +66,18 @@ class RecordingReader {
 
   Eigen::Index outputs() const { return recording_.times.size(); }
 
-  /// @param rows, cols expected; -1: any
+  /// Of finite values. @param rows, cols expected; -1: any
   MatrixX matrix(const std::string& name, Eigen::Index rows,
                  Eigen::Index cols) const {
+    MatrixX values = matrix_with_gaps(name, rows, cols);
+    if (values.allFinite()) return values;
+    fail(fmt::format("is damaged: '{}' has a value that is NaN or infinity",
+                     name));
+  }
+
+  /// As `matrix`, of values that may be NaN.
+  MatrixX matrix_with_gaps(const std::string& name, Eigen::Index rows,
+                           Eigen::Index cols) const {
     MatrixX values = in_.read_matrix(name);
     if ((rows < 0 || values.rows() == rows) &&
         (cols < 0 || values.cols() == cols)) {
@@ -103,12 +112,7 @@ class RecordingReader {
         surface.Sigma_B = matrix(at + "Sigma_B", 6 * n, surface.Phi_B.cols());
       }
       surface.corners = in_.read_integers(at + "triangles");
-      const bool is_inside =
-          std::all_of(surface.corners.begin(), surface.corners.end(),
-                      [n](std::int64_t node) { return node >= 0 && node < n; });
-      if (!is_inside || n == 0 || surface.corners.size() % 3 != 0) {
-        fail(fmt::format("is damaged: triangles of surface {}", name));
-      }
+      check_triangles(surface.corners, n, at);
       surface_of_[name] = static_cast<int>(recording_.surfaces.size());
       recording_.surfaces.push_back(std::move(surface));
     }
@@ -208,13 +212,32 @@ class RecordingReader {
       Shape shape;
       shape.name = in_.read_text(at + "name");
       shape.body = find_body(in_.read_text(at + "body"));
-      shape.kind = in_.read_text(at + "kind");
-      shape.size = vector(at + "size");
-      shape.p_BS = vector(at + "p_BS");
+      shape.form.kind = in_.read_text(at + "kind");
+      shape.form.size = vector(at + "size");
+      if (shape.form.kind == "mesh") read_mesh(at, shape.form);
       const MatrixX q = matrix(at + "quat_BS", 1, 4);
-      shape.quat_BS = Quaternion(q(0, 0), q(0, 1), q(0, 2), q(0, 3));
-      recording_.shapes.push_back(shape);
+      shape.X_BS = {Quaternion(q(0, 0), q(0, 1), q(0, 2), q(0, 3))
+                        .normalized()
+                        .toRotationMatrix(),
+                    vector(at + "p_BS")};
+      recording_.shapes.push_back(std::move(shape));
     }
+  }
+
+  void read_mesh(const std::string& at, results::SolidShape& form) const {
+    form.x = matrix(at + "x", 3, -1);
+    const auto corners = in_.read_integers(at + "triangles");
+    check_triangles(corners, form.x.cols(), at);
+    form.corners.assign(corners.begin(), corners.end());
+  }
+
+  void check_triangles(const std::vector<std::int64_t>& corners,
+                       std::int64_t nodes, const std::string& at) const {
+    const bool is_inside = std::all_of(
+        corners.begin(), corners.end(),
+        [nodes](std::int64_t node) { return node >= 0 && node < nodes; });
+    if (is_inside && nodes > 0 && corners.size() % 3 == 0) return;
+    fail(fmt::format("is damaged: triangles of '{}'", at));
   }
 
   void read_marks() {
@@ -253,7 +276,8 @@ class RecordingReader {
     for (const std::string& step : in_.list("scene/contacts")) {
       const std::string at = "scene/contacts/" + step + "/";
       recording_.contacts.push_back(
-          {in_.read_text(at + "name"), matrix(at + "touch", outputs(), 6)});
+          {in_.read_text(at + "name"),
+           matrix_with_gaps(at + "touch", outputs(), 6)});
     }
   }
 

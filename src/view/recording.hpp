@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/pose.hpp"
 #include "limber/common/types.hpp"
+#include "limber/results/solids.hpp"
 
 /// What results.h5 contains for pictures, in memory.
 namespace limber::view {
@@ -49,12 +51,10 @@ struct Anchor {
 };
 
 struct Shape {
-  std::string name;                ///< link or obstacle
-  int body = -1;                   ///< index; -1: the world
-  std::string kind;                ///< results::SceneryShape
-  Vector3 size = Vector3::Zero();  ///< [m]
-  Vector3 p_BS = Vector3::Zero();  ///< [m]
-  Quaternion quat_BS = Quaternion::Identity();
+  std::string name;  ///< link or obstacle
+  int body = -1;     ///< index; -1: the world
+  results::SolidShape form;
+  Pose X_BS;  ///< of the shape's frame
 };
 
 /// A coupler (two points) or the line of a tendon (two or more).

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What limber view and limber export refuse, and the scenes that need no page.
 // tests/view/ looks at pages.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/command.hpp"
+#include "limber/common/files/hdf5_file.hpp"
+#include "limber/results/scenery.hpp"
 
 namespace limber::test {
 namespace {
@@ -82,6 +89,51 @@ TEST(View, RefusesWhatIsNoResult) {
                  HasSubstr("magnification"));
 }
 
+TEST(View, ShowsTheKeptRunsOfAComparison) {
+  const Workspace place;
+  write_scene(place, "boundary");
+  const std::string compare =
+      "compare beam.toml --repeat 1 --fidelity rigid,coupled --out ";
+  ASSERT_EQ(place.limber(compare + "kept --reference coupled").status, 0);
+  const CommandResult shown = place.limber("view kept -o kept.html");
+  if (shown.status != 0) {
+    // Without node the build has no page.
+    EXPECT_THAT(shown.errors, HasSubstr("view.html"));
+  } else {
+    EXPECT_TRUE(std::filesystem::exists(place.folder() / "kept.html"));
+  }
+  ASSERT_EQ(
+      place.limber(compare + "bare --modes 2,4 --reference coupled").status, 0);
+  expect_refused(place, "view bare", HasSubstr("limber compare --keep"));
+}
+
+TEST(View, RefusesResultsWithValuesThatAreNotFinite) {
+  const Workspace place;
+  Hdf5File out = Hdf5File::create(place.folder() / "results.h5");
+  out.write("format", "limber results", "");
+  out.write("scene/version",
+            std::vector<std::int64_t>{results::kSceneryVersion}, "-", "");
+  out.write("scene/name", "s", "");
+  out.write("scene/limber", "1", "");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  out.write("time", Eigen::Vector3d(0.0, nan, 0.002), "s", "");
+  out.close();
+  const auto why =
+      HasSubstr("is damaged: 'time' has a value that is NaN or infinity");
+  expect_refused(place, "view results.h5", why);
+  expect_refused(place, "export results.h5 -o a.glb", why);
+}
+
+// glTF has single precision.
+TEST(Export, RefusesAMagnificationBeyondItsNumbers) {
+  const Workspace place;
+  write_scene(place, "boundary");
+  run(place);
+  expect_refused(place, "export o -o a.glb --magnification 1e300",
+                 HasSubstr("single precision"));
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "a.glb"));
+}
+
 TEST(View, TellsAReducedBodyFromResults) {
   const Workspace place;
   ASSERT_EQ(place
@@ -92,6 +144,77 @@ TEST(View, TellsAReducedBodyFromResults) {
             0);
   expect_refused(place, "view b.h5",
                  HasSubstr("is not a results file of Limber's"));
+}
+
+constexpr const char* kRigidRobot =
+    "<robot name='r'><link name='a'><inertial><mass value='2'/><inertia "
+    "ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>{}</link>"
+    "</robot>";
+constexpr const char* kRigidScenario =
+    "robot = 'r.urdf'\n[output]\npictures = false\n[time]\nduration = 0.01\n"
+    "step = 0.001\n[[load]]\nname = 'f'\nlink = 'a'\npoint = [0, 0, 0]\n"
+    "force = [1, 0, 0]\nframe = 'world'\ntime = { kind = 'constant' }\n";
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 "
+    "4\n";
+
+std::string show_mesh(const std::string& file) {
+  return fmt::format(kRigidRobot,
+                     "<visual><origin xyz='0 0 1'/><geometry><mesh filename='" +
+                         file + "' scale='0.1 0.1 0.1'/></geometry></visual>");
+}
+
+TEST(View, ShowsMeshFilesOfRigidLinksWithoutTheseFiles) {
+  const Workspace place;
+  place.write("r.urdf", show_mesh("package://arm/parts/a.obj"));
+  std::filesystem::create_directories(place.folder() / "arm/parts");
+  place.write("arm/parts/a.obj", kTetrahedron);
+  place.write("s.toml", kRigidScenario);
+  const CommandResult run = place.limber("run s.toml --out o");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  std::filesystem::remove_all(place.folder() / "arm");
+  ASSERT_EQ(place.limber("export o -o a.glb").status, 0);
+  const json scene = read_gltf(read_text(place.folder() / "a.glb"));
+  const json& primitive = scene["meshes"][0]["primitives"][0];
+  const json& positions =
+      scene["accessors"][primitive["attributes"]["POSITION"].get<int>()];
+  EXPECT_EQ(positions["count"], 4);
+  const std::vector<double> most = {0.1, 0.2, 1.3};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(positions["max"][c].get<double>(), most[c], 1e-6);
+  }
+}
+
+TEST(View, NeedsTheMeshFilesOfRigidLinksWhenItRuns) {
+  const Workspace place;
+  place.write("s.toml", kRigidScenario);
+  place.write("damaged.stl", "no mesh");
+  place.write("odd.blend", "x");
+  const std::pair<const char*, const char*> cases[] = {
+      {"none/such.stl", "none/such.stl"},
+      {"package://none/such.stl", "there is no none/such.stl"},
+      {"damaged.stl", "neither a text"},
+      {"odd.blend", "expected a file .stl, .obj or .dae"}};
+  for (const auto& [file, why] : cases) {
+    place.write("r.urdf", show_mesh(file));
+    expect_refused(place, "run s.toml --out o", HasSubstr(why));
+    EXPECT_FALSE(std::filesystem::exists(place.folder() / "o/results.h5"));
+  }
+}
+
+TEST(Export, ForParaViewLeavesTheResultsAlone) {
+  const Workspace place;
+  write_scene(place, "boundary");
+  run(place);
+  expect_refused(place, "export o -o o/results.xdmf",
+                 HasSubstr("would replace the results"));
+  expect_refused(place, "export o -o m.xdmf --magnification 2",
+                 HasSubstr("Warp By Vector"));
+  ASSERT_EQ(place.limber("export o -o m.xdmf").status, 0);
+  EXPECT_THAT(read_text(place.folder() / "m.xdmf"),
+              AllOf(HasSubstr("m.h5:/steps/000004/displacement"),
+                    HasSubstr("deformation_vector")));
+  EXPECT_TRUE(std::filesystem::exists(place.folder() / "m.h5"));
 }
 
 // One surface, one output: nothing to animate.

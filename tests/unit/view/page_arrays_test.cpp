@@ -27,6 +27,13 @@ TEST(Quantise, OfZerosHasNoScale) {
   EXPECT_TRUE(quantise(VectorX()).integers.empty());
 }
 
+// The step between two integers would have no bits.
+TEST(Quantise, OfNumbersBelowTheLeastNormalHasNoScale) {
+  const Quantised none = quantise(VectorX::Constant(3, 1.6e-319));
+  EXPECT_EQ(none.scale, 0.0);
+  EXPECT_EQ(none.integers, std::vector<std::int16_t>(3, 0));
+}
+
 // RFC 4648, section 10.
 TEST(Base64, HasTheVectorsOfItsStandard) {
   EXPECT_EQ(encode_base64(""), "");
