@@ -11,6 +11,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/scene/build/build_system.hpp"
@@ -43,6 +44,7 @@ scene::BuiltScene build(const scene::Scene& scene,
                         const VerifyOptions& options) {
   scene::BuiltScene built = scene::build_system(
       scene, make_reducer(make_progress_bar()), options.cache);
+  warn_of_unused_cache(options.cache, built);
   clear_progress_bar();
   print_warnings(built.warnings);
   return built;

@@ -46,6 +46,20 @@ TEST(Frequencies, OfAPendulumOnADefaultHingeAreItsClosedForm) {
   EXPECT_TRUE(json::parse(r.out).at("warnings").empty());
 }
 
+// A rigid body has six, of which the request for the lowest two is met.
+TEST(Frequencies, FewerThanAskedForAreCounted) {
+  const Workspace place;
+  write_pendulum(place, "[initial]\nequilibrium = true\n");
+  const CommandResult many =
+      place.limber("frequencies s.toml --count 7 --json");
+  ASSERT_EQ(many.status, 0) << many.errors;
+  EXPECT_EQ(json::parse(many.out).at("modes").size(), 6U);
+  EXPECT_THAT(many.errors, HasSubstr("--count 7: there are 6"));
+  const CommandResult few = place.limber("frequencies s.toml --count 2");
+  EXPECT_EQ(few.status, 0);
+  EXPECT_EQ(few.errors, "");
+}
+
 TEST(Frequencies, SayThatAStartIsNoEquilibriumAndByHowMuch) {
   const Workspace place;
   write_pendulum(place, "");

@@ -89,12 +89,30 @@ TEST(KeyWithAnEffect, IsNotReported) {
   EXPECT_EQ(result.errors, "");
 }
 
-TEST(KeysOfFlexibleLinks, AreReportedWhereNoLinkIsFlexible) {
-  const Workspace place;
+void write_rigid_robot(const Workspace& place) {
   place.write("r.urdf",
               "<robot name='r'><link name='arm'><inertial><mass value='1'/>"
               "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
               "</inertial></link></robot>");
+}
+
+TEST(FolderOfReducedBodies, IsReportedToHaveNoEffectWithoutMeshes) {
+  const Workspace place;
+  write_rigid_robot(place);
+  place.write("s.toml",
+              "robot = 'r.urdf'\n[time]\nduration = 0.01\nstep = 1e-3\n"
+              "[output]\npictures = false\n");
+  const CommandResult asked = place.limber("run s.toml --out o --cache c");
+  EXPECT_EQ(asked.status, 0) << asked.errors;
+  EXPECT_THAT(asked.errors,
+              HasSubstr("--cache 'c' changes nothing: no link has a mesh"));
+  EXPECT_EQ(place.limber("run s.toml --out o").errors, "");
+  EXPECT_EQ(run_beam(place, "", "", "--cache c").errors, "");
+}
+
+TEST(KeysOfFlexibleLinks, AreReportedWhereNoLinkIsFlexible) {
+  const Workspace place;
+  write_rigid_robot(place);
   place.write("s.toml",
               "robot = 'r.urdf'\n[time]\nduration = 0.01\nstep = 1e-3\n"
               "[fidelity]\ndefault = 'coupled'\n[basis]\neigenmodes = 3\n"

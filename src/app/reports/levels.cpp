@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 
+#include "limber/app/console/numbered_stages.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/unused_cache.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/scene/build/build_system.hpp"
@@ -156,13 +158,14 @@ std::vector<BodyLevel> RunSurvey::judge() const {
 
 std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
                                     const std::filesystem::path& cache) {
-  const Progress progress = make_progress_bar();
+  const Progress bar = make_progress_bar();
   scene::Scene flexible_scene = scene;
   flexible_scene.scenario.fidelity = dynamics::Fidelity::uncoupled;
   flexible_scene.scenario.fidelity_of_link.clear();
   flexible_scene.scenario.equilibrium.reset();
-  const scene::BuiltScene flexible =
-      scene::build_system(flexible_scene, make_reducer(progress), cache);
+  scene::BuiltScene flexible = scene::build_system(
+      flexible_scene, make_reducer(number_stage(bar, 1, 2)), cache);
+  warn_of_unused_cache(cache, flexible);
   const scene::BuiltScene rigid =
       build_at_level(scene, dynamics::Fidelity::rigid, flexible.known, cache);
   clear_progress_bar();
@@ -179,8 +182,8 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
   dynamics::SystemState state = rigid.initial;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;
-  dynamics::simulate(rigid.model, state, settings, {}, progress, statistics, {},
-                     followed, record);
+  dynamics::simulate(rigid.model, state, settings, {}, number_stage(bar, 2, 2),
+                     statistics, {}, followed, record);
   clear_progress_bar();
   print_warnings(statistics.warnings);
   std::vector<BodyLevel> levels = judge_levels(

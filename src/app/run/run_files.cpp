@@ -4,7 +4,6 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/reports/probe_pictures.hpp"
-#include "limber/app/run/collision_shapes.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/results/draw_all.hpp"
@@ -33,7 +32,8 @@ void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf) {
   results::write_probes_csv(folder / "probes.csv", run.history);
   write_text(folder / "summary.json", to_text(summarize(run)));
   if (xdmf) {
-    results::write_xdmf(folder / "motion.xdmf", run.built.model, run.history);
+    print_warnings(results::write_xdmf(folder / "motion.xdmf", run.built.model,
+                                       run.history));
   }
 }
 
@@ -46,16 +46,13 @@ void draw_run(const Run& run, const std::filesystem::path& folder) {
   const std::string level(to_string(run.scene.scenario.fidelity));
   std::vector<results::Picture> pictures =
       list_probe_pictures({{level, &run.history, &run.record.peaks}}, folder);
-  const std::vector<results::BodySurface> shapes =
-      find_collision_shapes(run.scene, run.built.model);
   pictures.emplace_back([&] {
     return results::draw_energy(folder / "energy.png",
                                 name + describe_open(run), run.history);
   });
   pictures.emplace_back([&] {
-    return results::draw_scene(
-        folder / "scene.png", name, run.built.model,
-        {run.history.states.front(), run.history.states.back()}, shapes);
+    return results::draw_scene(folder / "scene.png", name, run.built.model,
+                               run.history, run.scenery);
   });
   print_warnings(results::draw_all(pictures));
 }

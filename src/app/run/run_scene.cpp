@@ -9,6 +9,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
@@ -140,12 +141,13 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
                    const CheckpointPlan& checkpoints, bool judges) {
-  results::Scenery scenery = read_scenery_texts(scene);
-  Run run = simulate_built(
-      scene,
-      scene::build_system(scene, reducer, cache, make_full_maker(progress)),
-      cache, progress, checkpoints, judges);
-  add_shapes(scene, run.built, scenery);
+  results::Scenery scenery = read_scenery(scene);
+  scene::BuiltScene built =
+      scene::build_system(scene, reducer, cache, make_full_maker(progress));
+  warn_of_unused_cache(cache, built);
+  Run run = simulate_built(scene, std::move(built), cache, progress,
+                           checkpoints, judges);
+  place_shapes(scene, run.built, scenery);
   run.scenery = std::move(scenery);
   return run;
 }

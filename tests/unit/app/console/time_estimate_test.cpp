@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/console/time_estimate.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "limber/app/console/numbered_stages.hpp"
 
 namespace limber::app {
 namespace {
@@ -62,6 +65,18 @@ TEST(TimeEstimate, AnnouncesAStatedDurationOnceAndNothingForShortWork) {
   EXPECT_EQ(estimate.take_announcement(), "factorising, about 5 min");
   estimate.note(with_duration("factorising", 300.0), 0.0, 2.0);
   EXPECT_EQ(estimate.take_announcement(), "");
+}
+
+TEST(NumberedStage, PutsItsNumberBeforeTheTask) {
+  std::string said;
+  const Progress bar = [&](std::string_view what, double fraction) {
+    said += fmt::format("{}: {}\n", what, fraction);
+  };
+  number_stage(bar, 1, 2)(with_duration("factorising", 300.0), 0.25);
+  number_stage(bar, 2, 2)("simulating", 0.5);
+  EXPECT_EQ(
+      said,
+      "1 of 2, factorising, about 5 min: 0.25\n2 of 2, simulating: 0.5\n");
 }
 
 TEST(TimeEstimate, WritesDurationsAsOneSaysThem) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/console/numbered_stages.hpp"
+
+#include <fmt/format.h>
+
+namespace limber::app {
+
+Progress number_stage(const Progress& progress, int stage, int count) {
+  return [progress, stage, count](std::string_view what, double fraction) {
+    report(progress, fmt::format("{} of {}, {}", stage, count, what), fraction);
+  };
+}
+
+}  // namespace limber::app

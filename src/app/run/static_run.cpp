@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/static_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "limber/app/console/numbered_stages.hpp"
+#include "limber/app/console/terminal.hpp"
+#include "limber/app/console/text_file.hpp"
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/unused_cache.hpp"
+#include "limber/app/reports/levels.hpp"
+#include "limber/app/run/run_scenery.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
+#include "limber/results/pictures.hpp"
+#include "limber/results/probes_csv.hpp"
+#include "limber/results/results_file.hpp"
+#include "limber/results/xdmf.hpp"
+
+namespace limber::app {
+namespace {
+
+void observe(StaticRun& run) {
+  const dynamics::SystemState& state = run.found.state;
+  for (const scene::Probe& probe : run.built.probes) {
+    for (const auto& column : scene::column_names(probe)) {
+      run.history.columns.push_back({column.name, column.unit});
+    }
+  }
+  run.history.times = {state.t};
+  run.history.probe_rows = {
+      scene::evaluate_all(run.built.probes, run.built.model, state)};
+  run.history.states = {state};
+  run.history.energies = {calc_energy(run.built.model, state)};
+}
+
+void warn(const std::filesystem::path& cache, StaticRun& run) {
+  run.warnings = run.built.warnings;
+  RunSurvey survey(run.scene, run.built, cache);
+  survey.include(run.found.state);
+  const auto levels = find_level_warnings(survey.judge());
+  run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
+  const std::optional<double>& lowest = run.report.lowest_frequency;
+  if (lowest && *lowest < 0.0) {
+    run.warnings.push_back(fmt::format(
+        "this equilibrium is unstable: a disturbance grows as exp(2 pi {:.3g} "
+        "Hz t)",
+        -*lowest));
+  }
+}
+
+/// Magnifies small displacements to be visible.
+double find_exaggeration(const dynamics::Equilibrium& found) {
+  constexpr double kSeen = 0.1;  // of the extent
+  const double share = found.distance / found.extent;
+  if (share == 0.0 || share > 0.2 * kSeen) return 1.0;
+  return std::pow(10.0, std::floor(std::log10(kSeen / share)));
+}
+
+void draw(const StaticRun& run, const std::filesystem::path& file) {
+  const std::string why_none = results::draw_displacement(
+      file, run.scene.scenario.name, run.built.model, run.built.initial,
+      run.found.state, find_exaggeration(run.found), run.scenery);
+  if (!why_none.empty()) print_warnings({why_none});
+}
+
+}  // namespace
+
+StaticRun find_static(const scene::Scene& scene,
+                      dynamics::EquilibriumMethod method,
+                      const std::filesystem::path& cache,
+                      const Progress& progress) {
+  const Progress making = number_stage(progress, 1, 2);
+  StaticRun run;
+  run.scene = scene;
+  run.scenery = read_scenery(run.scene);
+  run.method = method;
+  run.scene.scenario.equilibrium.reset();
+  run.built = scene::build_system(run.scene, make_reducer(making), cache,
+                                  make_full_maker(making));
+  warn_of_unused_cache(cache, run.built);
+  place_shapes(run.scene, run.built, run.scenery);
+  run.found =
+      find_equilibrium(run.built.model, run.built.initial,
+                       {.method = run.method}, number_stage(progress, 2, 2));
+  if (run.found.load_steps == 0) {
+    throw InputError(fmt::format(
+        "{}: nothing acts on the system at its start, which is the trivial "
+        "equilibrium; give it a load, gravity or a drive that pulls",
+        run.scene.scenario.file.string()));
+  }
+  observe(run);
+  run.report = report_equilibrium(run.built, run.found);
+  run.stress = find_stress_peaks(run.built, run.history,
+                                 record_state(run.built, run.found.state));
+  warn(cache, run);
+  return run;
+}
+
+Json summarize(const StaticRun& run) {
+  Json json = Json::object();
+  json["scenario"] = run.scene.scenario.file.string();
+  json["method"] = dynamics::equilibrium_method_names().at(
+      static_cast<std::size_t>(run.method));
+  json["load_steps"] = run.found.load_steps;
+  json["newton_iterations"] = run.found.newton_iterations;
+  json["relaxation_steps"] = run.found.relaxation_steps;
+  json.update(to_json(run.report));
+  Json probes = Json::object();
+  for (std::size_t i = 0; i < run.history.columns.size(); ++i) {
+    probes[run.history.columns[i].name] =
+        Json{{"value", run.history.probe_rows[0][i]},
+             {"unit", run.history.columns[i].unit}};
+  }
+  json["probes"] = probes;
+  if (run.scene.scenario.output.stress) json["stress"] = to_json(run.stress);
+  json["warnings"] = run.warnings;
+  return json;
+}
+
+void write_static(const StaticRun& run, const std::filesystem::path& folder,
+                  bool xdmf) {
+  results::write_results(folder / "results.h5", run.built.model, run.history,
+                         &run.scenery);
+  results::write_probes_csv(folder / "probes.csv", run.history);
+  write_text(folder / "summary.json", to_text(summarize(run)));
+  if (xdmf) {
+    print_warnings(results::write_xdmf(folder / "motion.xdmf", run.built.model,
+                                       run.history));
+  }
+  if (run.scene.scenario.output.pictures) draw(run, folder / "equilibrium.png");
+}
+
+}  // namespace limber::app
