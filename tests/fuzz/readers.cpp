@@ -7,7 +7,9 @@
 #include "limber/fem/mesh/mesh_wire.hpp"
 #endif
 #include "fuzz/body_edits.hpp"
+#include "limber/app/study/study_reader.hpp"
 #include "limber/flexbody/file/body_file.hpp"
+#include "limber/scene/contacts/collision_mesh.hpp"
 #include "limber/scene/robot/akantu_material.hpp"
 #include "limber/scene/robot/robot_reader.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
@@ -29,8 +31,9 @@ class Place {
     write_bytes(folder_.path() / "material.dat",
                 "material elastic [ rho = 1 E = 1 ]\n");
   }
-  std::filesystem::path write(std::string_view bytes) const {
-    const std::filesystem::path file = folder_.path() / "input";
+  std::filesystem::path write(std::string_view bytes,
+                              const std::string& name) const {
+    const std::filesystem::path file = folder_.path() / name;
     write_bytes(file, std::string(bytes));
     return file;
   }
@@ -39,9 +42,10 @@ class Place {
   TemporaryFolder folder_;
 };
 
-std::filesystem::path write_input(std::string_view bytes) {
+std::filesystem::path write_input(std::string_view bytes,
+                                  const std::string& name = "input") {
   static const Place place;
-  return place.write(bytes);
+  return place.write(bytes, name);
 }
 
 void read_scenario(std::string_view bytes) {
@@ -66,6 +70,18 @@ void read_series(std::string_view bytes) {
 
 void read_material(std::string_view bytes) {
   (void)scene::read_akantu_materials(write_input(bytes));
+}
+
+void read_shape(std::string_view bytes, const std::string& name) {
+  (void)scene::read_collision_mesh({write_input(bytes, name)}, Pose());
+}
+
+void read_stl(std::string_view bytes) { read_shape(bytes, "input.stl"); }
+
+void read_obj(std::string_view bytes) { read_shape(bytes, "input.obj"); }
+
+void read_study(std::string_view bytes) {
+  (void)app::read_study(write_input(bytes));
 }
 
 void read_body(std::string_view bytes) {
@@ -100,6 +116,9 @@ const std::vector<Reader>& all_readers() {
       {"field", read_field},
       {"series", read_series},
       {"material", read_material},
+      {"stl", read_stl},
+      {"obj", read_obj},
+      {"study", read_study},
       {"body", read_body},
       {"body_content", read_edited_body},
 #ifdef LIMBER_HAS_REDUCTION
