@@ -12,7 +12,7 @@ import scene
 from command import Limber
 from mutate import mutate_bytes
 
-RUN = ["run", "arm.toml", "--out", "out"]
+RUN = scene.run_words("arm")
 RESUME = [*RUN, "--resume"]
 KILL_WITHIN = 60.0  # s
 
@@ -36,20 +36,20 @@ def interrupt_run(limber, words=RUN, by=signal.SIGKILL):
 
 
 @cache
-def _prepare(program, folder, stock):
+def _prepare(program, folder, stock, name):
     """Made once by each worker: a run cut short, a body, and an answer."""
-    place = stock / "prepared"
+    place = stock / f"prepared_{name}"
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
     limber = Limber(program, place, folder)
     scene.lay_out(place)
     for _ in range(20):
-        if interrupt_run(limber):
+        if interrupt_run(limber, scene.run_words(name)):
             break
         shutil.rmtree(place / "out", ignore_errors=True)
     else:
         raise RuntimeError("no run could be cut short: is the scene too short?")
-    whole = limber.run("run", "arm.toml", "--out", "whole")
+    whole = limber.run(*scene.run_words(name, "whole"))
     body = limber.run("reduce", "bar.geo", *scene.MATERIAL,
                       "-o", "body.h5")
     for ended in (whole, body):
@@ -58,42 +58,48 @@ def _prepare(program, folder, stock):
     return place
 
 
-def prepare(limber):
-    return _prepare(limber.program, limber.cache, limber.cache.parent)
+def prepare(limber, name="arm"):
+    return _prepare(limber.program, limber.cache, limber.cache.parent, name)
 
 
-def _damage(file, random):
+def damage(file, random):
     file.write_bytes(mutate_bytes(file.read_bytes(), random))
 
 
 def attack_body(seed, limber):
     """`info` answers or refuses; the body's own seal says which."""
     shutil.copy(prepare(limber) / "body.h5", limber.place)
-    _damage(limber.place / "body.h5", Random(f"body {seed}"))
+    damage(limber.place / "body.h5", Random(f"body {seed}"))
     ended = limber.run("info", "body.h5")
     if ended.status == 0:
         ended.problems.append("a damaged body was read")
     return ended
 
 
+LOOKS = [["info", "out/results.h5"], ["view", "out"],
+         ["export", "out", "-o", "out/scene.glb"]]
+
+
 def attack_results(seed, limber):
-    """Nothing seals results: `info` may answer, but must end in words."""
+    """Nothing seals results: what looks at them may answer, but must end in words."""
     random = Random(f"results {seed}")
-    shutil.copytree(prepare(limber) / "whole", limber.place / "out")
-    _damage(limber.place / "out" / "results.h5", random)
-    return limber.run("info", "out/results.h5")
+    name = random.choice(scene.SCENES)
+    shutil.copytree(prepare(limber, name) / "whole", limber.place / "out")
+    damage(limber.place / "out" / "results.h5", random)
+    return limber.run(*random.choice(LOOKS))
 
 
 def attack_checkpoint(seed, limber):
     """A damaged file of a run under way is refused, or does not matter."""
     random = Random(f"checkpoint {seed}")
-    prepared = prepare(limber)
+    name = random.choice(scene.SCENES)
+    prepared = prepare(limber, name)
     scene.lay_out(limber.place)
     out = limber.place / "out"
     shutil.copytree(prepared / "out", out)
     kept = sorted(file for file in out.iterdir() if "checkpoint" in file.name)
-    _damage(random.choice(kept), random)
-    ended = limber.run(*RESUME)
+    damage(random.choice(kept), random)
+    ended = limber.run(*scene.run_words(name), "--resume")
     if ended.status == 0:
         differs = scene.answers_differ(out, prepared / "whole")
         if differs:
@@ -101,30 +107,50 @@ def attack_checkpoint(seed, limber):
     return ended
 
 
-TOML_PAIR = re.compile(r'\w+\s*=\s*(\[[^\]]*\]|"[^"]*"|[^\s,}\[{]+)')
+TOML_PAIR = re.compile(r'\w+"?\s*=\s*(\[[^\]]*\]|"[^"]*"|[^\s,}\[{]+)')
 XML_PAIR = re.compile(r'\w+="([^"]*)"')
+STRING = re.compile(r'"[^"]*"')
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 def _find_atoms(text, begin, end):
     """Places of the numbers in a value, or of the whole of it."""
     value = text[begin:end].strip('"')
+    if value.startswith("[") and '"' in value:
+        return [match.span() for match in STRING.finditer(text, begin, end)]
     if re.search(r"[A-Za-z_]{2}", value):
         return [(begin, end)]
     return [match.span() for match in NUMBER.finditer(text, begin, end)]
 
 
+def _find_pairs(name, pattern):
+    text = scene.read(name)
+    begin = text.index("<robot") if name.endswith(".urdf") else 0
+    return [(name, *atom) for pair in pattern.finditer(text, begin)
+            for atom in _find_atoms(text, *pair.span(1))]
+
+
 def _find_changes():
-    """(file, begin, end) of each number and word in scenario and robot."""
+    """(scene, file, begin, end) of each number and word of its files."""
     found = []
-    for name, pattern in (("arm.toml", TOML_PAIR), ("arm.urdf", XML_PAIR)):
-        text = scene.read(name)
-        begin = text.index("<robot") if name == "arm.urdf" else 0
-        for pair in pattern.finditer(text, begin):
-            atoms = _find_atoms(text, *pair.span(1))
-            found += [(name, *atom) for atom in atoms]
-    bar = re.search(r"0\.008", scene.read("bar.geo"))
-    return [*found, ("bar.geo", *bar.span())]
+    for owner, name, pattern in (
+        ("arm", "arm.toml", TOML_PAIR),
+        ("arm", "arm.urdf", XML_PAIR),
+        ("craft", "craft.toml", TOML_PAIR),
+        ("craft", "rover.urdf", XML_PAIR),
+        ("craft", "pod.urdf", XML_PAIR),
+    ):
+        found += [(owner, *place) for place in _find_pairs(name, pattern)]
+    for owner, name, words in (
+        ("arm", "bar.geo", r"0\.008"),
+        ("craft", "bar.geo", r"0\.008"),
+        ("craft", "block.stl", r"0\.015"),
+        ("craft", "wedge.obj", r"-0\.02"),
+        ("craft", "u.txt", r"4e-06"),
+        ("craft", "nodes.txt", r"0\.04"),
+    ):
+        found.append((owner, name, *re.search(words, scene.read(name)).span()))
+    return found
 
 
 CHANGES = _find_changes()
@@ -141,23 +167,24 @@ def _change_value(old):
 
 
 def _change(number):
-    name, begin, end = CHANGES[number]
+    owner, name, begin, end = CHANGES[number]
     text = scene.read(name)
     old = text[begin:end]
     new = _change_value(old)
-    return name, old, new, text[:begin] + new + text[end:]
+    return owner, name, old, new, text[:begin] + new + text[end:]
 
 
 def attack_resume(number, limber):
     """A resume of a changed scene refuses, or answers as a fresh run does."""
-    name, old, new, text = _change(number)
+    owner, name, old, new, text = _change(number)
+    words = scene.run_words(owner)
     scene.lay_out(limber.place)
-    shutil.copytree(prepare(limber) / "out", limber.place / "out")
+    shutil.copytree(prepare(limber, owner) / "out", limber.place / "out")
     (limber.place / name).write_text(text)
-    ended = limber.run(*RESUME)
+    ended = limber.run(*words, "--resume")
     if ended.status not in (0, 3):
         return ended
-    fresh = limber.run("run", "arm.toml", "--out", "fresh")
+    fresh = limber.run(*scene.run_words(owner, "fresh"))
     differs = scene.answers_differ(limber.place / "out", limber.place / "fresh")
     if fresh.status != ended.status:
         differs = f"status {ended.status}, fresh {fresh.status}"

@@ -13,6 +13,7 @@ from random import Random
 import scene
 from command import Ended, as_status, judge, text
 from damaged import RESUME, RUN, prepare
+from studies import STUDY, TABLE, prepare_study, tables_differ
 
 KEEPING = [*RUN, "--checkpoint-interval", "0"]
 RUN_SECONDS = 0.5  # s, in which a moment is drawn
@@ -82,19 +83,30 @@ LIMITS = (
     + [("one process", _limit(resource.RLIMIT_NPROC, 1))]
 )
 
+LIMITED = [RUN, STUDY, ["view", "whole"], ["export", "whole", "-o", "out.glb"]]
+
 
 def attack_limit(number, limber):
     """A limit ends a run in words, or does not matter."""
-    name, before = LIMITS[number]
+    name, before = LIMITS[number % len(LIMITS)]
+    words = LIMITED[number // len(LIMITS)]
     prepared = prepare(limber)
+    prepare_study(limber)
     scene.lay_out(limber.place)
-    ended = limber.run(*RUN, before=before)
+    shutil.copytree(prepared / "whole", limber.place / "whole")
+    ended = limber.run(*words, before=before)
     if name.startswith(("memory", "stack", "3 open", "4 open")) and (
         ended.status == 127
     ):
         ended.problems.clear()  # the loader's word, before any of ours
-    _expect_the_answer(limber, ended, prepared)
+    if words is RUN:
+        _expect_the_answer(limber, ended, prepared)
+    elif words is STUDY and ended.status == 0 and tables_differ(limber):
+        ended.problems.append(f"status 0 and {tables_differ(limber)}")
     return ended
+
+
+LIMIT_COUNT = len(LIMITS) * len(LIMITED)
 
 
 def _expect_the_answer(limber, ended, prepared):
@@ -184,15 +196,27 @@ ODD_FILES = {
     "full": lambda path: path.symlink_to("/dev/full"),
     "memory": lambda path: path.symlink_to("/proc/self/mem"),
 }
-ODD_PLACES = ["arm.toml", "arm.urdf", "bar.geo", "bar.msh", "bar.step",
-              "body.h5", "values.txt", "checkpoint.bin"]
+# The place, and what is run; of the others the run that reads them.
+ODD_PLACES = {
+    "arm.toml": RUN, "arm.urdf": RUN, "bar.geo": RUN, "bar.msh": RUN,
+    "bar.step": RUN, "body.h5": RUN, "values.txt": RUN,
+    "checkpoint.bin": RESUME,
+    "block.stl": scene.run_words("craft"), "wedge.obj": scene.run_words("craft"),
+    "nodes.txt": scene.run_words("craft"), "u.txt": scene.run_words("craft"),
+    "study.toml": STUDY, TABLE: STUDY,
+    "parts.sqlite": ["study", "--collect", "parts.sqlite", "--out", "all"],
+    "from.sqlite": ["run", "--from", "from.sqlite#0", "--out", "out"],
+    "results.h5": ["view", "results.h5"],
+    "motion.h5": ["export", "motion.h5", "-o", "out.glb"],
+    "info.h5": ["info", "info.h5"],
+}
 
 
 def _put_odd_file(limber, name, make):
     """Puts a file in the place of one that the scene reads."""
     place = limber.place
     path = place / name
-    if name == "checkpoint.bin":
+    if name in ("checkpoint.bin", TABLE):
         (place / "out").mkdir()
         path = place / "out" / name
     elif name in ("bar.msh", "bar.step"):
@@ -219,12 +243,11 @@ def _put_odd_file(limber, name, make):
 
 def attack_odd_file(number, limber):
     """What is no file of the expected kind is refused at once."""
-    name = ODD_PLACES[number // len(ODD_FILES)]
+    name = list(ODD_PLACES)[number // len(ODD_FILES)]
     kind = list(ODD_FILES)[number % len(ODD_FILES)]
     scene.lay_out(limber.place)
     _put_odd_file(limber, name, ODD_FILES[kind])
-    words = RESUME if name == "checkpoint.bin" else RUN
-    ended = limber.run(*words, before=_limit(resource.RLIMIT_AS, 4 << 30))
+    ended = limber.run(*ODD_PLACES[name], before=_limit(resource.RLIMIT_AS, 4 << 30))
     if ended.status != 2:
         ended.problems.append(f"{kind} as {name}: status {ended.status}")
     if ended.seconds > 5.0:
@@ -238,13 +261,15 @@ OUTPUTS = [["run", "arm.toml", "--out", "out"],
            ["run", "arm.toml", "--out", "out", "--json"],
            ["info", "arm.urdf"], ["--help"], ["--version"],
            ["frequencies", "arm.toml"], ["frequencies", "arm.toml", "--json"],
-           ["modes", "bar.geo", *scene.MATERIAL]]
+           ["modes", "bar.geo", *scene.MATERIAL],
+           ["study", "study.toml", "--out", "out", "--json"],
+           ["view", "whole"], ["export", "whole", "-o", "out.glb"]]
 
 
 def attack_stream(number, limber):
     """Words that cannot be said are an error, not a success."""
-    prepare(limber)
     scene.lay_out(limber.place)
+    shutil.copytree(prepare(limber) / "whole", limber.place / "whole")
     words = OUTPUTS[number // 3]
     kind = ["full", "closed", "pipe"][number % 3]
     if kind == "full":
@@ -265,34 +290,52 @@ def attack_stream(number, limber):
 STREAM_COUNT = 3 * len(OUTPUTS)
 
 
-def _run_on_disk(limber, options):
-    """Runs with a small file system of its own under `out`."""
-    (limber.place / "out").mkdir()
+DISKS = ["size=4k", "size=16k", "size=64k", "size=256k", "size=512k",
+         "size=1m", "size=1m,nr_inodes=3", "size=16m,ro"]
+# What is written, and where; the disk is the folder `out`.
+DISK_COMMANDS = [
+    (KEEPING, "results.h5"),
+    (STUDY, "study.csv"),
+    (["view", "whole", "-o", "out/view.html"], "view.html"),
+    (["export", "whole", "-o", "out/scene.glb"], "scene.glb"),
+]
+
+
+def _run_on_disk(limber, words, options):
+    """Runs with a small file system under `out`, whose files go to `kept`."""
+    for name in ("out", "kept"):
+        (limber.place / name).mkdir()
     script = (
-        f"mount -t tmpfs -o {options} tmpfs out && exec "
-        f"{limber.program} {' '.join(KEEPING)}"
+        f"mount -t tmpfs -o {options} tmpfs out && "
+        f"{{ {limber.program} {' '.join(words)}; end=$?; }} && "
+        f"cp -r out/. kept && exit $end"
     )
     child = subprocess.run(
         ["unshare", "-m", "sh", "-c", script], cwd=limber.place,
-        env=limber.environment(), capture_output=True, timeout=60,
+        env=limber.environment(), capture_output=True, timeout=120,
     )
     return Ended(as_status(child.returncode), text(child.stdout),
                  text(child.stderr), 0.0)
 
 
-DISKS = ["size=4k", "size=16k", "size=64k", "size=256k", "size=512k",
-         "size=1m", "size=1m,nr_inodes=3", "size=16m,ro"]
-
-
 def attack_disk(number, limber):
     """A full or read-only disk loses nothing without a word."""
-    prepare(limber)
+    words, name = DISK_COMMANDS[number // len(DISKS)]
     scene.lay_out(limber.place)
-    ended = _run_on_disk(limber, DISKS[number])
+    shutil.copytree(prepare(limber) / "whole", limber.place / "whole")
+    ended = _run_on_disk(limber, words, DISKS[number % len(DISKS)])
     if "permission denied" in ended.errors.lower() and os.geteuid() != 0:
         return ended  # only root may mount
     ended.problems += judge(ended)
+    if ended.status == 0:
+        limber.run(*words)
+        kept, whole = (limber.place / at / name for at in ("kept", "out"))
+        if not kept.exists() or kept.read_bytes() != whole.read_bytes():
+            ended.problems.append(f"status 0 and another {name}")
     return ended
+
+
+DISK_COUNT = len(DISKS) * len(DISK_COMMANDS)
 
 
 def attack_two(seed, limber):

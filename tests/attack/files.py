@@ -12,7 +12,7 @@ ASKED_AGAIN = 20
 
 def _repeats(limber, words, ended, random):
     """Whether a second run, from scratch, gives the same answer."""
-    if ended.status != 0 or words[0] != "run" or random.randrange(ASKED_AGAIN):
+    if ended.status != 0 or random.randrange(ASKED_AGAIN):
         return []
     again = limber.run(*words[:-2], "--out", "fresh", "--cache", "fresh_cache")
     if again.status != 0:
@@ -21,8 +21,12 @@ def _repeats(limber, words, ended, random):
     return [f"run again: {differs}"] if differs else []
 
 
-def _mutated(name, words):
+def _mutated(*choices):
+    """@param choices files that are mutated by turns, and the scenes they are of"""
+
     def attack(seed, limber):
+        name, owner = choices[seed % len(choices)]
+        words = scene.run_words(owner)
         random = Random(f"{name} {seed}")
         scene.lay_out(limber.place)
         text = mutate_text(scene.read(name), random)
@@ -34,10 +38,12 @@ def _mutated(name, words):
     return attack
 
 
-RUN = ["run", "arm.toml", "--out", "out"]
-attack_scenario = _mutated("arm.toml", RUN)
-attack_robot = _mutated("arm.urdf", RUN)
-attack_geometry = _mutated("bar.geo", RUN)
+attack_scenario = _mutated(("arm.toml", "arm"), ("craft.toml", "craft"))
+attack_robot = _mutated(("arm.urdf", "arm"), ("rover.urdf", "craft"),
+                        ("arm.urdf", "arm"), ("pod.urdf", "craft"))
+attack_geometry = _mutated(("bar.geo", "arm"))
+attack_shape = _mutated(("block.stl", "craft"), ("wedge.obj", "craft"),
+                        ("nodes.txt", "craft"), ("u.txt", "craft"))
 
 BEAM = """robot = "beam.urdf"
 [time]
@@ -125,7 +131,7 @@ def attack_order(number, limber):
         (limber.place / "bar.msh").write_text(bar + "\n" + order + "\n")
         robot = scene.read("arm.urdf").replace("bar.geo", "bar.msh")
         (limber.place / "arm.urdf").write_text(robot)
-    ended = limber.run(*RUN)
+    ended = limber.run(*scene.run_words("arm"))
     for found in limber.place.rglob("canary*"):
         ended.problems.append(f"wrote {found.relative_to(limber.place)}")
     return ended

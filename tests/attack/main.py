@@ -18,6 +18,8 @@ from pathlib import Path
 import damaged
 import faults
 import files
+import scene
+import studies
 from command import Limber, adopt_orphans
 
 # family: what attacks, how many cases there are, whether there are always more
@@ -26,6 +28,11 @@ FAMILIES = {
     "robots": (files.attack_robot, 1500, True),
     "geometries": (files.attack_geometry, 800, True),
     "meshes": (files.attack_mesh, 800, True),
+    "shapes": (files.attack_shape, 400, True),
+    "study files": (studies.attack_study_file, 300, True),
+    "tables": (studies.attack_table, 200, True),
+    "study kills": (studies.attack_study_kill, 20, True),
+    "studies at once": (studies.attack_study_twice, 6, True),
     "orders": (files.attack_order, files.ORDER_COUNT, False),
     "bodies": (damaged.attack_body, 250, True),
     "results": (damaged.attack_results, 100, True),
@@ -33,14 +40,14 @@ FAMILIES = {
     "resumes": (damaged.attack_resume, len(damaged.CHANGES), False),
     "kills": (faults.attack_kill, 20, True),
     "signals": (faults.attack_signal, 30, True),
-    "limits": (faults.attack_limit, len(faults.LIMITS), False),
+    "limits": (faults.attack_limit, faults.LIMIT_COUNT, False),
     "odd files": (faults.attack_odd_file, faults.ODD_FILE_COUNT, False),
     "streams": (faults.attack_stream, faults.STREAM_COUNT, False),
-    "disks": (faults.attack_disk, len(faults.DISKS), False),
+    "disks": (faults.attack_disk, faults.DISK_COUNT, False),
     "environments": (faults.attack_environment, faults.ENVIRONMENT_COUNT, False),
     "two at once": (faults.attack_two, 10, True),
 }
-WHERE = ("home", "tmp", "out", "fresh", "fresh_cache")
+WHERE = ("home", "tmp", "out", "fresh", "fresh_cache", "all", "one", "whole", "kept", "out.glb")
 
 
 def _find_strays(place, before):
@@ -58,8 +65,8 @@ def _run_case(job):
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
     limber = Limber(program, place, worker / "cache")
-    laid = {"arm.toml", "arm.urdf", "bar.geo", "bar.msh", "fifo", "beam.msh",
-            "beam.urdf", "beam.toml", "body.h5", "bar.step", "values.txt"}
+    laid = {*scene.FILES, "bar.msh", "fifo", "beam.msh", "beam.urdf", "beam.toml",
+            "body.h5", "bar.step", "values.txt", *faults.ODD_PLACES}
     try:
         ended = FAMILIES[family][0](number, limber)
         # Results that found no other place are where the error says.

@@ -23,5 +23,6 @@ swept[] = Extrude {length, 0, 0} {
 };
 Physical Surface("root") = {1};
 Physical Surface("tip") = {swept[0]};
+Physical Surface("top") = {swept[4]};
 Physical Volume("body") = {swept[1]};
 Mesh.ElementOrder = 2;
