@@ -84,7 +84,9 @@ int run_guarded(const std::function<void()>& work) {
   const int status = find_status(work);
   errno = 0;
   if (!has_written_output() && status == kSuccess) {
-    return fail_output(std::generic_category().message(errno));
+    // A full buffer was written before: its error number is gone.
+    return fail_output(errno == 0 ? "a write failed"
+                                  : std::generic_category().message(errno));
   }
   if (status != kSuccess || find_received_signal() == 0) return status;
   print_notice(fmt::format("{} came after the end; all files are whole",
