@@ -42,8 +42,10 @@ set(public_headers
   contact/law/torsional_friction.hpp
   contact/shapes/shape_pair.hpp
   contact/shapes/skin.hpp
+  dynamics/analysis/balanced_truncation.hpp
   dynamics/analysis/equilibrium.hpp
   dynamics/analysis/level_advice.hpp
+  dynamics/analysis/linear_system.hpp
   dynamics/analysis/natural_frequencies.hpp
   dynamics/analysis/steady_spin.hpp
   dynamics/equations/coupler_motion.hpp
@@ -58,6 +60,7 @@ set(public_headers
   flexbody/modal/modal_response.hpp
   joints/pairs/point_springs.hpp
   results/checkpoint_file.hpp
+  results/linear_model_file.hpp
   results/motion_error.hpp
   results/pictures.hpp
   results/probes_csv.hpp
@@ -65,6 +68,7 @@ set(public_headers
   results/xdmf.hpp
   scene/build/build_system.hpp
   scene/build/load_scene.hpp
+  scene/control/linear_scene.hpp
   scene/control/measured_probe.hpp
   scene/build/scenario_writer.hpp
   scene/robot/robot_reader.hpp

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limber/dynamics/analysis/linear_model.hpp"
+
+namespace limber::results {
+
+/// A linear model and what its file says of it.
+struct LinearRecord {
+  dynamics::LinearModel model;
+  double time = 0.0;  ///< of the reference [s]
+  std::vector<double> axes_angular_velocity{0.0, 0.0, 0.0};  ///< [rad/s]
+  /// Of a truncated model; else empty [output's / input's].
+  std::vector<double> hankel;
+  double bound = 0.0;    ///< of the truncation [output's / input's]
+  std::string scenario;  ///< its name
+  std::string about;     ///< "start", "equilibrium", "time"
+  std::vector<std::string> warnings;
+};
+
+/// Writes MATLAB's format 5 (.mat), NumPy's (.npz) or JSON (.json), as the
+/// ending says. Keys: docs/linearize.md.
+/// @throws InputError for another ending, or if it cannot be written.
+void write_linear_model(const std::filesystem::path& file,
+                        const LinearRecord& record);
+
+/// @throws InputError for an ending of none of the formats.
+void check_linear_model_ending(const std::filesystem::path& file);
+
+}  // namespace limber::results
