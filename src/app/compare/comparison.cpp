@@ -106,6 +106,7 @@ class Runner {
     const double cost = estimate_cost(choice, plan_.reference);
     const Progress progress = [this, cost](std::string_view what,
                                            double fraction) {
+      report(settings_.watch, what, fraction);
       report_run(what, cost, fraction);
     };
     Run run =
@@ -119,10 +120,10 @@ class Runner {
 
   /// All runs have the same probes.
   [[nodiscard]] bool have_all_stress() const {
-    return scene::has_linear_stress(plan_.reference.level) &&
+    return scene::has_stress(plan_.reference.level) &&
            std::all_of(plan_.runs.begin(), plan_.runs.end(),
                        [](const Choice& choice) {
-                         return scene::has_linear_stress(choice.level);
+                         return scene::has_stress(choice.level);
                        });
   }
 
@@ -209,7 +210,8 @@ class Runner {
     while (!run.failure && !is_enough()) {
       const int again = cost.repeats;
       const double seconds =
-          repeat_timing(run, [&](std::string_view, double fraction) {
+          repeat_timing(run, [&](std::string_view what, double fraction) {
+            report(settings_.watch, what, fraction);
             report_repeat(again, fraction);
           });
       least = std::min(least, seconds);

@@ -11,6 +11,7 @@
 #include "limber/app/compare/contact_comparison.hpp"
 #include "limber/app/console/json.hpp"
 #include "limber/app/run/run_scene.hpp"
+#include "limber/common/progress.hpp"
 #include "limber/results/motion_error.hpp"
 
 /// The comparison of `limber compare`: docs/compare.md.
@@ -61,6 +62,9 @@ struct ComparisonSettings {
   std::filesystem::path cache;           ///< empty for the default one
   bool keep_runs = false;                ///< a folder for each run
   int repeats = 0;  ///< count; 0: until they take kEnough together
+  /// Called during all work, beside the progress bar; may throw to end the
+  /// current run (dynamics::Interrupted).
+  Progress watch = {};
 };
 /// Runs shorter than this are repeated until they take this long together [s].
 inline constexpr double kEnough = 0.2;

@@ -9,14 +9,15 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <new>
 #include <set>
 #include <thread>
 
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/run_manifest.hpp"
+#include "limber/app/study/study_worker.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -35,21 +36,6 @@ void stop_on_signal(std::string_view, double fraction) {
   if (fraction < 1.0 && find_received_signal() != 0) {
     throw dynamics::Interrupted("interrupted");
   }
-}
-
-std::string describe(const std::exception_ptr& failure) {
-  try {
-    std::rethrow_exception(failure);
-  } catch (const NumericalError& error) {
-    return error.what();
-  }
-}
-
-std::vector<std::string> list_warnings(const Run& run) {
-  std::vector<std::string> texts = run.built.warnings;
-  texts.insert(texts.end(), run.statistics.warnings.begin(),
-               run.statistics.warnings.end());
-  return texts;
 }
 
 void describe_values(Manifest& out, const Factor& factor) {
@@ -119,9 +105,7 @@ class Runner {
         study_(file.record().study),
         options_(options),
         file_(file),
-        judges_(needs_levels(study_)),
-        known_(base.built.known),
-        reducer_(make_reducer({})) {
+        worker_(study_, options.cache, base.built.known, stop_on_signal) {
     std::set<std::size_t> done;
     for (const StudyRow& row : file.read_rows()) done.insert(row.run);
     const StudyRecord& record = file.record();
@@ -169,7 +153,8 @@ class Runner {
       while (!stops_ && find_received_signal() == 0) {
         const std::size_t next = next_++;
         if (next >= left_.size()) break;
-        std::optional<StudyRow> row = try_run(left_[next]);
+        std::optional<StudyRow> row =
+            worker_.make_row(left_[next], design_[left_[next]]);
         if (!row) break;
         const std::lock_guard lock(rows_mutex_);
         rows_.push_back(std::move(*row));
@@ -183,52 +168,6 @@ class Runner {
     const std::lock_guard lock(rows_mutex_);
     --working_;
     ready_.notify_one();
-  }
-
-  /// None if a signal ended it.
-  std::optional<StudyRow> try_run(std::size_t index) {
-    StudyRow row;
-    row.run = index;
-    row.factors = design_[index];
-    row.responses.resize(study_.responses.size());
-    try {
-      if (!simulate(row)) return std::nullopt;
-    } catch (const dynamics::Interrupted&) {
-      return std::nullopt;
-    } catch (const InputError& error) {
-      row.error = error.what();
-    } catch (const NumericalError& error) {
-      row.error = error.what();
-    } catch (const std::bad_alloc&) {
-      row.error = "out of memory";
-    }
-    return row;
-  }
-
-  bool simulate(StudyRow& row) {
-    const Clock::time_point start = Clock::now();
-    scene::Scene scene;
-    scene::BuiltScene built;
-    {
-      const std::lock_guard lock(load_mutex_);
-      scene =
-          scene::load_scene(study_.scenario, to_overrides(study_, row.factors));
-      built = scene::build_system(scene, reducer_, options_.cache,
-                                  make_full_maker({}), known_);
-      known_ = built.known;
-    }
-    row.seconds_ready = seconds_since(start);
-    const Run run = simulate_built(scene, std::move(built), options_.cache,
-                                   stop_on_signal, {}, judges_);
-    row.seconds = run.statistics.seconds;
-    row.warnings = fmt::format("{}", fmt::join(list_warnings(run), "\n"));
-    if (find_received_signal() != 0 && run.failure) return false;
-    if (run.failure) {
-      row.error = describe(run.failure);
-    } else {
-      row.responses = evaluate_run(study_, run);
-    }
-    return true;
   }
 
   void write_rows() {
@@ -262,15 +201,11 @@ class Runner {
   const Study& study_;
   const StudyOptions& options_;
   StudyFile& file_;
-  bool judges_;
+  StudyWorker worker_;
   std::vector<std::size_t> left_;
   std::size_t before_ = 0;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stops_ = false;
-
-  std::mutex load_mutex_;  // of the next two
-  scene::KnownBodies known_;
-  scene::Reducer reducer_;
 
   std::mutex rows_mutex_;  // of the next four
   std::condition_variable ready_;
@@ -291,6 +226,7 @@ StudyBase make_base(const Study& study, const Design& design,
   const Progress progress = make_progress_bar();
   base.built = scene::build_system(base.scene, make_reducer(progress), cache,
                                    make_full_maker(progress));
+  warn_of_unused_cache(cache, base.built);
   clear_progress_bar();
   print_warnings(base.built.warnings);
   check_responses(study, base.scene, base.built);

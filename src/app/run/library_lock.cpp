@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/library_lock.hpp"
+
+namespace limber::app {
+
+std::unique_lock<std::mutex> lock_libraries() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
+
+}  // namespace limber::app

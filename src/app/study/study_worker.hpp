@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limber/app/study/study_file.hpp"
+#include "limber/common/progress.hpp"
+#include "limber/scene/build/build_system.hpp"
+
+namespace limber::app {
+
+/// Makes runs of a study, in any number of threads. Scenes are loaded one at a
+/// time, because the libraries for it are not safe in threads; each distinct
+/// reduction is done once.
+class StudyWorker {
+ public:
+  /// @param study must outlive the worker
+  /// @param cache empty for the default one
+  /// @param known bodies that need no reduction
+  /// @param watch called during runs; may throw to end one
+  StudyWorker(const Study& study, std::filesystem::path cache,
+              scene::KnownBodies known, Progress watch);
+
+  /// The row of one run but its formulas (evaluate_formulas). A run that fails
+  /// is a row with its words.
+  /// @param factors the run's values, as TOML
+  /// @returns none if `watch` ended it by dynamics::Interrupted
+  [[nodiscard]] std::optional<StudyRow> make_row(
+      std::size_t run, const std::vector<std::string>& factors);
+
+ private:
+  [[nodiscard]] bool simulate(StudyRow& row);
+
+  const Study& study_;
+  std::filesystem::path cache_;
+  Progress watch_;
+  bool judges_;
+
+  // While libraries are locked:
+  scene::KnownBodies known_;
+  scene::Reducer reducer_;
+};
+
+}  // namespace limber::app
