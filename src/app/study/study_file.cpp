@@ -15,6 +15,7 @@
 
 #include "limber/app/study/study_reader.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/records/digest.hpp"
 #include "limber/common/records/manifest.hpp"
 
 namespace limber::app {
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLayout = "1";
+constexpr const char* kLayout = "2";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
   throw InputError(
@@ -37,7 +38,21 @@ std::vector<std::string> list_columns(const Study& study) {
   for (const Response& one : study.responses) columns.push_back(one.name);
   columns.emplace_back("error");
   columns.emplace_back("warnings");
+  columns.emplace_back("digest");
   return columns;
+}
+
+/// Of all that is read back: factors are those of the design.
+std::string digest_of(const StudyRow& row) {
+  Digest digest;
+  digest.add(row.run);
+  for (const std::optional<double>& response : row.responses) {
+    digest.add(response.has_value());
+    digest.add(response.value_or(0.0) + 0.0);  // SQLite has no -0
+  }
+  digest.add(row.error);
+  digest.add(row.warnings);
+  return digest.text();
 }
 
 }  // namespace
@@ -176,7 +191,8 @@ void StudyFile::create() {
   database_->run("BEGIN EXCLUSIVE");
   database_->run("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT)");
   database_->run(fmt::format(
-      "CREATE TABLE runs ({}, error TEXT, warnings TEXT)", columns));
+      "CREATE TABLE runs ({}, error TEXT, warnings TEXT, digest TEXT)",
+      columns));
   database_->run(
       "CREATE TABLE timing (run INTEGER PRIMARY KEY, ready REAL, steps REAL)");
   Database::Statement insert(*database_, "INSERT INTO study VALUES (?, ?)");
@@ -260,6 +276,11 @@ std::vector<StudyRow> StudyFile::read_rows() const {
     }
     row.error = select.text(i++);
     row.warnings = select.text(i++);
+    if (select.text(i++) != digest_of(row)) {
+      refuse(file_, fmt::format("run {} is not as it was written; delete its "
+                                "row, and the study makes it again",
+                                row.run));
+    }
     row.seconds_ready = select.number(i++).value_or(0.0);
     row.seconds = select.number(i++).value_or(0.0);
     rows.push_back(std::move(row));
@@ -276,7 +297,8 @@ void StudyFile::add(const std::vector<StudyRow>& rows) {
   try {
     Database::Statement insert(
         *database_, fmt::format("INSERT INTO runs VALUES ({})", marks));
-    Database::Statement time(*database_, "INSERT INTO timing VALUES (?, ?, ?)");
+    Database::Statement time(*database_,
+                             "INSERT OR REPLACE INTO timing VALUES (?, ?, ?)");
     for (const StudyRow& row : rows) {
       int i = 1;
       insert.bind_count(i++, row.run);
@@ -284,7 +306,8 @@ void StudyFile::add(const std::vector<StudyRow>& rows) {
         insert.bind_value(i++, value);
       for (const auto& value : row.responses) insert.bind(i++, value);
       insert.bind_words(i++, row.error);
-      insert.bind_words(i, row.warnings);
+      insert.bind_words(i++, row.warnings);
+      insert.bind(i, digest_of(row));
       (void)insert.step();
       insert.reset();
       time.bind_count(1, row.run);

@@ -10,8 +10,9 @@
 #include <optional>
 
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/study/distribution.hpp"
+#include "limber/results/charts/study_picture.hpp"
 #include "limber/results/draw_all.hpp"
-#include "limber/results/study_picture.hpp"
 
 namespace limber::app {
 namespace {
@@ -79,6 +80,18 @@ std::vector<results::EffectBars> make_bars(const Study& study,
   return all;
 }
 
+std::vector<results::DistributionCurve> make_curves(
+    const Study& study, const std::vector<StudyRow>& rows) {
+  std::vector<results::DistributionCurve> curves;
+  for (std::size_t r = 0; r < study.responses.size(); ++r) {
+    const std::optional<Distribution> found = find_distribution(study, rows, r);
+    if (!found) continue;
+    curves.push_back({study.responses[r].name, found->values, found->mean,
+                      found->mean_error, found->band});
+  }
+  return curves;
+}
+
 }  // namespace
 
 void draw_study(const Study& study, const std::vector<StudyRow>& rows,
@@ -113,6 +126,12 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
     return draw_effects(folder / "effects.png",
                         study.name + ": effects of factors",
                         make_bars(study, effects));
+  });
+  pictures.emplace_back([&] {
+    return draw_distributions(
+        folder / "distribution.png",
+        study.name + ": distributions, 95 % confidence shaded",
+        make_curves(study, rows));
   });
   print_warnings(results::draw_all(pictures));
 }

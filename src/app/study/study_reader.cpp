@@ -216,7 +216,7 @@ DesignSpec read_design(TomlTable& table) {
 
 /// Columns of the table of runs, whose names SQL compares without case.
 void check_names(const Study& study, TomlTable& root) {
-  std::set<std::string> taken = {"run", "error", "warnings"};
+  std::set<std::string> taken = {"run", "error", "warnings", "digest"};
   const auto take = [&](const std::string& kind, const std::string& name) {
     const auto is_letter = [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_';

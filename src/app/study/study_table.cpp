@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "limber/app/study/distribution.hpp"
+
 namespace limber::app {
 namespace {
 
@@ -179,6 +181,15 @@ std::string to_text(const Study& study, const std::vector<StudyRow>& rows,
                 : fmt::format(" {:>13.6g} {:>13.6g} {:>13.6g}\n", range.least,
                               range.mean, range.largest);
   }
+  for (std::size_t r = 0; r < study.responses.size(); ++r) {
+    const auto found = find_distribution(study, rows, r);
+    if (!found) continue;
+    text += fmt::format(
+        "{:<24} mean {:.4g} +- {:.2g} (95 %), 90 % of the samples in {:.4g} to "
+        "{:.4g}\n",
+        study.responses[r].name, found->mean, found->mean_error,
+        found->quantile(0.05), found->quantile(0.95));
+  }
   for (std::size_t f = 0; f < effects.size(); ++f) {
     for (std::size_t r = 0; r < study.responses.size(); ++r) {
       const auto& effect = effects[f][r];
@@ -209,6 +220,13 @@ Json to_json(const Study& study, std::size_t runs,
       one["least"] = range.least;
       one["mean"] = range.mean;
       one["largest"] = range.largest;
+    }
+    if (const auto found = find_distribution(study, rows, r)) {
+      one["mean_error"] = found->mean_error;
+      one["distribution_error"] = found->band;
+      for (const double p : {0.05, 0.5, 0.95}) {
+        one["quantiles"][fmt::format("{:g}", p)] = found->quantile(p);
+      }
     }
     for (std::size_t f = 0; f < effects.size(); ++f) {
       if (!effects[f][r]) continue;

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "limber/app/study/study_reader.hpp"
+#include "limber/common/errors.hpp"
 
 namespace limber::app {
 namespace {
@@ -21,8 +22,7 @@ class AFileOfAStudy : public ::testing::Test {
  protected:
   AFileOfAStudy() {
     fs::remove(file_);
-    StudyRecord record;
-    record.study = read_study(R"(
+    record_.study = read_study(R"(
 scenario = 's.toml'
 [design]
 kind = 'list'
@@ -38,9 +38,9 @@ values = ['rigid', 'coupled']
 name = 'y'
 summary = 'steps'
 )",
-                              "study.toml");
-    record.runs = 2;
-    StudyFile file(file_, record);
+                               "study.toml");
+    record_.runs = 2;
+    StudyFile file(file_, record_);
     StudyRow first;
     first.factors = {"-1.6385300000000001", "rigid"};
     first.responses = {-0.1};
@@ -75,6 +75,7 @@ summary = 'steps'
 
   fs::path file_ = fs::temp_directory_path() /
                    fmt::format("limber_study_{}.sqlite", getpid());
+  StudyRecord record_;
   sqlite3* database_ = nullptr;
 };
 
@@ -95,6 +96,22 @@ TEST_F(AFileOfAStudy, HasResponsesTimesAndReasons) {
   EXPECT_EQ(ask("SELECT error FROM runs WHERE run = 0"), "nothing");
   EXPECT_EQ(ask("SELECT error FROM runs WHERE run = 1"), "why");
   EXPECT_EQ(ask("SELECT steps = 0.25 FROM timing WHERE run = 0"), "1");
+}
+
+TEST_F(AFileOfAStudy, RefusesRowsThatAreNotAsTheyWereWritten) {
+  EXPECT_EQ(StudyFile(file_).read_rows().at(0).responses.at(0), -0.1);
+  for (const std::string change :
+       {"y = -0.1000000000000001", "y = NULL", "error = 'no'",
+        "warnings = 'none'", "digest = NULL"}) {
+    (void)ask("UPDATE runs SET " + change + " WHERE run = 0 RETURNING run");
+    EXPECT_THROW((void)StudyFile(file_).read_rows(), InputError) << change;
+    (void)ask("DELETE FROM runs WHERE run = 0 RETURNING run");
+    StudyRow again;
+    again.factors = {"-1.6385300000000001", "rigid"};
+    again.responses = {-0.1};
+    StudyFile(file_, record_).add({again});
+    EXPECT_EQ(StudyFile(file_).read_rows().size(), 2U);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/study_picture.hpp"
+#include "limber/results/charts/study_picture.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "limber/results/charts/tics.hpp"
 #include "limber/results/gnuplot.hpp"
 
 namespace limber::results {
@@ -64,37 +65,6 @@ Ends find_ends(const StudyColumn& column) {
   return ends;
 }
 
-/// At most four multiples of 1, 2 or 5 times a power of ten.
-std::vector<double> list_even_tics(const Ends& ends) {
-  const double range = ends.largest - ends.least;
-  const double power = std::pow(10.0, std::floor(std::log10(range)));
-  double step = 0.0;
-  for (const double factor : {0.2, 0.5, 1.0, 2.0, 5.0}) {
-    step = factor * power;
-    if (range / step <= 4.0) break;
-  }
-  std::vector<double> tics;
-  for (double k = std::ceil(ends.least / step); k * step <= ends.largest; ++k) {
-    tics.push_back(k * step);
-  }
-  return tics;
-}
-
-/// 1, 2, 5 in each of few decades, 1 of many.
-std::vector<double> list_logarithmic_tics(const Ends& ends) {
-  const bool has_many = ends.largest / ends.least > 50.0;
-  std::vector<double> tics;
-  for (double power = std::pow(10.0, std::floor(std::log10(ends.least)));
-       power <= ends.largest; power *= 10.0) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double value = factor * power;
-      if (has_many && factor > 1.0) break;
-      if (value >= ends.least && value <= ends.largest) tics.push_back(value);
-    }
-  }
-  return tics;
-}
-
 std::string list_tics(const StudyColumn& column, const Ends& ends,
                       bool has_labels) {
   std::vector<std::string> tics;
@@ -104,9 +74,10 @@ std::string list_tics(const StudyColumn& column, const Ends& ends,
           fmt::format("{} {}", has_labels ? quote(column.texts[i]) : "''", i));
     }
   } else if (ends.least < ends.largest) {
-    for (const double value : column.is_logarithmic&& ends.least > 0.0
-                                  ? list_logarithmic_tics(ends)
-                                  : list_even_tics(ends)) {
+    for (const double value :
+         column.is_logarithmic&& ends.least > 0.0
+             ? list_logarithmic_tics(ends.least, ends.largest)
+             : list_even_tics(ends.least, ends.largest)) {
       tics.push_back(fmt::format("{:.9g}", value));
     }
   } else {
@@ -241,6 +212,46 @@ std::string draw_matrix(const std::filesystem::path& file,
           fmt::format("plot ${} using 1:2 with points pt 7 ps 0.45 lc rgb '{}'",
                       block, x == y ? "#999999" : kBlue));
     }
+  }
+  script.add("unset multiplot");
+  return script.run();
+}
+
+std::string draw_distributions(
+    const std::filesystem::path& file, const std::string& title,
+    const std::vector<DistributionCurve>& responses) {
+  if (responses.empty()) return "";
+  GnuplotScript script = begin(file, title, arrange(responses.size()), kPanel);
+  script.add("set style fill transparent solid 0.25 noborder");
+  for (std::size_t r = 0; r < responses.size(); ++r) {
+    const DistributionCurve& curve = responses[r];
+    set_axis(script, "x", {curve.response, curve.values}, true);
+    script.add("set yrange [0:1]");
+    script.add("set ytics 0.25");
+    script.add("set ylabel 'share of samples below [-]'");
+    script.add(fmt::format("$c{} << EOD", r));
+    const auto n = static_cast<double>(curve.values.size());
+    for (std::size_t i = 0; i < curve.values.size(); ++i) {
+      const double share = static_cast<double>(i + 1) / n;
+      script.add(fmt::format("{:.9g} {:.6g} {:.6g} {:.6g}", curve.values[i],
+                             share, std::max(share - curve.band, 0.0),
+                             std::min(share + curve.band, 1.0)));
+    }
+    script.add("EOD");
+    script.add("unset object");
+    script.add("unset arrow");
+    script.add(fmt::format(
+        "set object 1 rectangle from first {:.9g}, graph 0 to first {:.9g}, "
+        "graph 1 behind fc rgb '{}' fs transparent solid 0.25 noborder",
+        curve.mean - curve.mean_error, curve.mean + curve.mean_error, kOrange));
+    script.add(
+        fmt::format("set arrow 1 from first {0:.9g}, graph 0 to first {0:.9g}, "
+                    "graph 1 nohead lc rgb '{1}' lw 1.5",
+                    curve.mean, kOrange));
+    script.add(fmt::format(
+        "plot $c{0} using 1:3:4 with filledcurves lc rgb '{1}', $c{0} using "
+        "1:2 with steps lc rgb '{1}' lw 1.5",
+        r, kBlue));
   }
   script.add("unset multiplot");
   return script.run();

@@ -33,6 +33,20 @@ struct StudyColumn {
                                       const std::string& title,
                                       const std::vector<StudyColumn>& columns);
 
+/// How one response is distributed.
+struct DistributionCurve {
+  std::string response;
+  std::vector<double> values;  ///< of the samples, ascending
+  double mean = 0.0;
+  double mean_error = 0.0;  ///< half the width of its interval
+  double band = 0.0;        ///< the same of the distribution function [-]
+};
+/// The share of samples below each value with its band, and the mean with its
+/// interval; a panel each.
+[[nodiscard]] std::string draw_distributions(
+    const std::filesystem::path& file, const std::string& title,
+    const std::vector<DistributionCurve>& responses);
+
 /// Main and total effect of every factor on one response [-].
 struct EffectBars {
   std::string response;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "limber/app/study/study_file.hpp"
+
+namespace limber::app {
+
+/// How a response is distributed over the values of the factors, and how well
+/// the samples show that, with a confidence of 95 %.
+///
+/// Equation   mean ± t s / √n, t of Student's distribution with n - 1 degrees
+///            of freedom; distribution function ± √(ln(2 / 0.05) / (2 n))
+/// Source     Massart (1990) [@massart1990] of the band
+/// Limits     exact of independent samples (the mean's of normal ones or many);
+///            a Latin hypercube and Sobol's sequence are usually closer
+struct Distribution {
+  std::vector<double> values;  ///< of the runs that have it, ascending
+  double mean = 0.0;
+  double mean_error = 0.0;  ///< half the width of its interval
+  double band = 0.0;        ///< the same of the distribution function [-]
+
+  /// The value that a share p in (0, 1) of the samples does not exceed.
+  [[nodiscard]] double quantile(double p) const;
+};
+
+/// Of a sampled design, of `sobol` over its independent runs; none of others,
+/// or of fewer than two values.
+[[nodiscard]] std::optional<Distribution> find_distribution(
+    const Study& study, const std::vector<StudyRow>& rows,
+    std::size_t response);
+
+/// t of Student's distribution that 97.5 % are below.
+///
+/// Source     Abramowitz, Stegun, 26.7.5: 0.12 % off with 3 degrees of freedom,
+///            less with more; 1 and 2 in closed form
+[[nodiscard]] double find_student_quantile(std::size_t degrees);
+
+}  // namespace limber::app
