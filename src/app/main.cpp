@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
                [argv](const VerifyOptions&) { become_verifier(argv); });
     add_modes(app, action);
     add_frequencies(app, action);
+    add_linearize(app, action);
     add_static(app, action);
     add_operate(app, action);
     add_reduce(app, action);
@@ -22,5 +23,6 @@ int main(int argc, char** argv) {
     add_view(app, action);
     add_export(app, action);
     add_wobble(app, action);
+    add_cache(app, action);
   });
 }

@@ -17,6 +17,13 @@ if(EXISTS ${WORK_DIR}/build/simbody)
   run(${WORK_DIR}/build/simbody)
 endif()
 run(${WORK_DIR}/prefix/bin/limber --version)
+foreach(page man/man1/limber.1 man/man1/limber-run.1 man/man1/limber-cache-clean.1
+    bash-completion/completions/limber zsh/site-functions/_limber
+    fish/vendor_completions.d/limber.fish)
+  if(NOT EXISTS ${WORK_DIR}/prefix/share/${page})
+    message(SEND_ERROR "share/${page} is not installed")
+  endif()
+endforeach()
 # Its helpers are found where they were installed.
 if(EXISTS ${WORK_DIR}/build/simbody)
   run(${WORK_DIR}/prefix/bin/limber verify ${EXAMPLE} --duration 0.01)

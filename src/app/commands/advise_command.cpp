@@ -9,13 +9,14 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
+#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/results/level_picture.hpp"
+#include "limber/results/charts/level_picture.hpp"
 #include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
@@ -124,12 +125,14 @@ void add_advise(CLI::App& app, Action& action) {
                    "Nodal inertial force to neglect [N] (default: none)")
       ->check(make_positive());
   add_settings(*command, options->settings_given);
-  command->add_option("--fidelity", options->fidelity,
-                      "Level to judge, of every flexible link, in place of "
-                      "the scenario's");
+  command
+      ->add_option("--fidelity", options->fidelity,
+                   "Level to judge, of every flexible link, in place of the "
+                   "scenario's")
+      ->type_name("LEVEL");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>-advise)");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  add_cache_option(*command, options->cache);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { advise(*options); }; });

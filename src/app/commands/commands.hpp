@@ -9,6 +9,7 @@ namespace limber::app {
 void add_run(CLI::App& app, Action& action);
 void add_advise(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_linearize(CLI::App& app, Action& action);
 void add_modes(CLI::App& app, Action& action);
 void add_frequencies(CLI::App& app, Action& action);
 void add_static(CLI::App& app, Action& action);
@@ -19,5 +20,6 @@ void add_study(CLI::App& app, Action& action);
 void add_wobble(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_cache(CLI::App& app, Action& action);
 
 }  // namespace limber::app

@@ -13,6 +13,7 @@
 #include "limber/app/compare/comparison_selection.hpp"
 #include "limber/app/console/percent.hpp"
 #include "limber/app/console/text_file.hpp"
+#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -237,7 +238,8 @@ void add_axes(CLI::App& command, Options& options) {
           "--fidelity", options.levels,
           "Levels, as in rigid,coupled (default: rigid to coupled, up to "
           "the reference's)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_name("LEVELS");
   command
       .add_option("--modes", options.axes.eigenmodes,
                   "Numbers of eigenmodes of every flexible link, as in 4,10,20 "
@@ -309,7 +311,7 @@ void add_compare(CLI::App& app, Action& action) {
                     "the only axis)");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>-compare)");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  add_cache_option(*command, options->cache);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(
       [&action, options] { action = [options] { compare(*options); }; });

@@ -8,6 +8,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -114,12 +115,14 @@ void add_run(CLI::App& app, Action& action) {
                       "FILE#RUN: a run of a study, as study.sqlite#17, in "
                       "place of a scenario");
   add_settings(*command, options->settings_given);
-  command->add_option("--fidelity", options->fidelity,
-                      "Level of every flexible link: rigid, uncoupled, "
-                      "one-way, coupled, nonlinear, full");
+  command
+      ->add_option("--fidelity", options->fidelity,
+                   "Level of every flexible link: rigid, uncoupled, one-way, "
+                   "coupled, nonlinear, full")
+      ->type_name("LEVEL");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>)");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  add_cache_option(*command, options->cache);
   command->add_flag("--resume", options->resumes,
                     "Go on from the checkpoint in the results folder");
   command

@@ -9,6 +9,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
+#include "limber/app/options/cache_option.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/app/study/study_pictures.hpp"
 #include "limber/app/study/study_reader.hpp"
@@ -156,7 +157,7 @@ void add_study(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", options->out,
                       "Results folder (default: out/<study name>)");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  add_cache_option(*command, options->cache);
   command->add_flag("--csv", options->csv, "Write the table as CSV, too");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback(

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/validators.hpp"
 
 namespace limber::app {
@@ -21,9 +22,10 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
       ->check(make_positive());
   command->add_option("--duration", options->duration, "End of both runs [s]")
       ->check(make_positive());
-  command->add_option("--integrator", options->integrator,
-                      "Ours: generalized-alpha, runge-kutta-4, "
-                      "explicit-euler");
+  command
+      ->add_option("--integrator", options->integrator,
+                   "Ours: generalized-alpha, runge-kutta-4, explicit-euler")
+      ->type_name("INTEGRATOR");
   command->add_option("--accuracy", options->accuracy,
                       "Of Simbody's integrator (default 1e-12)");
   command
@@ -39,7 +41,7 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
   command->add_option("--out", options->out,
                       "Folder for verification.json and, with --stiffen, "
                       "stiffness.png (default: none)");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  add_cache_option(*command, options->cache);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->callback([&action, options, verify] {
     action = [options, verify] { verify(*options); };

@@ -7,6 +7,7 @@
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
+#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -159,9 +160,11 @@ void add_wobble(CLI::App& app, Action& action) {
   command
       ->add_option("--solver", options->solver, "PureMA, SimpleRB, CoupledRB")
       ->check(CLI::IsMember({"PureMA", "SimpleRB", "CoupledRB"}));
-  command->add_option("--integrator", options->integrator,
-                      "generalized-alpha (default), runge-kutta-4, or "
-                      "explicit-euler, the package's own");
+  command
+      ->add_option("--integrator", options->integrator,
+                   "generalized-alpha (default), runge-kutta-4, or "
+                   "explicit-euler, the package's own")
+      ->type_name("INTEGRATOR");
   command->add_option("--clamp", options->clamps,
                       "Group that is fixed; may be given again");
   command->add_option("--initial-displacement", options->initial_displacement,
@@ -177,7 +180,7 @@ void add_wobble(CLI::App& app, Action& action) {
                       "Element order when meshing geometry: 1, 2 or 3");
   command->add_option("--unit", options->unit, "Metres per mesh unit");
   command->add_option("--out", options->out, "Results folder");
-  command->add_option("--cache", options->cache, "Folder of reduced bodies");
+  add_cache_option(*command, options->cache);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
   command->callback(

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/console/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 
+#include "limber/app/console/completion.hpp"
 #include "limber/app/console/exit_status.hpp"
+#include "limber/app/console/habits.hpp"
+#include "limber/app/console/help_text.hpp"
+#include "limber/app/console/manual.hpp"
 #include "limber/app/console/process.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/common/echo.hpp"
-#include "limber/version.hpp"
 
 namespace limber::app {
 namespace {
@@ -25,6 +31,20 @@ int finish_parse(const CLI::App& app, const CLI::ParseError& error) {
   return kBadInput;
 }
 
+/// `limber __complete WORD...` for the functions of shells, `limber __manual
+/// FOLDER` for the build; in no help. @returns whether it was one of them
+bool answers_tool(const CLI::App& app, int argc, char** argv) {
+  const std::string_view asked = argc > 1 ? argv[1] : "";
+  if (asked == "__complete") {
+    const std::vector<std::string> words(argv + 2, argv + argc);
+    fmt::print("{}", to_lines(complete(app, words)));
+    return true;
+  }
+  if (asked != "__manual" || argc != 3) return false;
+  write_manuals(app, argv[2]);
+  return true;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv, const AddCommands& add_commands) {
@@ -32,16 +52,27 @@ int run_command_line(int argc, char** argv, const AddCommands& add_commands) {
   check_stack();
   check_address_space();
   CLI::App app("Simulates arms that bend.", "limber");
-  app.set_version_flag("--version", LIMBER_VERSION);
+  app.set_version_flag("--version", describe_build(),
+                       "Print the version and the options of its build");
   app.require_subcommand(1);
   Action action;
   add_commands(app, action);
+  app.footer(describe_surroundings());  // of this help alone
+  const Habits habits = add_habits(app);
+  bool is_answered = false;
+  const int status =
+      run_guarded([&] { is_answered = answers_tool(app, argc, argv); });
+  if (is_answered || status != kSuccess) return end_process(status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return end_process(finish_parse(app, error));
   }
-  return end_process(run_guarded(action));
+  return end_process(run_guarded([&] {
+    follow_habits(app, *habits);
+    action();
+    print_cost();
+  }));
 }
 
 }  // namespace limber::app

@@ -8,10 +8,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include "limber/app/console/time_estimate.hpp"
+#include "limber/app/console/verbosity.hpp"
 #include "limber/common/echo.hpp"
 
 namespace limber::app {
@@ -28,14 +31,60 @@ double now() {
 
 bool is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
+/// https://no-color.org; and terminals that know no colours.
+bool has_colour() {
+  const auto read = [](const char* name) {
+    const char* const text = std::getenv(name);
+    return std::string_view(text == nullptr ? "" : text);
+  };
+  return is_terminal() && read("NO_COLOR").empty() && read("TERM") != "dumb";
+}
+
+constexpr const char* kRed = "\033[1;31m";
+constexpr const char* kYellow = "\033[1;33m";
+
+/// "limber: KIND text", the kind in its colour.
+void print_line(std::string_view kind, const char* colour,
+                const std::string& text) noexcept {
+  try {
+    std::string line = "limber: ";
+    if (!kind.empty()) {
+      line += has_colour() ? colour + std::string(kind) + "\033[0m"
+                           : std::string(kind);
+      line += ' ';
+    }
+    line += escape_controls(text) + "\n";
+    static_cast<void>(!std::fwrite(line.data(), 1, line.size(), stderr));
+  } catch (const std::bad_alloc&) {
+    std::fputs("limber: error: out of memory\n", stderr);
+  }
+}
+
 /// Current task, its estimated time, and when the bar was last drawn.
 struct Bar {
   TimeEstimate estimate;
   double drawn = 0.0;  // wall time [s]
+  double begun = 0.0;  // wall time [s] of this work
+  bool has_ended = true;
+
+  Bar() = default;
+  Bar(const Bar&) = delete;
+  Bar& operator=(const Bar&) = delete;
+  ~Bar() { end_work(); }
 
   void note(std::string_view what, double fraction) {
+    if (find_verbosity() == Verbosity::quiet) return;
     const bool is_new = what != estimate.what();
     const double time = now();
+    if (is_new) {
+      end_work();
+      begun = time;
+      has_ended = false;
+    }
+    if (fraction >= 1.0 && !has_ended) {
+      estimate.note(what, fraction, time);
+      end_work();
+    }
     estimate.note(what, fraction, time);
     const std::string line = estimate.take_announcement();
     if (!line.empty()) {
@@ -46,6 +95,14 @@ struct Bar {
     if (!is_new && fraction < 1.0 && time - drawn < kRefresh) return;
     drawn = time;
     draw(fraction);
+  }
+
+  void end_work() {
+    if (has_ended) return;
+    has_ended = true;
+    if (find_verbosity() != Verbosity::verbose) return;
+    clear_progress_bar();
+    print_notice(fmt::format("{}: {:.3g} s", estimate.what(), now() - begun));
   }
 
   void draw(double fraction) const {
@@ -75,24 +132,17 @@ void clear_progress_bar() {
 }
 
 void print_notice(const std::string& text) noexcept {
-  try {
-    const std::string line = "limber: " + escape_controls(text) + "\n";
-    static_cast<void>(!std::fwrite(line.data(), 1, line.size(), stderr));
-  } catch (const std::bad_alloc&) {
-    std::fputs("limber: error: out of memory\n", stderr);
-  }
+  print_line("", "", text);
 }
 
 void print_error(const std::string& text) noexcept {
-  try {
-    print_notice("error: " + text);
-  } catch (const std::bad_alloc&) {
-    std::fputs("limber: error: out of memory\n", stderr);
-  }
+  print_line("error:", kRed, text);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& text : warnings) print_notice("warning: " + text);
+  for (const std::string& text : warnings) {
+    print_line("warning:", kYellow, text);
+  }
 }
 
 }  // namespace limber::app

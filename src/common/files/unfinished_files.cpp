@@ -127,17 +127,12 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// Only after an hour: the process may run on another machine.
 void remove_stale_parts_of(const fs::path& file) {
   const std::string start = file.filename().string() + std::string(kMark);
-  const auto now = fs::file_time_type::clock::now();
-  remove_parts(folder_of(file), [&](const fs::directory_entry& entry,
-                                    const std::string& name) {
-    std::error_code error;
-    const auto changed = entry.last_write_time(error);
-    return name.starts_with(start) && is_gone(*find_writer(name)) && !error &&
-           now - changed > kStale;
-  });
+  remove_parts(folder_of(file),
+               [&](const fs::directory_entry& entry, const std::string& name) {
+                 return name.starts_with(start) && is_stale_part(entry.path());
+               });
 }
 
 // Some file systems do not support this fsync and return EINVAL.
@@ -177,6 +172,16 @@ void remove_unfinished_files() noexcept {
   for (const Slot& slot : all_slots()) {
     if (slot.is_set) unlink(slot.path.data());
   }
+}
+
+// Only after an hour: the process may run on another machine.
+bool is_stale_part(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const std::optional<pid_t> writer = find_writer(name);
+  if (!writer || !is_gone(*writer)) return false;
+  std::error_code error;
+  const auto changed = fs::last_write_time(file, error);
+  return !error && fs::file_time_type::clock::now() - changed > kStale;
 }
 
 void remove_stale_parts(const fs::path& folder) {

@@ -33,6 +33,10 @@ class UnfinishedFile {
 /// Removes the unfinished files of this process. Async-signal-safe.
 void remove_unfinished_files() noexcept;
 
+/// Whether it is an unfinished file, at least an hour old, of a process that no
+/// longer exists.
+[[nodiscard]] bool is_stale_part(const std::filesystem::path& file);
+
 /// Removes all unfinished files in a folder that nobody else writes to.
 void remove_stale_parts(const std::filesystem::path& folder);
 

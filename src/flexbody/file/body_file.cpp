@@ -24,15 +24,14 @@
 namespace limber::flexbody {
 namespace {
 
-const char* const kFormat = "limber reduced body";
 constexpr InputKind kReducedBody = {"reduced body", std::uint64_t{1} << 36};
 
 // Size of HDF5's user block, which holds the seal.
 constexpr std::size_t kSealSize = 512;
 
 std::string make_seal(int version, const std::string& digest) {
-  std::string seal =
-      fmt::format("{}\nlayout {}\nxxh128 {}\n", kFormat, version, digest);
+  std::string seal = fmt::format("{}\nlayout {}\nxxh128 {}\n",
+                                 kReducedBodyFormat, version, digest);
   seal.resize(kSealSize, '\n');
   return seal;
 }
@@ -51,7 +50,7 @@ std::string calc_digest(const Read& read) {
 
 // The version in a seal, or nothing if it is not a seal.
 std::optional<int> version_of(const std::string& seal) {
-  const std::string start = fmt::format("{}\nlayout ", kFormat);
+  const std::string start = fmt::format("{}\nlayout ", kReducedBodyFormat);
   if (!seal.starts_with(start)) return std::nullopt;
   int version = 0;
   const char* const end = seal.data() + seal.size();
@@ -142,7 +141,7 @@ void write_interfaces(Hdf5File& out, const ReducedBody& body) {
 }
 
 void write_content(Hdf5File& out, const ReducedBody& body) {
-  out.write("format", kFormat, "what this file is");
+  out.write("format", std::string(kReducedBodyFormat), "what this file is");
   out.write("version", std::vector<std::int64_t>{layout_of(body)}, "1",
             "layout of this file");
   out.write("name", body.name, "body");

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "limber/flexbody/model/reduced_body.hpp"
 
 namespace limber::flexbody {
+
+/// The first line of its seal.
+inline constexpr std::string_view kReducedBodyFormat = "limber reduced body";
 
 /// Version of the layout that `write_body` writes of a body without contact
 /// surfaces.

@@ -10,6 +10,7 @@
 #include "limber/common/overloaded.hpp"
 #include "limber/common/records/digest.hpp"
 #include "limber/flexbody/file/body_file.hpp"
+#include "limber/flexbody/file/cache_contents.hpp"
 #include "limber/flexbody/file/cache_file.hpp"
 
 namespace limber::flexbody {
@@ -123,18 +124,24 @@ std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
     const std::filesystem::path file = find_place(folder, key);
     if (!is_own_file(file)) return std::nullopt;
     ReducedBody body = read_body(file);
-    if (body.content_key == key) return body;
+    if (body.content_key == key) {
+      note_use(file);
+      return body;
+    }
   } catch (const std::exception&) {
   }
   return std::nullopt;
 }
 
 // Failing to store an entry only makes the next run take longer.
-void keep_entry(const ReducedBody& body, const std::filesystem::path& folder) {
+void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
+                const std::filesystem::path& folder) {
+  const std::filesystem::path file = find_place(folder, body.content_key);
   try {
-    write_own_file(
-        find_place(folder, body.content_key),
-        [&](const std::filesystem::path& place) { write_body(body, place); });
+    write_own_file(file, [&](const std::filesystem::path& place) {
+      write_body(body, place);
+    });
+    write_origin(file, mesh);
   } catch (const std::exception&) {
   }
 }
@@ -203,7 +210,7 @@ CachedBody load_or_reduce(const Recipe& recipe,
   }
   CachedBody made{mesh.reduce(recipe), false, mesh.record.notices};
   made.body.content_key = content_key(recipe, mesh.record.content);
-  keep_entry(made.body, folder);
+  keep_entry(made.body, recipe.mesh.file, folder);
   return made;
 }
 

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <system_error>
+
 namespace limber::flexbody {
 
 bool is_own_file(const std::filesystem::path& file) {
@@ -12,6 +14,12 @@ bool is_own_file(const std::filesystem::path& file) {
   const bool is_others = info.st_uid != geteuid() && info.st_uid != 0;
   return S_ISREG(info.st_mode) && !is_others &&
          (info.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+void note_use(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::last_write_time(
+      file, std::filesystem::file_time_type::clock::now(), ignored);
 }
 
 void write_own_file(

@@ -10,6 +10,9 @@ namespace limber::flexbody {
 /// administrator that nobody else can write.
 [[nodiscard]] bool is_own_file(const std::filesystem::path& file);
 
+/// Records that an entry was used now, by its time of modification.
+void note_use(const std::filesystem::path& file);
+
 /// Creates the folder, accessible to its owner only, and the file by `write`,
 /// writable by its owner only.
 /// @throws on any failure to write

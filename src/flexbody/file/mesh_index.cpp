@@ -13,7 +13,7 @@
 namespace limber::flexbody {
 namespace {
 
-constexpr Seal kSeal = {"limber mesh record", 1};
+constexpr Seal kSeal = {kMeshRecord, 1};
 
 /// One request and its result.
 struct Entry {
@@ -48,6 +48,19 @@ std::filesystem::path find_place(const std::string& request,
 
 }  // namespace
 
+std::filesystem::path read_mesh_file(const std::filesystem::path& record) {
+  try {
+    Wire wire(read_sealed(record, kSeal));
+    Entry entry;
+    wire(entry);
+    wire.finish();
+    const std::vector<FileStamp>& files = entry.record.files;
+    return files.empty() ? std::filesystem::path() : files.front().path;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 std::optional<MeshRecord> find_mesh_record(
     const MeshSource& mesh, const std::string& mesher,
     const std::filesystem::path& folder) {
@@ -66,6 +79,7 @@ std::optional<MeshRecord> find_mesh_record(
       return std::nullopt;
     }
     entry.record.is_repeatable = true;
+    note_use(file);
     return entry.record;
   } catch (const std::exception&) {  // damaged in any way: as if missing
     return std::nullopt;

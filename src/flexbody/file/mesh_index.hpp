@@ -4,12 +4,16 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limber/common/files/file_stamp.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 
 namespace limber::flexbody {
+
+/// The first line of a record in the cache.
+inline constexpr std::string_view kMeshRecord = "limber mesh record";
 
 /// Content of a finished mesh, and what it was made from.
 struct MeshRecord {
@@ -35,5 +39,10 @@ struct MeshRecord {
 void keep_mesh_record(const MeshRecord& record, const MeshSource& mesh,
                       const std::string& mesher,
                       const std::filesystem::path& folder);
+
+/// The file of the mesh that a record is of, the first that was opened; empty
+/// if the record is damaged.
+[[nodiscard]] std::filesystem::path read_mesh_file(
+    const std::filesystem::path& record);
 
 }  // namespace limber::flexbody

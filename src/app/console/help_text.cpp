@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/console/help_text.hpp"
+
+#include "limber/app/build_options.hpp"
+#include "limber/version.hpp"
+
+namespace limber::app {
+
+std::string describe_build() {
+  return "limber " LIMBER_VERSION
+         "\n"
+         "build                " LIMBER_BUILD_TYPE ", " LIMBER_BUILD_COMPILER
+         "\n"
+         "BUILD_SHARED_LIBS    " LIMBER_BUILD_SHARED
+         "\n"
+         "LIMBER_REDUCTION     " LIMBER_BUILD_REDUCTION
+         "  (meshes and reductions: Gmsh, CHOLMOD)\n"
+         "LIMBER_REFERENCE     " LIMBER_BUILD_REFERENCE
+         "  (limber verify: Simbody)\n"
+         "LIMBER_SANITIZE      " LIMBER_BUILD_SANITIZE;
+}
+
+std::string describe_surroundings() {
+  return "Environment:\n"
+         "  LIMBER_CACHE    folder of reduced bodies that are kept between "
+         "runs, unless\n"
+         "                  --cache is given; without it limber in "
+         "XDG_CACHE_HOME, else\n"
+         "                  .cache/limber in HOME (see limber cache)\n"
+         "  NO_COLOR        if not empty, messages have no colours\n"
+         "  OPENBLAS_NUM_THREADS\n"
+         "                  threads of linear algebra in reductions\n"
+         "\n"
+         "Exit status:\n"
+         "  0    done\n"
+         "  2    wrong input\n"
+         "  3    a computation that failed\n"
+         "  70   a defect of Limber\n"
+         "  130, 143\n"
+         "       ended by SIGINT, SIGTERM\n";
+}
+
+}  // namespace limber::app

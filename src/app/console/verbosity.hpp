@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace limber::app {
+
+/// How much is told on standard error.
+enum class Verbosity {
+  quiet,   ///< errors and warnings
+  usual,   ///< and progress
+  verbose  ///< and each step of the work with its time
+};
+
+/// Of this process, from now on.
+void set_verbosity(Verbosity verbosity);
+[[nodiscard]] Verbosity find_verbosity();
+
+}  // namespace limber::app
