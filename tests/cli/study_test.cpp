@@ -216,6 +216,46 @@ TEST_F(AStudy, IsJoinedFromItsShards) {
       "is of another study");
 }
 
+TEST_F(AStudy, OfAnotherLayoutIsRefused) {
+  (void)run("study.toml --out a");
+  ASSERT_EQ(run_shell(place_,
+                      "/usr/bin/python3 -c \"import sqlite3; "
+                      "c = sqlite3.connect('a/study.sqlite'); c.execute("
+                      "'UPDATE study SET value = 7 WHERE key = \\'layout\\''); "
+                      "c.commit()\"")
+                .status,
+            0);
+  expect_refused("study.toml --out a", "is of layout '7'; this Limber reads 2");
+  expect_refused("--collect a/study.sqlite --out b", "is of layout '7'");
+  EXPECT_EQ(place_.limber("run --from a/study.sqlite#1").status, 2);
+}
+
+TEST_F(AStudy, TellsHowItsResponsesAreDistributed) {
+  const json summary = json::parse(run("study.toml --out a --json"));
+  const json& x = summary["responses"]["x"];
+  EXPECT_GT(x["mean_error"], 0.0);
+  EXPECT_LE(x["quantiles"]["0.05"], x["quantiles"]["0.5"]);
+  EXPECT_LE(x["quantiles"]["0.5"], x["quantiles"]["0.95"]);
+  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) return;
+  for (const char* name : {"response_x", "map_x", "matrix", "distribution"}) {
+    EXPECT_TRUE(
+        fs::exists(place_.folder() / "a" / (name + std::string(".png"))))
+        << name;
+  }
+}
+
+TEST_F(AStudy, OpensARunAgainWithItsPage) {
+  (void)run("study.toml --out a");
+  const CommandResult result =
+      place_.limber("run --from a/study.sqlite#3 --out f --view");
+  if (result.status == 2 && result.errors.find("page") != std::string::npos) {
+    GTEST_SKIP() << result.errors;  // a build without it
+  }
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(fs::exists(place_.folder() / "f/view.html"));
+  EXPECT_TRUE(fs::exists(place_.folder() / "f/results.h5"));
+}
+
 TEST_F(AStudy, HasARowWithTheReasonForARunThatFails) {
   place_.write("study.toml", replace(replace(kStudy, "uniform = [-2.0, 2.0]",
                                              "choice = ['strong', 1.0]"),
@@ -280,6 +320,15 @@ TEST_F(AStudy, IsRefusedBeforeAnyRun) {
   refuse("x / force", "x / (force", "per_force");
   refuse("expression = 'x / force'", "contact = ['sled', 'ball']",
          "unknown contact");
+  refuse("uniform = [-2.0, 2.0]\n", "",
+         "factor 'force' has 0 of 'values', 'choice'");
+  refuse("uniform = [-2.0, 2.0]", "values = []", "one value or more");
+  refuse("uniform = [-2.0, 2.0]", "uniform = [2.0, -2.0]", "is not less than");
+  refuse("log_range = [1.0, 100.0]", "log_range = [0.0, 100.0]",
+         "has no logarithms");
+  refuse("scenario = 's.toml'", "scenario = 's.toml'\nversion = 2", "version");
+  refuse("robot.spring.coil.stiffness", "robot.spring.coyl.stiffness",
+         "did you mean 'coil'?");
   place_.write("study.toml", kStudy);
   expect_refused("study.toml --shard 3/2", "expected K/N");
   expect_refused("", "needs a study file");
