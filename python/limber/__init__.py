@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Limber simulates arms that bend. Docs: docs/python.md.
+
+    run = limber.load("examples/struck_finger.toml").run()
+    run.plot("finger_1_tip")
+
+SI units everywhere; angles in radians.
+"""
+
+from . import errors
+from ._core import (
+    WORLD, AttachmentIndex, BodyIndex, BodyState, Bushing, Checkpoint, Constant,
+    ConstantSignal, ControllerIndex, CouplerIndex, Drive, EndStop, EnergyBalance,
+    FrameMotion, Friction, InputFunction, InputIndex, InputSignal, InterfaceTable,
+    JointSide, Latch, LoadIndex, PointSpring, Pose, Probe, Pulse, RampSignal,
+    ReducedBody, ScalarSpring, Signal, SimulationSettings, SimulationStatistics,
+    Simulator, SineSignal, Sinusoid, StepSequence, SystemBuilder, SystemModel,
+    SystemState, Table, TableSignal, TransmissionIndex, __version__, build_id,
+    calc_energy, find_equilibrium, find_frame_motion, find_natural_frequencies,
+    make_shaper, make_state, read_body)
+from .body import reduce
+from .errors import (
+    ContractError, InputError, Interrupted, LimberWarning, NumericalError)
+from .run import BodyMotion, Event, Run, StaticRun
+from .scenario import Controller, Scenario, load
+from .simulation import simulate
+from .study import Effect, Row, Study, StudyResults
+
+__all__ = [name for name in dir() if not name.startswith("_") and name not in (
+    "body", "run", "scenario", "simulation", "study", "toml")]
+__all__ += ["__version__"]

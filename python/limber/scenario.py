@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenarios: load, set keys, run, compare, find equilibria and frequencies."""
+
+import inspect
+import os
+import warnings
+
+from . import _core
+from .errors import LimberWarning
+from .run import Run, StaticRun, finish
+from .toml import to_toml
+
+
+def load(file, set=None, unset=(), fidelity=None):
+    """Loads a scenario file (docs/formats/scenario.md) and its robot.
+
+    ``set``: ``{path: value}``, keys of the scenario or the robot, as
+    ``{"time.step": 1e-4, "load.strike.force.2": -200.0}``; ``unset``: paths of
+    keys to remove; ``fidelity``: the level of every flexible link.
+
+    Raises InputError with every problem of the files.
+    """
+    return Scenario(file, set, unset, fidelity)
+
+
+class Controller:
+    """A Python function in place of the law of a scenario's controller.
+
+    ``name``: of a ``[[controller]]`` of the scenario, which has its sample
+    times, and the loads and drives that follow it.
+
+    ``law(t, measured, memory)`` is called at every sample, and returns what is
+    written (a number): time [s], what is measured, (n,) [its units], and what
+    it keeps from sample to sample, (k,), which it changes in place.
+
+    ``memory``: the start of that, k numbers, perhaps none: ``[]``. It is part
+    of the run's state, so that runs to a tolerance, which repeat samples, go
+    back to it. Without it the law is called as ``law(t, measured)`` and may
+    keep what it likes by itself; a run to a tolerance then refuses it.
+
+    ``measures``: columns of probes, as ``["tip.ux"]``; by default what the
+    scenario's controller measures. ``period`` [s]: by default the scenario's.
+    """
+
+    def __init__(self, name, law, memory=None, measures=None, period=None):
+        self.name = name
+        self.law = law
+        self.memory = None if memory is None else [float(one) for one in memory]
+        self.measures = None if measures is None else list(measures)
+        self.period = period
+        self.identity = _identify(law)
+
+
+def _identify(law):
+    """What tells one law from another."""
+    name = f"{getattr(law, '__module__', '')}.{getattr(law, '__qualname__', law)}"
+    try:
+        return name + "\n" + inspect.getsource(law)
+    except (OSError, TypeError):
+        return name
+
+
+class Scenario:
+    """A scenario and its robot, checked; see :func:`load`.
+
+    Keys are set by their dotted paths: ``scenario["time.step"] = 1e-4``, and
+    removed by ``del scenario["time.steps"]``. What does not fit raises
+    InputError, and leaves the scenario as it was.
+    """
+
+    def __init__(self, file, set=None, unset=(), fidelity=None):
+        self._file = os.fspath(file)
+        self._settings = []
+        self._fidelity = fidelity
+        self._change([(path, None) for path in unset] + _to_settings(set))
+
+    def __setitem__(self, path, value):
+        self.set({path: value})
+
+    def __delitem__(self, path):
+        self.set({}, unset=[path])
+
+    def set(self, values, unset=()):
+        """Sets and removes several keys at once, all or none of them."""
+        self._change(self._settings + [(path, None) for path in unset]
+                     + _to_settings(values))
+
+    def _change(self, settings):
+        """The last one of each path counts."""
+        settings = [(path, value) for i, (path, value) in enumerate(settings)
+                    if all(path != later for later, _ in settings[i + 1:])]
+        self._scene = _core.load(self._file, settings, self._fidelity)
+        self._settings = settings
+
+    def copy(self):
+        """Another one, whose keys change on their own."""
+        made = object.__new__(Scenario)
+        made.__dict__.update(self.__dict__)
+        return made
+
+    @property
+    def settings(self):
+        """What was set, [(path, TOML), ...]; None: removed."""
+        return list(self._settings)
+
+    @property
+    def name(self):
+        """Stem of its file."""
+        return self._scene.describe()["name"]
+
+    @property
+    def file(self):
+        """Path of its file."""
+        return self._file
+
+    @property
+    def links(self):
+        """Names of all links of its robots."""
+        return self._scene.describe()["links"]
+
+    @property
+    def controllers(self):
+        """Names of its controllers."""
+        return self._scene.describe()["controllers"]
+
+    @property
+    def end_time(self):
+        """Of a run [s]."""
+        return self._scene.describe()["end_time"]
+
+    def __repr__(self):
+        return f"<limber.Scenario {self._file!r}, {len(self._settings)} keys set>"
+
+    def run(self, controllers=(), judge=True, cache=None, progress=None):
+        """Simulates it, as ``limber run`` does, in memory.
+
+        ``controllers``: of :class:`Controller`. ``judge``: whether to find if
+        levels neglect too much, which costs time at every step. ``cache``:
+        folder of reduced bodies. ``progress(what, fraction)`` is called every
+        few milliseconds.
+
+        Other Python threads go on meanwhile. Ctrl-C raises Interrupted, and a
+        computation that cannot continue NumericalError; both have the
+        :class:`Run` until there as ``run``. Warnings are LimberWarning.
+        """
+        recorded = _core.run(self._scene, _path(cache), judge, list(controllers),
+                             progress)
+        return finish(Run(recorded))
+
+    def static(self, method=None, cache=None):
+        """Equilibrium under what acts at the start, as ``limber static``.
+
+        ``method``: "newton" or "relaxation", by default the scenario's.
+        Returns a :class:`StaticRun`, which has one output.
+        """
+        recorded, summary, texts = _core.find_static(self._scene, method,
+                                                     _path(cache))
+        for text in texts:
+            warnings.warn(text, LimberWarning, stacklevel=2)
+        return StaticRun(recorded, summary, texts)
+
+    def frequencies(self, count=20, cache=None):
+        """Natural frequencies about the start, as ``limber frequencies --json``.
+
+        Returns a dictionary: "modes" has for each mode "frequency" [Hz],
+        "damping_ratio" [-] and more; "frequencies" those without damping [Hz].
+        """
+        found = _core.find_frequencies(self._scene, count, _path(cache))
+        for text in found["warnings"]:
+            warnings.warn(text, LimberWarning, stacklevel=2)
+        return found
+
+    def compare(self, levels=(), modes=(), sources=(), steps=(), reference=None,
+                reference_modes=None, reference_step=None,
+                reference_integrator=None, repeats=0, cache=None):
+        """Runs it at several levels, bases and steps, as ``limber compare``.
+
+        ``levels``: as ``["rigid", "coupled"]``; ``modes``: numbers of
+        eigenmodes; ``sources`` of the bases; ``steps`` [s]; all combinations
+        are run. ``reference...``: what they are compared with.
+        Returns a dictionary, that of comparison.json (docs/compare.md), with
+        the cost and the errors of each run.
+        """
+        wish = dict(levels=list(levels), modes=list(modes), sources=list(sources),
+                    steps=[float(step) for step in steps], reference=reference,
+                    reference_modes=reference_modes, reference_step=reference_step,
+                    reference_integrator=reference_integrator, repeats=repeats)
+        return _core.compare(self._scene, wish, _path(cache))
+
+
+def _to_settings(values):
+    return [(path, to_toml(value)) for path, value in dict(values or {}).items()]
+
+
+def _path(folder):
+    return "" if folder is None else os.fspath(folder)

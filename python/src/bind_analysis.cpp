@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the commands static, frequencies and compare find, of a loaded scene.
+#include "arrays.hpp"
+#include "interruption.hpp"
+#include "json.hpp"
+#include "limber/app/compare/comparison_report.hpp"
+#include "limber/app/reports/frequency_report.hpp"
+#include "limber/app/run/library_lock.hpp"
+#include "limber/app/run/static_run.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/scene/build/load_scene.hpp"
+#include "recorded_run.hpp"
+
+namespace limber::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Work without the GIL, one at a time, that signals end.
+template <typename Work>
+auto run_alone(const Work& work) {
+  clear_cause();
+  const Progress watch = make_watch(py::none());
+  const py::gil_scoped_release release;
+  const auto lock = app::lock_libraries();
+  return work(watch);
+}
+
+/// The equilibrium as a run with one output, and what is told of it.
+py::tuple find_static(const scene::Scene& scene,
+                      const std::optional<std::string>& method,
+                      const fs::path& cache) {
+  using dynamics::EquilibriumMethod;
+  const EquilibriumMethod chosen =
+      method ? dynamics::parse_equilibrium_method(*method)
+             : scene.scenario.equilibrium.value_or(EquilibriumMethod::newton);
+  const auto found = run_alone([&](const Progress& watch) {
+    return std::make_shared<const app::StaticRun>(
+        app::find_static(scene, chosen, cache, watch));
+  });
+  const auto recorded = std::make_shared<RecordedRun>();
+  recorded->run.scene = found->scene;
+  recorded->run.built = found->built;
+  recorded->run.history = found->history;
+  recorded->write = [found](const fs::path& folder, bool xdmf) {
+    app::write_static(*found, folder, xdmf);
+  };
+  return py::make_tuple(recorded, to_python(summarize(*found)),
+                        found->warnings);
+}
+
+py::object find_frequencies(const scene::Scene& scene, int count,
+                            const fs::path& cache) {
+  const app::FrequencyReport report = run_alone([&](const Progress& watch) {
+    return app::find_frequencies(scene, cache, watch);
+  });
+  return to_python(to_json(report, count));
+}
+
+app::Axes read_axes(const py::dict& wish) {
+  app::Axes axes;
+  for (const auto& name : wish["levels"].cast<std::vector<std::string>>()) {
+    axes.levels.push_back(dynamics::parse_fidelity(name));
+  }
+  axes.eigenmodes = wish["modes"].cast<std::vector<int>>();
+  axes.sources = wish["sources"].cast<std::vector<std::string>>();
+  axes.steps = wish["steps"].cast<std::vector<double>>();
+  return axes;
+}
+
+app::ReferenceWish read_reference(const py::dict& wish) {
+  app::ReferenceWish reference;
+  const auto level = wish["reference"].cast<std::optional<std::string>>();
+  if (level) reference.level = dynamics::parse_fidelity(*level);
+  const auto scheme =
+      wish["reference_integrator"].cast<std::optional<std::string>>();
+  if (scheme) reference.integrator = dynamics::parse_integrator(*scheme);
+  reference.eigenmodes = wish["reference_modes"].cast<std::optional<int>>();
+  reference.step = wish["reference_step"].cast<std::optional<double>>();
+  return reference;
+}
+
+/// @param wish of the arguments of Scenario.compare
+py::object compare(const scene::Scene& scene, const py::dict& wish,
+                   const fs::path& cache) {
+  app::ComparisonSettings settings;
+  settings.scenario = scene.scenario.file;
+  settings.settings = scene.settings;
+  settings.cache = cache;
+  settings.repeats = wish["repeats"].cast<int>();
+  const app::Axes axes = read_axes(wish);
+  const app::ReferenceWish reference = read_reference(wish);
+  const auto result = run_alone([&](const Progress& watch) {
+    bool is_interrupted = false;
+    settings.watch = [&](std::string_view what, double fraction) {
+      if (is_interrupted) throw dynamics::Interrupted("interrupted");
+      try {
+        watch(what, fraction);
+      } catch (const dynamics::Interrupted&) {
+        is_interrupted = true;  // all that follows ends at once, too
+        throw;
+      }
+    };
+    const app::ComparisonPlan plan = make_plan(axes, reference, scene);
+    const app::Comparison found = run_comparison(plan, settings);
+    if (is_interrupted) throw dynamics::Interrupted("interrupted");
+    return app::to_json(found);
+  });
+  return to_python(result);
+}
+
+}  // namespace
+
+void bind_analysis(py::module_& m) {
+  m.def("find_static", &find_static, py::arg("scene"), py::arg("method"),
+        py::arg("cache"));
+  m.def("find_frequencies", &find_frequencies, py::arg("scene"),
+        py::arg("count"), py::arg("cache"));
+  m.def("compare", &compare, py::arg("scene"), py::arg("wish"),
+        py::arg("cache"));
+}
+
+}  // namespace limber::python
