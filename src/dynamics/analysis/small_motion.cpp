@@ -415,7 +415,7 @@ SmallMotion find_small_motion(const SystemModel& model,
   motion.rest =
       (P.transpose() * motion.rest * P + C * W + motion.M * V * W).eval();
   motion.noise = (P.transpose() * motion.noise * P).eval();
-  const auto turn_velocities = [&](MatrixX& by_x, MatrixX& by_rate) {
+  const auto turn_velocities = [&P, &W = W](MatrixX& by_x, MatrixX& by_rate) {
     by_rate *= P;
     by_x = (by_x * P + by_rate * W).eval();
   };
