@@ -104,9 +104,9 @@ TEST_F(Cache, GivesThreadsThatAskAtOnceTheSameBody) {
     for (std::thread& thread : threads) thread.join();
     EXPECT_THAT(differences, ::testing::Each(""));
     EXPECT_TRUE(ask().was_cached);
-    // The body and the record of its mesh.
+    // The body, the name of its mesh file, and the record of its mesh.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(cache()), {}),
-              2);
+              3);
   }
 }
 
