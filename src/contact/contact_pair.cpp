@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <variant>
 
 #include "limber/common/errors.hpp"
 #include "limber/contact/feature_slots.hpp"
@@ -30,25 +29,6 @@ constexpr double kTogether = 1e-9;
 
 double find_reduced_mass(double mass_A, double mass_B) {
   return 1.0 / (1.0 / mass_A + 1.0 / mass_B);
-}
-
-bool has_rim(const Shape& shape) {
-  return std::holds_alternative<Cylinder>(shape.kind);
-}
-
-bool is_round(const Shape& shape) {
-  return std::holds_alternative<Sphere>(shape.kind) ||
-         std::holds_alternative<HalfSpace>(shape.kind);
-}
-
-// Where a rim meets an edge or a face, the nearest feature changes along the
-// rim, and its speed is not that of the depth.
-void check_rims(const Shape& A, const Shape& B) {
-  if ((has_rim(A) && !is_round(B)) || (has_rim(B) && !is_round(A))) {
-    throw InputError(
-        "contact: a cylinder touches spheres and half spaces only; use a "
-        "capsule or a box in its place");
-  }
 }
 
 double check_masses(const ContactSide& A, const ContactSide& B) {
@@ -113,9 +93,7 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
       pad_area_(pads_ ? find_pads(A_.shape, B_.shape)->area : VectorX()),
       size_(contact::find_size(A_.shape, B_.shape)),
       mode_reach_A_(find_mode_reach(A_.shape)),
-      mode_reach_B_(find_mode_reach(B_.shape)) {
-  check_rims(A_.shape, B_.shape);
-}
+      mode_reach_B_(find_mode_reach(B_.shape)) {}
 
 std::optional<PointTwist> ContactPair::make_twist(
     const ContactParameters& parameters) const {

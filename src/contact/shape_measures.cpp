@@ -102,14 +102,7 @@ Vector3 find_point(const joints::PairBody& body, const Shape& shape,
 VectorX find_mode_reach(const Shape& shape) {
   const auto* skin = std::get_if<SkinPointer>(&shape.kind);
   if (skin == nullptr) return VectorX::Zero(0);
-  const MatrixX& Phi = (*skin)->surface().Phi_B;
-  VectorX reach = VectorX::Zero(Phi.cols());
-  for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
-    for (Eigen::Index row = 0; row + 3 <= Phi.rows(); row += 3) {
-      reach[k] = std::max(reach[k], Phi.col(k).segment<3>(row).norm());
-    }
-  }
-  return reach;
+  return (*skin)->find_mode_reach();
 }
 
 }  // namespace limber::contact

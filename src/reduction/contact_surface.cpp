@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "limber/common/index.hpp"
@@ -174,37 +175,73 @@ VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
   return residual;
 }
 
+/// A group's surface without what moves it.
+struct BareSurface {
+  fem::Surface surface;
+  Matrix3X normals;  // 3 x n
+  std::vector<ContactPatch> patches;
+  ContactSurface contact;
+};
+
+BareSurface make_bare_surface(const fem::Mesh& mesh, const ContactGroup& group,
+                              const Vector3& center) {
+  BareSurface bare;
+  bare.surface = fem::make_surface(mesh, group.faces);
+  bare.normals = find_normals(mesh, bare.surface);
+  const VectorX radii = find_patch_radii(mesh, bare.surface, bare.normals);
+  bare.patches = find_patches(mesh, bare.surface, bare.normals, radii);
+  ContactSurface& contact = bare.contact;
+  contact.name = group.name;
+  contact.x_B.resize(3, radii.size());
+  for (std::size_t p = 0; p < bare.surface.points.size(); ++p) {
+    const fem::SurfacePoint& point = bare.surface.points[p];
+    contact.tags.push_back(point.node < 0 ? 0 : mesh.tags[index(point.node)]);
+    contact.x_B.col(static_cast<Eigen::Index>(p)) = point.x - center;
+  }
+  contact.patch_radius = radii;
+  contact.faces = bare.surface.triangles;
+  contact.youngs_modulus = group.material.youngs_modulus;
+  contact.poisson_ratio = group.material.poisson_ratio;
+  return bare;
+}
+
 ContactSurface make_contact_surface(const MeshedBody& body,
                                     const ContactGroup& group,
                                     const ReducedBasis& basis,
                                     const MatrixX& Phi, const Vector3& center,
                                     const Progress& progress) {
-  const fem::Mesh& mesh = body.mesh;
-  const fem::Surface surface = fem::make_surface(mesh, group.faces);
-  const Matrix3X normals = find_normals(mesh, surface);
-  const VectorX radii = find_patch_radii(mesh, surface, normals);
-  const std::vector<ContactPatch> patches =
-      find_patches(mesh, surface, normals, radii);
-  ContactSurface contact;
-  contact.name = group.name;
-  contact.x_B.resize(3, radii.size());
-  for (std::size_t p = 0; p < surface.points.size(); ++p) {
-    const fem::SurfacePoint& point = surface.points[p];
-    contact.tags.push_back(point.node < 0 ? 0 : mesh.tags[index(point.node)]);
-    contact.x_B.col(static_cast<Eigen::Index>(p)) = point.x - center;
-  }
-  contact.Phi_B = average(Phi, patches);
+  BareSurface bare = make_bare_surface(body.mesh, group, center);
+  ContactSurface& contact = bare.contact;
+  contact.Phi_B = average(Phi, bare.patches);
   contact.residual =
-      find_residual(body, basis, surface, patches, group, progress);
-  contact.patch_radius = radii;
-  contact.faces = surface.triangles;
-  if (is_flat(surface, normals)) {
+      find_residual(body, basis, bare.surface, bare.patches, group, progress);
+  if (is_flat(bare.surface, bare.normals)) {
     contact.pads =
-        make_contact_pads(body, surface, normals, basis, Phi, center);
+        make_contact_pads(body, bare.surface, bare.normals, basis, Phi, center);
   }
-  contact.youngs_modulus = group.material.youngs_modulus;
-  contact.poisson_ratio = group.material.poisson_ratio;
-  return contact;
+  return std::move(bare.contact);
+}
+
+FullContactSurface make_full_contact_surface(const fem::Mesh& mesh,
+                                             const ContactGroup& group,
+                                             const Vector3& center) {
+  BareSurface bare = make_bare_surface(mesh, group, center);
+  FullContactSurface full;
+  full.surface = std::move(bare.contact);
+  const auto n = std::ssize(bare.patches);
+  full.surface.Phi_B.resize(3 * n, 0);
+  full.surface.residual.resize(n);
+  full.means.first.push_back(0);
+  for (Eigen::Index p = 0; p < n; ++p) {
+    const ContactPatch& patch = bare.patches[static_cast<std::size_t>(p)];
+    full.surface.residual[p] = -calc_hertz_share(group.material, patch.radius);
+    full.means.nodes.insert(full.means.nodes.end(), patch.nodes.begin(),
+                            patch.nodes.end());
+    full.means.weights.insert(full.means.weights.end(), patch.weights.begin(),
+                              patch.weights.end());
+    full.means.first.push_back(full.means.nodes.size());
+  }
+  return full;
 }
 
 }  // namespace
@@ -217,6 +254,17 @@ std::vector<ContactSurface> make_contact_surfaces(
            body.mesh, recipe.contact_groups, find_materials(body.mesh, recipe)))
     surfaces.push_back(
         make_contact_surface(body, group, basis, Phi, center, progress));
+  return surfaces;
+}
+
+std::vector<FullContactSurface> make_full_contact_surfaces(
+    const fem::Mesh& mesh, const Recipe& recipe,
+    const std::vector<fem::ElasticMaterial>& materials, const Vector3& center) {
+  std::vector<FullContactSurface> surfaces;
+  for (const ContactGroup& group :
+       find_contact_groups(mesh, recipe.contact_groups, materials)) {
+    surfaces.push_back(make_full_contact_surface(mesh, group, center));
+  }
   return surfaces;
 }
 

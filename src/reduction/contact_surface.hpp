@@ -5,7 +5,7 @@
 
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
-#include "limber/flexbody/model/contact_surface.hpp"
+#include "limber/flexbody/model/full_contact_surface.hpp"
 #include "limber/reduction/meshed_body.hpp"
 
 /// Surfaces of a body that may touch others. Part of limber_reduction.
@@ -18,6 +18,12 @@ namespace limber::flexbody {
 [[nodiscard]] std::vector<ContactSurface> make_contact_surfaces(
     const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center, const Progress& progress);
+
+/// The same of the body without reduction; they have no pads.
+/// @param materials one a region of the mesh
+[[nodiscard]] std::vector<FullContactSurface> make_full_contact_surfaces(
+    const fem::Mesh& mesh, const Recipe& recipe,
+    const std::vector<fem::ElasticMaterial>& materials, const Vector3& center);
 
 /// Most pads of a surface.
 inline constexpr int kMostPads = 25;

@@ -17,6 +17,7 @@
 #include "limber/fem/solid/tangent.hpp"
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/flexbody/model/full_stress.hpp"
+#include "limber/reduction/contact_surface.hpp"
 #include "limber/reduction/interfaces.hpp"
 #include "limber/reduction/meshed_body.hpp"
 #include "limber/reduction/support.hpp"
@@ -40,13 +41,15 @@ fem::SparseMatrix make_diagonal(const VectorX& mass) {
 struct SolidParts {
   SolidParts(fem::Mesh mesh_, std::vector<fem::ElasticMaterial> materials_,
              const std::vector<int>& held, const fem::SparseMatrix& consistent,
-             const FullOptions& options)
+             const FullOptions& options,
+             std::vector<FullContactSurface> surfaces_)
       : mesh(std::move(mesh_)),
         materials(std::move(materials_)),
         law(find_elasticity(options.law)),
         free(fem::find_free_nodes(mesh, held)),
         solid(mesh, materials, law),
-        is_lumped(options.mass == NodalMassKind::lumped) {
+        is_lumped(options.mass == NodalMassKind::lumped),
+        surfaces(std::move(surfaces_)) {
     if (is_lumped) {
       const VectorX lumped = fem::calc_lumped_mass(mesh, materials);
       M_s = make_diagonal(lumped);
@@ -65,6 +68,7 @@ struct SolidParts {
   bool is_lumped;
   fem::SparseMatrix M_s;                    // of all nodes
   std::optional<fem::NodalMass> free_mass;  // of the free nodes
+  std::vector<FullContactSurface> surfaces;
 };
 
 class MeshStress : public FullStress {
@@ -84,13 +88,18 @@ class MeshStress : public FullStress {
   fem::CauchyStress stress_;
 };
 
-class MeshSolver : public StressedSolver {
+class MeshSolver : public StressedSolver, public ContactSurfaces {
  public:
   explicit MeshSolver(std::shared_ptr<const SolidParts> parts)
       : parts_(std::move(parts)),
         workspace_(parts_->solid.make_workspace()),
         free_force_(3, std::ssize(parts_->free)),
         free_a_(3, std::ssize(parts_->free)) {}
+
+  [[nodiscard]] const std::vector<FullContactSurface>& contact_surfaces()
+      const override {
+    return parts_->surfaces;
+  }
 
   double calc_internal_force(ConstField u, Field force) override {
     return parts_->solid.calc_force(u, force, workspace_);
@@ -191,10 +200,13 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
   std::vector<fem::ElasticMaterial> materials = find_materials(mesh, recipe);
   const fem::SparseMatrix M_s = fem::assemble(mesh, materials, progress).M_s;
   tell_factors(recipe.name, M_s, progress);
-  const Matrix3X x_B =
-      mesh.x.colwise() - fem::calc_mass_properties(M_s, mesh.x).center;
+  const Vector3 center = fem::calc_mass_properties(M_s, mesh.x).center;
+  const Matrix3X x_B = mesh.x.colwise() - center;
+  std::vector<FullContactSurface> surfaces =
+      make_full_contact_surfaces(mesh, recipe, materials, center);
   const auto parts = std::make_shared<const SolidParts>(
-      std::move(mesh), std::move(materials), held, M_s, options);
+      std::move(mesh), std::move(materials), held, M_s, options,
+      std::move(surfaces));
 
   auto body = std::make_shared<FullBody>();
   body->x_B = x_B;

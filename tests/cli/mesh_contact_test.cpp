@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Links whose collisions are meshes, as the command reports them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,20 +18,27 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-/// A cube of 0.1 m as an OBJ file. @param faces how many of its six
-std::string make_cube(std::size_t faces = 6) {
+/// A cube of 0.1 m as text of an OBJ file. @param faces how many of its six
+/// @param shift of its middle along each axis [m] @param before corners of
+/// others before it
+std::string make_cube(std::size_t faces = 6, double shift = 0.0,
+                      int before = 0) {
   std::string text;
-  for (const char* z : {" -0.05", " 0.05"}) {
-    for (const char* y : {" -0.05", " 0.05"}) {
-      for (const char* x : {" -0.05", " 0.05"}) {
-        text += std::string("v") + x + y + z + "\n";
+  for (const double z : {-0.05, 0.05}) {
+    for (const double y : {-0.05, 0.05}) {
+      for (const double x : {-0.05, 0.05}) {
+        text += fmt::format("v {} {} {}\n", x + shift, y + shift, z + shift);
       }
     }
   }
-  const std::vector<std::string> all = {"f 1 3 4 2\n", "f 5 6 8 7\n",
-                                        "f 1 2 6 5\n", "f 3 7 8 4\n",
-                                        "f 1 5 7 3\n", "f 2 4 8 6\n"};
-  for (std::size_t i = 0; i < faces; ++i) text += all[i];
+  const std::vector<std::array<int, 4>> all = {{1, 3, 4, 2}, {5, 6, 8, 7},
+                                               {1, 2, 6, 5}, {3, 7, 8, 4},
+                                               {1, 5, 7, 3}, {2, 4, 8, 6}};
+  for (std::size_t i = 0; i < faces; ++i) {
+    const auto& [p, q, r, s] = all[i];
+    text += fmt::format("f {} {} {} {}\n", p + before, q + before, r + before,
+                        s + before);
+  }
   return text;
 }
 
@@ -73,6 +82,15 @@ TEST(MeshOnABox, IsRefusedWhereItIsOpen) {
   const CommandResult result = run_cube(place, make_cube(5), 1e-6);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("cube.obj' is open: the edge from ("));
+}
+
+// Two cubes, one of which reaches half into the other.
+TEST(MeshOnABox, IsRefusedWhereItCrossesItself) {
+  const Workspace place;
+  const std::string both = make_cube() + make_cube(6, 0.03, 8);
+  const CommandResult result = run_cube(place, both, 1e-6);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("crosses itself at ("));
 }
 
 TEST(MeshOnABox, IsRefusedWhereItOverlapsDeeply) {

@@ -53,4 +53,11 @@ Vector3 ConvexCore::find_support_point(const Vector3& n) const {
   return point;
 }
 
+Matrix3 ConvexCore::find_curvature(const Vector3& n) const {
+  const Vector3 around = segments_[0].axis.cross(n);
+  const double square = around.squaredNorm();
+  if (!(disc_ > 0.0) || !(square > 0.0)) return Matrix3::Zero();
+  return (disc_ / (square * std::sqrt(square))) * around * around.transpose();
+}
+
 }  // namespace limber::contact

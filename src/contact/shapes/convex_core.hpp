@@ -42,6 +42,8 @@ class ConvexCore {
   /// The point, or one of them, of the set without the ball that is farthest
   /// along n, of any length [m].
   [[nodiscard]] Vector3 find_support_point(const Vector3& n) const;
+  /// Second derivative of the support by n, of the disc [m]. @param n unit
+  [[nodiscard]] Matrix3 find_curvature(const Vector3& n) const;
 
  private:
   Vector3 centre_;

@@ -26,6 +26,17 @@ Segment make_segment(const ConvexFace& face) {
           0.5 * length};
 }
 
+// Between a face's corners along n [m].
+double find_drop(const ConvexFace& face, const Vector3& n) {
+  double low = n.dot(face.corners[0]);
+  double high = low;
+  for (std::size_t i = 1; i < face.count; ++i) {
+    low = std::min(low, n.dot(face.corners[i]));
+    high = std::max(high, n.dot(face.corners[i]));
+  }
+  return high - low;
+}
+
 // Points of both surfaces that are opposite each other.
 struct Opposite {
   Vector3 on_A;
@@ -54,10 +65,12 @@ Opposite find_deepest(const Separation& at, const ConvexCore& core_A,
   } else {
     const Vector3 on_A = core_A.find_support_point(n) + core_A.ball() * n;
     const Vector3 on_B = core_B.find_support_point(-n) - core_B.ball() * n;
-    // A rim's or an edge's point rather than any of a face.
-    middle = A.count < B.count   ? Vector3(on_A - 0.5 * at.depth * n)
-             : B.count < A.count ? Vector3(on_B + 0.5 * at.depth * n)
-                                 : Vector3(0.5 * (on_A + on_B));
+    // That of a rim, an edge or a corner rather than any of the face under it.
+    const bool has_line = A.count == 2 || B.count == 2;
+    const bool is_on_A =
+        has_line ? A.count < B.count : find_drop(A, n) > find_drop(B, n);
+    middle = is_on_A ? Vector3(on_A - 0.5 * at.depth * n)
+                     : Vector3(on_B + 0.5 * at.depth * n);
   }
   return {middle + 0.5 * at.depth * n, middle - 0.5 * at.depth * n};
 }

@@ -12,6 +12,9 @@ namespace limber::contact {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+// Distance, of the sizes, below which the nearest points on a rim, which an
+// iteration finds, do not tell the direction between them [-].
+constexpr double kClose = 1e-3;
 
 // Two unit vectors normal to a unit vector and to each other.
 std::array<Vector3, 2> find_basis(const Vector3& u) {
@@ -30,6 +33,11 @@ class LeastDepth {
 
   [[nodiscard]] double evaluate(const Vector3& n) const {
     return n.dot(arm_) + A_.find_support(n) + B_.find_support(n);
+  }
+  /// Of evaluate by n, which is constant along n [m].
+  [[nodiscard]] Vector3 find_gradient(const Vector3& n) const {
+    return A_.find_support_point(n) - B_.centre() +
+           (B_.find_support_point(n) - B_.centre());
   }
   void try_unit(const Vector3& n) {
     const double depth = evaluate(n);
@@ -61,33 +69,21 @@ class LeastDepth {
         return depths[static_cast<std::size_t>((k + kSamples) % kSamples)];
       };
       if (at(i) > at(i - 1) || at(i) > at(i + 1)) continue;
+      // By the sign of the derivative, exact to round-off, where the values
+      // themselves would tell half of the digits.
       double low = 2.0 * kPi * (i - 1) / kSamples;
       double high = 2.0 * kPi * (i + 1) / kSamples;
-      constexpr double kGolden = 0.3819660112501051;
-      constexpr int kCuts = 42;
-      double a = low + kGolden * (high - low);
-      double b = high - kGolden * (high - low);
-      double depth_a = evaluate(find_direction(a));
-      double depth_b = evaluate(find_direction(b));
+      constexpr int kCuts = 52;
       for (int cut = 0; cut < kCuts; ++cut) {
-        if (depth_a < depth_b) {
-          high = b;
-          b = a;
-          depth_b = depth_a;
-          a = low + kGolden * (high - low);
-          depth_a = evaluate(find_direction(a));
-        } else {
-          low = a;
-          a = b;
-          depth_a = depth_b;
-          b = high - kGolden * (high - low);
-          depth_b = evaluate(find_direction(b));
-        }
+        const double middle = 0.5 * (low + high);
+        const Vector3 n = find_direction(middle);
+        (find_gradient(n).dot(u.cross(n)) > 0.0 ? high : low) = middle;
       }
       try_unit(find_direction(0.5 * (low + high)));
     }
   }
-  /// A minimum among all directions, by compass search from the best of many.
+  /// A minimum among all directions, by compass search from the best of many,
+  /// then by Newton's method.
   void try_sphere() {
     constexpr int kSamples = 200;
     constexpr double kTurn = 2.399963229728653;  // golden angle
@@ -110,7 +106,7 @@ class LeastDepth {
         n = sample;
       }
     }
-    for (double step = 0.1; step > 1e-9;) {
+    for (double step = 0.1; step > 1e-4;) {
       const auto ways = find_basis(n);
       Vector3 next = n;
       for (const Vector3& way :
@@ -124,13 +120,43 @@ class LeastDepth {
       if (next == n) step *= 0.5;
       n = next;
     }
-    try_unit(n);
+    try_unit(polish(n));
+  }
+
+  /// Where the gradient is along n, near to a direction.
+  [[nodiscard]] Vector3 polish(const Vector3& start) const {
+    constexpr int kMost = 12;
+    Vector3 n = start;
+    double slope = find_slope(n).norm();
+    for (int i = 0; i < kMost; ++i) {
+      const auto ways = find_basis(n);
+      Eigen::Matrix<double, 3, 2> P;
+      P << ways[0], ways[1];
+      const Eigen::Matrix2d curvature =
+          P.transpose() * (A_.find_curvature(n) + B_.find_curvature(n)) * P -
+          evaluate(n) * Eigen::Matrix2d::Identity();
+      const Eigen::Vector2d turn =
+          curvature.inverse() * (P.transpose() * find_gradient(n));
+      if (!turn.allFinite()) return n;
+      const Vector3 next = (n - P * turn).normalized();
+      const double next_slope = find_slope(next).norm();
+      if (!(next_slope < slope)) return n;
+      n = next;
+      slope = next_slope;
+    }
+    return n;
   }
 
   [[nodiscard]] const Vector3& best() const { return best_; }
   [[nodiscard]] double depth() const { return depth_; }
 
  private:
+  // Of evaluate, across n.
+  [[nodiscard]] Vector3 find_slope(const Vector3& n) const {
+    const Vector3 gradient = find_gradient(n);
+    return gradient - n.dot(gradient) * n;
+  }
+
   const ConvexCore& A_;
   const ConvexCore& B_;
   Vector3 arm_;
@@ -175,11 +201,19 @@ Separation find_separation(const ConvexCore& A, const ConvexCore& B) {
   if (!nearest.overlap) {
     const Vector3 arm = nearest.on_B - nearest.on_A;
     const double distance = arm.norm();
-    return {.normal_W = arm / distance,
-            .depth = balls - distance,
-            .on_A = nearest.on_A,
-            .on_B = nearest.on_B,
-            .is_apart = true};
+    Separation apart{.normal_W = arm / distance,
+                     .depth = balls - distance,
+                     .on_A = nearest.on_A,
+                     .on_B = nearest.on_B,
+                     .is_apart = true};
+    const bool has_rim = A.disc() > 0.0 || B.disc() > 0.0;
+    if (has_rim && distance < kClose * (A.size() + B.size())) {
+      const LeastDepth least = search(A, B);
+      if (least.depth() < least.evaluate(apart.normal_W)) {
+        apart.normal_W = least.best();
+      }
+    }
+    return apart;
   }
   const LeastDepth least = search(A, B);
   return {.normal_W = least.best(), .depth = least.depth() + balls};

@@ -18,8 +18,9 @@ struct Separation {
   bool is_apart = false;           ///< without balls
 };
 
-/// Apart, by the nearest points. Overlapping, by all directions in which the
-/// least way may lie: across two segments, along a disc's axis, and, with a
+/// Apart, by the nearest points; next to a disc's rim the normal is the better
+/// one of theirs and of those below. Overlapping, by all directions in which
+/// the least way may lie: across two segments, along a disc's axis, and, with a
 /// disc's rim, across one segment or any. Where directions are equally good to
 /// 1e-9 of the sizes, the first in a fixed order.
 ///

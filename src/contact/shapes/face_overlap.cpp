@@ -97,7 +97,11 @@ class Cover {
 Polygon cut(const Polygon& polygon, const Vector2& a, const Vector2& b,
             std::size_t number) {
   Polygon rest;
-  const auto find_side = [&](const Vector2& x) { return cross(b - a, x - a); };
+  // A corner on the line is left of it, or round-off would choose.
+  const double none = kSame * (b - a).squaredNorm();
+  const auto find_side = [&](const Vector2& x) {
+    return cross(b - a, x - a) + none;
+  };
   for (std::size_t i = 0; i < polygon.count; ++i) {
     const std::size_t next = (i + 1) % polygon.count;
     const double here = find_side(polygon.corners[i]);

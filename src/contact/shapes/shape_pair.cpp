@@ -27,9 +27,7 @@ bool is_skin(const Shape& shape) {
   return is_a<std::shared_ptr<const Skin>>(shape);
 }
 
-bool has_skin(const Shape& shape) {
-  return is_skin(shape) || is_a<Box>(shape) || is_a<Capsule>(shape);
-}
+bool has_skin(const Shape& shape) { return is_skin(shape) || is_convex(shape); }
 
 }  // namespace
 
@@ -57,9 +55,8 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
     most_points_ = kSkinFeatures;
   } else {
     throw InputError(fmt::format(
-        "contact: there is no rule for a {} with a {}; there are rules for a "
-        "sphere with any shape, a half space with any other, and skins, boxes "
-        "and capsules among each other",
+        "contact: there is no rule for a {} with a {}; all other shapes touch "
+        "each other",
         name_kind(A_), name_kind(B_)));
   }
 }

@@ -21,7 +21,8 @@ namespace limber::contact {
 ///     of box, cylinder, capsule
 ///       any other two              corners of both faces, where each edge of
 ///                                  A enters and leaves B's, and the nearest
-///     skin with skin, box, capsule 8, the deepest that are apart: these have
+///     skin with skin, box,
+///       cylinder, capsule          8, the deepest that are apart: these have
 ///                                  no order that lasts (keeps_order())
 ///     half space with capsule      2, its ends
 ///                     box          8, its corners

@@ -144,19 +144,86 @@ class CapsuleMaker {
   std::vector<std::array<int, 6>> faces_;
 };
 
+// Quadratic faces around, between flat ends of straight ones about their
+// middle.
+class CylinderMaker {
+ public:
+  explicit CylinderMaker(const Cylinder& cylinder) : cylinder_(cylinder) {}
+
+  flexbody::ContactSurface make(const Pose& X) {
+    for (int i = 0; i < kAround; ++i) {
+      add_side(i);
+      for (const int end : {0, 2}) add_end(i, end);
+    }
+    auto surface =
+        make_surface("cylinder", nodes_,
+                     std::min(cylinder_.radius, cylinder_.half_length), X);
+    surface.faces = faces_;
+    return surface;
+  }
+
+ private:
+  static constexpr int kAround = 48;
+
+  // Half steps around, and up: 0 the lower end, 2 the upper one.
+  int find_node(int around, int up) {
+    around %= 2 * kAround;
+    const double turn = std::numbers::pi * around / kAround;
+    return find({around, up}, {cylinder_.radius * std::cos(turn),
+                               cylinder_.radius * std::sin(turn),
+                               (up - 1) * cylinder_.half_length});
+  }
+  int find_middle(int end) {
+    return find({-1, end}, {0.0, 0.0, (end - 1) * cylinder_.half_length});
+  }
+  int find(const std::pair<int, int>& key, const Vector3& x) {
+    const auto [found, is_new] =
+        numbers_.try_emplace(key, static_cast<int>(nodes_.size()));
+    if (is_new) nodes_.push_back(x);
+    return found->second;
+  }
+
+  void add_side(int i) {
+    const int a = 2 * i;
+    const int b = a + 2;
+    faces_.push_back({find_node(a, 0), find_node(b, 0), find_node(b, 2),
+                      find_node(a + 1, 0), find_node(b, 1),
+                      find_node(a + 1, 1)});
+    faces_.push_back({find_node(a, 0), find_node(b, 2), find_node(a, 2),
+                      find_node(a + 1, 1), find_node(a + 1, 2),
+                      find_node(a, 1)});
+  }
+  void add_end(int i, int end) {
+    const int a = find_node(2 * i, end);
+    const int b = find_node(2 * i + 2, end);
+    faces_.push_back(
+        {find_middle(end), end == 2 ? a : b, end == 2 ? b : a, -1, -1, -1});
+  }
+
+  const Cylinder& cylinder_;
+  std::map<std::pair<int, int>, int> numbers_;
+  std::vector<Vector3> nodes_;
+  std::vector<std::array<int, 6>> faces_;
+};
+
+flexbody::ContactSurface make_surface_of(const Shape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape.kind)) {
+    return make_box(*box, shape.X_BS);
+  }
+  if (const auto* rod = std::get_if<Cylinder>(&shape.kind)) {
+    return CylinderMaker(*rod).make(shape.X_BS);
+  }
+  LIMBER_EXPECT(std::holds_alternative<Capsule>(shape.kind));
+  return CapsuleMaker(std::get<Capsule>(shape.kind)).make(shape.X_BS);
+}
+
 }  // namespace
 
 Shape make_skin(const Shape& shape) {
   if (std::holds_alternative<std::shared_ptr<const Skin>>(shape.kind)) {
     return shape;
   }
-  if (const auto* box = std::get_if<Box>(&shape.kind)) {
-    return {std::make_shared<const Skin>(make_box(*box, shape.X_BS)), Pose{}};
-  }
-  LIMBER_EXPECT(std::holds_alternative<Capsule>(shape.kind));
-  return {std::make_shared<const Skin>(
-              CapsuleMaker(std::get<Capsule>(shape.kind)).make(shape.X_BS)),
-          Pose{}};
+  return {std::make_shared<const Skin>(make_surface_of(shape)), Pose{}};
 }
 
 }  // namespace limber::contact

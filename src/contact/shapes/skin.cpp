@@ -21,6 +21,19 @@ Eigen::Index column_of(int node) { return 3 * Eigen::Index{node}; }
 }  // namespace
 
 Skin::Skin(flexbody::ContactSurface surface) : surface_(std::move(surface)) {
+  prepare();
+}
+
+Skin::Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes)
+    : surface_(std::move(surface.surface)),
+      means_(std::move(surface.means)),
+      mesh_nodes_(mesh_nodes) {
+  check_means();
+  prepare();
+  tree_.set_spread(spread_);
+}
+
+void Skin::prepare() {
   check();
   const Eigen::Index n = surface_.x_B.cols();
   modes_.resize(surface_.Phi_B.cols(), 3 * n);
@@ -77,6 +90,24 @@ void Skin::check() const {
       refuse(fmt::format("has a face without area: face {}", f));
     }
   }
+}
+
+void Skin::check_means() const {
+  const auto n = static_cast<std::size_t>(surface_.x_B.cols());
+  const auto is_beyond = [this](int node) {
+    return node < 0 || node >= mesh_nodes_;
+  };
+  if (means_.first.size() == n + 1 && surface_.Phi_B.cols() == 0 &&
+      surface_.pads.count() == 0 &&
+      means_.first.back() == means_.nodes.size() &&
+      means_.weights.size() == means_.nodes.size() &&
+      std::none_of(means_.nodes.begin(), means_.nodes.end(), is_beyond)) {
+    return;
+  }
+  throw InputError(fmt::format(
+      "contact: its surface '{}' has means over nodes that do not fit its {} "
+      "nodes and the mesh's {}",
+      surface_.name, n, mesh_nodes_));
 }
 
 void Skin::connect() {
@@ -146,6 +177,12 @@ void Skin::set_bounds() {
   const auto find_rows = [this](int node) -> Matrix3X {
     return modes_.middleCols<3>(column_of(node)).transpose();
   };
+  if (has_means()) {
+    for (std::size_t n = 0; n < owners_.size(); ++n) {
+      // Of a control point, three times a node's.
+      spread_ = std::max(spread_, 3.0 * sum_weights(static_cast<int>(n)));
+    }
+  }
   for (const Face& nodes : surface_.faces) {
     for (std::size_t i = 0; i < 6; ++i) {
       if (nodes[i] < 0) continue;
@@ -169,8 +206,37 @@ std::span<const int> Skin::find_faces_of(int node) const {
       .subspan(index(first), index(first_faces_[index(node) + 1] - first));
 }
 
+double Skin::sum_weights(int node) const {
+  double sum = 0.0;
+  for (auto k = means_.first[index(node)]; k < means_.first[index(node) + 1];
+       ++k) {
+    sum += std::abs(means_.weights[k]);
+  }
+  return sum;
+}
+
+VectorX Skin::find_mode_reach() const {
+  VectorX reach = VectorX::Zero(mode_count());
+  if (has_means()) {
+    reach[reach.size() - 1] = spread_;
+    return reach;
+  }
+  for (Eigen::Index row = 0; row < surface_.Phi_B.rows(); row += 3) {
+    reach = reach.cwiseMax(
+        surface_.Phi_B.middleRows<3>(row).colwise().norm().transpose());
+  }
+  return reach;
+}
+
 Vector3 Skin::deform(int node, const ModalView& eta) const {
   Vector3 x = surface_.x_B.col(node);
+  if (has_means()) {
+    for (auto k = means_.first[index(node)]; k < means_.first[index(node) + 1];
+         ++k) {
+      x += means_.weights[k] * eta.segment<3>(column_of(means_.nodes[k]));
+    }
+    return x;
+  }
   const Eigen::Index column = column_of(node);
   for (int axis = 0; axis < 3; ++axis) {
     x[axis] += modes_.col(column + axis).dot(eta);
@@ -214,6 +280,7 @@ Skin::NodeHit Skin::make_node_hit(int node, double height, const Vector3& x,
 }
 
 double Skin::find_deformation_bound(const ModalView& eta) const {
+  if (has_means()) return spread_ * eta[eta.size() - 1];
   return largest_motions_.dot(eta.cwiseAbs());
 }
 
@@ -271,13 +338,25 @@ void Skin::set_shape_functions(const SurfacePlace& place, Matrix3X& out) const {
     return;
   }
   LIMBER_EXPECT(place.face >= 0 && index(place.face) < surface_.faces.size());
-  LIMBER_EXPECT(out.cols() == modes_.rows());
+  LIMBER_EXPECT(out.cols() == mode_count());
   const Face& nodes = face(place.face);
   const auto weights = find_shape_functions({place.u, place.v}, nodes[3] < 0);
   out.setZero();
   for (std::size_t i = 0; i < 6; ++i) {
     if (nodes[i] < 0) continue;
-    out += weights[i] * modes_.middleCols<3>(column_of(nodes[i])).transpose();
+    add_rows(nodes[i], weights[i], out);
+  }
+}
+
+void Skin::add_rows(int node, double weight, Matrix3X& out) const {
+  if (!has_means()) {
+    out += weight * modes_.middleCols<3>(column_of(node)).transpose();
+    return;
+  }
+  for (auto k = means_.first[index(node)]; k < means_.first[index(node) + 1];
+       ++k) {
+    out.middleCols<3>(column_of(means_.nodes[k])).diagonal().array() +=
+        weight * means_.weights[k];
   }
 }
 

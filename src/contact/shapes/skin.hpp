@@ -12,7 +12,7 @@
 #include "limber/contact/shapes/nearest_point.hpp"
 #include "limber/contact/shapes/shape.hpp"
 #include "limber/contact/shapes/skin_tree.hpp"
-#include "limber/flexbody/model/contact_surface.hpp"
+#include "limber/flexbody/model/full_contact_surface.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
@@ -22,6 +22,9 @@ namespace limber::contact {
 /// frame; no function but the constructor allocates memory.
 ///
 /// Equation   x(u,v) = sum_i N_i(u,v) (x_B + Phi_B eta)_i on every face
+///            at level `full` eta are the displacements of all N nodes of the
+///            mesh, then the largest of their magnitudes, which moves nothing
+///            and bounds the rest (joints::PairBody)
 /// Limits     the surface is that of x_B + Phi_B eta, also where Phi_B is the
 ///            mean motion of patches. A surface with a border, such as a group
 ///            of faces, has no inside: see find_nearest.
@@ -31,13 +34,20 @@ class Skin {
   /// rows out of range, nodes without a face, values that are not finite, or
   /// faces without area.
   explicit Skin(flexbody::ContactSurface surface);
+  /// Of a body at level `full`. @param mesh_nodes N
+  /// @throws InputError likewise, also for nodes beyond N
+  Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes);
 
   [[nodiscard]] const flexbody::ContactSurface& surface() const {
     return surface_;
   }
   [[nodiscard]] int mode_count() const {
-    return static_cast<int>(surface_.Phi_B.cols());
+    return static_cast<int>(has_means() ? 3 * mesh_nodes_ + 1
+                                        : surface_.Phi_B.cols());
   }
+  /// Of each modal coordinate the largest displacement of a point
+  /// [kg^-1/2, at level `full` -].
+  [[nodiscard]] VectorX find_mode_reach() const;
   [[nodiscard]] std::size_t node_count() const { return owners_.size(); }
   /// Whether no edge belongs to one face alone.
   [[nodiscard]] bool is_closed() const { return is_closed_; }
@@ -198,6 +208,13 @@ class Skin {
   [[nodiscard]] double find_thickness(int f, const FacePlace& at) const;
 
   void check() const;
+  void check_means() const;
+  void prepare();
+  // Whether it is that of a body at level `full`.
+  [[nodiscard]] bool has_means() const { return !means_.first.empty(); }
+  // Adds weight times the rows of a node.
+  void add_rows(int node, double weight, Matrix3X& out) const;
+  [[nodiscard]] double sum_weights(int node) const;
   void measure();
   void mark_inner();
   void connect();
@@ -205,7 +222,10 @@ class Skin {
   void set_bounds();
 
   flexbody::ContactSurface surface_;
-  MatrixX modes_;  // m x 3n: all modes of a node's axis in a column
+  flexbody::NodalMeans means_;  // of a body at level `full`, else none
+  Eigen::Index mesh_nodes_ = 0;
+  double spread_ = 0.0;  // largest motion per largest displacement of a node
+  MatrixX modes_;        // m x 3n: all modes of a node's axis in a column
   std::vector<Owner> owners_;
   std::vector<int> faces_of_nodes_;  // of each corner, one after another
   std::vector<int> first_faces_;     // n + 1: where those of a node begin

@@ -124,7 +124,8 @@ SkinTree::Box SkinTree::find_box(int i, const ModalView& eta) const {
   // Round-off of sums must not let a face out of its box.
   constexpr double kMargin = 1e-12;
   Box box = boxes_[index(i)];
-  for (int axis = 0; axis < 3; ++axis) {
+  if (spread_ > 0.0) box.half.array() += spread_ * eta[eta.size() - 1];
+  for (int axis = 0; axis < 3 && spread_ == 0.0; ++axis) {
     const Eigen::Index column = 3 * Eigen::Index{i} + axis;
     box.centre[axis] += centres_.col(column).dot(eta);
     box.half[axis] += halves_.col(column).dot(eta.cwiseAbs());

@@ -54,6 +54,10 @@ class SkinTree {
   SkinTree(const std::vector<std::array<int, 6>>& faces, const Matrix3X& X,
            const MatrixX& Phi);
 
+  /// Takes eta for displacements whose largest magnitude is its last entry:
+  /// boxes are then larger by `spread` times that [-].
+  void set_spread(double spread) { spread_ = spread; }
+
   /// The root is node 0.
   [[nodiscard]] const Node& node(int i) const { return nodes_[index(i)]; }
   [[nodiscard]] std::span<const int> find_faces(const Node& node) const {
@@ -76,6 +80,7 @@ class SkinTree {
   std::vector<Box> boxes_;  // undeformed
   MatrixX centres_;         // m x 3 nodes: c of each axis
   MatrixX halves_;          // m x 3 nodes: h
+  double spread_ = 0.0;     // > 0: see set_spread
 };
 
 }  // namespace limber::contact

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "limber/common/errors.hpp"
@@ -29,10 +30,82 @@ void set_body(const SystemModel& model, const SystemState& state, std::size_t b,
   out.etadot = state.etadot.data() + model.bodies[b].offset;
 }
 
+void set_full_body(const SystemModel& model, const SystemState& state,
+                   std::size_t f, const MeanFrame& frame, VectorX& u,
+                   VectorX& udot, joints::PairBody& out) {
+  const FullModel& full = model.full_bodies[f];
+  const Matrix3 R_BH = frame.R_HB.transpose();
+  out.R_WB = state.X_WH[f].R * frame.R_HB;
+  out.p_WB = state.X_WH[f] * frame.p_HB;
+  out.v_WB_W = state.X_WH[f].R * frame.v_H;
+  out.w_WB_B = R_BH * frame.w_H;
+  const ConstNodes u_H = nodes_of(full, state.u_H);
+  const ConstNodes udot_H = nodes_of(full, state.udot_H);
+  u.resize(full.dofs() + 1);
+  udot.resize(full.dofs() + 1);
+  double most_u = 0.0;
+  double most_udot = 0.0;
+  for (Eigen::Index n = 0; n < u_H.cols(); ++n) {
+    const Vector3 arm_H = full.mesh->x_B.col(n) + u_H.col(n) - frame.p_HB;
+    const Vector3 deformed = R_BH * arm_H - full.mesh->x_B.col(n);
+    const Vector3 rate =
+        R_BH * (udot_H.col(n) - frame.v_H - frame.w_H.cross(arm_H));
+    u.segment<3>(3 * n) = deformed;
+    udot.segment<3>(3 * n) = rate;
+    most_u = std::max(most_u, deformed.norm());
+    most_udot = std::max(most_udot, rate.norm());
+  }
+  u[full.dofs()] = most_u;
+  udot[full.dofs()] = most_udot;
+  out.modes = static_cast<int>(full.dofs() + 1);
+  out.eta = u.data();
+  out.etadot = udot.data();
+}
+
+// It has no modes, so that those parts of its terms are free.
+void set_full_body(const SystemModel& model, const SystemState& state,
+                   std::size_t b, SystemTerms& terms) {
+  const std::size_t f = index(model.bodies[b].full);
+  BodyTerms& t = terms.bodies[b];
+  set_full_body(model, state, f, terms.full[f].frame, t.scratch_b1,
+                t.scratch_b2, terms.pairs.bodies[b]);
+}
+
+void set_any_body(const SystemModel& model, const SystemState& state,
+                  BodyIndex body, PairNodes& nodes, joints::PairBody& out) {
+  if (body == kWorld) return;
+  const std::size_t b = index(body);
+  if (model.bodies[b].full < 0) {
+    set_body(model, state, b, state.bodies[b].quat_WB.toRotationMatrix(), out);
+    return;
+  }
+  const std::size_t f = index(model.bodies[b].full);
+  MeanFrame frame;
+  calc_mean_frame(model, model.full_bodies[f], state, frame);
+  set_full_body(model, state, f, frame, nodes.u, nodes.udot, out);
+}
+
+// f_n = R_HB Phi_n' force_B of each node.
+template <typename Field>
+void add_to_nodes(const joints::PairPlace& place, const Matrix3& R_HB,
+                  const Vector3& force_B, Field&& force_H) {
+  for (Eigen::Index n = 0; n < force_H.cols(); ++n) {
+    const Vector3 share =
+        place.Phi_B.middleCols<3>(3 * n).transpose() * force_B;
+    force_H.col(n) += R_HB * share;
+  }
+}
+
 void add_force(const SystemModel& model, BodyIndex body,
                const joints::PairPlace& place, const Vector3& arm_B,
                const Vector3& force_W, SystemTerms& terms) {
   if (body == kWorld) return;
+  if (const int f = model.bodies[index(body)].full; f >= 0) {
+    const joints::PairBody& moving = terms.pairs.bodies[index(body)];
+    add_to_nodes(place, terms.full[index(f)].frame.R_HB,
+                 moving.R_WB.transpose() * force_W, terms.full[index(f)].force);
+    return;
+  }
   BodyTerms& t = terms.bodies[index(body)];
   const Vector3 force_B = t.R_WB.transpose() * force_W;
   t.force_W += force_W;
@@ -48,6 +121,15 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
                        VectorX& residual) {
   if (b == kWorld) return;
   const BodyModel& body = model.bodies[index(b)];
+  if (body.full >= 0) {
+    const FullModel& full = model.full_bodies[index(body.full)];
+    Nodes nodes(residual.data() + first_node_row(model) + full.first, 3,
+                full.mesh->node_count());
+    add_to_nodes(place, terms.full[index(body.full)].frame.R_HB,
+                 -(terms.pairs.bodies[index(b)].R_WB.transpose() * force_W),
+                 nodes);
+    return;
+  }
   const Eigen::Index row = first_row(body, index(b));
   const Vector3 force_B = terms.bodies[index(b)].R_WB.transpose() * force_W;
   residual.segment(row + 6, body.modes).noalias() -=
@@ -59,26 +141,24 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
 
 }  // namespace
 
-joints::PairBody find_pair_body(const SystemModel& model,
-                                const SystemState& state, BodyIndex body) {
-  joints::PairBody out;
-  if (body == kWorld) return out;
-  const std::size_t b = index(body);
-  set_body(model, state, b, state.bodies[b].quat_WB.toRotationMatrix(), out);
-  return out;
+int count_pair_coordinates(const SystemModel& model, BodyIndex b) {
+  if (b == kWorld) return 0;
+  const BodyModel& body = model.bodies[index(b)];
+  if (body.full < 0) return body.modes;
+  return static_cast<int>(model.full_bodies[index(body.full)].dofs() + 1);
 }
 
 PairMotion find_pair_motion(const SystemModel& model, const Pair& pair,
                             const SystemState& state) {
-  return {find_pair_body(model, state, pair.body_A),
-          find_pair_body(model, state, pair.body_B)};
+  PairMotion motion;
+  set_any_body(model, state, pair.body_A, motion.nodes_A, motion.A);
+  set_any_body(model, state, pair.body_B, motion.nodes_B, motion.B);
+  return motion;
 }
 
 joints::PairResponse make_response(const SystemModel& model, const Pair& pair) {
-  const auto modes_of = [&](BodyIndex b) {
-    return b == kWorld ? 0 : model.bodies[index(b)].modes;
-  };
-  return {pair.law->most_points(), modes_of(pair.body_A), modes_of(pair.body_B),
+  return {pair.law->most_points(), count_pair_coordinates(model, pair.body_A),
+          count_pair_coordinates(model, pair.body_B),
           pair.law->couples_points()};
 }
 
@@ -107,7 +187,11 @@ joints::PairBodies find_bodies(const Pair& pair, const PairTerms& terms) {
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms) {
   for (const std::size_t b : terms.pairs.members) {
-    set_body(model, state, b, terms.bodies[b].R_WB, terms.pairs.bodies[b]);
+    if (model.bodies[b].full >= 0) {
+      set_full_body(model, state, b, terms);
+    } else {
+      set_body(model, state, b, terms.bodies[b].R_WB, terms.pairs.bodies[b]);
+    }
   }
 }
 
@@ -156,6 +240,17 @@ void apply_pairs(const SystemModel& model, const SystemState& state,
                 terms);
     }
   }
+}
+
+bool acts_on_nodes(const SystemModel& model, const SystemTerms& terms) {
+  if (model.full_bodies.empty()) return false;
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    if (terms.pairs.responses[i].points().empty()) continue;
+    for (const BodyIndex b : {model.pairs[i].body_A, model.pairs[i].body_B}) {
+      if (b != kWorld && model.bodies[index(b)].full >= 0) return true;
+    }
+  }
+  return false;
 }
 
 void add_residual(const SystemModel& model, const Pair& pair,

@@ -35,15 +35,35 @@ template <typename State>
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms);
 
-/// A body's motion, or the world's, at a state.
-[[nodiscard]] joints::PairBody find_pair_body(const SystemModel& model,
-                                              const SystemState& state,
-                                              BodyIndex body);
+/// Coordinates of a body in joints::PairBody: its modes, of an unreduced one
+/// 3N + 1, of the world none.
+[[nodiscard]] int count_pair_coordinates(const SystemModel& model,
+                                         BodyIndex body);
 
-/// Both bodies of a pair at a state, as values.
+/// What joints::PairBody refers to of an unreduced body. Its frame B is the
+/// mean-axis frame; eta are the displacements of all nodes relative to B [m],
+/// then the largest of their magnitudes, which moves nothing; etadot likewise.
+/// Forces act on the nodes alone: where PairPlace::x_B is apart from the
+/// surface across the force, the moment of that arm is left out.
+struct PairNodes {
+  PairNodes() = default;
+  PairNodes(const PairNodes&) = delete;  // it is referred to
+  PairNodes& operator=(const PairNodes&) = delete;
+  PairNodes(PairNodes&&) = default;
+  PairNodes& operator=(PairNodes&&) = default;
+  ~PairNodes() = default;
+
+  VectorX u;     ///< 3N + 1 [m]
+  VectorX udot;  ///< 3N + 1 [m/s]
+};
+
+/// Both bodies of a pair at a state, as values. Of unreduced bodies it takes
+/// memory.
 struct PairMotion {
   joints::PairBody A;
   joints::PairBody B;
+  PairNodes nodes_A;
+  PairNodes nodes_B;
 
   /// Refers to this.
   [[nodiscard]] joints::PairBodies bodies() const { return {A, B}; }
@@ -63,6 +83,11 @@ void apply_pairs(const SystemModel& model, const SystemState& state,
 
 /// @throws NumericalError if its force, energy or dissipation is not finite.
 void check_finite(const joints::PairResponse& response);
+
+/// Whether a pair has points on an unreduced body. NewtonMatrix takes such a
+/// body for the world there, so that corrections have to be exact.
+[[nodiscard]] bool acts_on_nodes(const SystemModel& model,
+                                 const SystemTerms& terms);
 
 /// Adds the residual of a force on B and its reaction on A at a point, rows as
 /// increments of NewtonMatrix.

@@ -9,6 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/full_turn.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
@@ -313,7 +314,7 @@ void GeneralizedAlpha::add_wrench_noise(Roundoff& roundoff) {
 }
 
 void GeneralizedAlpha::correct(bool exactly) {
-  if (exactly) {
+  if (exactly || acts_on_nodes(model_, terms_)) {
     exact_.solve({next_, terms_, vdot_next_, inc_.rotation, coefficients_},
                  residual_, matrix_, x_);
   } else {

@@ -6,18 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/monitors/impact_spectrum.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-Vector3 find_rigid_velocity(const SystemState& state, BodyIndex b,
-                            const Vector3& p_W) {
-  if (b == kWorld) return Vector3::Zero();
-  const BodyState& body = state.bodies[index(b)];
-  const Vector3 w_W = body.quat_WB * body.w_WB_B;
+Vector3 find_rigid_velocity(const joints::PairBody& body, const Vector3& p_W) {
+  const Vector3 w_W = body.R_WB * body.w_WB_B;
   return body.v_WB_W + w_W.cross(p_W - body.p_WB);
 }
 
@@ -35,8 +32,9 @@ ContactLog::ContactLog(const SystemModel& model, IntegratorKind scheme)
 double ContactLog::find_approach(const Pair& pair, const SystemState& state,
                                  const Vector3& p_W,
                                  const Vector3& normal_W) const {
-  return normal_W.dot(find_rigid_velocity(state, pair.body_A, p_W) -
-                      find_rigid_velocity(state, pair.body_B, p_W));
+  const PairMotion motion = find_pair_motion(model_, pair, state);
+  return normal_W.dot(find_rigid_velocity(motion.A, p_W) -
+                      find_rigid_velocity(motion.B, p_W));
 }
 
 void ContactLog::begin(std::size_t i, const SystemState& state,
@@ -52,7 +50,6 @@ void ContactLog::begin(std::size_t i, const SystemState& state,
   if (record.touches > 0) finished_.push_back(record);
   const Pair& of = model_.pairs[touches.pair_of(i)];
   const joints::PairTouch touch = touches.find_touch(i, state);
-  pair.normal_W = touch.normal_W;
   pair.longest_step = 0.0;
   record = {.pair = of.name, .time = state.t, .touches = 1};
   record.impact_duration = touches.impact_duration(i);
@@ -87,7 +84,7 @@ void ContactLog::include(std::size_t i, const SystemState& state,
   pair.left = state.t;
   const joints::PairTouch touch = touches.find_touch(i, state);
   record.parting_speed = -find_approach(model_.pairs[touches.pair_of(i)], state,
-                                        touch.p_W, pair.normal_W);
+                                        touch.p_W, touch.normal_W);
 }
 
 void ContactLog::include(const SystemState& state, TouchWatch& touches) {

@@ -14,16 +14,15 @@ namespace limber::dynamics {
 /// Of a pair, between its first and its last touch.
 struct OngoingContact {
   bool is_touching = false;
-  double force = 0.0;                  ///< normal, at the last state [N]
-  double left = 0.0;                   ///< time of the last leave [s]
-  Vector3 normal_W = Vector3::Zero();  ///< at the first touch [-]
-  double longest_step = 0.0;           ///< in which it touched [s]
-  ContactRecord record = {};           ///< of no touches: there is none
+  double force = 0.0;         ///< normal, at the last state [N]
+  double left = 0.0;          ///< time of the last leave [s]
+  double longest_step = 0.0;  ///< in which it touched [s]
+  ContactRecord record = {};  ///< of no touches: there is none
 };
 
 constexpr auto fields_of(const OngoingContact*) {
   return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
-                     "normal_W", "longest step [s]", "record");
+                     "longest step [s]", "record");
 }
 
 /// Records every impact from the ends of all accepted steps.

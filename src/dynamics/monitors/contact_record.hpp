@@ -25,9 +25,9 @@ struct ContactRecord {
   bool has_parted = false;       ///< false: they touch at the end
   double impact_duration = 0.0;  ///< T_c of a free impact, expected [s]
 
-  /// Of both bodies' rigid motions, along the normal of the first touch: what
-  /// vibrates does not count [-]. None while they touch at the end, or where
-  /// they did not approach each other.
+  /// Of both bodies' rigid motions, along the normals where they first touched
+  /// and last left each other: what vibrates does not count [-]. None while
+  /// they touch at the end, or where they did not approach each other.
   [[nodiscard]] std::optional<double> restitution() const {
     if (!has_parted || !(touch_speed > 0.0)) return std::nullopt;
     return parting_speed / touch_speed;

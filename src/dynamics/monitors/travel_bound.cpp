@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
 
 namespace limber::dynamics {
 
@@ -19,10 +19,14 @@ void TravelBound::include(BodyIndex body, const joints::TouchReach& reach) {
   if (body == kWorld) return;
   Reach& all = reaches_[index(body)];
   all.is_member = true;
+  const Eigen::Index count = reach.modes.size();
+  // Of an unreduced body, how far its surface goes per displacement of a node.
+  if (count > 0 && count != all.modes.size()) {
+    all.extent = std::max(all.extent, reach.modes[count - 1]);
+    return;
+  }
   all.extent = std::max(all.extent, reach.extent);
-  if (reach.modes.size() == 0) return;
-  LIMBER_EXPECT(reach.modes.size() == all.modes.size());
-  all.modes = all.modes.cwiseMax(reach.modes);
+  if (count > 0) all.modes = all.modes.cwiseMax(reach.modes);
 }
 
 void TravelBound::find_speeds(const SystemModel& model,
@@ -32,6 +36,12 @@ void TravelBound::find_speeds(const SystemModel& model,
     const Reach& reach = reaches_[b];
     speeds[b] = 0.0;
     if (!reach.is_member) continue;
+    if (const int f = model.bodies[b].full; f >= 0) {
+      const FullModel& full = model.full_bodies[index(f)];
+      speeds[b] = reach.extent *
+                  nodes_of(full, state.udot_H).colwise().norm().maxCoeff();
+      continue;
+    }
     const BodyState& body = state.bodies[b];
     double extent = reach.extent;
     double speed = body.v_WB_W.norm();

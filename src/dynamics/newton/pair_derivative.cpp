@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <span>
+#include <vector>
+
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/newton/body_increment.hpp"
@@ -14,6 +17,19 @@ ResidualDerivative::PlaceChange ResidualDerivative::change_place(
   PlaceChange change;
   if (b == kWorld) return change;
   const BodyModel& body = model_.bodies[index(b)];
+  if (body.full >= 0) {
+    const FullModel& full = model_.full_bodies[index(body.full)];
+    const Matrix3 R_BH = terms_->full[index(body.full)].frame.R_HB.transpose();
+    const double* u = x.data() + first_node_row(model_) + full.first;
+    Vector3 moved = Vector3::Zero();
+    for (Eigen::Index n = 0; n < full.mesh->node_count(); ++n) {
+      const Eigen::Map<const Vector3> d_u(u + 3 * n);
+      moved += place.Phi_B.middleCols<3>(3 * n) * (R_BH * d_u);
+    }
+    change.p = terms_->pairs.bodies[index(b)].R_WB * moved;
+    change.v = c_.velocity * change.p;
+    return change;
+  }
   const BodyIncrement d(body, index(b), x);
   const Matrix3& R = terms_->bodies[index(b)].R_WB;
   const Vector3& w = state_->bodies[index(b)].w_WB_B;
@@ -38,6 +54,20 @@ void ResidualDerivative::change_force(
     const VectorX& x, VectorX& r) const {
   if (b == kWorld) return;
   const BodyModel& body = model_.bodies[index(b)];
+  if (body.full >= 0) {
+    const FullModel& full = model_.full_bodies[index(body.full)];
+    const Matrix3& R_HB = terms_->full[index(body.full)].frame.R_HB;
+    const Vector3 d_force_B =
+        terms_->pairs.bodies[index(b)].R_WB.transpose() * d_force;
+    double* rows = r.data() + first_node_row(model_) + full.first;
+    for (Eigen::Index n = 0; n < full.mesh->node_count(); ++n) {
+      if (full.mesh->held[static_cast<std::size_t>(n)] != 0) continue;
+      const Vector3 share =
+          place.Phi_B.middleCols<3>(3 * n).transpose() * d_force_B;
+      Eigen::Map<Vector3>(rows + 3 * n) -= R_HB * share;
+    }
+    return;
+  }
   const BodyIncrement d(body, index(b), x);
   const Matrix3 R_BW = terms_->bodies[index(b)].R_WB.transpose();
   const Vector3 force_B = R_BW * force;
@@ -49,22 +79,58 @@ void ResidualDerivative::change_force(
   r.segment<3>(row + 3) -= d_arm_B.cross(force_B) + arm_B.cross(d_force_B);
 }
 
-// Arms and axes that turn with a constant force, and the dampers' velocities
-// less those that NewtonMatrix takes for them.
+// Arms and axes that turn with a constant force, the dampers' velocities less
+// those that NewtonMatrix takes for them, and all motion of unreduced bodies,
+// which it takes for the world.
 void ResidualDerivative::change_pairs(const VectorX& x, VectorX& r) const {
+  const auto is_full = [this](BodyIndex b) {
+    return b != kWorld && model_.bodies[index(b)].full >= 0;
+  };
+  std::vector<PlaceChange> A;
+  std::vector<PlaceChange> B;
   for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
     const Pair& pair = model_.pairs[i];
-    for (const joints::PairPoint& point : terms_->pairs.responses[i].points()) {
-      const PlaceChange A =
-          change_place(pair.body_A, point.on_A, point.acting.A, x);
-      const PlaceChange B =
-          change_place(pair.body_B, point.on_B, point.acting.B, x);
-      const Vector3 d_force =
-          -point.damping * ((B.v - A.v) - c_.velocity * (B.p - A.p));
-      change_force(pair.body_A, point.on_A, point.acting.A, A.arm_B,
-                   -point.force_W, -d_force, x, r);
-      change_force(pair.body_B, point.on_B, point.acting.B, B.arm_B,
-                   point.force_W, d_force, x, r);
+    const joints::PairResponse& response = terms_->pairs.responses[i];
+    const std::span<const joints::PairPoint> points = response.points();
+    A.clear();
+    B.clear();
+    for (const joints::PairPoint& point : points) {
+      A.push_back(change_place(pair.body_A, point.on_A, point.acting.A, x));
+      B.push_back(change_place(pair.body_B, point.on_B, point.acting.B, x));
+    }
+    const bool full_A = is_full(pair.body_A);
+    const bool full_B = is_full(pair.body_B);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const joints::PairPoint& point = points[k];
+      const auto change_by = [&](bool by_full) {
+        Vector3 change = Vector3::Zero();
+        for (std::size_t j = 0; j < points.size(); ++j) {
+          Vector3 moved = Vector3::Zero();
+          if (full_B == by_full) moved += B[j].p;
+          if (full_A == by_full) moved -= A[j].p;
+          if (j == k) {
+            change -= (point.stiffness + c_.velocity * point.damping) * moved;
+          } else if (response.is_coupled()) {
+            change -= response.coupling(k, j) * moved;
+          }
+        }
+        return change;
+      };
+      const Vector3 by_dampers =
+          -point.damping *
+          ((B[k].v - A[k].v) - c_.velocity * (B[k].p - A[k].p));
+      Vector3 d_reduced = by_dampers;
+      Vector3 d_full = by_dampers;
+      if (full_A || full_B) {
+        d_reduced += change_by(true);
+        d_full += change_by(true) + change_by(false);
+      }
+      const Vector3& d_A = full_A ? d_full : d_reduced;
+      const Vector3& d_B = full_B ? d_full : d_reduced;
+      change_force(pair.body_A, point.on_A, point.acting.A, A[k].arm_B,
+                   -point.force_W, -d_A, x, r);
+      change_force(pair.body_B, point.on_B, point.acting.B, B[k].arm_B,
+                   point.force_W, d_B, x, r);
     }
   }
 }

@@ -62,11 +62,16 @@ bool PairTangents::knows(const SystemTerms& terms) const {
   return true;
 }
 
+// Unreduced bodies count as the world: ResidualDerivative has their motion.
 std::vector<BodyPair> PairTangents::active(const SystemModel& model) const {
   std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     if (counts_[i] == 0) continue;
-    pairs.emplace_back(model.pairs[i].body_A, model.pairs[i].body_B);
+    const auto find_kept = [&](BodyIndex b) {
+      return b != kWorld && model.bodies[index(b)].full >= 0 ? kWorld : b;
+    };
+    pairs.emplace_back(find_kept(model.pairs[i].body_A),
+                       find_kept(model.pairs[i].body_B));
   }
   return pairs;
 }
@@ -77,7 +82,7 @@ void PairTangents::fill(const SystemModel& model, const Pair& pair, bool is_A,
                         double velocity, const LuPlan& plan, Columns& columns) {
   const BodyIndex b = is_A ? pair.body_A : pair.body_B;
   columns.blocks = 0;
-  if (b == kWorld) return;
+  if (b == kWorld || model.bodies[index(b)].full >= 0) return;
   const KeptBody& kept = plan.kept[index(plan.kept_of_body[index(b)])];
   columns.first = kept.first;
   columns.blocks = kept.blocks;

@@ -387,21 +387,11 @@ void check_controller(const std::string& what,
 }
 
 void check_pair_bodies(const std::string& what, BodyIndex body_A,
-                       BodyIndex body_B, const SystemModel& model) {
-  if (body_A == body_B) {
-    throw InputError(fmt::format(
-        "{}: both of its bodies are {}; expected two different ones", what,
-        body_A == kWorld ? "the world" : "the same"));
-  }
-  for (const BodyIndex b : {body_A, body_B}) {
-    if (b == kWorld) continue;
-    const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
-    if (body.full < 0) continue;
-    throw InputError(fmt::format(
-        "{}: body '{}' is at level full, on which pairs cannot act; take level "
-        "coupled",
-        what, body.name));
-  }
+                       BodyIndex body_B) {
+  if (body_A != body_B) return;
+  throw InputError(
+      fmt::format("{}: both of its bodies are {}; expected two different ones",
+                  what, body_A == kWorld ? "the world" : "the same"));
 }
 
 void check_nodal_load(const std::string& what,

@@ -76,9 +76,9 @@ void check_joint_sum(const std::string& what, const JointSum& sum,
 void check_controller(const std::string& what,
                       const ControllerModel& controller,
                       const SystemModel& model);
-/// Two different bodies, none of them at level `full`.
+/// Two different bodies.
 void check_pair_bodies(const std::string& what, BodyIndex body_A,
-                       BodyIndex body_B, const SystemModel& model);
+                       BodyIndex body_B);
 
 /// @param modes of the body
 void check_nodal_load(const std::string& what,

@@ -272,12 +272,16 @@ PairIndex SystemBuilder::add_pair(
     std::shared_ptr<const joints::PairInteraction> law) {
   const std::string what = names_.check("pair", name);
   LIMBER_EXPECT(law != nullptr);
-  const auto modes_of = [&](BodyIndex body) {
-    return body == kWorld ? 0 : find_body(what, body).modes;
+  const auto coordinates_of = [&](BodyIndex body) {
+    if (body == kWorld) return 0;
+    const BodyModel& known = find_body(what, body);
+    if (known.full < 0) return known.modes;
+    return static_cast<int>(
+        model_.full_bodies[static_cast<std::size_t>(known.full)].dofs() + 1);
   };
-  const int modes_A = modes_of(body_A);
-  const int modes_B = modes_of(body_B);
-  check_pair_bodies(what, body_A, body_B, model_);
+  const int modes_A = coordinates_of(body_A);
+  const int modes_B = coordinates_of(body_B);
+  check_pair_bodies(what, body_A, body_B);
   for (const BodyIndex body : {body_A, body_B}) {
     if (body != kWorld) refuse_nonlinear(what, find_body(what, body), "pairs");
   }
@@ -285,6 +289,12 @@ PairIndex SystemBuilder::add_pair(
     law->check(modes_A, modes_B);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", what, error.what()));
+  }
+  for (const BodyIndex body : {body_A, body_B}) {
+    if (body == kWorld) continue;
+    const int full = model_.bodies[static_cast<std::size_t>(body)].full;
+    if (full < 0) continue;
+    model_.full_bodies[static_cast<std::size_t>(full)].needs_frame = true;
   }
   names_.add("pair", name);
   const std::size_t first = model_.pair_memory_size;

@@ -25,14 +25,25 @@ double find_mass(const BodyPlan& plan) {
   return plan.is_world ? kFixed : plan.mass;
 }
 
-/// @throws InputError if the body has no such surface, or it is empty.
-const flexbody::ContactSurface& find_surface(const flexbody::ReducedBody& body,
-                                             const std::string& name) {
+const flexbody::ContactSurface& bare_surface(
+    const flexbody::ContactSurface& surface) {
+  return surface;
+}
+const flexbody::ContactSurface& bare_surface(
+    const flexbody::FullContactSurface& surface) {
+  return surface.surface;
+}
+
+/// @tparam Surface of a reduced body, or of a whole one
+/// @throws InputError if there is no such surface, or it is empty.
+template <typename Surface>
+const Surface& find_surface(const std::vector<Surface>& surfaces,
+                            const std::string& name) {
   std::vector<std::string> known;
-  for (const flexbody::ContactSurface& surface : body.contact_surfaces) {
-    known.push_back(surface.name);
-    if (surface.name != name) continue;
-    if (!surface.faces.empty()) return surface;
+  for (const Surface& surface : surfaces) {
+    known.push_back(bare_surface(surface).name);
+    if (known.back() != name) continue;
+    if (!bare_surface(surface).faces.empty()) return surface;
     throw InputError(fmt::format("surface '{}' has no faces", name));
   }
   throw InputError(describe_unknown("surface", name, known) +
@@ -73,7 +84,7 @@ void check_levels(const Scene& scene) {
       if (side.is_obstacle) continue;
       const Link& link = scene.robot.links[side.index];
       const dynamics::Fidelity level = scene.scenario.level_of(link.name);
-      if (!link.flexible || level < dynamics::Fidelity::nonlinear) continue;
+      if (!link.flexible || level != dynamics::Fidelity::nonlinear) continue;
       throw InputError(fmt::format(
           "{}: link '{}' is at level '{}', which contacts do not support yet; "
           "choose 'coupled' for it",
@@ -163,11 +174,21 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
 // At level `rigid` there are no modes, nor what they leave out.
 std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     const BodyPlan& plan, const std::string& surface) {
-  const bool is_rigid =
-      scene_.scenario.level_of(plan.name) == dynamics::Fidelity::rigid;
-  auto& skin = skins_[{plan.reduced.get(), surface, is_rigid}];
+  using dynamics::Fidelity;
+  const bool is_rigid = scene_.scenario.level_of(plan.name) == Fidelity::rigid;
+  const Fidelity level = plan.full  ? Fidelity::full
+                         : is_rigid ? Fidelity::rigid
+                                    : Fidelity::coupled;
+  auto& skin = skins_[{plan.reduced.get(), surface, level}];
   if (skin) return skin;
-  flexbody::ContactSurface copy = find_surface(*plan.reduced, surface);
+  if (plan.full) {
+    skin = std::make_shared<const contact::Skin>(
+        find_surface(flexbody::find_contact_surfaces(*plan.full), surface),
+        plan.full->node_count());
+    return skin;
+  }
+  flexbody::ContactSurface copy =
+      find_surface(plan.reduced->contact_surfaces, surface);
   if (is_rigid) {
     copy.Phi_B.resize(copy.Phi_B.rows(), 0);
     copy.residual.setZero();

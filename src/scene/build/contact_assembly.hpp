@@ -53,9 +53,11 @@ class ContactAssembly {
   const AttachmentSites& sites_;
   dynamics::SystemBuilder& builder_;
   std::map<Toucher, Sides> sides_;
-  /// By the body's reduction, the surface, and whether modes are left out.
-  std::map<std::tuple<const flexbody::ReducedBody*, std::string, bool>,
-           std::shared_ptr<const contact::Skin>>
+  /// By the body's reduction, the surface, and whether it is rigid, with modes
+  /// or whole.
+  std::map<
+      std::tuple<const flexbody::ReducedBody*, std::string, dynamics::Fidelity>,
+      std::shared_ptr<const contact::Skin>>
       skins_;
 };
 

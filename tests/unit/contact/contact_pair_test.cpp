@@ -271,12 +271,39 @@ TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
   EXPECT_LT(after.p_WB.head<2>().norm(), 1e-12);
 }
 
-TEST(ContactPair, RefusesCylindersOnFaces) {
-  const ContactSide box{Shape{Box{{0.1, 0.1, 0.1}}, {}}, kSteel, 1.0};
-  const ContactSide cylinder{Shape{Cylinder{0.1, 0.1}, {}}, kSteel, 1.0};
-  EXPECT_THROW(ContactPair(box, cylinder, {}), InputError);
-  EXPECT_THROW(ContactPair(cylinder, cylinder, {}), InputError);
-  EXPECT_NO_THROW(ContactPair(cylinder, ball_side(), {}));
+// On its rim, 30 degrees off, without friction: only the normal impulse at the
+// rim acts, and its point parts with e times its approach.
+TEST(ContactPair, LetsACylinderLeapOffItsRimAsRestitutionSays) {
+  const double mass = 1.0;
+  const double inertia = 1e-3;
+  SystemBuilder builder;
+  const auto rod =
+      builder.add_rigid_body("rod", {mass, inertia * Matrix3::Identity()});
+  builder.add_pair(
+      "table/rod", kWorld, rod,
+      std::make_shared<ContactPair>(
+          ContactSide{Shape{Box{{0.5, 0.5, 0.1}},
+                            Pose{Matrix3::Identity(), {0.0, 0.0, -0.1}}},
+                      kSteel, kInfinity},
+          ContactSide{Shape{Cylinder{0.03, 0.05}, {}}, kSteel, mass},
+          ContactParameters{.restitution = 0.5}));
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  dynamics::BodyState& body = scene.state.bodies[0];
+  const double tilt = kPi / 6.0;
+  body.quat_WB = Quaternion(Eigen::AngleAxisd(tilt, Vector3::UnitY()));
+  const double lowest = 0.05 * std::cos(tilt) + 0.03 * std::sin(tilt);
+  const double arm = 0.03 * std::cos(tilt) - 0.05 * std::sin(tilt);
+  body.p_WB.z() = lowest + 1e-6;
+  body.v_WB_W.z() = -1.0;
+  const RunRecord record = run(scene, {.end_time = 4e-4, .step = 2e-7});
+  ASSERT_EQ(record.contacts.size(), 1U);
+  EXPECT_EQ(record.contacts[0].touches, 1);
+  EXPECT_NEAR(*record.contacts[0].restitution(), 0.5, 3e-3);
+  // J = (1 + e) v / (1/m + arm^2 / I)
+  const double impulse = 1.5 / (1.0 / mass + arm * arm / inertia);
+  EXPECT_NEAR(record.contacts[0].impulse / impulse, 1.0, 3e-3);
+  EXPECT_NEAR(scene.state.bodies[0].v_WB_W.z(), impulse / mass - 1.0, 3e-3);
 }
 
 // A block of 1 kg on a slope of 10 degrees, held by mu = 0.3.

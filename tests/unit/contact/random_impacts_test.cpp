@@ -65,8 +65,8 @@ Shape draw_shape(Draw& draw, int kind, double size) {
   }
 }
 
-// A ball flies at a body of any shape, which turns.
-Impact draw_impact(unsigned seed) {
+// A ball, or a body of any shape, flies at another, which turns.
+Impact draw_impact(unsigned seed, bool strikes_with_ball) {
   Draw draw(seed);
   Impact out;
   const int kind = static_cast<int>(draw.between(0.0, 4.0));
@@ -85,9 +85,14 @@ Impact draw_impact(unsigned seed) {
   const auto ball = builder.add_rigid_body(
       "ball",
       {ball_mass, 0.4 * ball_mass * radius * radius * Matrix3::Identity()});
+  const Shape struck = draw_shape(draw, kind, size);
+  const int striker = static_cast<int>(draw.between(1.0, 4.0));
   const auto contact = std::make_shared<ContactPair>(
-      ContactSide{draw_shape(draw, kind, size), soft, mass},
-      ContactSide{Shape{Sphere{radius}, {}}, soft, ball_mass}, parameters);
+      ContactSide{struck, soft, mass},
+      ContactSide{strikes_with_ball ? Shape{Sphere{radius}, {}}
+                                    : draw_shape(draw, striker, radius),
+                  soft, ball_mass},
+      parameters);
   builder.add_pair("body/ball", body, ball, contact);
   out.model = builder.build();
   out.state = make_state(out.model);
@@ -100,10 +105,10 @@ Impact draw_impact(unsigned seed) {
   const double duration =
       3.218 * std::pow(reduced * reduced / (k * k * speed), 0.2);
   out.step = duration * draw.log_between(0.01, 30.0);
-  out.time = 10.0 * out.step + 10.0 * duration;
+  out.time = 20.0 * out.step + 10.0 * duration;
   // Beyond the largest extent of any shape above, then as near as the ball
   // flies in five steps.
-  double distance = 4.0 * size + radius + 5.0 * speed * out.step;
+  double distance = 4.0 * (size + radius) + 5.0 * speed * out.step;
   for (int i = 0; i < 100; ++i) {
     joints::PairBody target;
     joints::PairBody flying;
@@ -114,21 +119,21 @@ Impact draw_impact(unsigned seed) {
   out.state.bodies[1].p_WB = distance * way;
   out.state.bodies[1].v_WB_W = -speed * way;
   out.words = fmt::format(
-      "seed {}: kind {}, size {:.3g}, radius {:.3g}, masses {:.3g} {:.3g}, "
+      "seed {}: kinds {} {}, size {:.3g}, radius {:.3g}, masses {:.3g} {:.3g}, "
       "speed {:.3g}, e {:.3g}, step {:.3g} of {:.3g}",
-      seed, kind, size, radius, mass, ball_mass, speed, parameters.restitution,
-      out.step, duration);
+      seed, kind, strikes_with_ball ? 0 : striker, size, radius, mass,
+      ball_mass, speed, parameters.restitution, out.step, duration);
   return out;
 }
 
-class RandomImpact : public ::testing::TestWithParam<unsigned> {};
-
-// Steps of up to thirty durations: at most a twentieth is refused in words,
-// where the ball would pass through the body or spin by radians a step.
-TEST_P(RandomImpact, GainsNoEnergyKeepsMomentumAndIsNotMissed) {
+// Steps of up to thirty durations. Some are refused in words: where a body
+// would pass through the other or spin by radians a step, and where edges slide
+// on rims, on which Newton's method may fail.
+void expect_good_impacts(unsigned hundred, bool strike_with_ball,
+                         int most_refused) {
   int refused = 0;
   for (unsigned i = 0; i < 100; ++i) {
-    Impact impact = draw_impact(100 * GetParam() + i);
+    Impact impact = draw_impact(100 * hundred + i, strike_with_ball);
     const double before = calc_energy(impact.model, impact.state).total();
     const auto momentum = [&] {
       Vector3 sum = Vector3::Zero();
@@ -154,7 +159,17 @@ TEST_P(RandomImpact, GainsNoEnergyKeepsMomentumAndIsNotMissed) {
     EXPECT_LT((momentum() - p).norm(), 1e-9 * p.norm()) << impact.words;
     EXPECT_FALSE(record.contacts.empty()) << impact.words;
   }
-  EXPECT_LE(refused, 5);
+  EXPECT_LE(refused, most_refused);
+}
+
+class RandomImpact : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomImpact, OfABallGainsNoEnergyKeepsMomentumAndIsNotMissed) {
+  expect_good_impacts(GetParam(), true, 5);
+}
+
+TEST_P(RandomImpact, OfTwoBodiesGainsNoEnergyKeepsMomentumAndIsNotMissed) {
+  expect_good_impacts(GetParam(), false, 15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of100, RandomImpact, ::testing::Range(0U, 10U));

@@ -332,23 +332,24 @@ TEST_F(TouchingBody, HasNoResidualFlexibilityAtLevelRigid) {
   EXPECT_EQ(describe_pairs("rigid"), rigid);
 }
 
-TEST_F(TouchingBody, IsRefusedWithAShapeThatHasNoRule) {
+TEST_F(TouchingBody, MayTouchACylinder) {
   EXPECT_THAT(
-      error_of(Vector3(0.0, 0.0, 2.0), "",
-               "[[obstacle]]\nname = 'wall'\nshape = 'cylinder'\nradius = "
-               "1.0\nlength = 1.0\nposition = [9.0, 0.0, 0.0]\n" +
-                   contact("body", "wall")),
-      AllOf(HasSubstr("between 'body' and 'wall'"),
-            HasSubstr("there is no rule for")));
+      pair_names(build(Vector3(0.0, 0.0, 2.0), "",
+                       "[[obstacle]]\nname = 'post'\nshape = 'cylinder'\n"
+                       "radius = 1.0\nlength = 1.0\nposition = [9.0, 0.0, "
+                       "0.0]\n" +
+                           contact("body", "post"))),
+      ElementsAre("body/ball", "body/post"));
 }
 
-TEST_F(TouchingBody, IsRefusedAtLevelFull) {
-  EXPECT_THAT(error_of(Vector3(0.0, 0.0, 2.0), "",
-                       "[fidelity]\nlinks = { body = 'full' }\n"),
-              AllOf(HasSubstr("scenario.toml: [[contact]] 1 between 'body' and "
-                              "'ball'"),
-                    HasSubstr("link 'body' is at level 'full', which contacts "
-                              "do not support yet; choose 'coupled'")));
+TEST_F(TouchingBody, IsRefusedAtLevelNonlinear) {
+  EXPECT_THAT(
+      error_of(Vector3(0.0, 0.0, 2.0), "",
+               "[fidelity]\nlinks = { body = 'nonlinear' }\n"),
+      AllOf(HasSubstr("scenario.toml: [[contact]] 1 between 'body' and "
+                      "'ball'"),
+            HasSubstr("link 'body' is at level 'nonlinear', which "
+                      "contacts do not support yet; choose 'coupled'")));
 }
 
 TEST_F(TouchingBody, IsRefusedWithASurfaceThatItDoesNotHave) {
