@@ -110,6 +110,16 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
   return made;
 }
 
+Matrix3X integrate(const fem::SparseMatrix& M_s, const MatrixX& Theta) {
+  const VectorX mass =
+      M_s.selfadjointView<Eigen::Lower>() * VectorX::Ones(M_s.cols());
+  Matrix3X P(3, Theta.cols());
+  for (Eigen::Index pair = 0; pair < Theta.cols(); ++pair) {
+    P.col(pair) = Theta.col(pair).reshaped(3, mass.size()) * mass;
+  }
+  return P;
+}
+
 void add_second_order(const fem::Mesh& mesh, const Interface& interface,
                       const std::vector<int>& paired, const MatrixX& Phi,
                       const MatrixX& Theta, InterfaceTable& table) {

@@ -36,6 +36,11 @@ struct ManifoldFields {
     const MeshedBody& body, const Recipe& recipe, const MatrixX& Phi,
     const VectorX& lambda, const Vector3& center, const Progress& progress);
 
+/// int theta dm of every pair, 3 x pairs [m^-1]: what gravity does to a clamped
+/// body's products of modes. @param M_s scalar mass of all nodes [kg]
+[[nodiscard]] Matrix3X integrate(const fem::SparseMatrix& M_s,
+                                 const MatrixX& Theta);
+
 /// Second-order tables Phi2_B and Psi2_B of an interface.
 ///
 /// Equation   Phi2_ij = sum w theta_ij; A Psi2_ij = axial(G_ij - [psi_i] G_j -

@@ -31,9 +31,17 @@ void add_tables(const std::vector<Interface>& interfaces,
   }
 }
 
-void add_manifold(const MeshedBody& meshed, const Recipe& recipe,
-                  const MatrixX& Phi, const Progress& progress,
-                  ReducedBody& body) {
+// Columns of the modes, then of their products (mode_products.hpp).
+MatrixX join(const MatrixX& Phi, const MatrixX& Theta) {
+  MatrixX joined(Phi.rows(), Phi.cols() + Theta.cols());
+  joined << Phi, Theta;
+  return joined;
+}
+
+// @returns theta at all nodes, 3N x pairs
+MatrixX add_manifold(const MeshedBody& meshed, const Recipe& recipe,
+                     const MatrixX& Phi, const Progress& progress,
+                     ReducedBody& body) {
   const fem::Mesh& mesh = meshed.mesh;
   ManifoldFields made =
       make_manifold(meshed, recipe, Phi, body.lambda, body.p_MoBcm_M, progress);
@@ -43,7 +51,12 @@ void add_manifold(const MeshedBody& meshed, const Recipe& recipe,
     add_second_order(mesh, meshed.interfaces[i], made.tables.paired, Phi,
                      made.Theta, body.interfaces[i]);
   }
+  if (body.clamped) {
+    body.integrals.P =
+        join(body.integrals.P, integrate(meshed.M_s, made.Theta));
+  }
   body.manifold = std::move(made.tables);
+  return std::move(made.Theta);
 }
 
 ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
@@ -81,13 +94,16 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();
   keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
   add_tables(meshed.interfaces, modes, Phi, body);
-  if (recipe.manifold) add_manifold(meshed, recipe, Phi, progress, body);
+  MatrixX Theta(Phi.rows(), 0);
+  if (recipe.manifold) {
+    Theta = add_manifold(meshed, recipe, Phi, progress, body);
+  }
   if (recipe.stress) {
     report(progress, "stress modes", 0.0);
     body.stress = make_stress_modes(mesh, recipe, meshed.interfaces, Phi);
   }
-  body.contact_surfaces = make_contact_surfaces(meshed, recipe, basis, Phi,
-                                                inertia.center, progress);
+  body.contact_surfaces = make_contact_surfaces(
+      meshed, recipe, basis, join(Phi, Theta), inertia.center, progress);
   report(progress, "reduced", 1.0);
   return body;
 }

@@ -23,6 +23,34 @@ using dynamics::kWorld;
 constexpr int kNodes = 24;
 constexpr int kModes = 8;
 
+// Of all modes but the first, up to `size`.
+flexbody::QuadraticManifold make_manifold(double size) {
+  flexbody::QuadraticManifold manifold;
+  for (int k = 1; k < kModes; ++k) manifold.paired.push_back(k);
+  const auto pairs = flexbody::count_pairs(std::ssize(manifold.paired));
+  const auto made_up = [&](Eigen::Index rows, double phase) {
+    return MatrixX::NullaryExpr(
+        rows, pairs, [phase, size](Eigen::Index i, Eigen::Index j) {
+          return size * std::sin(phase + 1.3 * static_cast<double>(i) +
+                                 2.1 * static_cast<double>(j));
+        });
+  };
+  manifold.Q = 3.0 * made_up(kModes - 1, 0.1);
+  manifold.Theta_B = made_up(3 * kNodes, 0.7);
+  manifold.S2 = made_up(6, 1.9);
+  return manifold;
+}
+
+// Of the mean of three nodes.
+void bend(const flexbody::QuadraticManifold& manifold, int first,
+          flexbody::InterfaceTable& table) {
+  table.Phi2_B = Matrix3X::Zero(3, manifold.Theta_B.cols());
+  table.Psi2_B = table.Phi2_B;
+  for (int n = first; n < first + 3; ++n) {
+    table.Phi2_B += manifold.Theta_B.middleRows<3>(3 * n) / 3.0;
+  }
+}
+
 class Builder {
  public:
   explicit Builder(const PairedBodiesOptions& options) : options_(options) {}
@@ -30,11 +58,13 @@ class Builder {
   BodyIndex add_body(const char* name, double mass, unsigned seed) {
     bodies_.push_back(
         make_point_mass_body(kNodes, kModes, mass, 0.6, 80.0, seed));
-    return builder.add_flexible_body(name, share(bodies_.back()),
-                                     options_.is_flexible
-                                         ? dynamics::Fidelity::coupled
-                                         : dynamics::Fidelity::rigid,
-                                     {});
+    if (options_.is_bent) bodies_.back().reduced.manifold = make_manifold(0.5);
+    return builder.add_flexible_body(
+        name, share(bodies_.back()),
+        options_.is_bent       ? dynamics::Fidelity::nonlinear
+        : options_.is_flexible ? dynamics::Fidelity::coupled
+                               : dynamics::Fidelity::rigid,
+        {});
   }
 
   void join(const std::string& name, BodyIndex A, BodyIndex B, int count) {
@@ -65,8 +95,9 @@ class Builder {
           "w", {Matrix3::Identity(), Vector3(0.1 * i, -0.8, 0.2)});
     }
     const int first = (5 * i) % (kNodes - 3);
-    const flexbody::InterfaceTable table = make_interface(
-        bodies_[static_cast<std::size_t>(body)], first, first + 3);
+    const PointMassBody& masses = bodies_[static_cast<std::size_t>(body)];
+    flexbody::InterfaceTable table = make_interface(masses, first, first + 3);
+    if (options_.is_bent) bend(*masses.reduced.manifold, first, table);
     return builder.attach_interface("p", body, table,
                                     {Matrix3::Identity(), table.p_B});
   }

@@ -14,6 +14,7 @@ namespace limber::testing {
 struct PairedBodiesOptions {
   bool by_pairs = true;  ///< else a coupler a line
   bool is_flexible = true;
+  bool is_bent = false;    ///< flexible, at level nonlinear with made-up tables
   double stiffness = 1e2;  ///< of a line [N/m]
   double damping = 0.0;    ///< of a line [N s/m]
   int lines = 20;          ///< between A and B; half as many between B and C

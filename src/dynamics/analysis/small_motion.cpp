@@ -114,7 +114,7 @@ class Derivatives {
     MatrixX K(body.modes, body.modes);
     flexbody::calc_elastic_tangent(
         body.elasticity, state_.eta.segment(body.offset, body.modes), K);
-    add_interface_stiffness(model_, b, terms_.attachments, K);
+    add_geometric_stiffness(model_, b, terms_, K);
     out_.coupled.push_back({m, std::move(K)});
   }
 

@@ -6,6 +6,7 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -129,14 +130,27 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
   BodyTerms& t = terms.bodies[b];
   const Vector3 force_W = t.R_WB * history.force.col(i);
   Vector3 moment_B = history.moment.col(i);
+  const Eigen::Index first = i * count_coordinates(body);
   for (int k = 0; k < body.modes; ++k) {
     if (is_coupled(body.fidelity)) {
-      moment_B += history.moment_by_mode.col(i * body.modes + k) *
-                  state.eta[body.offset + k];
+      moment_B +=
+          history.moment_by_mode.col(first + k) * state.eta[body.offset + k];
     }
     t.modal_force[k] += history.modal(k, i);
     terms.load_power += history.modal(k, i) * state.etadot[body.offset + k];
   }
+  const double* eta = state.eta.data() + body.offset;
+  const double* etadot = state.etadot.data() + body.offset;
+  flexbody::for_each_product(
+      paired_of(body), [&](Eigen::Index pair, int k, int l, bool is_square) {
+        const double force = history.modal(body.modes + pair, i);
+        terms.products[b].force[pair] += force;
+        moment_B += history.moment_by_mode.col(first + body.modes + pair) *
+                    ((is_square ? 0.5 : 1.0) * eta[k] * eta[l]);
+        terms.load_power +=
+            force * (is_square ? eta[k] * etadot[k]
+                               : eta[k] * etadot[l] + eta[l] * etadot[k]);
+      });
   if (body.clamped) return;
   t.force_W += force_W;
   t.moment_B += moment_B;
@@ -146,7 +160,7 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
 // Gravity deforms a clamped body; it only accelerates a free one.
 void add_gravity_on_modes(const SystemModel& model, const BodyModel& body,
                           const SystemState& state, BodyTerms& t,
-                          SystemTerms& terms) {
+                          ProductTerms& products, SystemTerms& terms) {
   if (model.gravity_W.isZero(0.0)) return;
   const Vector3 gravity_B = t.R_WB.transpose() * model.gravity_W;
   for (int k = 0; k < body.modes; ++k) {
@@ -154,6 +168,16 @@ void add_gravity_on_modes(const SystemModel& model, const BodyModel& body,
     t.modal_force[k] += force;
     terms.load_power += force * state.etadot[body.offset + k];
   }
+  const double* eta = state.eta.data() + body.offset;
+  const double* etadot = state.etadot.data() + body.offset;
+  flexbody::for_each_product(
+      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
+        const double force = body.P.col(body.modes + pair).dot(gravity_B);
+        products.force[pair] += force;
+        terms.load_power +=
+            force * (is_square ? eta[i] * etadot[i]
+                               : eta[i] * etadot[j] + eta[j] * etadot[i]);
+      });
 }
 
 void reset_forces(const SystemModel& model, const SystemState& state,
@@ -170,8 +194,9 @@ void reset_forces(const SystemModel& model, const SystemState& state,
     }
     t.moment_B.setZero();
     t.modal_force.setZero();
+    terms.products[b].force.setZero();
     if (body.clamped && body.modes > 0) {
-      add_gravity_on_modes(model, body, state, t, terms);
+      add_gravity_on_modes(model, body, state, t, terms.products[b], terms);
     }
     if (body.modes > 0) {
       const ConstModes etadot = modes_of(body, state.etadot);
@@ -205,6 +230,8 @@ SystemTerms make_terms(const SystemModel& model) {
     t.scratch_b1 = VectorX::Zero(coupled ? 3 * m : 0);
     t.scratch_b2 = VectorX::Zero(coupled ? 3 * m : 0);
     terms.bodies.push_back(std::move(t));
+    terms.products.push_back(
+        make_product_terms(model, BodyIndex(terms.products.size())));
   }
   for (const FullModel& full : model.full_bodies) {
     const Eigen::Index nodes = full.mesh->node_count();
@@ -277,6 +304,7 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
   for (const BodyLoad& load : model.body_loads) {
     apply_body_load(model, state, load, side, terms);
   }
+  add_product_forces(model, state, terms);
 }
 
 void calc_terms(const SystemModel& model, const SystemState& state, Side side,
@@ -310,6 +338,24 @@ void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
     for (int k = 0; k < body.modes; ++k) etaddot[k] -= t.H.col(k).dot(dw);
   }
   solve_full_accelerations(model, terms, accelerations.uddot_H);
+}
+
+void add_geometric_stiffness(const SystemModel& model, std::size_t body,
+                             const SystemTerms& terms,
+                             Eigen::Ref<MatrixX> stiffness) {
+  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
+    const Attachment& attachment = model.attachments[i];
+    if (!attachment.second || attachment.body != static_cast<int>(body)) {
+      continue;
+    }
+    const Vector6& wrench = terms.attachments[i].wrench_B;
+    flexbody::add_contraction(*attachment.second, wrench.head<3>(),
+                              wrench.tail<3>(), -1.0, stiffness);
+  }
+  if (terms.products[body].force.size() == 0) return;
+  flexbody::add_product_stiffness(paired_of(model.bodies[body]),
+                                  terms.products[body].force.data(), -1.0,
+                                  stiffness);
 }
 
 }  // namespace limber::dynamics

@@ -25,4 +25,11 @@ void calc_terms(const SystemModel& model, const SystemState& state, Side side,
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
                          Accelerations& accelerations);
 
+/// Adds the derivative of minus the modal forces by the modes at level
+/// nonlinear: the geometric stiffness of all that acts on interfaces, points
+/// and nodes, m x m. @param terms with forces
+void add_geometric_stiffness(const SystemModel& model, std::size_t body,
+                             const SystemTerms& terms,
+                             Eigen::Ref<MatrixX> stiffness);
+
 }  // namespace limber::dynamics

@@ -85,20 +85,6 @@ void calc_nodal_attachment(const SystemModel& model,
   motion.w_WF_W = X_WH.R * motion.nodal.w_H;
 }
 
-void add_interface_stiffness(const SystemModel& model, std::size_t body,
-                             const std::vector<AttachmentMotion>& motions,
-                             Eigen::Ref<MatrixX> stiffness) {
-  for (std::size_t i = 0; i < model.attachments.size(); ++i) {
-    const Attachment& attachment = model.attachments[i];
-    if (!attachment.second || attachment.body != static_cast<int>(body)) {
-      continue;
-    }
-    const Vector6& wrench = motions[i].wrench_B;
-    flexbody::add_contraction(*attachment.second, wrench.head<3>(),
-                              wrench.tail<3>(), -1.0, stiffness);
-  }
-}
-
 joints::RelativeMotion relate(const FrameMotion& F, const FrameMotion& M) {
   const Matrix3 R_FW = F.X_WF.R.transpose();
   const Vector3 w_F = R_FW * F.w_WF_W;

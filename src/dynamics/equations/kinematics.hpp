@@ -50,12 +50,6 @@ struct AttachmentMotion {
   return attachment.second ? motion.Psi_B : attachment.Psi_B;
 }
 
-/// Adds the derivative of modal forces by the modes that the wrenches on the
-/// body's interfaces at level nonlinear give: geometric stiffness, m x m.
-void add_interface_stiffness(const SystemModel& model, std::size_t body,
-                             const std::vector<AttachmentMotion>& motions,
-                             Eigen::Ref<MatrixX> stiffness);
-
 /// Fills `motion`; `R_WB` is the body's rotation matrix (not read for world).
 void calc_attachment_motion(const SystemModel& model,
                             const Attachment& attachment,

@@ -6,6 +6,8 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -23,22 +25,6 @@ const BodyModel& find_body(const SystemModel& model, BodyIndex body,
   LIMBER_EXPECT(out.rows() == 3 * found.reduced->rows.x_B.cols());
   LIMBER_EXPECT(out.cols() == std::ssize(states));
   return found;
-}
-
-// Modes whose products move nodes at level nonlinear; of other levels none.
-std::vector<int> find_paired(const BodyModel& body) {
-  if (body.fidelity != Fidelity::nonlinear) return {};
-  return body.reduced->manifold->paired;
-}
-
-// Coordinates of the columns of QuadraticManifold::Theta_B.
-void set_products(const std::vector<int>& paired, const double* eta,
-                  double* out) {
-  for (std::size_t i = 0; i < paired.size(); ++i) {
-    for (std::size_t j = i; j < paired.size(); ++j) {
-      *out++ = (i == j ? 0.5 : 1.0) * eta[paired[i]] * eta[paired[j]];
-    }
-  }
 }
 
 // Modes, and at level nonlinear the columns of their products.
@@ -59,7 +45,6 @@ template <typename Finish>
 void multiply(const BodyModel& body, const MatrixX& basis,
               std::span<const SystemState> states, Eigen::Ref<MatrixX> out,
               const Finish& finish) {
-  const auto paired = find_paired(body);
   MatrixX coordinates = MatrixX::Ones(basis.cols(), kBlock);
   for (Eigen::Index first = 0; first < out.cols(); first += kBlock) {
     const Eigen::Index count = std::min(kBlock, out.cols() - first);
@@ -67,8 +52,8 @@ void multiply(const BodyModel& body, const MatrixX& basis,
       const SystemState& state = states[static_cast<std::size_t>(first + j)];
       coordinates.col(j).head(body.modes) =
           state.eta.segment(body.offset, body.modes);
-      set_products(paired, state.eta.data() + body.offset,
-                   coordinates.col(j).data() + body.modes);
+      flexbody::set_products(paired_of(body), state.eta.data() + body.offset,
+                             coordinates.col(j).data() + body.modes);
     }
     out.middleCols(first, count).noalias() =
         basis * coordinates.leftCols(count);

@@ -8,7 +8,9 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -18,21 +20,37 @@ std::size_t slot_of(BodyIndex body, const PairTerms& terms) {
   return body == kWorld ? terms.bodies.size() - 1 : index(body);
 }
 
+void set_coordinates(const BodyModel& body, const SystemState& state,
+                     ProductTerms& own, joints::PairBody& out) {
+  const double* eta = state.eta.data() + body.offset;
+  const double* etadot = state.etadot.data() + body.offset;
+  out.modes = count_coordinates(body);
+  out.eta = eta;
+  out.etadot = etadot;
+  if (paired_of(body).empty()) return;
+  const int m = body.modes;
+  own.eta.head(m) = state.eta.segment(body.offset, m);
+  own.etadot.head(m) = state.etadot.segment(body.offset, m);
+  flexbody::set_products(paired_of(body), eta, own.eta.data() + m);
+  flexbody::set_product_rates(paired_of(body), eta, etadot,
+                              own.etadot.data() + m);
+  out.eta = own.eta.data();
+  out.etadot = own.etadot.data();
+}
+
 void set_body(const SystemModel& model, const SystemState& state, std::size_t b,
-              const Matrix3& R_WB, joints::PairBody& out) {
+              const Matrix3& R_WB, ProductTerms& own, joints::PairBody& out) {
   const BodyState& rigid = state.bodies[b];
   out.R_WB = R_WB;
   out.p_WB = rigid.p_WB;
   out.v_WB_W = rigid.v_WB_W;
   out.w_WB_B = rigid.w_WB_B;
-  out.modes = model.bodies[b].modes;
-  out.eta = state.eta.data() + model.bodies[b].offset;
-  out.etadot = state.etadot.data() + model.bodies[b].offset;
+  set_coordinates(model.bodies[b], state, own, out);
 }
 
 void set_full_body(const SystemModel& model, const SystemState& state,
-                   std::size_t f, const MeanFrame& frame, VectorX& u,
-                   VectorX& udot, joints::PairBody& out) {
+                   std::size_t f, const MeanFrame& frame, ProductTerms& own,
+                   joints::PairBody& out) {
   const FullModel& full = model.full_bodies[f];
   const Matrix3 R_BH = frame.R_HB.transpose();
   out.R_WB = state.X_WH[f].R * frame.R_HB;
@@ -41,8 +59,6 @@ void set_full_body(const SystemModel& model, const SystemState& state,
   out.w_WB_B = R_BH * frame.w_H;
   const ConstNodes u_H = nodes_of(full, state.u_H);
   const ConstNodes udot_H = nodes_of(full, state.udot_H);
-  u.resize(full.dofs() + 1);
-  udot.resize(full.dofs() + 1);
   double most_u = 0.0;
   double most_udot = 0.0;
   for (Eigen::Index n = 0; n < u_H.cols(); ++n) {
@@ -50,39 +66,30 @@ void set_full_body(const SystemModel& model, const SystemState& state,
     const Vector3 deformed = R_BH * arm_H - full.mesh->x_B.col(n);
     const Vector3 rate =
         R_BH * (udot_H.col(n) - frame.v_H - frame.w_H.cross(arm_H));
-    u.segment<3>(3 * n) = deformed;
-    udot.segment<3>(3 * n) = rate;
+    own.eta.segment<3>(3 * n) = deformed;
+    own.etadot.segment<3>(3 * n) = rate;
     most_u = std::max(most_u, deformed.norm());
     most_udot = std::max(most_udot, rate.norm());
   }
-  u[full.dofs()] = most_u;
-  udot[full.dofs()] = most_udot;
+  own.eta[full.dofs()] = most_u;
+  own.etadot[full.dofs()] = most_udot;
   out.modes = static_cast<int>(full.dofs() + 1);
-  out.eta = u.data();
-  out.etadot = udot.data();
-}
-
-// It has no modes, so that those parts of its terms are free.
-void set_full_body(const SystemModel& model, const SystemState& state,
-                   std::size_t b, SystemTerms& terms) {
-  const std::size_t f = index(model.bodies[b].full);
-  BodyTerms& t = terms.bodies[b];
-  set_full_body(model, state, f, terms.full[f].frame, t.scratch_b1,
-                t.scratch_b2, terms.pairs.bodies[b]);
+  out.eta = own.eta.data();
+  out.etadot = own.etadot.data();
 }
 
 void set_any_body(const SystemModel& model, const SystemState& state,
-                  BodyIndex body, PairNodes& nodes, joints::PairBody& out) {
-  if (body == kWorld) return;
-  const std::size_t b = index(body);
-  if (model.bodies[b].full < 0) {
-    set_body(model, state, b, state.bodies[b].quat_WB.toRotationMatrix(), out);
+                  BodyIndex b, ProductTerms& own, joints::PairBody& out) {
+  if (b == kWorld) return;
+  const int f = model.bodies[index(b)].full;
+  if (f < 0) {
+    set_body(model, state, index(b),
+             state.bodies[index(b)].quat_WB.toRotationMatrix(), own, out);
     return;
   }
-  const std::size_t f = index(model.bodies[b].full);
   MeanFrame frame;
-  calc_mean_frame(model, model.full_bodies[f], state, frame);
-  set_full_body(model, state, f, frame, nodes.u, nodes.udot, out);
+  calc_mean_frame(model, model.full_bodies[index(f)], state, frame);
+  set_full_body(model, state, index(f), frame, own, out);
 }
 
 // f_n = R_HB Phi_n' force_B of each node.
@@ -110,9 +117,8 @@ void add_force(const SystemModel& model, BodyIndex body,
   const Vector3 force_B = t.R_WB.transpose() * force_W;
   t.force_W += force_W;
   t.moment_B += arm_B.cross(force_B);
-  for (int k = 0; k < model.bodies[index(body)].modes; ++k) {
-    t.modal_force[k] += place.Phi_B.col(k).dot(force_B);
-  }
+  add_modal_force(model.bodies[index(body)], place, force_B, t,
+                  terms.products[index(body)]);
 }
 
 void add_body_residual(const SystemModel& model, BodyIndex b,
@@ -132,8 +138,17 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
   }
   const Eigen::Index row = first_row(body, index(b));
   const Vector3 force_B = terms.bodies[index(b)].R_WB.transpose() * force_W;
-  residual.segment(row + 6, body.modes).noalias() -=
-      place.Phi_B.transpose() * force_B;
+  double* modes = residual.data() + row + 6;
+  for (int k = 0; k < body.modes; ++k) {
+    modes[k] -= place.Phi_B.col(k).dot(force_B);
+  }
+  const double* eta = terms.pairs.bodies[index(b)].eta;
+  flexbody::for_each_product(
+      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
+        const double f = place.Phi_B.col(body.modes + pair).dot(force_B);
+        modes[i] -= f * eta[j];
+        if (!is_square) modes[j] -= f * eta[i];
+      });
   if (!body.has_rigid_motion()) return;
   residual.segment<3>(row) -= force_W;
   residual.segment<3>(row + 3) -= arm_B.cross(force_B);
@@ -141,19 +156,69 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
 
 }  // namespace
 
-int count_pair_coordinates(const SystemModel& model, BodyIndex b) {
-  if (b == kWorld) return 0;
-  const BodyModel& body = model.bodies[index(b)];
-  if (body.full < 0) return body.modes;
-  return static_cast<int>(model.full_bodies[index(body.full)].dofs() + 1);
+PairMotion::PairMotion(const SystemModel& model, const Pair& pair) {
+  const auto make = [&](BodyIndex b) {
+    return b == kWorld ? ProductTerms{} : make_product_terms(model, b);
+  };
+  coordinates_A_ = make(pair.body_A);
+  coordinates_B_ = make(pair.body_B);
+}
+
+joints::PairBodies PairMotion::set(const SystemModel& model, const Pair& pair,
+                                   const SystemState& state) {
+  set_any_body(model, state, pair.body_A, coordinates_A_, A_);
+  set_any_body(model, state, pair.body_B, coordinates_B_, B_);
+  return bodies();
 }
 
 PairMotion find_pair_motion(const SystemModel& model, const Pair& pair,
                             const SystemState& state) {
-  PairMotion motion;
-  set_any_body(model, state, pair.body_A, motion.nodes_A, motion.A);
-  set_any_body(model, state, pair.body_B, motion.nodes_B, motion.B);
+  PairMotion motion(model, pair);
+  motion.set(model, pair, state);
   return motion;
+}
+
+void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
+                     const Vector3& force_B, BodyTerms& terms,
+                     ProductTerms& products) {
+  for (int k = 0; k < body.modes; ++k) {
+    terms.modal_force[k] += place.Phi_B.col(k).dot(force_B);
+  }
+  for (Eigen::Index pair = 0; pair < products.force.size(); ++pair) {
+    products.force[pair] += place.Phi_B.col(body.modes + pair).dot(force_B);
+  }
+}
+
+void add_product_forces(const SystemModel& model, const SystemState& state,
+                        SystemTerms& terms) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (terms.products[b].force.size() == 0) continue;
+    const BodyModel& body = model.bodies[b];
+    flexbody::add_product_forces(
+        paired_of(body), terms.products[b].force.data(),
+        state.eta.data() + body.offset, terms.bodies[b].modal_force.data());
+  }
+}
+
+ProductTerms make_product_terms(const SystemModel& model, BodyIndex b) {
+  const BodyModel& body = model.bodies[index(b)];
+  const auto is_in_pair = [b](const Pair& pair) {
+    return pair.body_A == b || pair.body_B == b;
+  };
+  const auto is_loaded = [b](const BodyLoad& load) { return load.body == b; };
+  const bool has_some =
+      body.clamped ||
+      std::any_of(model.pairs.begin(), model.pairs.end(), is_in_pair) ||
+      std::any_of(model.body_loads.begin(), model.body_loads.end(), is_loaded);
+  if (!has_some) return {};
+  if (body.full >= 0) {
+    const Eigen::Index size = count_pair_coordinates(model, b);
+    return {VectorX(), VectorX::Zero(size), VectorX::Zero(size)};
+  }
+  if (paired_of(body).empty()) return {};
+  const int size = count_coordinates(body);
+  return {VectorX::Zero(size - body.modes), VectorX::Zero(size),
+          VectorX::Zero(size)};
 }
 
 joints::PairResponse make_response(const SystemModel& model, const Pair& pair) {
@@ -187,10 +252,13 @@ joints::PairBodies find_bodies(const Pair& pair, const PairTerms& terms) {
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms) {
   for (const std::size_t b : terms.pairs.members) {
-    if (model.bodies[b].full >= 0) {
-      set_full_body(model, state, b, terms);
+    ProductTerms& own = terms.products[b];
+    if (const int f = model.bodies[b].full; f >= 0) {
+      set_full_body(model, state, index(f), terms.full[index(f)].frame, own,
+                    terms.pairs.bodies[b]);
     } else {
-      set_body(model, state, b, terms.bodies[b].R_WB, terms.pairs.bodies[b]);
+      set_body(model, state, b, terms.bodies[b].R_WB, own,
+               terms.pairs.bodies[b]);
     }
   }
 }
@@ -267,6 +335,7 @@ PairCommit::PairCommit(const SystemModel& model) : model_(model) {
     if (model.pairs[i].law->memory_size() == 0) continue;
     pairs_.push_back(i);
     scratch_.push_back(make_response(model, model.pairs[i]));
+    motions_.emplace_back(model, model.pairs[i]);
   }
 }
 
@@ -274,9 +343,8 @@ void PairCommit::operator()(SystemState& state) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (is_far(state, pairs_[i])) continue;
     const Pair& pair = model_.pairs[pairs_[i]];
-    const PairMotion motion = find_pair_motion(model_, pair, state);
-    pair.law->commit(motion.bodies(), state.t, memory_of(pair, state),
-                     scratch_[i]);
+    pair.law->commit(motions_[i].set(model_, pair, state), state.t,
+                     memory_of(pair, state), scratch_[i]);
   }
 }
 

@@ -13,6 +13,8 @@ namespace limber::dynamics {
 
 /// For make_terms.
 [[nodiscard]] PairTerms make_pair_terms(const SystemModel& model);
+[[nodiscard]] ProductTerms make_product_terms(const SystemModel& model,
+                                              BodyIndex body);
 
 /// Both bodies of a pair, as set_pair_bodies left them.
 [[nodiscard]] joints::PairBodies find_bodies(const Pair& pair,
@@ -35,39 +37,36 @@ template <typename State>
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms);
 
-/// Coordinates of a body in joints::PairBody: its modes, of an unreduced one
-/// 3N + 1, of the world none.
-[[nodiscard]] int count_pair_coordinates(const SystemModel& model,
-                                         BodyIndex body);
+/// Both bodies of a pair at a state. Takes its memory when it is made.
+///
+/// Of an unreduced body frame B is the mean-axis frame; eta are the
+/// displacements of all nodes relative to B [m], then the largest of their
+/// magnitudes, which moves nothing; etadot likewise. Forces act on the nodes
+/// alone: where PairPlace::x_B is apart from the surface across the force, the
+/// moment of that arm is left out.
+class PairMotion {
+ public:
+  PairMotion(const SystemModel& model, const Pair& pair);
+  PairMotion(const PairMotion&) = delete;  // it refers to itself
+  PairMotion& operator=(const PairMotion&) = delete;
+  PairMotion(PairMotion&&) = default;
+  PairMotion& operator=(PairMotion&&) = default;
+  ~PairMotion() = default;
 
-/// What joints::PairBody refers to of an unreduced body. Its frame B is the
-/// mean-axis frame; eta are the displacements of all nodes relative to B [m],
-/// then the largest of their magnitudes, which moves nothing; etadot likewise.
-/// Forces act on the nodes alone: where PairPlace::x_B is apart from the
-/// surface across the force, the moment of that arm is left out.
-struct PairNodes {
-  PairNodes() = default;
-  PairNodes(const PairNodes&) = delete;  // it is referred to
-  PairNodes& operator=(const PairNodes&) = delete;
-  PairNodes(PairNodes&&) = default;
-  PairNodes& operator=(PairNodes&&) = default;
-  ~PairNodes() = default;
+  /// Refers to this, and to the coordinates of `state`.
+  joints::PairBodies set(const SystemModel& model, const Pair& pair,
+                         const SystemState& state);
+  /// As they were set.
+  [[nodiscard]] joints::PairBodies bodies() const { return {A_, B_}; }
 
-  VectorX u;     ///< 3N + 1 [m]
-  VectorX udot;  ///< 3N + 1 [m/s]
+ private:
+  joints::PairBody A_;
+  joints::PairBody B_;
+  ProductTerms coordinates_A_;
+  ProductTerms coordinates_B_;
 };
 
-/// Both bodies of a pair at a state, as values. Of unreduced bodies it takes
-/// memory.
-struct PairMotion {
-  joints::PairBody A;
-  joints::PairBody B;
-  PairNodes nodes_A;
-  PairNodes nodes_B;
-
-  /// Refers to this.
-  [[nodiscard]] joints::PairBodies bodies() const { return {A, B}; }
-};
+/// Set to a state.
 [[nodiscard]] PairMotion find_pair_motion(const SystemModel& model,
                                           const Pair& pair,
                                           const SystemState& state);
@@ -80,6 +79,17 @@ struct PairMotion {
 /// @throws NumericalError naming the pair and the time.
 void apply_pairs(const SystemModel& model, const SystemState& state,
                  const Instant& now, SystemTerms& terms);
+
+/// Adds a force on a body at a place to the forces on its modes and on their
+/// products. @param force_B body frame [N]
+void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
+                     const Vector3& force_B, BodyTerms& terms,
+                     ProductTerms& products);
+
+/// Adds what forces on products are on the modes at eta, once all are known.
+/// @param state supplies eta
+void add_product_forces(const SystemModel& model, const SystemState& state,
+                        SystemTerms& terms);
 
 /// @throws NumericalError if its force, energy or dissipation is not finite.
 void check_finite(const joints::PairResponse& response);
@@ -106,6 +116,7 @@ class PairCommit {
   const SystemModel& model_;
   std::vector<std::size_t> pairs_;             // that remember
   std::vector<joints::PairResponse> scratch_;  // one each
+  std::vector<PairMotion> motions_;            // one each
 };
 
 /// @throws NumericalError with the pair's name and the time before the text.

@@ -77,6 +77,18 @@ struct PairTerms {
   std::vector<joints::PairResponse> responses;  ///< one a pair
 };
 
+/// One body's coordinates as pairs see them, where they are not its modes
+/// alone: at level nonlinear with products of modes
+/// (flexbody/model/mode_products.hpp), at level full of nodes (PairMotion). All
+/// empty at other levels, and where nothing acts on points or nodes.
+struct ProductTerms {
+  /// On products, by points, nodal loads and gravity; in modal_force already
+  /// [kg^-1 m^-1 N].
+  VectorX force;
+  VectorX eta;
+  VectorX etadot;
+};
+
 /// Which wrench couplers exert on their bodies.
 enum class WrenchSource { law, iterate };
 
@@ -91,6 +103,7 @@ struct SystemTerms {
   PairTerms pairs;                               ///< by calc_forces
   double load_power = 0.0;  ///< of loads, gravity, drives [W], calc_forces
   double dissipated_power = 0.0;  ///< couplers, pairs, modes [W], calc_forces
+  std::vector<ProductTerms> products;  ///< one a body, by calc_forces
 };
 
 /// Accelerations of all bodies.

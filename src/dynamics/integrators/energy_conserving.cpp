@@ -191,8 +191,7 @@ void EnergyConserving::factor(const SystemState& from) {
     flexbody::calc_elastic_tangent_over_step(
         body.elasticity, modes_of(body, from.eta), modes_of(body, next_.eta),
         mean_.bodies[b].stiffness);
-    add_interface_stiffness(model_, b, mean_.attachments,
-                            mean_.bodies[b].stiffness);
+    add_geometric_stiffness(model_, b, mean_, mean_.bodies[b].stiffness);
   }
   matrix_.factor(model_, middle_, mean_, turns_, coefficients_, false, &end_);
 }

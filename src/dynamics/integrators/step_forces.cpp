@@ -3,8 +3,11 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/integrators/step_pairs.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -177,6 +180,14 @@ void add_to_mode(const Step& step, std::size_t b, int k, double force,
       force * step.middle.etadot[step.model.bodies[b].offset + k];
 }
 
+// Of the product of modes i and j in the middle, on the way.
+double find_product_rate(const Step& step, std::size_t b, int i, int j,
+                         bool is_square) {
+  const double* eta = step.middle.eta.data() + step.model.bodies[b].offset;
+  const double* rate = step.middle.etadot.data() + step.model.bodies[b].offset;
+  return is_square ? eta[i] * rate[i] : eta[i] * rate[j] + eta[j] * rate[i];
+}
+
 void apply_load(const Step& step, const Load& load, SystemTerms& terms) {
   const double factor = evaluate(
       load.function, {step.times.middle(), Side::right, step.times.inputs});
@@ -215,13 +226,22 @@ void apply_body_load(const Step& step, const BodyLoad& load,
   const auto b = index(load.body);
   const BodyModel& body = step.model.bodies[b];
   Vector3 moment_B = history.moment.col(i);
+  const Eigen::Index first = i * count_coordinates(body);
+  const double* eta = step.middle.eta.data() + body.offset;
   for (int k = 0; k < body.modes; ++k) {
     if (is_coupled(body.fidelity)) {
-      moment_B += history.moment_by_mode.col(i * body.modes + k) *
-                  step.middle.eta[body.offset + k];
+      moment_B += history.moment_by_mode.col(first + k) * eta[k];
     }
     add_to_mode(step, b, k, history.modal(k, i), terms);
   }
+  flexbody::for_each_product(
+      paired_of(body), [&](Eigen::Index pair, int k, int l, bool is_square) {
+        const double force = history.modal(body.modes + pair, i);
+        terms.products[b].force[pair] += force;
+        terms.load_power += force * find_product_rate(step, b, k, l, is_square);
+        moment_B += history.moment_by_mode.col(first + body.modes + pair) *
+                    ((is_square ? 0.5 : 1.0) * eta[k] * eta[l]);
+      });
   const Matrix3& R_WB = step.motion.bodies[b].middle_R_WB;
   add_to_body(step, b, R_WB * history.force.col(i), R_WB * moment_B, terms);
 }
@@ -236,12 +256,22 @@ void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
   t.force_W.setZero();
   t.moment_B.setZero();
   t.modal_force.setZero();
+  terms.products[b].force.setZero();
   for (int k = 0; k < body.modes; ++k) {
     const double rate = step.middle.etadot[body.offset + k];
     terms.dissipated_power += body.damping[k] * rate * rate;
     if (!body.clamped) continue;
     const Vector3 P_W = t.R_WB * body.P.col(k);
     add_to_mode(step, b, k, P_W.dot(gravity_W), terms);
+  }
+  if (body.clamped) {
+    const Vector3 gravity_B = t.R_WB.transpose() * gravity_W;
+    flexbody::for_each_product(paired_of(body), [&](Eigen::Index pair, int i,
+                                                    int j, bool is_square) {
+      const double force = body.P.col(body.modes + pair).dot(gravity_B);
+      terms.products[b].force[pair] += force;
+      terms.load_power += force * find_product_rate(step, b, i, j, is_square);
+    });
   }
   add_to_body(step, b, body.mass * gravity_W, Vector3::Zero(), terms);
 }
@@ -296,6 +326,7 @@ void calc_step_forces(const SystemModel& model, const SystemState& begin,
   for (const BodyLoad& load : model.body_loads) {
     apply_body_load(step, load, terms);
   }
+  add_product_forces(model, middle, terms);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     BodyTerms& t = terms.bodies[b];
     t.moment_B = motion.bodies[b].dual_R.transpose() * t.moment_B.eval();

@@ -3,6 +3,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -36,9 +37,18 @@ void set_middle(const SystemModel& model, const SystemState& middle,
                        end_terms.pairs.bodies[b].p_WB);
     body.v_WB_W = motion.bodies[b].v_W;
     body.w_WB_B = middle.bodies[b].w_WB_B;
-    body.modes = model.bodies[b].modes;
+    body.modes = count_coordinates(model.bodies[b]);
     body.eta = middle.eta.data() + model.bodies[b].offset;
     body.etadot = middle.etadot.data() + model.bodies[b].offset;
+    if (paired_of(model.bodies[b]).empty()) continue;
+    // The products' means, and their change over the step.
+    const ProductTerms& first = begin_terms.products[b];
+    const ProductTerms& last = end_terms.products[b];
+    ProductTerms& own = terms.products[b];
+    own.eta = 0.5 * (first.eta + last.eta);
+    own.etadot = (last.eta - first.eta) / motion.h;
+    body.eta = own.eta.data();
+    body.etadot = own.etadot.data();
   }
 }
 
@@ -50,9 +60,8 @@ void add_force(const SystemModel& model, BodyIndex b, const PlaceStep& step,
   t.force_W += force_W;
   t.moment_B += step.arm_W.cross(force_W);
   const Vector3 force_B = motion.bodies[index(b)].dual_R.transpose() * force_W;
-  for (int k = 0; k < model.bodies[index(b)].modes; ++k) {
-    t.modal_force[k] += place.Phi_B.col(k).dot(force_B);
-  }
+  add_modal_force(model.bodies[index(b)], place, force_B, t,
+                  terms.products[index(b)]);
 }
 
 // In the axes that NewtonMatrix takes for those of the body.

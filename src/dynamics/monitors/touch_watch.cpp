@@ -31,16 +31,6 @@ constexpr int kStepsOfCoarseImpact = 3;
 // Way in one step relative to the bodies' size there, at most [-].
 constexpr double kMostWay = 0.25;
 
-double find_speed_bound(const SystemModel& model, const Pair& pair,
-                        const joints::Touching& law, const SystemState& state) {
-  return law.find_speed_bound(find_pair_motion(model, pair, state).bodies());
-}
-
-double find_clearance(const SystemModel& model, const Pair& pair,
-                      const joints::Touching& law, const SystemState& state) {
-  return law.find_clearance(find_pair_motion(model, pair, state).bodies());
-}
-
 }  // namespace
 
 TouchWatch::TouchWatch(const SystemModel& model)
@@ -50,7 +40,8 @@ TouchWatch::TouchWatch(const SystemModel& model)
     if (law == nullptr) continue;
     pairs_.push_back({.pair = p,
                       .law = law,
-                      .scratch = make_response(model, model.pairs[p])});
+                      .scratch = make_response(model, model.pairs[p]),
+                      .motion = PairMotion(model, model.pairs[p])});
     travel_.include(model.pairs[p].body_A, law->find_reach_A());
     travel_.include(model.pairs[p].body_B, law->find_reach_B());
   }
@@ -67,9 +58,22 @@ void TouchWatch::start(SystemState& state, std::vector<Event>& events) {
 
 joints::PairTouch TouchWatch::find_touch(Watched& watched,
                                          const SystemState& state) {
-  const PairMotion motion =
-      find_pair_motion(model_, model_.pairs[watched.pair], state);
-  return watched.law->find_touch(motion.bodies(), watched.scratch);
+  return watched.law->find_touch(set_motion(watched, state), watched.scratch);
+}
+
+joints::PairBodies TouchWatch::set_motion(Watched& watched,
+                                          const SystemState& state) const {
+  return watched.motion.set(model_, model_.pairs[watched.pair], state);
+}
+
+double TouchWatch::find_speed_bound(Watched& watched,
+                                    const SystemState& state) const {
+  return watched.law->find_speed_bound(set_motion(watched, state));
+}
+
+double TouchWatch::find_clearance(Watched& watched,
+                                  const SystemState& state) const {
+  return watched.law->find_clearance(set_motion(watched, state));
 }
 
 joints::PairTouch TouchWatch::find_touch(std::size_t index,
@@ -81,23 +85,20 @@ joints::TouchReading TouchWatch::read(std::size_t index,
                                       const SystemState& state) {
   Watched& watched = pairs_[index];
   const Pair& pair = model_.pairs[watched.pair];
-  return watched.law->read(find_pair_motion(model_, pair, state).bodies(),
-                           now_of(state), memory_of(pair, state),
-                           watched.scratch);
+  return watched.law->read(set_motion(watched, state), now_of(state),
+                           memory_of(pair, state), watched.scratch);
 }
 
 // By conservative advancement.
 std::optional<double> TouchWatch::find_touch_share(Watched& watched,
                                                    const SystemState& before,
                                                    const SystemState& after) {
-  const Pair& pair = model_.pairs[watched.pair];
   const double h = after.t - before.t;
   const double speed =
-      kSpeedMargin *
-      std::max(find_speed_bound(model_, pair, *watched.law, before),
-               find_speed_bound(model_, pair, *watched.law, after));
+      kSpeedMargin * std::max(find_speed_bound(watched, before),
+                              find_speed_bound(watched, after));
   const double reach = speed * h;
-  double clearance = find_clearance(model_, pair, *watched.law, before);
+  double clearance = find_clearance(watched, before);
   if (clearance > reach) return std::nullopt;
   const double none = kNoWay * reach + kLeastWay;
   // The rate where two have just left each other may be that of a feature that
@@ -111,7 +112,7 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
     share += std::max(clearance / reach, least);
     if (share >= 1.0) return std::nullopt;
     interpolate(model_, before, after, share, within_);
-    clearance = find_clearance(model_, pair, *watched.law, within_);
+    clearance = find_clearance(watched, within_);
     // Two that have just left each other are still close.
     const bool overlaps =
         clearance <= 0.0 && find_touch(watched, within_).depth > 0.0;
@@ -178,7 +179,7 @@ bool TouchWatch::is_clear(Watched& watched, const SystemState& before) {
   const double way =
       value_of(ways_, pair.body_A) + value_of(ways_, pair.body_B);
   if (gone + way < watched.look_at) return true;
-  watched.look_at = gone + find_clearance(model_, pair, *watched.law, before);
+  watched.look_at = gone + find_clearance(watched, before);
   return gone + way < watched.look_at;
 }
 
@@ -231,9 +232,7 @@ double TouchWatch::find_excess(std::size_t index, const SystemState& state) {
 
 double TouchWatch::find_tolerance(std::size_t index, const SystemState& state,
                                   double h) {
-  const Watched& watched = pairs_[index];
-  const double speed =
-      find_speed_bound(model_, model_.pairs[watched.pair], *watched.law, state);
+  const double speed = find_speed_bound(pairs_[index], state);
   return 2.0 * kNoWay * kSpeedMargin * speed * h + 2.0 * kLeastWay;
 }
 
@@ -251,9 +250,9 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
   if (!watched.is_touching) return;
   watched.rate = touch.rate;
   watched.steps = 0;
-  watched.impact_duration = watched.law->begin_touch(
-      find_pair_motion(model_, pair, state).bodies(), state.t,
-      memory_of(pair, state), watched.scratch);
+  watched.impact_duration =
+      watched.law->begin_touch(set_motion(watched, state), state.t,
+                               memory_of(pair, state), watched.scratch);
 }
 
 double TouchWatch::find_longest_step(double t) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/monitors/event.hpp"
 #include "limber/dynamics/monitors/travel_bound.hpp"
 #include "limber/dynamics/system/system_state.hpp"
@@ -114,7 +115,14 @@ class TouchWatch {
     double look_at = 0.0;
     bool is_clear = false;  // in the step last searched
     joints::PairResponse scratch;
+    PairMotion motion;
   };
+  [[nodiscard]] joints::PairBodies set_motion(Watched& watched,
+                                              const SystemState& state) const;
+  [[nodiscard]] double find_speed_bound(Watched& watched,
+                                        const SystemState& state) const;
+  [[nodiscard]] double find_clearance(Watched& watched,
+                                      const SystemState& state) const;
   [[nodiscard]] std::optional<double> find_touch_share(
       Watched& watched, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);

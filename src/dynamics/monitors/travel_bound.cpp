@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 
 TravelBound::TravelBound(const SystemModel& model)
     : reaches_(model.bodies.size()), ways_(model.bodies.size(), 0.0) {
   for (std::size_t b = 0; b < reaches_.size(); ++b) {
-    reaches_[b].modes = VectorX::Zero(model.bodies[b].modes);
+    reaches_[b].modes = VectorX::Zero(count_coordinates(model.bodies[b]));
   }
 }
 
@@ -45,11 +48,21 @@ void TravelBound::find_speeds(const SystemModel& model,
     const BodyState& body = state.bodies[b];
     double extent = reach.extent;
     double speed = body.v_WB_W.norm();
-    for (Eigen::Index k = 0; k < reach.modes.size(); ++k) {
-      const Eigen::Index at = model.bodies[b].offset + k;
-      extent += reach.modes[k] * std::abs(state.eta[at]);
-      speed += reach.modes[k] * std::abs(state.etadot[at]);
+    const BodyModel& own = model.bodies[b];
+    const double* eta = state.eta.data() + own.offset;
+    const double* etadot = state.etadot.data() + own.offset;
+    for (int k = 0; k < own.modes; ++k) {
+      extent += reach.modes[k] * std::abs(eta[k]);
+      speed += reach.modes[k] * std::abs(etadot[k]);
     }
+    flexbody::for_each_product(paired_of(own), [&](Eigen::Index pair, int i,
+                                                   int j, bool is_square) {
+      const double largest = reach.modes[own.modes + pair];
+      extent += (is_square ? 0.5 : 1.0) * largest * std::abs(eta[i] * eta[j]);
+      speed += largest *
+               std::abs(is_square ? eta[i] * etadot[i]
+                                  : eta[i] * etadot[j] + eta[j] * etadot[i]);
+    });
     const double turn = body.w_WB_B.norm();
     if (turn > 0.0) speed += turn * extent;  // of a plane it is infinite
     speeds[b] = speed;

@@ -7,6 +7,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {
@@ -19,8 +20,7 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
     flexbody::calc_elastic_tangent(body.elasticity,
                                    state.eta.segment(body.offset, body.modes),
                                    terms.bodies[b].stiffness);
-    add_interface_stiffness(model, b, terms.attachments,
-                            terms.bodies[b].stiffness);
+    add_geometric_stiffness(model, b, terms, terms.bodies[b].stiffness);
   }
 }
 

@@ -7,9 +7,23 @@
 #include "limber/dynamics/newton/body_increment.hpp"
 #include "limber/dynamics/newton/residual_derivative.hpp"
 #include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 /// What ResidualDerivative has of pairs.
 namespace limber::dynamics {
+namespace {
+
+// Of a point by the modes at eta, 3 x m: with their products.
+Matrix3X find_columns(const BodyModel& body, const joints::PairPlace& place,
+                      const double* eta) {
+  Matrix3X columns = place.Phi_B.leftCols(body.modes);
+  flexbody::add_product_columns(
+      paired_of(body), place.Phi_B.rightCols(place.Phi_B.cols() - body.modes),
+      eta, columns);
+  return columns;
+}
+
+}  // namespace
 
 ResidualDerivative::PlaceChange ResidualDerivative::change_place(
     BodyIndex b, const joints::PairPlace& place, const Vector3& arm_B,
@@ -37,14 +51,23 @@ ResidualDerivative::PlaceChange ResidualDerivative::change_place(
       c_.velocity *
       (right_jacobian_inverse((*rotation_increments_)[index(b)]) * d.theta);
   Vector3 v_B = w.cross(arm_B);
+  Vector3 d_udot = Vector3::Zero();  // by the products' change
   if (body.modes > 0) {
-    change.arm_B = combine(place.Phi_B, d.eta);
-    v_B += combine(place.Phi_B, state_->etadot.data() + body.offset);
+    const double* etadot = state_->etadot.data() + body.offset;
+    const Matrix3X columns =
+        find_columns(body, place, state_->eta.data() + body.offset);
+    change.arm_B = combine(columns, d.eta);
+    v_B += combine(columns, etadot);
+    if (!paired_of(body).empty()) {
+      const Matrix3X first = place.Phi_B.leftCols(body.modes);
+      d_udot = combine(find_columns(body, place, d.eta), etadot) -
+               combine(first, etadot);
+    }
   }
   change.p = d.p + R * (d.theta.cross(arm_B) + change.arm_B);
   change.v = c_.velocity * d.p +
              R * (d.theta.cross(v_B) + d_w.cross(arm_B) +
-                  w.cross(change.arm_B) + c_.velocity * change.arm_B);
+                  w.cross(change.arm_B) + c_.velocity * change.arm_B + d_udot);
   return change;
 }
 
@@ -73,7 +96,9 @@ void ResidualDerivative::change_force(
   const Vector3 force_B = R_BW * force;
   const Vector3 d_force_B = R_BW * d_force - d.theta.cross(force_B);
   const Eigen::Index row = first_row(body, index(b));
-  r.segment(row + 6, body.modes) -= place.Phi_B.transpose() * d_force_B;
+  const Matrix3X columns =
+      find_columns(body, place, state_->eta.data() + body.offset);
+  r.segment(row + 6, body.modes) -= columns.transpose() * d_force_B;
   if (!body.has_rigid_motion()) return;
   r.segment<3>(row) -= d_force;
   r.segment<3>(row + 3) -= d_arm_B.cross(force_B) + arm_B.cross(d_force_B);

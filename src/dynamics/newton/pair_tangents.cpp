@@ -5,14 +5,16 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 using Block = Eigen::Ref<MatrixX>;
 
-// 3 rows: motion of a point, world frame, per increment.
-void fill_rows(const BodyModel& body, const Matrix3& R_WB,
+// 3 rows: motion of a point, world frame, per increment. @param eta of the body
+void fill_rows(const BodyModel& body, const Matrix3& R_WB, const double* eta,
                const joints::PairPlace& place, const Vector3& arm_B,
                double sign, Block rows) {
   rows.setZero();
@@ -20,8 +22,15 @@ void fill_rows(const BodyModel& body, const Matrix3& R_WB,
     rows.leftCols<3>().diagonal().setConstant(sign);
     rows.middleCols<3>(3) = (-sign * R_WB) * skew(arm_B);
   }
+  const Eigen::Index products = place.Phi_B.cols() - body.modes;
+  auto modes = rows.middleCols(6, body.modes);
+  modes = place.Phi_B.leftCols(body.modes);
+  flexbody::add_product_columns(paired_of(body),
+                                place.Phi_B.rightCols(products), eta, modes);
+  const Matrix3 turn = sign * R_WB;
   for (Eigen::Index k = 0; k < body.modes; ++k) {
-    rows.col(6 + k) = (sign * R_WB) * place.Phi_B.col(k);
+    const Vector3 column = modes.col(k);
+    modes.col(k) = turn * column;
   }
 }
 
@@ -88,16 +97,18 @@ void PairTangents::fill(const SystemModel& model, const Pair& pair, bool is_A,
   columns.blocks = kept.blocks;
   const BodyModel& body = model.bodies[index(b)];
   const double sign = is_A ? -1.0 : 1.0;
+  const double* acting_eta = terms.pairs.bodies[index(b)].eta;
+  const double* moving_eta = end_terms.pairs.bodies[index(b)].eta;
   Eigen::Index row = 0;
   for (const joints::PairPoint& point : response.points()) {
     const auto rows = [&](MatrixX& all) {
       return all.block(row, 0, 3, 6 * kept.blocks);
     };
     const joints::PairPlace& place = is_A ? point.on_A : point.on_B;
-    fill_rows(body, terms.bodies[index(b)].R_WB, place,
+    fill_rows(body, terms.bodies[index(b)].R_WB, acting_eta, place,
               is_A ? point.acting.A : point.acting.B, sign,
               rows(columns.acting));
-    fill_rows(body, end_terms.bodies[index(b)].R_WB, place,
+    fill_rows(body, end_terms.bodies[index(b)].R_WB, moving_eta, place,
               is_A ? point.moving.A : point.moving.B, sign,
               rows(columns.moving));
     const Matrix3 K = point.stiffness + velocity * point.damping;

@@ -9,6 +9,7 @@
 #include "limber/dynamics/newton/body_increment.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -396,10 +397,14 @@ void ResidualDerivative::change_body_load(const BodyLoad& load,
   r.segment<3>(first_row(body, b)) -=
       terms_->bodies[b].R_WB * d.theta.cross(force);
   if (!is_coupled(body.fidelity)) return;
-  for (int k = 0; k < body.modes; ++k) {
-    r.segment<3>(first_row(body, b) + 3) -=
-        history.moment_by_mode.col(i * body.modes + k) * d.eta[k];
-  }
+  Matrix3X by_mode = history.moment_by_mode.middleCols(
+      i * count_coordinates(body), body.modes);
+  flexbody::add_product_columns(paired_of(body),
+                                history.moment_by_mode.middleCols(
+                                    i * count_coordinates(body) + body.modes,
+                                    count_coordinates(body) - body.modes),
+                                state_->eta.data() + body.offset, by_mode);
+  r.segment<3>(first_row(body, b) + 3) -= combine(by_mode, d.eta);
 }
 
 void ResidualDerivative::apply_rest(const VectorX& increments,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -22,6 +23,13 @@ Matrix3 inertia_of(const Matrix3& S) {
 }
 
 }  // namespace
+
+int count_pair_coordinates(const SystemModel& model, BodyIndex b) {
+  if (b == kWorld) return 0;
+  const BodyModel& body = model.bodies[index(b)];
+  if (body.full < 0) return count_coordinates(body);
+  return static_cast<int>(model.full_bodies[index(body.full)].dofs() + 1);
+}
 
 ModalInertia pack_inertia(const flexbody::InertiaShapeIntegrals& s) {
   const auto m = static_cast<int>(s.S1.size());

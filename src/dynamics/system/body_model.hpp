@@ -28,6 +28,26 @@ namespace limber::dynamics {
          !flexbody::is_diagonal(body.elasticity);
 }
 
+/// Modes whose products move a body's points at level nonlinear, increasing
+/// (flexbody/model/mode_products.hpp); else none.
+[[nodiscard]] inline const std::vector<int>& paired_of(const BodyModel& body) {
+  static const std::vector<int> none;
+  const bool has_products = body.fidelity == Fidelity::nonlinear &&
+                            body.reduced && body.reduced->manifold;
+  return has_products ? body.reduced->manifold->paired : none;
+}
+
+/// Modes and products: columns of tables of points and of nodal loads.
+[[nodiscard]] inline int count_coordinates(const BodyModel& body) {
+  const Eigen::Index paired = std::ssize(paired_of(body));
+  return body.modes + static_cast<int>(flexbody::count_pairs(paired));
+}
+
+/// Coordinates of a body in joints::PairBody: its modes, then at level
+/// nonlinear their products; of an unreduced one 3N + 1; of the world none.
+[[nodiscard]] int count_pair_coordinates(const SystemModel& model,
+                                         BodyIndex body);
+
 /// Eigenvalues of a body's modes [rad^2/s^2].
 /// @param work what takes each mode alone, "advice on levels"
 /// @throws InputError naming the body if its elasticity couples them.

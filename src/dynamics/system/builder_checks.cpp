@@ -109,8 +109,12 @@ void check_reduced(const std::string& what,
         what, k + 1, reduced.lambda[k]));
   }
   if (reduced.clamped) {
+    const Eigen::Index columns = reduced.integrals.P.cols();
     check_size(what, "what gravity does to its modes",
-               reduced.integrals.P.cols(), reduced.mode_count());
+               reduced.manifold
+                   ? std::min<Eigen::Index>(columns, reduced.mode_count())
+                   : columns,
+               reduced.mode_count());
     check_finite(what, "what gravity does to its modes",
                  reduced.integrals.P.allFinite());
   }
@@ -138,12 +142,6 @@ void check_manifold(const std::string& what,
                      ": at level nonlinear its elasticity is that of its "
                      "reduced body; give none, or another level");
   }
-  if (reduced.clamped) {
-    throw InputError(
-        what +
-        ": level nonlinear does not support clamped groups yet; hold it by a "
-        "fixed joint on an interface, or choose 'coupled' for it");
-  }
   if (!reduced.manifold) {
     throw InputError(
         what +
@@ -154,6 +152,13 @@ void check_manifold(const std::string& what,
   const auto pairs = flexbody::count_pairs(std::ssize(manifold.paired));
   check_size(what, "its second-order inertia", manifold.S2.cols(), pairs);
   check_size(what, "its second-order rows", manifold.Theta_B.cols(), pairs);
+  if (reduced.clamped &&
+      reduced.integrals.P.cols() != reduced.mode_count() + pairs) {
+    throw InputError(
+        what +
+        ": its saved body lacks what gravity does to the second order of a "
+        "clamped group; reduce its mesh again for level nonlinear");
+  }
   if (manifold.Theta_B.rows() != reduced.rows.Phi_B.rows()) {
     throw ContractError(fmt::format("{}: {} second-order rows; expected {}",
                                     what, manifold.Theta_B.rows(),
@@ -174,15 +179,6 @@ void check_second_order(const std::string& what,
              pairs);
   check_finite(what, table,
                interface.Phi2_B.allFinite() && interface.Psi2_B.allFinite());
-}
-
-void refuse_nonlinear(const std::string& what, const BodyModel& body,
-                      const char* of) {
-  if (body.fidelity != Fidelity::nonlinear) return;
-  throw InputError(fmt::format(
-      "{}: body '{}' is at level nonlinear, which does not support {} yet; "
-      "choose 'coupled' for it",
-      what, body.name, of));
 }
 
 void check_elasticity(const std::string& what,

@@ -42,9 +42,6 @@ void check_manifold(const std::string& what,
 void check_second_order(const std::string& what,
                         const flexbody::InterfaceTable& interface,
                         std::size_t paired);
-/// @param of what level nonlinear does not support yet
-void refuse_nonlinear(const std::string& what, const BodyModel& body,
-                      const char* of);
 
 /// Rates of a body's modes [1/s]. @param lambda [rad^2/s^2]
 [[nodiscard]] VectorX check_damping(const std::string& what,
@@ -80,7 +77,7 @@ void check_controller(const std::string& what,
 void check_pair_bodies(const std::string& what, BodyIndex body_A,
                        BodyIndex body_B);
 
-/// @param modes of the body
+/// @param modes of the body, with products (count_coordinates)
 void check_nodal_load(const std::string& what,
                       const flexbody::NodalLoad& history, Eigen::Index modes);
 

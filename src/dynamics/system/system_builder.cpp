@@ -23,6 +23,21 @@ MatrixX multiply_mass(const flexbody::FullBody& full, const MatrixX& columns) {
   return product;
 }
 
+// Columns of the products behind those of the modes.
+Matrix3X join_products(const Attachment& attachment, const BodyModel& body) {
+  Matrix3X joined = Matrix3X::Zero(3, count_coordinates(body));
+  joined.leftCols(body.modes) = attachment.Phi_B;
+  if (!attachment.second) return joined;
+  Eigen::Index next = body.modes;
+  const auto p = std::ssize(paired_of(body));
+  for (Eigen::Index i = 0; i < p; ++i) {
+    for (Eigen::Index j = i; j < p; ++j) {
+      joined.col(next++) = attachment.second->Phi2.block<3, 1>(3 * i, j);
+    }
+  }
+  return joined;
+}
+
 }  // namespace
 
 BodyIndex SystemBuilder::add_rigid_body(const std::string& name,
@@ -89,7 +104,11 @@ BodyIndex SystemBuilder::add_flexible_body(
     check_elasticity(what, body.elasticity, body.modes, damping);
     body.damping =
         check_damping(what, damping, flexbody::rest_stiffness(body.elasticity));
-    if (body.clamped) body.P = reduced->integrals.P;
+    if (body.clamped) {
+      body.P = fidelity == Fidelity::nonlinear
+                   ? reduced->integrals.P
+                   : Matrix3X(reduced->integrals.P.leftCols(body.modes));
+    }
     body.inertia = find_inertia(what, *reduced, fidelity);
   }
   body.reduced = std::move(reduced);
@@ -274,17 +293,12 @@ PairIndex SystemBuilder::add_pair(
   LIMBER_EXPECT(law != nullptr);
   const auto coordinates_of = [&](BodyIndex body) {
     if (body == kWorld) return 0;
-    const BodyModel& known = find_body(what, body);
-    if (known.full < 0) return known.modes;
-    return static_cast<int>(
-        model_.full_bodies[static_cast<std::size_t>(known.full)].dofs() + 1);
+    (void)find_body(what, body);
+    return count_pair_coordinates(model_, body);
   };
   const int modes_A = coordinates_of(body_A);
   const int modes_B = coordinates_of(body_B);
   check_pair_bodies(what, body_A, body_B);
-  for (const BodyIndex body : {body_A, body_B}) {
-    if (body != kWorld) refuse_nonlinear(what, find_body(what, body), "pairs");
-  }
   try {
     law->check(modes_A, modes_B);
   } catch (const InputError& error) {
@@ -312,7 +326,8 @@ joints::PairPlace SystemBuilder::find_place(AttachmentIndex attachment) const {
                     "which has no places of pairs",
                     what, a.name));
   }
-  return {a.p_BF, a.Phi_B};
+  if (a.body == kWorld) return {a.p_BF, a.Phi_B};
+  return {a.p_BF, join_products(a, find_body(what, a.body))};
 }
 
 LoadIndex SystemBuilder::add_load(const std::string& name,
@@ -351,8 +366,7 @@ void SystemBuilder::add_nodal_load(const std::string& name, BodyIndex body,
                                    const MatrixX& nodal) {
   const std::string what = names_.check("nodal load", name);
   const BodyModel& target = find_body(what, body);
-  check_nodal_load(what, history, target.modes);
-  refuse_nonlinear(what, target, "forces on single nodes");
+  check_nodal_load(what, history, count_coordinates(target));
   if (target.full >= 0) {
     FullModel& full = model_.full_bodies[static_cast<std::size_t>(target.full)];
     if (nodal.rows() != full.dofs() ||

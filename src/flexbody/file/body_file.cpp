@@ -242,8 +242,15 @@ void read_tables(const Reader& reader, ReducedBody& body) {
                   version == kManifoldBodyFileVersion};
   if (has.manifold) has.surfaces = has_surfaces(reader);
   if (version == kStressBodyFileVersion) has = read_other_tables(reader);
+  const Eigen::Index m = body.lambda.size();
+  const Eigen::Index products = has.manifold ? count_products(reader, m) : 0;
+  const Eigen::Index P_columns = body.integrals.P.cols();
+  if (P_columns != m && P_columns != m + products) {
+    reader.fail(fmt::format("'integrals/P' has {} columns; expected {}",
+                            P_columns, m + products));
+  }
   if (has.surfaces) {
-    body.contact_surfaces = read_contact_surfaces(reader, body.lambda.size());
+    body.contact_surfaces = read_contact_surfaces(reader, m, products);
   }
   if (has.manifold) read_manifold(reader, body);
   if (version == kStressBodyFileVersion) read_stress_modes(reader, body);
@@ -346,7 +353,8 @@ ReducedBody read_body(const std::filesystem::path& file) {
   body.integrals.S0 = reader.matrix("integrals/S0", 3, 3);
   body.integrals.S1 = unstack(reader.matrix("integrals/S1", m, 9));
   body.integrals.S2 = unstack(reader.matrix("integrals/S2", m * m, 9));
-  body.integrals.P = reader.matrix("integrals/P", 3, m);
+  body.integrals.P =
+      reader.matrix("integrals/P", 3, in.read_matrix("integrals/P").cols());
   const MatrixX levers = reader.matrix("levers", 3, 1);
   body.levers = {levers(0, 0), levers(1, 0), levers(2, 0)};
   read_rows(reader, body);

@@ -23,13 +23,13 @@ void write_pads(Hdf5File& out, const std::string& at, const ContactPads& pads) {
 }
 
 ContactPads read_pads(const BodyFileReader& reader, const std::string& at,
-                      Eigen::Index m) {
+                      Eigen::Index columns) {
   ContactPads pads;
   if (!reader.in().has(at + "area")) return pads;
   const Eigen::Index k = reader.in().read_matrix(at + "area").rows();
   pads.normal_B = reader.matrix(at + "normal_B", 3, 1);
   pads.x_B = reader.matrix(at + "x_B", 3, k);
-  pads.Phi_B = reader.matrix(at + "Phi_B", 3 * k, m);
+  pads.Phi_B = reader.matrix(at + "Phi_B", 3 * k, columns);
   pads.flexibility = reader.matrix(at + "flexibility", k, k);
   pads.area = reader.matrix(at + "area", k, 1);
   return pads;
@@ -43,8 +43,10 @@ void write_surface(Hdf5File& out, const std::string& at,
             "1", "Gmsh node tags; 0: interpolated middle of an edge");
   out.write(at + "x_B", surface.x_B, "m",
             "undeformed positions from the centre of mass, 3 x n");
-  out.write(at + "Phi_B", surface.Phi_B, "kg^-1/2",
-            "mode shapes, mean over the patch around each node, 3n x m");
+  out.write(
+      at + "Phi_B", surface.Phi_B, "kg^-1/2",
+      "mode shapes, mean over the patch around each node, 3n x m; then of "
+      "products of modes");
   out.write(at + "residual", MatrixX(surface.residual), "m/N",
             "normal flexibility of each patch that neither modes nor Hertz's "
             "law have");
@@ -98,17 +100,20 @@ std::vector<std::array<int, kFaceNodes>> read_faces(
 }
 
 ContactSurface read_surface(const BodyFileReader& reader, const std::string& at,
-                            Eigen::Index m) {
+                            Eigen::Index m, Eigen::Index products) {
   ContactSurface surface;
   surface.name = reader.in().read_text(at + "name");
   surface.tags = reader.sizes(at + "tags", -1);
   const auto n = static_cast<Eigen::Index>(surface.tags.size());
   surface.x_B = reader.matrix(at + "x_B", 3, n);
-  surface.Phi_B = reader.matrix(at + "Phi_B", 3 * n, m);
+  // Earlier versions have the modes alone.
+  const bool has_products = reader.in().read_matrix(at + "Phi_B").cols() != m;
+  const Eigen::Index columns = has_products ? m + products : m;
+  surface.Phi_B = reader.matrix(at + "Phi_B", 3 * n, columns);
   surface.residual = reader.matrix(at + "residual", n, 1);
   surface.patch_radius = reader.matrix(at + "patch_radius", n, 1);
   surface.faces = read_faces(reader, at + "faces", surface.tags.size());
-  surface.pads = read_pads(reader, at + "pads/", m);
+  surface.pads = read_pads(reader, at + "pads/", columns);
   const MatrixX material = reader.matrix(at + "material", 2, 1);
   surface.youngs_modulus = material(0, 0);
   surface.poisson_ratio = material(1, 0);
@@ -128,12 +133,13 @@ void write_contact_surfaces(Hdf5File& out,
 }
 
 std::vector<ContactSurface> read_contact_surfaces(const BodyFileReader& reader,
-                                                  Eigen::Index m) {
+                                                  Eigen::Index m,
+                                                  Eigen::Index products) {
   const std::size_t count = reader.sizes("contact/count", 1)[0];
   std::vector<ContactSurface> surfaces;
   for (std::size_t i = 0; i < count; ++i) {
     surfaces.push_back(
-        read_surface(reader, fmt::format("contact/{:04}/", i), m));
+        read_surface(reader, fmt::format("contact/{:04}/", i), m, products));
   }
   return surfaces;
 }

@@ -14,8 +14,9 @@ namespace limber::flexbody {
 void write_contact_surfaces(Hdf5File& out,
                             const std::vector<ContactSurface>& surfaces);
 
-/// @param m number of modes
+/// @param m number of modes; @param products of paired modes, 0 without a
+/// manifold
 [[nodiscard]] std::vector<ContactSurface> read_contact_surfaces(
-    const BodyFileReader& reader, Eigen::Index m);
+    const BodyFileReader& reader, Eigen::Index m, Eigen::Index products);
 
 }  // namespace limber::flexbody

@@ -62,6 +62,10 @@ bool has_surfaces(const BodyFileReader& reader) {
   return reader.integer("manifold/has_surfaces") != 0;
 }
 
+Eigen::Index count_products(const BodyFileReader& reader, Eigen::Index m) {
+  return count_pairs(std::ssize(read_paired(reader, m)));
+}
+
 void read_manifold(const BodyFileReader& reader, ReducedBody& body) {
   QuadraticManifold manifold;
   manifold.paired = read_paired(reader, body.lambda.size());

@@ -14,6 +14,10 @@ void write_manifold(Hdf5File& out, const ReducedBody& body);
 /// Whether a file with a manifold has contact surfaces, too.
 [[nodiscard]] bool has_surfaces(const BodyFileReader& reader);
 
+/// Products of paired modes in a file with a manifold of m modes.
+[[nodiscard]] Eigen::Index count_products(const BodyFileReader& reader,
+                                          Eigen::Index m);
+
 /// Reads the manifold, and its part of the interfaces, which exist.
 void read_manifold(const BodyFileReader& reader, ReducedBody& body);
 

@@ -21,7 +21,7 @@ constexpr int kReductionVersion = 4;
 // The same of contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 2;
 // The same of second-order kinematics.
-constexpr int kManifoldVersion = 1;
+constexpr int kManifoldVersion = 2;
 // The same of stress modes.
 constexpr int kStressVersion = 1;
 

@@ -22,13 +22,11 @@ void check(const std::vector<double>& times, const MatrixX& forces) {
   if (!forces.allFinite()) throw InputError("a force is not finite");
 }
 
-}  // namespace
-
-NodalLoad reduce_nodal_load(const ReducedBody& body,
-                            const std::vector<double>& times,
-                            const MatrixX& forces) {
+// @param Phi_B 3n x m, columns of all coordinates
+NodalLoad reduce(const ReducedBody& body, const MatrixX& Phi_B,
+                 const std::vector<double>& times, const MatrixX& forces) {
   const Eigen::Index n = body.rows.x_B.cols();
-  const Eigen::Index m = body.lambda.size();
+  const Eigen::Index m = Phi_B.cols();
   const auto count = static_cast<Eigen::Index>(times.size());
   LIMBER_EXPECT(forces.rows() == 3 * n && forces.cols() == count);
   check(times, forces);
@@ -37,7 +35,7 @@ NodalLoad reduce_nodal_load(const ReducedBody& body,
   load.force = Matrix3X::Zero(3, count);
   load.moment = Matrix3X::Zero(3, count);
   load.moment_by_mode = Matrix3X::Zero(3, m * count);
-  load.modal = body.rows.Phi_B.transpose() * forces;
+  load.modal = Phi_B.transpose() * forces;
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index node = 0; node < n; ++node) {
       const Vector3 f = forces.block<3, 1>(3 * node, i);
@@ -45,12 +43,30 @@ NodalLoad reduce_nodal_load(const ReducedBody& body,
       load.force.col(i) += f;
       load.moment.col(i) += Vector3(body.rows.x_B.col(node)).cross(f);
       for (Eigen::Index k = 0; k < m; ++k) {
-        const Vector3 phi = body.rows.Phi_B.block<3, 1>(3 * node, k);
+        const Vector3 phi = Phi_B.block<3, 1>(3 * node, k);
         load.moment_by_mode.col(i * m + k) += phi.cross(f);
       }
     }
   }
   return load;
+}
+
+}  // namespace
+
+NodalLoad reduce_nodal_load(const ReducedBody& body,
+                            const std::vector<double>& times,
+                            const MatrixX& forces) {
+  return reduce(body, body.rows.Phi_B, times, forces);
+}
+
+NodalLoad reduce_second_order_load(const ReducedBody& body,
+                                   const std::vector<double>& times,
+                                   const MatrixX& forces) {
+  LIMBER_EXPECT(body.manifold);
+  const MatrixX& Theta_B = body.manifold->Theta_B;
+  MatrixX joined(body.rows.Phi_B.rows(), body.lambda.size() + Theta_B.cols());
+  joined << body.rows.Phi_B, Theta_B;
+  return reduce(body, joined, times, forces);
 }
 
 }  // namespace limber::flexbody

@@ -11,7 +11,9 @@ namespace limber::flexbody {
 /// nodes. Expressed in the body frame B; column i applies on [times[i],
 /// times[i+1]), nothing before, the last column without end.
 ///
-/// Equation   F = sum_n f_n, M = sum_n (x_n + Phi_n eta) x f_n, Q = Phi^T f
+/// Equation   F = sum_n f_n, M = sum_n (x_n + Phi_n eta) x f_n, Q = Phi^T f;
+///            at level nonlinear m counts the products of paired modes, too,
+///            and Phi their columns (mode_products.hpp)
 struct NodalLoad {
   std::vector<double> times;  ///< T, increasing [s]
   Matrix3X force;             ///< 3 x T [N]
@@ -26,5 +28,10 @@ struct NodalLoad {
 [[nodiscard]] NodalLoad reduce_nodal_load(const ReducedBody& body,
                                           const std::vector<double>& times,
                                           const MatrixX& forces);
+/// The same for level nonlinear.
+/// @throws ContractError for a body without a manifold.
+[[nodiscard]] NodalLoad reduce_second_order_load(
+    const ReducedBody& body, const std::vector<double>& times,
+    const MatrixX& forces);
 
 }  // namespace limber::flexbody

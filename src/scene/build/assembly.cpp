@@ -115,9 +115,12 @@ void Assembly::add_nodal_load(const LoadSpec& load) {
   const ForceFile file = read_force_file(load.nodal_forces);
   const MatrixX forces = spread_over_nodes(
       *plan.reduced, flexible.clamped_groups, file, load.nodal_forces);
-  builder_.add_nodal_load(
-      load.name, sites_.body_of(link),
-      flexbody::reduce_nodal_load(*plan.reduced, file.times, forces), forces);
+  const bool is_second =
+      scene_.scenario.level_of(plan.name) == dynamics::Fidelity::nonlinear;
+  const auto reduce = is_second ? flexbody::reduce_second_order_load
+                                : flexbody::reduce_nodal_load;
+  builder_.add_nodal_load(load.name, sites_.body_of(link),
+                          reduce(*plan.reduced, file.times, forces), forces);
 }
 
 void Assembly::check_moment(const LoadSpec& load,

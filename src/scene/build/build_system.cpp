@@ -50,7 +50,6 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
                         const FullMaker& make_full, const KnownBodies& known) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  check_levels(scene);
   const std::vector<LinkMotion> motions =
       find_link_motions(scene.robot, scene.scenario);
   const Reductions reductions = find_reductions(scene, reducer, cache, known);

@@ -60,6 +60,27 @@ void make_rigid_pads(flexbody::ContactSurface& surface) {
       pads.x_B, pads.area, surface.youngs_modulus / (1.0 - nu * nu));
 }
 
+// Products of modes move the surface at level nonlinear alone.
+void take_columns(const flexbody::ReducedBody& body, bool has_products,
+                  flexbody::ContactSurface& surface) {
+  const Eigen::Index m = body.mode_count();
+  const Eigen::Index columns =
+      has_products
+          ? m + flexbody::count_pairs(std::ssize(body.manifold->paired))
+          : m;
+  if (surface.Phi_B.cols() < columns) {
+    throw InputError(fmt::format(
+        "surface '{}' of its saved body has no second order, which level "
+        "nonlinear needs; make that anew by 'limber reduce --second-order'",
+        surface.name));
+  }
+  surface.Phi_B.conservativeResize(Eigen::NoChange, columns);
+  MatrixX& of_pads = surface.pads.Phi_B;
+  if (of_pads.cols() > columns) {
+    of_pads.conservativeResize(Eigen::NoChange, columns);
+  }
+}
+
 // A mesh is a surface in the frame of its body, without modes.
 contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
   const auto* mesh = std::get_if<MeshGeometry>(&geometry);
@@ -77,21 +98,6 @@ std::string describe(const Scene& scene, const TouchingPair& pair) {
 }
 
 }  // namespace
-
-void check_levels(const Scene& scene) {
-  for (const TouchingPair& pair : scene.touching) {
-    for (const Toucher& side : {pair.A, pair.B}) {
-      if (side.is_obstacle) continue;
-      const Link& link = scene.robot.links[side.index];
-      const dynamics::Fidelity level = scene.scenario.level_of(link.name);
-      if (!link.flexible || level != dynamics::Fidelity::nonlinear) continue;
-      throw InputError(fmt::format(
-          "{}: link '{}' is at level '{}', which contacts do not support yet; "
-          "choose 'coupled' for it",
-          describe(scene, pair), link.name, to_string(level)));
-    }
-  }
-}
 
 std::vector<PlacedPair> ContactAssembly::add_all() {
   std::vector<PlacedPair> placed;
@@ -171,15 +177,16 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
   return sides;
 }
 
-// At level `rigid` there are no modes, nor what they leave out.
+// At level `rigid` there are no modes, nor what they leave out; at `nonlinear`
+// their products are further ones.
 std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     const BodyPlan& plan, const std::string& surface) {
-  using dynamics::Fidelity;
-  const bool is_rigid = scene_.scenario.level_of(plan.name) == Fidelity::rigid;
-  const Fidelity level = plan.full  ? Fidelity::full
-                         : is_rigid ? Fidelity::rigid
-                                    : Fidelity::coupled;
-  auto& skin = skins_[{plan.reduced.get(), surface, level}];
+  const dynamics::Fidelity level = scene_.scenario.level_of(plan.name);
+  const bool is_rigid = level == dynamics::Fidelity::rigid;
+  const void* body = plan.full
+                         ? static_cast<const void*>(plan.full.get())
+                         : static_cast<const void*>(plan.reduced.get());
+  auto& skin = skins_[{body, surface, level}];
   if (skin) return skin;
   if (plan.full) {
     skin = std::make_shared<const contact::Skin>(
@@ -189,6 +196,7 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
   }
   flexbody::ContactSurface copy =
       find_surface(plan.reduced->contact_surfaces, surface);
+  take_columns(*plan.reduced, level == dynamics::Fidelity::nonlinear, copy);
   if (is_rigid) {
     copy.Phi_B.resize(copy.Phi_B.rows(), 0);
     copy.residual.setZero();

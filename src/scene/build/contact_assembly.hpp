@@ -17,9 +17,6 @@
 
 namespace limber::scene {
 
-/// @throws InputError for links in contacts at level `full`.
-void check_levels(const Scene& scene);
-
 /// Adds the pairs of bodies that touch to a system.
 class ContactAssembly {
  public:
@@ -53,11 +50,9 @@ class ContactAssembly {
   const AttachmentSites& sites_;
   dynamics::SystemBuilder& builder_;
   std::map<Toucher, Sides> sides_;
-  /// By the body's reduction, the surface, and whether it is rigid, with modes
-  /// or whole.
-  std::map<
-      std::tuple<const flexbody::ReducedBody*, std::string, dynamics::Fidelity>,
-      std::shared_ptr<const contact::Skin>>
+  /// By the body's reduction, the surface, and its level.
+  std::map<std::tuple<const void*, std::string, dynamics::Fidelity>,
+           std::shared_ptr<const contact::Skin>>
       skins_;
 };
 

@@ -27,6 +27,18 @@ double find_distance(const SystemState& a, const SystemState& b) {
   return largest;
 }
 
+// Rigid, flexible, and of second order in the modes.
+std::vector<testing::PairedBodiesOptions> list_kinds(double damping) {
+  return {{.is_flexible = false, .damping = damping},
+          {.damping = damping},
+          {.is_bent = true, .damping = damping}};
+}
+std::string name_of(const testing::PairedBodiesOptions& options) {
+  return options.is_bent       ? ", nonlinear"
+         : options.is_flexible ? ", flexible"
+                               : ", rigid";
+}
+
 struct Ends {
   SystemState by_pairs;
   SystemState by_couplers;
@@ -55,18 +67,17 @@ TEST(PairSprings, MoveBodiesAsCouplersDoWithEveryImplicitScheme) {
   for (const IntegratorKind kind :
        {IntegratorKind::generalized_alpha, IntegratorKind::implicit_euler,
         IntegratorKind::energy_conserving}) {
-    for (const bool is_flexible : {false, true}) {
+    for (const testing::PairedBodiesOptions& options : list_kinds(0.0)) {
       std::vector<double> distances;
       for (const double step : {1e-3, 5e-4}) {
         const Ends ends = run_both({.integrator = kind,
                                     .end_time = 0.2,
                                     .step = step,
                                     .newton_tolerance = 1e-12},
-                                   {.is_flexible = is_flexible});
+                                   options);
         distances.push_back(find_distance(ends.by_pairs, ends.by_couplers));
       }
-      const std::string what =
-          to_string(kind) + (is_flexible ? ", flexible" : ", rigid");
+      const std::string what = to_string(kind) + name_of(options);
       if (kind == IntegratorKind::implicit_euler) {
         EXPECT_LT(distances[0], 1e-9) << what;
       } else {
@@ -80,12 +91,11 @@ TEST(PairSprings, MoveBodiesAsCouplersDoWithEveryExplicitScheme) {
   for (const IntegratorKind kind :
        {IntegratorKind::runge_kutta_4, IntegratorKind::explicit_euler,
         IntegratorKind::central_differences, IntegratorKind::splitting}) {
-    for (const bool is_flexible : {false, true}) {
-      const Ends ends =
-          run_both({.integrator = kind, .end_time = 0.05, .step = 1e-4},
-                   {.is_flexible = is_flexible, .damping = 3.0});
+    for (const testing::PairedBodiesOptions& options : list_kinds(3.0)) {
+      const Ends ends = run_both(
+          {.integrator = kind, .end_time = 0.05, .step = 1e-4}, options);
       EXPECT_LT(find_distance(ends.by_pairs, ends.by_couplers), 1e-11)
-          << to_string(kind);
+          << to_string(kind) << name_of(options);
       EXPECT_EQ(ends.of_pairs.steps, ends.of_couplers.steps);
       // By power iteration on differences.
       EXPECT_NEAR(ends.of_pairs.stable_step, ends.of_couplers.stable_step,
@@ -95,11 +105,10 @@ TEST(PairSprings, MoveBodiesAsCouplersDoWithEveryExplicitScheme) {
 }
 
 TEST(PairSprings, StoreAndDissipateWhatCouplersDo) {
-  for (const bool is_flexible : {false, true}) {
-    const PairedBodies pairs =
-        make_paired_bodies({.is_flexible = is_flexible, .damping = 3.0});
-    const PairedBodies couplers = make_paired_bodies(
-        {.by_pairs = false, .is_flexible = is_flexible, .damping = 3.0});
+  for (testing::PairedBodiesOptions options : list_kinds(3.0)) {
+    const PairedBodies pairs = make_paired_bodies(options);
+    options.by_pairs = false;
+    const PairedBodies couplers = make_paired_bodies(options);
     SystemTerms of_pairs = make_terms(pairs.model);
     SystemTerms of_couplers = make_terms(couplers.model);
     const EnergyBalance a = calc_energy(pairs.model, pairs.state, of_pairs);
@@ -113,8 +122,8 @@ TEST(PairSprings, StoreAndDissipateWhatCouplersDo) {
 }
 
 TEST(PairSprings, KeepTheEnergyWithTheEnergyConservingScheme) {
-  for (const bool is_flexible : {false, true}) {
-    PairedBodies bodies = make_paired_bodies({.is_flexible = is_flexible});
+  for (const testing::PairedBodiesOptions& options : list_kinds(0.0)) {
+    PairedBodies bodies = make_paired_bodies(options);
     double work = 0.0;
     const double before = calc_energy(bodies.model, bodies.state).total();
     simulate(bodies.model, bodies.state,
