@@ -43,4 +43,8 @@ class RefinedPeak {
   Peak peak_;
 };
 
+inline void exchange(Archive& archive, RefinedPeak& peak) {
+  peak.exchange_memory(archive);
+}
+
 }  // namespace limber::dynamics

@@ -33,8 +33,9 @@ double ContactLog::find_approach(const Pair& pair, const SystemState& state,
                                  const Vector3& p_W,
                                  const Vector3& normal_W) const {
   const PairMotion motion = find_pair_motion(model_, pair, state);
-  return normal_W.dot(find_rigid_velocity(motion.A, p_W) -
-                      find_rigid_velocity(motion.B, p_W));
+  const joints::PairBodies bodies = motion.bodies();
+  return normal_W.dot(find_rigid_velocity(bodies.A, p_W) -
+                      find_rigid_velocity(bodies.B, p_W));
 }
 
 void ContactLog::begin(std::size_t i, const SystemState& state,
@@ -51,6 +52,8 @@ void ContactLog::begin(std::size_t i, const SystemState& state,
   const Pair& of = model_.pairs[touches.pair_of(i)];
   const joints::PairTouch touch = touches.find_touch(i, state);
   pair.longest_step = 0.0;
+  pair.most_force = {};
+  pair.most_depth = {};
   record = {.pair = of.name, .time = state.t, .touches = 1};
   record.impact_duration = touches.impact_duration(i);
   record.touch_speed = find_approach(of, state, touch.p_W, touch.normal_W);
@@ -70,12 +73,13 @@ void ContactLog::include(std::size_t i, const SystemState& state,
     record.impulse += 0.5 * h * (pair.force + now.normal_force);
     pair.longest_step = std::max(pair.longest_step, h);
   }
-  if (now.normal_force > record.peak_force) {
-    record.peak_force = now.normal_force;
-    record.peak_time = state.t;
-    keep_stiffest(state, record);
-  }
-  record.peak_depth = std::max(record.peak_depth, now.depth);
+  const bool is_strongest = now.normal_force > record.peak_force;
+  pair.most_force.include(now.normal_force, state.t);
+  pair.most_depth.include(now.depth, state.t);
+  record.peak_force = pair.most_force.peak().value;
+  record.peak_time = pair.most_force.peak().time;
+  record.peak_depth = pair.most_depth.peak().value;
+  if (is_strongest) keep_stiffest(state, record);
   pair.force = now.normal_force;
   pair.is_touching = touches_now;
   record.has_parted = !touches_now;

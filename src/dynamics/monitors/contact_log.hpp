@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/refined_peak.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/monitors/contact_record.hpp"
 #include "limber/dynamics/monitors/touch_watch.hpp"
@@ -17,17 +18,21 @@ struct OngoingContact {
   double force = 0.0;         ///< normal, at the last state [N]
   double left = 0.0;          ///< time of the last leave [s]
   double longest_step = 0.0;  ///< in which it touched [s]
+  RefinedPeak most_force;     ///< of this record, normal [N]
+  RefinedPeak most_depth;     ///< of this record [m]
   ContactRecord record = {};  ///< of no touches: there is none
 };
 
 constexpr auto fields_of(const OngoingContact*) {
   return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
-                     "longest step [s]", "record");
+                     "longest step [s]", "largest force [N]", "largest depth [m]",
+                     "record");
 }
 
 /// Records every impact from the ends of all accepted steps.
 ///
-/// Equation   impulse by the trapezoidal rule
+/// Equation   impulse by the trapezoidal rule; peaks of parabolas through three
+///            steps' ends
 class ContactLog {
  public:
   ContactLog(const SystemModel& model, IntegratorKind scheme);
