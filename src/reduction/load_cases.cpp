@@ -164,10 +164,13 @@ LoadCases find_load_cases(const MeshedBody& body, const Recipe& recipe,
         add_interface(interface, support, collection);
   }
   LoadCases cases = collection.take();
+  const bool has_impacts =
+      recipe.basis.automatic && !recipe.basis.automatic->impacts.empty();
+  if (cases.count() == 0 && has_impacts) return cases;
   if (cases.count() == 0)
     throw InputError(
         "automatic modes need a load that is not zero: a load on the body, "
-        "nodal forces or an interface. For a clamped body there is measure "
+        "nodal forces, an interface or a body that strikes it. For a clamped body there is measure "
         "'mass'; or say how many eigenmodes.");
   find_compliance(body.inverse, cases);
   return cases;

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "limber/common/errors.hpp"
@@ -45,6 +48,46 @@ SelectionRecord make_record(const AutomaticModes& options,
                             selection.reached[k], errors[k], 0.0});
   }
   return record;
+}
+
+// T_c of a free impact [s], [@johnson1985, ch. 11].
+double calc_duration(const ExpectedImpact& impact, double own_mass) {
+  const double mass = 1.0 / (1.0 / own_mass + 1.0 / impact.mass);
+  const double k = impact.stiffness;
+  return 3.2180 * std::pow(mass * mass / (k * k * impact.speed), 0.2);
+}
+
+// Of modes of which fewer periods fit into an impact all are needed; what the
+// basis leaves out deforms, but does not vibrate (docs/theory/contact_laws.md).
+constexpr double kPeriods = 2.0;
+
+// Largest lambda that impacts need [rad^2/s^2].
+double find_impact_limit(const AutomaticModes& options, const MeshedBody& body) {
+  const double own = body.support.is_clamped
+                         ? std::numeric_limits<double>::infinity()
+                         : body.support.matrices.M_s.sum();
+  double limit = 0.0;
+  for (const ExpectedImpact& impact : options.impacts) {
+    if (std::isinf(own) && std::isinf(impact.mass)) continue;
+    const double omega =
+        2.0 * std::numbers::pi * kPeriods / calc_duration(impact, own);
+    limit = std::max(limit, omega * omega);
+  }
+  return limit;
+}
+
+void add_modes_below(double limit, const VectorX& lambda,
+                     const CaseShares& shares, ModeSelection& selection) {
+  for (int k = 0; k < lambda.size(); ++k) {
+    std::vector<int>& modes = selection.modes;
+    if (lambda[k] > limit || std::binary_search(modes.begin(), modes.end(), k))
+      continue;
+    modes.insert(std::lower_bound(modes.begin(), modes.end(), k), k);
+    for (Eigen::Index c = 0; c < shares.totals.size(); ++c) {
+      if (shares.totals[c] == 0.0) continue;
+      selection.reached[c] += shares.shares(k, c) / shares.totals[c];
+    }
+  }
 }
 
 /// Called before any long work.
@@ -119,8 +162,10 @@ ChosenModes choose_eigenmodes(const MeshedBody& body, const Recipe& recipe,
       inverse, std::min(options.candidates, count_elastic(inverse)), progress);
   const CaseShares shares =
       find_shares(options.measure, candidates, chosen.cases, body, progress);
-  const ModeSelection selection =
+  ModeSelection selection =
       select_modes(shares.shares, shares.totals, {options.threshold});
+  add_modes_below(find_impact_limit(options, body), candidates.lambda, shares,
+                  selection);
   chosen.record = make_record(options, selection, candidates, chosen.cases);
   chosen.eigenmodes = {candidates.lambda(selection.modes),
                        candidates.Phi(Eigen::all, selection.modes)};

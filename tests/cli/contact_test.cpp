@@ -20,11 +20,13 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// The ball of examples/ball_on_link.toml, R = 10 mm at 1 m/s, on the bar.
-void write_ball(const Workspace& place, const std::string& more,
-                const std::string& contact = "") {
+void write_ball(
+    const Workspace& place, const std::string& more,
+    const std::string& contact = "",
+    const std::string& robot = LIMBER_SOURCE_DIR "/models/struck_bar.urdf") {
   place.write("ball.toml",
-              "robot = '" LIMBER_SOURCE_DIR
-              "/models/struck_bar.urdf'\n[output]\npictures = false\n"
+              "robot = '" + robot +
+                  "'\n[output]\npictures = false\n"
               "[[projectile]]\nname = 'ball'\nradius = 0.01\ndensity = 7850\n"
               "position = [0.0, 0.0, 0.01501]\nvelocity = [0.0, 0.0, -1.0]\n"
               "[[contact]]\nbetween = ['bar', 'ball']\n" +
@@ -58,6 +60,27 @@ TEST(BallOnLink, IsStruckAsWholeFiniteElementsSay) {
   const double reduced = 1.0 / (1.0 / mass + 1.0 / (7850.0 * 4e-5));
   EXPECT_NEAR(impact["restitution"].get<double>(),
               impact["impulse"].get<double>() / reduced - 1.0, 2e-3);
+}
+
+// Two periods of the highest mode fit into the impact, of which a run would warn
+// else, as it does with five modes; peak force as above.
+TEST(BallOnLink, HasAutomaticModesThatAnswerTheImpact) {
+  const Workspace place;
+  place.write("bar.urdf",
+              "<robot name='struck_bar'><link name='bar'/><flexible link='bar'>"
+              "<mesh file='" LIMBER_SOURCE_DIR
+              "/meshes/struck_bar.geo'/><material youngs_modulus='210e9' "
+              "poisson_ratio='0.3' density='7850'/><basis eigenmodes='auto'/>"
+              "</flexible><contact link='bar' surface='top'/></robot>\n");
+  write_ball(place, kFine, "", "bar.urdf");
+  const json summary = run(place);
+  const json& impact = summary["contacts"][0];
+  EXPECT_NEAR(impact["peak_force"].get<double>() / 1692.6, 1.0, 0.02);
+  EXPECT_THAT(summary["warnings"].dump(),
+              testing::Not(HasSubstr("periods of which fit")));
+  const int modes = summary["bodies"][0]["modes"].get<int>();
+  EXPECT_GT(modes, 20);
+  EXPECT_LT(modes, 40);
 }
 
 // The whole mesh against all of the 40 modes of the same mesh, through the same

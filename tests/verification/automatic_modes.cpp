@@ -96,6 +96,33 @@ TEST(AutomaticModes, TakeMultiplesOfALoadForOneCase) {
   EXPECT_EQ(select_modes(loads, {0.9}).cases.size(), 1U);
 }
 
+// f_max T_c = 2 of Hertz's impact of two free bodies, T_c = 2.9433 d_p / v.
+TEST(AutomaticModes, OfAnImpactAreThoseOfWhichLessThanTwoPeriodsFit) {
+  flexbody::Recipe recipe = test::beam_recipe("beam579_v41.msh");
+  recipe.basis.interface_modes = false;
+  recipe.basis.eigenmodes = 30;
+  const flexbody::ReducedBody all = flexbody::reduce(recipe);
+  constexpr double kMass = 2.0;
+  constexpr double kStiffness = 1e9;
+  for (const double speed : {1e-3, 1.0, 100.0}) {
+    recipe.basis.automatic = AutomaticModes{
+        .candidates = 30, .impacts = {{kMass, kStiffness, speed}}};
+    const double mass = 1.0 / (1.0 / kMass + 1.0 / all.mass);
+    const double depth =
+        std::pow(5.0 * mass * speed * speed / (4.0 * kStiffness), 0.4);
+    const double highest = 2.0 / (2.9433 * depth / speed);
+    int expected = 0;
+    while (expected < 30 &&
+           std::sqrt(all.lambda[expected]) / (2.0 * M_PI) <= highest) {
+      ++expected;
+    }
+    EXPECT_GT(expected, 0);
+    EXPECT_LT(expected, 30);
+    EXPECT_EQ(flexbody::reduce(recipe).selection->modes.size(),
+              static_cast<std::size_t>(expected));
+  }
+}
+
 TEST(AutomaticModes, ThatFallShortSaySo) {
   const auto record = select_modes(test::shear_load(beam()),
                                    {0.999, ModeMeasure::compliance, 3});

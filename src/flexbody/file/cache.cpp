@@ -87,6 +87,11 @@ void add_request(const Recipe& recipe, Digest& digest) {
     digest.add(recipe.basis.automatic->threshold);
     digest.add(recipe.basis.automatic->measure);
     digest.add(recipe.basis.automatic->candidates);
+    for (const ExpectedImpact& impact : recipe.basis.automatic->impacts) {
+      digest.add(impact.mass);
+      digest.add(impact.stiffness);
+      digest.add(impact.speed);
+    }
   }
   digest.add(recipe.basis.interface_modes);
   digest.add(recipe.basis.load_modes);

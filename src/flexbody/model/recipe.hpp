@@ -90,13 +90,23 @@ enum class ModeMeasure {
 /// @throws InputError naming the nearest.
 [[nodiscard]] ModeMeasure parse_measure(std::string_view name);
 
+/// An impact that the body is likely to suffer: of another body of `mass`,
+/// both rigid, by Hertz's law.
+struct ExpectedImpact {
+  double mass = 0.0;       ///< of the other body, > 0, or infinite [kg]
+  double stiffness = 0.0;  ///< k of f = k d^(3/2), > 0 [N/m^(3/2)]
+  double speed = 0.0;      ///< of approach, > 0 [m/s]
+};
+
 /// Selects those of the lowest eigenmodes that reach a share of every load
 /// case. The load cases are the recipe's load patterns and nodal forces; if it
-/// has neither, the forces and moments that its interfaces can carry.
+/// has neither, the forces and moments that its interfaces can carry. Of
+/// impacts, all modes of which less than two periods fit into their duration.
 struct AutomaticModes {
   double threshold = 0.9;  ///< of the total of all modes, in [0, 1] [-]
   ModeMeasure measure = ModeMeasure::compliance;
   int candidates = 60;  ///< number of lowest elastic eigenmodes to select from
+  std::vector<ExpectedImpact> impacts = {};  ///< of the scene
 };
 
 struct BasisOptions {

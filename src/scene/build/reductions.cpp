@@ -8,6 +8,8 @@
 
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/file/cache.hpp"
+#include "limber/scene/build/expected_impacts.hpp"
+#include "limber/scene/build/link_motion.hpp"
 #include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/recipes.hpp"
 #include "limber/scene/probes/stress_points.hpp"
@@ -40,8 +42,13 @@ class Reduction {
       if (!link.flexible->reduced_file.empty()) {
         return read(link);
       }
-      return reduce(make_recipe(scene_.robot, index, scene_.scenario),
-                    link.name);
+      flexbody::Recipe recipe =
+          make_recipe(scene_.robot, index, scene_.scenario);
+      if (recipe.basis.automatic) {
+        recipe.basis.automatic->impacts = find_expected_impacts(
+            scene_, find_link_motions(scene_.robot, scene_.scenario), index);
+      }
+      return reduce(recipe, link.name);
     } catch (const InputError& error) {
       std::vector<std::string> texts;
       for (const std::string& text : error.problems()) {
