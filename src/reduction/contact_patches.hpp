@@ -10,7 +10,7 @@ namespace limber::flexbody {
 
 /// A normal load on the surface around a point.
 struct ContactPatch {
-  Vector3 normal = Vector3::Zero();  ///< unit, outward
+  Vector3 normal = Vector3::Zero();  ///< unit, outward [-]
   double radius = 0.0;               ///< b [m]
   std::vector<int> nodes;            ///< of the mesh, sorted
   VectorX weights;                   ///< sum to one [-]

@@ -80,7 +80,7 @@ class BristleFriction {
   Parameters parameters_;
 };
 
-/// c_t of a share of critical damping of `mass` on k_t [N s/m].
+/// c_t of a share [-] of critical damping of `mass` on k_t [N s/m].
 /// @throws ContractError for a value < 0 or NaN.
 [[nodiscard]] double find_bristle_damping(double stiffness, double mass,
                                           double share = 0.1);

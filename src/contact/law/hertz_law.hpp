@@ -19,7 +19,7 @@ namespace limber::contact {
 ///            the bodies' parts that R stands for
 class HertzLaw {
  public:
-  /// k of surfaces that do not flatten: d = R f.
+  /// k of surfaces that do not flatten: d = R f [N/m^1.5].
   static constexpr double kRigid = std::numeric_limits<double>::infinity();
   struct Parameters {
     double stiffness = 0.0;  ///< k > 0, or kRigid [N/m^1.5]

@@ -22,7 +22,7 @@ struct PointMotion {
   double share = 1.0;                     ///< factor on the force > 0 [-]
   Vector3 velocity_W = Vector3::Zero();   ///< [m/s]
   Vector3 increment_W = Vector3::Zero();  ///< since the last commit [m]
-  Matrix3 R_WB = Matrix3::Identity();     ///< of body B, the slave
+  Matrix3 R_WB = Matrix3::Identity();     ///< of body B, the slave [-]
   double time = 0.0;                      ///< [s]
 
   /// d', as if the normal stood still [m/s].

@@ -12,12 +12,12 @@ namespace limber::contact {
 /// place of the surface next to it; as numbers, see SurfacePlace.
 struct PlaceMemory {
   Vector3 x_B = Vector3::Zero();  ///< undeformed, body frame [m]
-  double face = -1.0;             ///< index
+  double face = -1.0;             ///< index [-]
   double u = 0.0;                 ///< [-]
   double v = 0.0;                 ///< [-]
 };
 
-/// Rotation of body B in A, as a quaternion; all zero: none is remembered.
+/// Rotation of body B in A, as a quaternion [-]; all zero: none is remembered.
 struct TurnMemory {
   double w = 0.0;
   double x = 0.0;

@@ -10,7 +10,7 @@ namespace limber::contact {
 /// A corner of the area in which two faces cover each other, seen along a
 /// normal.
 struct OverlapPoint {
-  double share = 0.0;  ///< of the area's edge around it; 0: no such corner
+  double share = 0.0;  ///< of the area's edge around it [-]; 0: no corner
   Vector3 on_A = Vector3::Zero();  ///< of A's face [m]
   Vector3 on_B = Vector3::Zero();  ///< of B's face [m]
 };

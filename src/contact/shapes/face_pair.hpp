@@ -37,7 +37,7 @@ struct FacePairPlace {
                                                          bool is_inner);
 
 /// Where two straight segments cross as seen along `normal`: the weights of
-/// their second ends, within 0 and 1. None if they do not, or are parallel.
+/// their second ends, in [0, 1] [-]. None if they do not, or are parallel.
 struct SegmentCrossing {
   double s = 0.0;
   double t = 0.0;

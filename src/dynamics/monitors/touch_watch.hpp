@@ -30,9 +30,9 @@ namespace limber::dynamics {
 ///            looks a body must not turn by more than half a turn
 class TouchWatch {
  public:
-  /// Steps per T_c of an impact.
+  /// Steps per T_c of an impact [-].
   static constexpr double kStepsOfImpact = 16.0;
-  /// Fewest steps per T_c that tell its restitution.
+  /// Fewest steps per T_c that tell its restitution [-].
   static constexpr double kFewestSteps = 4.0;
 
   explicit TouchWatch(const SystemModel& model);

@@ -47,7 +47,7 @@ struct JointSide {
 
 /// Of a joint; all by default.
 struct JointOptions {
-  Vector3 second_F = Vector3::UnitX();  ///< of a universal joint, any length
+  Vector3 second_F = Vector3::UnitX();  ///< of universal ones; any length [-]
   CouplerOptions held{};                ///< default: find_joint_parameters
   /// End stops, friction, springs, drives along its coordinates.
   std::vector<joints::JointElement> elements{};

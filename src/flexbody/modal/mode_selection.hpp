@@ -152,7 +152,7 @@ struct HarmonicError {
 /// @param basis lambda (m), Phi (3N x m); @param M_s N x N, both triangles
 /// @param load 3N [N]; @param static_answer K^+ F, 3N [m]
 /// @param drop_tolerance ratio of |x|_M to |K^+ F|_M, at or below which x is
-/// treated as noise
+/// treated as noise [-]
 /// @throws NumericalError if the residual vector has no stiffness.
 [[nodiscard]] ReducedBasis augment_basis(const ReducedBasis& basis,
                                          const Eigen::SparseMatrix<double>& M_s,

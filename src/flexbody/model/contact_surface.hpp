@@ -18,7 +18,7 @@ namespace limber::flexbody {
 /// Limits     Pressure does not vary within a pad. Its force acts at a node
 ///            within it, so that a face carries as far as its rim.
 struct ContactPads {
-  Vector3 normal_B = Vector3::Zero();  ///< unit, outward
+  Vector3 normal_B = Vector3::Zero();  ///< unit, outward [-]
   Matrix3X x_B;         ///< 3 x k places, relative to the c.m. [m]
   MatrixX Phi_B;        ///< 3k x m: mean of the modes over each pad [kg^-1/2]
   MatrixX flexibility;  ///< k x k: R, positive semidefinite [m/N]
