@@ -244,6 +244,8 @@ TEST(Compare, RefusesBadAxesWithOneLine) {
   expect_refused("--modes 4,ten", "--modes");
   expect_refused("--step 0", "--step");
   expect_refused("--step 1e-3,nan", "--step");
+  expect_refused("--step 1e-3,", "--step: '1e-3,' has an empty value");
+  expect_refused("--fidelity rigid,,coupled", "has an empty value");
   expect_refused("--sources load", "did you mean 'loads'");
   expect_refused("--tolerance 1", "is 100 %");
   expect_refused("--tolerance 1% --measure displaced", "measure");

@@ -119,10 +119,15 @@ TEST_F(Linearize, IsAboutTheStateOfARunAtATime) {
 
 TEST_F(Linearize, RefusesWhatItCannotDoInOneClearError) {
   expect_refused("-o no.csv", "ends in none of .mat");
-  expect_refused("-o no.mat --at later", "--at is 'later'; expected 'start'");
+  expect_refused("-o no.mat --at later", "about 'later': expected 'start'");
   expect_refused("-o no.mat --at 2", "the run goes from 0 s to 1 s");
   expect_refused("-o no.mat --inputs motor", "unknown input 'motor'");
   expect_refused("-o no.mat --outputs angel.q", "angle.q");
+  expect_refused("-o no.mat --inputs pd,", "'pd,' has an empty value");
+  expect_refused("-o no.mat --inputs ''", "'' has an empty value");
+  expect_refused("-o no.mat --outputs ,angle", "',angle' has an empty value");
+  expect_refused("-o no.mat --outputs angle,,torque", "an empty value");
+  expect_refused("-o no.mat --fidelity ''", "unknown fidelity ''");
   expect_refused("-o no.mat --states 1", "do not decay");
   expect_refused("-o no.mat --states 13", "the model has 12");
   expect_refused("-o no.mat --set controller.pd.gain=1", "gain");
@@ -140,7 +145,7 @@ TEST_F(Linearize, TellsAFullDiskForEveryKindOfFile) {
 TEST_F(Linearize, ReducesToTheStatesThatMatter) {
   const json model = read("--states 12 --inputs pd --outputs angle");
   EXPECT_EQ(model["A"].size(), 2U);  // of free motion: springs at rest stay so
-  EXPECT_THAT(errors_, HasSubstr("--states 12: the model has 2"));
+  EXPECT_THAT(errors_, HasSubstr("the model has 2 states in place of 12"));
   EXPECT_EQ(model["state_names"], json::parse("[\"kept1\", \"kept2\"]"));
   EXPECT_NEAR(model["error_bound"][0][0].get<double>(), 0.0, 1e-9);
 }

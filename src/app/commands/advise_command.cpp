@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
@@ -25,7 +26,7 @@ namespace {
 struct Options {
   std::string scenario;
   SettingOptions settings_given;
-  std::string fidelity;
+  std::optional<std::string> fidelity;
   std::string out;
   std::string cache;
   dynamics::AdviceSettings settings;
@@ -33,12 +34,8 @@ struct Options {
 };
 
 scene::Scene load(const Options& options) {
-  scene::Overrides overrides;
-  overrides.settings = to_settings(options.settings_given);
-  if (!options.fidelity.empty()) {
-    overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
-  }
-  scene::Scene scene = scene::load_scene(options.scenario, overrides);
+  scene::Scene scene = scene::load_scene(
+      options.scenario, to_overrides(options.settings_given, options.fidelity));
   dynamics::AdviceSettings& advice = scene.scenario.advice;
   const auto replace = [](auto& value, const auto& other) {
     if (other) value = other;

@@ -14,6 +14,7 @@
 #include "limber/app/console/percent.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/cache_option.hpp"
+#include "limber/app/options/list_option.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -233,31 +234,21 @@ void compare(const Options& options) {
 }
 
 void add_axes(CLI::App& command, Options& options) {
-  command
-      .add_option(
-          "--fidelity", options.levels,
-          "Levels, as in rigid,coupled (default: rigid to coupled, up to "
-          "the reference's)")
-      ->delimiter(',')
+  add_list(command, "--fidelity", options.levels,
+           "Levels, as in rigid,coupled (default: rigid to coupled, up to "
+           "the reference's)")
       ->type_name("LEVELS");
-  command
-      .add_option("--modes", options.axes.eigenmodes,
-                  "Numbers of eigenmodes of every flexible link, as in 4,10,20 "
-                  "(default: the scenario's)")
-      ->delimiter(',')
-      ->check(CLI::Range(0, 100000));
-  command
-      .add_option("--sources", options.axes.sources,
-                  "What the bases are made of: eigenmodes alone, or with the "
-                  "static-deformation modes of interfaces, loads, or all "
-                  "(default: the scenario's)")
-      ->delimiter(',');
-  command
-      .add_option("--step", options.axes.steps,
-                  "Longest steps [s], as in 1e-3,5e-4 (default: the "
-                  "scenario's)")
-      ->delimiter(',')
-      ->check(make_positive());
+  add_list(command, "--modes", options.axes.eigenmodes,
+           "Numbers of eigenmodes of every flexible link, as in 4,10,20 "
+           "(default: the scenario's)",
+           CLI::Range(0, 100000));
+  add_list(command, "--sources", options.axes.sources,
+           "What the bases are made of: eigenmodes alone, or with the "
+           "static-deformation modes of interfaces, loads, or all "
+           "(default: the scenario's)");
+  add_list(command, "--step", options.axes.steps,
+           "Longest steps [s], as in 1e-3,5e-4 (default: the scenario's)",
+           make_positive());
 }
 
 void add_reference(CLI::App& command, Options& options) {

@@ -20,19 +20,15 @@ namespace {
 struct Options {
   std::string scenario;
   SettingOptions settings_given;
-  std::string fidelity;
+  std::optional<std::string> fidelity;
   std::string cache;
   std::optional<int> count;
   bool json = false;
 };
 
 void find(const Options& options) {
-  scene::Overrides overrides;
-  overrides.settings = to_settings(options.settings_given);
-  if (!options.fidelity.empty()) {
-    overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
-  }
-  const scene::Scene scene = scene::load_scene(options.scenario, overrides);
+  const scene::Scene scene = scene::load_scene(
+      options.scenario, to_overrides(options.settings_given, options.fidelity));
   FrequencyReport report =
       find_frequencies(scene, options.cache, make_progress_bar());
   clear_progress_bar();
@@ -44,9 +40,7 @@ void find(const Options& options) {
   constexpr int kDefaultCount = 20;
   const int count = options.count.value_or(kDefaultCount);
   if (options.json) {
-    Json json = to_json(report, count);
-    json["scenario"] = options.scenario;
-    fmt::print("{}\n", to_text(json));
+    fmt::print("{}\n", to_text(to_json(report, count)));
   } else {
     fmt::print("{}", to_text(report, count));
   }

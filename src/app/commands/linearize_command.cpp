@@ -11,19 +11,12 @@
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/cache_option.hpp"
-#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/list_option.hpp"
 #include "limber/app/options/setting_options.hpp"
-#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/options/validators.hpp"
-#include "limber/app/reports/steady_report.hpp"
-#include "limber/common/errors.hpp"
-#include "limber/common/parse_number.hpp"
-#include "limber/dynamics/analysis/balanced_truncation.hpp"
-#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/app/run/linear_run.hpp"
 #include "limber/results/linear_model_file.hpp"
-#include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
-#include "limber/scene/control/linear_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -31,7 +24,7 @@ namespace {
 struct Options {
   std::string scenario;
   SettingOptions settings_given;
-  std::string fidelity;
+  std::optional<std::string> fidelity;
   std::string at = "start";
   std::string file;
   scene::LinearSelection selection;
@@ -40,130 +33,16 @@ struct Options {
   bool json = false;
 };
 
-/// What the model counts from.
-struct Reference {
-  dynamics::SystemState state;
-  std::string about;  ///< "start", "equilibrium", "time"
-  std::string where;  ///< in a sentence
-};
-
-/// The time of --at, unless it names a state.
-std::optional<double> find_time(const std::string& at) {
-  if (at == "start" || at == "equilibrium") return std::nullopt;
-  const std::optional<double> time = parse_number(at);
-  if (time) return time;
-  throw InputError(fmt::format(
-      "--at is '{}'; expected 'start', 'equilibrium' or a time of the run in "
-      "seconds",
-      at));
-}
-
-/// The state of the scenario's run at a time.
-dynamics::SystemState run_to(double t, const scene::BuiltScene& built,
-                             const Progress& progress) {
-  dynamics::SystemState state = built.initial;
-  dynamics::SimulationSettings settings = built.settings;
-  if (!(t >= state.t && t <= settings.end_time)) {
-    throw InputError(
-        fmt::format("--at is {:g} s; the run goes from {:g} s to {:g} s", t,
-                    state.t, settings.end_time));
-  }
-  if (t == state.t) return state;
-  settings.end_time = t;
-  settings.output_times = {t};
-  std::erase_if(settings.step_changes, [&](const dynamics::StepChange& change) {
-    return change.from >= t;
-  });
-  simulate(
-      built.model, state, settings, [](const auto&, const auto&) {}, progress);
-  return state;
-}
-
-Reference find_reference(const Options& options, const scene::Scene& scene,
-                         const scene::BuiltScene& built,
-                         const Progress& progress) {
-  if (const std::optional<double> t = find_time(options.at)) {
-    return {run_to(*t, built, progress), "time",
-            fmt::format("the state at {:g} s", *t)};
-  }
-  if (options.at == "start") {
-    return {built.initial, scene.scenario.equilibrium ? "equilibrium" : "start",
-            "the start"};
-  }
-  return {find_equilibrium(built.model, built.initial,
-                           {.method = scene.scenario.equilibrium.value_or(
-                                dynamics::EquilibriumMethod::newton)},
-                           progress)
-              .state,
-          "equilibrium", "the equilibrium"};
-}
-
-/// All that the command found.
-struct Found {
-  scene::LinearScene linear;
-  std::optional<dynamics::TruncatedModel> truncated;
-  results::LinearRecord record;
-};
-
-void warn(const Reference& reference, Found& found) {
-  const dynamics::LinearSystem& system = found.linear.system;
-  const LinearisedAt at{reference.where, "the model is"};
-  std::vector<std::string>& warnings = found.record.warnings;
-  if (system.imbalance.matters) {
-    warnings.push_back(
-        describe_imbalance(system.imbalance, system.is_moving, at));
-  }
-  if (system.change > kTellChange) {
-    warnings.push_back(describe_change(system.change, at));
-  }
-  const auto& more = found.linear.warnings;
-  warnings.insert(warnings.end(), more.begin(), more.end());
-}
-
-void warn_of_fewer(int states, Found& found) {
-  const Eigen::Index left = found.truncated->model.A.rows();
-  if (left == states) return;
-  found.record.warnings.push_back(fmt::format(
-      "--states {}: the model has {}; what the others add from inputs to "
-      "outputs is less than round-off",
-      states, left));
-}
-
-Found find(const Options& options) {
+LinearRun find(const Options& options) {
   results::check_linear_model_ending(options.file);
-  scene::Overrides overrides;
-  overrides.settings = to_settings(options.settings_given);
-  if (!options.fidelity.empty()) {
-    overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
-  }
-  const scene::Scene scene = scene::load_scene(options.scenario, overrides);
+  const LinearRequest request = {parse_reference(options.at), options.selection,
+                                 options.states};
+  const scene::Scene scene = scene::load_scene(
+      options.scenario, to_overrides(options.settings_given, options.fidelity));
   const Progress progress = make_progress_bar();
-  scene::BuiltScene built = scene::build_system(
-      scene, make_reducer(progress), options.cache, make_full_maker(progress));
-  warn_of_unused_cache(options.cache, built);
-  const Reference reference = find_reference(options, scene, built, progress);
+  LinearRun run = linearise_scene(scene, request, options.cache, progress);
   clear_progress_bar();
-  Found found;
-  found.linear = scene::linearise(scene.scenario, built.model, reference.state,
-                                  built.probes, options.selection);
-  found.record.warnings = built.warnings;
-  warn(reference, found);
-  found.record.model = found.linear.model;
-  if (options.states > 0) {
-    found.truncated =
-        dynamics::truncate_balanced(found.linear.model, options.states);
-    found.record.model = found.truncated->model;
-    found.record.hankel.assign(found.truncated->hankel.begin(),
-                               found.truncated->hankel.end());
-    found.record.bound = found.truncated->bound;
-    warn_of_fewer(options.states, found);
-  }
-  const Vector3& w = found.linear.system.axes.w_W;
-  found.record.axes_angular_velocity = {w.x(), w.y(), w.z()};
-  found.record.time = reference.state.t;
-  found.record.scenario = scene.scenario.name;
-  found.record.about = reference.about;
-  return found;
+  return run;
 }
 
 Json to_json(const std::vector<dynamics::LinearSignal>& signals) {
@@ -176,7 +55,7 @@ Json to_json(const std::vector<dynamics::LinearSignal>& signals) {
   return json;
 }
 
-void print_json(const Options& options, const Found& found) {
+void print_json(const Options& options, const LinearRun& found) {
   const results::LinearRecord& record = found.record;
   Json json = Json::object();
   json["scenario"] = options.scenario;
@@ -236,7 +115,7 @@ void print_truncation(const dynamics::TruncatedModel& truncated,
   }
 }
 
-void print(const Options& options, const Found& found) {
+void print(const Options& options, const LinearRun& found) {
   const results::LinearRecord& record = found.record;
   fmt::print(
       "Linear model of {} about the {}, t = {:g} s: {} states, {} of "
@@ -267,7 +146,7 @@ void print(const Options& options, const Found& found) {
 }
 
 void linearize(const Options& options) {
-  const Found found = find(options);
+  const LinearRun found = find(options);
   results::write_linear_model(options.file, found.record);
   print_warnings(found.record.warnings);
   if (options.json) {
@@ -295,16 +174,12 @@ void add_linearize(CLI::App& app, Action& action) {
   command->add_option("--at", options->at,
                       "start, equilibrium, or a time of the run [s] "
                       "(default: start)");
-  command
-      ->add_option("--inputs", options->selection.inputs,
-                   "Names of inputs, separated by commas (default: all)")
-      ->delimiter(',')
+  add_list(*command, "--inputs", options->selection.inputs,
+           "Names of inputs, separated by commas (default: all)")
       ->allow_extra_args(false);
-  command
-      ->add_option("--outputs", options->selection.outputs,
-                   "Names of probes or their columns, separated by commas "
-                   "(default: all)")
-      ->delimiter(',')
+  add_list(*command, "--outputs", options->selection.outputs,
+           "Names of probes or their columns, separated by commas (default: "
+           "all)")
       ->allow_extra_args(false);
   command
       ->add_option("--states", options->states,

@@ -27,7 +27,7 @@ struct Options {
   std::string scenario;
   std::string from;
   SettingOptions settings_given;
-  std::string fidelity;
+  std::optional<std::string> fidelity;
   std::string out;
   std::string cache;
   std::optional<double> checkpoint_interval;
@@ -62,11 +62,8 @@ scene::Overrides merge(scene::Overrides studied,
 }
 
 void run(const Options& options) {
-  scene::Overrides overrides;
-  overrides.settings = to_settings(options.settings_given);
-  if (!options.fidelity.empty()) {
-    overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
-  }
+  scene::Overrides overrides =
+      to_overrides(options.settings_given, options.fidelity);
   std::string scenario = options.scenario;
   std::string name;
   if (!options.from.empty()) {

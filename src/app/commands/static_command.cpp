@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
@@ -20,7 +21,7 @@ namespace {
 struct Options {
   std::string scenario;
   SettingOptions settings_given;
-  std::string fidelity;
+  std::optional<std::string> fidelity;
   std::string method;
   std::string out;
   std::string cache;
@@ -29,12 +30,8 @@ struct Options {
 };
 
 scene::Scene load(const Options& options) {
-  scene::Overrides overrides;
-  overrides.settings = to_settings(options.settings_given);
-  if (!options.fidelity.empty()) {
-    overrides.fidelity = dynamics::parse_fidelity(options.fidelity);
-  }
-  return scene::load_scene(options.scenario, overrides);
+  return scene::load_scene(
+      options.scenario, to_overrides(options.settings_given, options.fidelity));
 }
 
 dynamics::EquilibriumMethod find_method(const Options& options,

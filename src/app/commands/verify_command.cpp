@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "limber/app/options/cache_option.hpp"
+#include "limber/app/options/list_option.hpp"
 #include "limber/app/options/validators.hpp"
 
 namespace limber::app {
@@ -32,12 +33,10 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
       ->add_option("--refine", options->refine,
                    "Halve our step this often; shows the order")
       ->check(CLI::Range(0, 20));
-  command
-      ->add_option("--stiffen", options->stiffen,
-                   "Factors of the stiffness of all joints, as in 1,10,100: "
-                   "convergence to Simbody's ideal joints")
-      ->delimiter(',')
-      ->check(make_positive());
+  add_list(*command, "--stiffen", options->stiffen,
+           "Factors of the stiffness of all joints, as in 1,10,100: "
+           "convergence to Simbody's ideal joints",
+           make_positive());
   command->add_option("--out", options->out,
                       "Folder for verification.json and, with --stiffen, "
                       "stiffness.png (default: none)");

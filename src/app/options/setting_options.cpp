@@ -28,4 +28,12 @@ std::vector<scene::Setting> to_settings(const SettingOptions& options) {
   return settings;
 }
 
+scene::Overrides to_overrides(const SettingOptions& options,
+                              const std::optional<std::string>& fidelity) {
+  scene::Overrides overrides;
+  overrides.settings = to_settings(options);
+  if (fidelity) overrides.fidelity = dynamics::parse_fidelity(*fidelity);
+  return overrides;
+}
+
 }  // namespace limber::app

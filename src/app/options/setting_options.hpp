@@ -2,10 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "limber/scene/text/setting.hpp"
+#include "limber/scene/build/scene.hpp"
 
 namespace limber::app {
 
@@ -20,5 +21,11 @@ void add_settings(CLI::App& command, SettingOptions& options);
 /// @throws InputError naming an option without key or '='.
 [[nodiscard]] std::vector<scene::Setting> to_settings(
     const SettingOptions& options);
+
+/// What a scene is loaded with.
+/// @param fidelity of `--fidelity`; none: the file's levels
+/// @throws InputError as to_settings, and for an unknown level.
+[[nodiscard]] scene::Overrides to_overrides(
+    const SettingOptions& options, const std::optional<std::string>& fidelity);
 
 }  // namespace limber::app

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/run/linear_run.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "limber/app/options/reducer.hpp"
+#include "limber/app/options/unused_cache.hpp"
+#include "limber/app/reports/steady_report.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/common/parse_number.hpp"
+#include "limber/dynamics/analysis/equilibrium.hpp"
+#include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/scene/build/build_system.hpp"
+
+namespace limber::app {
+namespace {
+
+/// What the model counts from.
+struct ReferenceState {
+  dynamics::SystemState state;
+  std::string about;  ///< "start", "equilibrium", "time"
+  std::string where;  ///< in a sentence
+};
+
+/// The state of the scene's run at a time.
+dynamics::SystemState run_to(double t, const scene::BuiltScene& built,
+                             const Progress& progress) {
+  dynamics::SystemState state = built.initial;
+  dynamics::SimulationSettings settings = built.settings;
+  if (!(t >= state.t && t <= settings.end_time)) {
+    throw InputError(fmt::format(
+        "a linear model about {:g} s: the run goes from {:g} s to {:g} s", t,
+        state.t, settings.end_time));
+  }
+  if (t == state.t) return state;
+  settings.end_time = t;
+  settings.output_times = {t};
+  std::erase_if(settings.step_changes, [&](const dynamics::StepChange& change) {
+    return change.from >= t;
+  });
+  simulate(
+      built.model, state, settings, [](const auto&, const auto&) {}, progress);
+  return state;
+}
+
+ReferenceState find_reference(const std::variant<Reference, double>& at,
+                              const scene::Scene& scene,
+                              const scene::BuiltScene& built,
+                              const Progress& progress) {
+  if (const double* t = std::get_if<double>(&at)) {
+    return {run_to(*t, built, progress), "time",
+            fmt::format("the state at {:g} s", *t)};
+  }
+  if (std::get<Reference>(at) == Reference::start) {
+    return {built.initial, scene.scenario.equilibrium ? "equilibrium" : "start",
+            "the start"};
+  }
+  return {find_equilibrium(built.model, built.initial,
+                           {.method = scene.scenario.equilibrium.value_or(
+                                dynamics::EquilibriumMethod::newton)},
+                           progress)
+              .state,
+          "equilibrium", "the equilibrium"};
+}
+
+void warn(const std::string& where, LinearRun& run) {
+  const dynamics::LinearSystem& system = run.linear.system;
+  const LinearisedAt at{where, "the model is"};
+  std::vector<std::string>& warnings = run.record.warnings;
+  if (system.imbalance.matters) {
+    warnings.push_back(
+        describe_imbalance(system.imbalance, system.is_moving, at));
+  }
+  if (system.change > kTellChange) {
+    warnings.push_back(describe_change(system.change, at));
+  }
+  const auto& more = run.linear.warnings;
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+void truncate(int states, LinearRun& run) {
+  results::LinearRecord& record = run.record;
+  run.truncated = dynamics::truncate_balanced(run.linear.model, states);
+  record.model = run.truncated->model;
+  record.hankel.assign(run.truncated->hankel.begin(),
+                       run.truncated->hankel.end());
+  record.bound = run.truncated->bound;
+  const Eigen::Index left = record.model.A.rows();
+  if (left == states) return;
+  record.warnings.push_back(fmt::format(
+      "the model has {} states in place of {}; what the others add from "
+      "inputs to outputs is less than round-off",
+      left, states));
+}
+
+}  // namespace
+
+std::variant<Reference, double> parse_reference(const std::string& text) {
+  if (text == "start") return Reference::start;
+  if (text == "equilibrium") return Reference::equilibrium;
+  if (const std::optional<double> time = parse_number(text)) return *time;
+  throw InputError(
+      fmt::format("a linear model about '{}': expected 'start', 'equilibrium' "
+                  "or a time of the run in seconds",
+                  text));
+}
+
+LinearRun linearise_scene(const scene::Scene& scene,
+                          const LinearRequest& request,
+                          const std::filesystem::path& cache,
+                          const Progress& progress) {
+  scene::BuiltScene built = scene::build_system(
+      scene, make_reducer(progress), cache, make_full_maker(progress));
+  warn_of_unused_cache(cache, built);
+  const ReferenceState reference =
+      find_reference(request.at, scene, built, progress);
+  LinearRun run;
+  run.linear = scene::linearise(scene.scenario, built.model, reference.state,
+                                built.probes, request.selection);
+  run.record.warnings = built.warnings;
+  warn(reference.where, run);
+  run.record.model = run.linear.model;
+  if (request.states > 0) truncate(request.states, run);
+  const Vector3& w = run.linear.system.axes.w_W;
+  run.record.axes_angular_velocity = {w.x(), w.y(), w.z()};
+  run.record.time = reference.state.t;
+  run.record.scenario = scene.scenario.name;
+  run.record.about = reference.about;
+  return run;
+}
+
+}  // namespace limber::app
