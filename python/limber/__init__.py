@@ -21,11 +21,12 @@ from ._core import (
 from .body import reduce
 from .errors import (
     ContractError, InputError, Interrupted, LimberWarning, NumericalError)
+from .linear import LinearModel
 from .run import BodyMotion, Event, Run, StaticRun
-from .scenario import Controller, Scenario, load
+from .scenario import Controller, Scenario, linearize, load
 from .simulation import simulate
 from .study import Effect, Row, Study, StudyResults
 
 __all__ = [name for name in dir() if not name.startswith("_") and name not in (
-    "body", "run", "scenario", "simulation", "study", "toml")]
+    "body", "linear", "run", "scenario", "simulation", "study", "toml")]
 __all__ += ["__version__"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenarios: load, set keys, run, compare, find equilibria and frequencies."""
+"""Scenarios: load, set keys, run, compare, linearise, find equilibria and frequencies."""
 
 import inspect
 import os
@@ -7,6 +7,7 @@ import warnings
 
 from . import _core
 from .errors import LimberWarning
+from .linear import LinearModel
 from .run import Run, StaticRun, finish
 from .toml import to_toml
 
@@ -21,6 +22,17 @@ def load(file, set=None, unset=(), fidelity=None):
     Raises InputError with every problem of the files.
     """
     return Scenario(file, set, unset, fidelity)
+
+
+def linearize(scenario, at="start", inputs=None, outputs=None, states=None,
+              cache=None):
+    """Linear model of a scenario, a :class:`Scenario` or its file.
+
+    As :meth:`Scenario.linearize`. Returns a :class:`LinearModel`.
+    """
+    if not isinstance(scenario, Scenario):
+        scenario = Scenario(scenario)
+    return scenario.linearize(at, inputs, outputs, states, cache)
 
 
 class Controller:
@@ -170,6 +182,25 @@ class Scenario:
             warnings.warn(text, LimberWarning, stacklevel=2)
         return found
 
+    def linearize(self, at="start", inputs=None, outputs=None, states=None,
+                  cache=None):
+        """Linear model (A, B, C, D) of its system, as ``limber linearize``.
+
+        ``at``: "start", "equilibrium", or a time of its run [s]. ``inputs``:
+        names of loads, drives and controllers, ``outputs``: names of probes or
+        their columns, both by default all, in the model's order. ``states``: a
+        number of states n, to which the model is reduced by balanced
+        truncation. Controllers are not in it: their loops are open.
+
+        Returns a :class:`LinearModel`, with matrices of shapes (n, n), (n, m),
+        (p, n) and (p, m) for m inputs and p outputs.
+        """
+        made = LinearModel(_core.linearize(
+            self._scene, at, _names(inputs), _names(outputs), states, _path(cache)))
+        for text in made.warnings:
+            warnings.warn(text, LimberWarning, stacklevel=2)
+        return made
+
     def compare(self, levels=(), modes=(), sources=(), steps=(), reference=None,
                 reference_modes=None, reference_step=None,
                 reference_integrator=None, repeats=0, cache=None):
@@ -190,6 +221,13 @@ class Scenario:
 
 def _to_settings(values):
     return [(path, to_toml(value)) for path, value in dict(values or {}).items()]
+
+
+def _names(names):
+    """A list of names; one text is one name."""
+    if isinstance(names, str):
+        return [names]
+    return None if names is None else list(names)
 
 
 def _path(folder):

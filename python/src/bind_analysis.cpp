@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the commands static, frequencies and compare find, of a loaded scene.
 #include "arrays.hpp"
-#include "interruption.hpp"
 #include "json.hpp"
 #include "limber/app/compare/comparison_report.hpp"
 #include "limber/app/reports/frequency_report.hpp"
-#include "limber/app/run/library_lock.hpp"
 #include "limber/app/run/static_run.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "recorded_run.hpp"
+#include "run_alone.hpp"
 
 namespace limber::python {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Work without the GIL, one at a time, that signals end.
-template <typename Work>
-auto run_alone(const Work& work) {
-  clear_cause();
-  const Progress watch = make_watch(py::none());
-  const py::gil_scoped_release release;
-  const auto lock = app::lock_libraries();
-  return work(watch);
-}
 
 /// The equilibrium as a run with one output, and what is told of it.
 py::tuple find_static(const scene::Scene& scene,

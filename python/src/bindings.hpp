@@ -18,6 +18,7 @@ void bind_errors();
 void bind_run(py::module_& m);
 void bind_scenario(py::module_& m);
 void bind_analysis(py::module_& m);
+void bind_linear(py::module_& m);
 void bind_study(py::module_& m);
 void bind_body(py::module_& m);
 void bind_functions(py::module_& m);

@@ -21,5 +21,6 @@ PYBIND11_MODULE(_core, m) {
   bind_simulator(m);
   bind_scenario(m);
   bind_analysis(m);
+  bind_linear(m);
   bind_study(m);
 }

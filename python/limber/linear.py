@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Linear models of scenarios, for the design of controllers."""
+
+import os
+
+import numpy
+
+
+class LinearModel:
+    """z' = A z + B (u - u0), y - y0 = C z + D (u - u0), of n states, m inputs
+    and p outputs; see docs/linearize.md.
+
+    Matrices are read-only views of the memory of the model, which they keep
+    alive. Units of their entries follow from those of states, inputs and
+    outputs, :attr:`state_units`, :attr:`input_units` and :attr:`output_units`.
+    """
+
+    def __init__(self, made):
+        self._made = made
+
+    @property
+    def A(self):
+        """(n, n) [unit of the row's state per second / column's state]."""
+        return self._made.A
+
+    @property
+    def B(self):
+        """(n, m) [unit of the row's state per second / column's input]."""
+        return self._made.B
+
+    @property
+    def C(self):
+        """(p, n) [unit of the row's output / column's state]."""
+        return self._made.C
+
+    @property
+    def D(self):
+        """(p, m) [unit of the row's output / column's input]."""
+        return self._made.D
+
+    @property
+    def input_names(self):
+        """Of each column of B and D, m texts: loads, drives, and what
+        controllers write."""
+        return [name for name, _, _ in self._made.inputs]
+
+    @property
+    def input_units(self):
+        """Of each input, m texts."""
+        return [unit for _, unit, _ in self._made.inputs]
+
+    @property
+    def u0(self):
+        """Inputs at the reference, (m,) [their units]."""
+        return numpy.array([value for _, _, value in self._made.inputs], dtype=float)
+
+    @property
+    def output_names(self):
+        """Of each row of C and D, p texts: columns of probes, "tip.ux"."""
+        return [name for name, _, _ in self._made.outputs]
+
+    @property
+    def output_units(self):
+        """Of each output, p texts."""
+        return [unit for _, unit, _ in self._made.outputs]
+
+    @property
+    def y0(self):
+        """Outputs at the reference, (p,) [their units]."""
+        return numpy.array([value for _, _, value in self._made.outputs], dtype=float)
+
+    @property
+    def state_names(self):
+        """Of each state, n texts; of a reduced model "kept1", ..., "balanced1"."""
+        return [name for name, _, _ in self._made.states]
+
+    @property
+    def state_units(self):
+        """Of each state, n texts."""
+        return [unit for _, unit, _ in self._made.states]
+
+    @property
+    def time(self):
+        """Of the reference [s]."""
+        return self._made.time
+
+    @property
+    def about(self):
+        """What the model counts from: "start", "equilibrium" or "time"."""
+        return self._made.about
+
+    @property
+    def scenario(self):
+        """Name of the scenario."""
+        return self._made.scenario
+
+    @property
+    def axes_angular_velocity(self):
+        """Of the axes from which vectors of the world are seen, (3,) [rad/s]."""
+        return self._made.axes_angular_velocity
+
+    @property
+    def open_loops(self):
+        """Names of controllers, which are not in the model."""
+        return self._made.open_loops
+
+    @property
+    def states_in_all(self):
+        """Number of states before balanced truncation."""
+        return self._made.all_states
+
+    @property
+    def kept_states(self):
+        """Of a reduced model the number of states of motion that does not
+        decay, its first ones; None of others."""
+        return self._made.kept
+
+    @property
+    def hankel_singular_values(self):
+        """Of a reduced model, of all motion that decays, descending, (k,)
+        [output's / input's]; None of others."""
+        return self._made.hankel
+
+    @property
+    def error_bound(self):
+        """Of a reduced model: by how much at most, at any frequency, the gain
+        from inputs to outputs differs [output's / input's]; None of others."""
+        return self._made.bound
+
+    @property
+    def warnings(self):
+        """What the command prints as warnings."""
+        return self._made.warnings
+
+    def save(self, file):
+        """Writes it as ``limber linearize -o`` does: .mat, .npz or .json."""
+        self._made.save(os.fspath(file))
+
+    def to_scipy(self):
+        """As a ``scipy.signal.StateSpace``, whose matrices are copies."""
+        from scipy.signal import StateSpace
+        return StateSpace(self.A, self.B, self.C, self.D)
+
+    def __repr__(self):
+        return (f"<limber.LinearModel of {self.scenario!r} about the {self.about}, "
+                f"{len(self.A)} states, {self.B.shape[1]} inputs, "
+                f"{len(self.C)} outputs>")
