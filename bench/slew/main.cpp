@@ -265,6 +265,10 @@ void write_page(Page& page) {
                   draw_robustness(left)},
        .columns = 2},
       "slew", "Command, deviation and residual vibration");
+  page.text(
+      "[With feedback of the strain](feedback.md) the vibration is damped, "
+      "too, "
+      "whatever caused it.");
   page.write();
   if (!page.trouble().empty()) fmt::print("warning: {}\n", page.trouble());
 }
