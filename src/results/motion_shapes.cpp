@@ -8,13 +8,6 @@
 namespace limber::results {
 namespace {
 
-/// Largest displacement of a node in a column of three rows a node.
-double find_largest(const VectorX& u) {
-  if (u.size() == 0) return 0.0;
-  return std::sqrt(
-      u.reshaped(3, u.size() / 3).colwise().squaredNorm().maxCoeff());
-}
-
 MatrixX take_snapshots(const std::function<VectorX(std::size_t)>& column,
                        std::size_t count) {
   const std::size_t taken = std::min(count, kMostSnapshots);
@@ -50,8 +43,15 @@ MatrixX find_shapes(const MatrixX& snapshots) {
 
 }  // namespace
 
+double find_largest_length(const VectorX& u) {
+  if (u.size() == 0) return 0.0;
+  return std::sqrt(
+      u.reshaped(3, u.size() / 3).colwise().squaredNorm().maxCoeff());
+}
+
 MotionShapes find_motion_shapes(
-    const std::function<VectorX(std::size_t)>& column, std::size_t count) {
+    const std::function<VectorX(std::size_t)>& column, std::size_t count,
+    const std::function<double(const VectorX&)>& size) {
   MotionShapes motion;
   if (count == 0) return motion;
   const MatrixX snapshots = take_snapshots(column, count);
@@ -63,7 +63,7 @@ MotionShapes find_motion_shapes(
     const VectorX coordinates = motion.shapes.transpose() * u;
     motion.coordinates.row(static_cast<Eigen::Index>(i)) = coordinates;
     motion.error =
-        std::max(motion.error, find_largest(u - motion.shapes * coordinates));
+        std::max(motion.error, size(u - motion.shapes * coordinates));
   }
   return motion;
 }

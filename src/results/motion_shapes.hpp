@@ -8,12 +8,17 @@
 
 namespace limber::results {
 
-/// Displacements over time as a few shapes times coordinates.
+/// Displacements, or another field, over time as a few shapes times
+/// coordinates.
 struct MotionShapes {
-  MatrixX shapes;       ///< 3n x r, orthonormal [kg^-1/2, formally]
-  MatrixX coordinates;  ///< T x r [kg^1/2 m]
-  double error = 0.0;   ///< largest displacement of a node left out [m]
+  MatrixX shapes;       ///< rows of the field x r, orthonormal [kg^-1/2,
+                        ///< formally; of another field 1]
+  MatrixX coordinates;  ///< T x r [kg^1/2 m; the other field's unit]
+  double error = 0.0;   ///< largest size of what is left out [m; its unit]
 };
+
+/// Length of the longest vector in three rows a node [as u].
+[[nodiscard]] double find_largest_length(const VectorX& u);
 
 /// Truncated singular-value decomposition of what `column(i)` gives at each of
 /// `count` times.
@@ -25,8 +30,11 @@ struct MotionShapes {
 ///            kMostSnapshots evenly spaced times, coordinates at all of them
 /// Limits     squares of singular values: shapes below 1e-7 of the largest are
 ///            lost in round-off
+/// @param size of what is left out of a column; by default the largest
+/// displacement of a node, three rows each
 [[nodiscard]] MotionShapes find_motion_shapes(
-    const std::function<VectorX(std::size_t)>& column, std::size_t count);
+    const std::function<VectorX(std::size_t)>& column, std::size_t count,
+    const std::function<double(const VectorX&)>& size = find_largest_length);
 
 inline constexpr double kShapeTolerance = 1e-5;  ///< of the largest [-]
 inline constexpr int kMostShapes = 32;

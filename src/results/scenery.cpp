@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "limber/dynamics/equations/node_motion.hpp"
+#include "limber/results/full_stress_field.hpp"
 #include "limber/results/motion_shapes.hpp"
 #include "limber/results/path_step.hpp"
 #include "limber/results/scenery_marks.hpp"
@@ -93,8 +94,9 @@ void write_surface(Hdf5File& out, const std::string& at,
 /// Surfaces, each written once for all bodies that share it.
 class SurfaceWriter {
  public:
-  SurfaceWriter(Hdf5File& out, const SystemModel& model, const History& history)
-      : out_(out), model_(model), history_(history) {}
+  SurfaceWriter(Hdf5File& out, const Scenery& scenery, const SystemModel& model,
+                const History& history)
+      : out_(out), scenery_(scenery), model_(model), history_(history) {}
 
   void add(std::size_t b) {
     const BodyModel& body = model_.bodies[b];
@@ -157,19 +159,44 @@ class SurfaceWriter {
     error(0, 0) = motion.error;
     out_.write(at + "truncation", error, "m",
                "largest displacement that the shapes leave out");
+    if (wants_stress(body.name)) write_stress(b, at, surface);
     return name;
   }
 
+  bool wants_stress(const std::string& name) const {
+    const auto& stressed = scenery_.stressed;
+    return std::find(stressed.begin(), stressed.end(), name) != stressed.end();
+  }
+
+  /// At level `full`: stress is not linear in the coordinates of the shapes,
+  /// and has shapes of its own.
+  void write_stress(std::size_t b, const std::string& at,
+                    const SurfaceRows& surface) {
+    const std::vector<int> nodes(surface.rows.begin(), surface.rows.end());
+    const auto field = FullStressField::make(
+        model_, static_cast<dynamics::BodyIndex>(b), nodes);
+    if (field == nullptr) return;
+    const MotionShapes stress = find_stress_shapes(*field, history_);
+    out_.write_single(at + "Sigma_B", stress.shapes, "1",
+                      "shapes of the stress at the nodes of the surface, "
+                      "6n x r: xx, yy, zz, xy, yz, xz");
+    out_.write(at + "zeta", stress.coordinates, "Pa",
+               "coordinates of these shapes at each output time");
+    out_.write(at + "stress_truncation", MatrixX::Constant(1, 1, stress.error),
+               "Pa", "largest von Mises stress that these shapes leave out");
+  }
+
   Hdf5File& out_;
+  const Scenery& scenery_;
   const SystemModel& model_;
   const History& history_;
   int count_ = 0;
   std::map<std::pair<const ReducedBody*, int>, std::string> shared_;
 };
 
-void write_bodies(Hdf5File& out, const SystemModel& model,
-                  const History& history) {
-  SurfaceWriter surfaces(out, model, history);
+void write_bodies(Hdf5File& out, const Scenery& scenery,
+                  const SystemModel& model, const History& history) {
+  SurfaceWriter surfaces(out, scenery, model, history);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const std::string at = "scene/bodies/" + to_path_step(body.name) + "/";
@@ -228,7 +255,7 @@ void write_scenery(Hdf5File& out, const Scenery& scenery,
             "options that changed the texts after reading");
   out.write("scene/gravity", MatrixX(model.gravity_W.transpose()), "m/s^2",
             "world frame");
-  write_bodies(out, model, history);
+  write_bodies(out, scenery, model, history);
   write_shapes(out, scenery, model);
   write_marks(out, model, history);
 }

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
-#include "limber/flexbody/model/full_stress.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
+#include "limber/results/full_stress_field.hpp"
 #include "limber/results/scenery_marks.hpp"
 #include "limber/results/xdmf_file.hpp"
 
@@ -37,7 +36,7 @@ class Surfaces {
         continue;
       }
       bodies_.push_back(b);
-      full_.push_back(make_full(model.bodies[b]));
+      full_.push_back(make_full(b));
       has_stress_ =
           has_stress_ || has_stress(model.bodies[b]) || full_.back() != nullptr;
     }
@@ -79,8 +78,9 @@ class Surfaces {
                              {&state, 1}, u_B);
       frame.deformation.middleCols(first, n) = R_WB * u_B.reshaped(3, n);
       if (has_stress_) {
-        frame.stress.middleCols(first, n) =
-            full_[i] ? find_full_stress(i, state) : find_stress(b, state, R_WB);
+        frame.stress.middleCols(first, n) = full_[i]
+                                                ? full_[i]->calc_in_world(state)
+                                                : find_stress(b, state, R_WB);
       }
       first += n;
     }
@@ -104,30 +104,13 @@ class Surfaces {
     return nodes.reshaped(3, count_rows(b));
   }
 
-  using FullStress = std::shared_ptr<const flexbody::FullStress>;
-
   // Null below level `full`.
-  [[nodiscard]] FullStress make_full(const BodyModel& body) const {
-    if (body.full < 0) return nullptr;
-    std::vector<int> all(body.reduced->rows.tags.size());
+  [[nodiscard]] std::unique_ptr<FullStressField> make_full(
+      std::size_t b) const {
+    std::vector<int> all(index(count_rows(b)));
     std::iota(all.begin(), all.end(), 0);
-    return flexbody::make_full_stress(
-        *model_.full_bodies[index(body.full)].mesh, all);
-  }
-
-  // Of the i-th body; at a border of materials that of the first.
-  [[nodiscard]] Matrix6X find_full_stress(std::size_t i,
-                                          const SystemState& state) const {
-    const auto f = index(model_.bodies[bodies_[i]].full);
-    const std::vector<int>& nodes = full_[i]->nodes();
-    Matrix6X at_points(6, std::ssize(nodes));
-    full_[i]->calc_stress(dynamics::nodes_of(model_.full_bodies[f], state.u_H),
-                          at_points);
-    Matrix6X stress_H(6, count_rows(bodies_[i]));
-    for (std::size_t p = nodes.size(); p-- > 0;) {
-      stress_H.col(nodes[p]) = at_points.col(static_cast<Eigen::Index>(p));
-    }
-    return turn_to_world(stress_H, state.X_WH[f].R);
+    return FullStressField::make(model_, static_cast<dynamics::BodyIndex>(b),
+                                 all);
   }
 
   // In world axes; at a border of materials that of the first.
@@ -148,10 +131,10 @@ class Surfaces {
   }
 
   const SystemModel& model_;
-  std::vector<std::size_t> bodies_;  // with a surface
-  std::vector<FullStress> full_;     // one for each
-  std::vector<std::string> bare_;    // names of those whose was not kept
-  bool has_stress_ = false;          // any of them
+  std::vector<std::size_t> bodies_;                     // with a surface
+  std::vector<std::unique_ptr<FullStressField>> full_;  // one for each
+  std::vector<std::string> bare_;  // names of those whose was not kept
+  bool has_stress_ = false;        // any of them
 };
 
 }  // namespace

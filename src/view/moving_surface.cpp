@@ -25,13 +25,19 @@ Matrix3 find_rotation(const Body& body, Eigen::Index i) {
       .toRotationMatrix();
 }
 
+bool has_stress(const Body& body, const Surface& surface) {
+  return body.Sigma_B.rows() > 0 || surface.Sigma_B.cols() > 0;
+}
+
 // In world axes.
 Matrix6X find_stress(const Body& body, const Surface& surface, Eigen::Index i) {
   const Eigen::Index n = surface.x_B.cols();
-  if (surface.Sigma_B.cols() == 0) {
+  if (!has_stress(body, surface)) {
     return Matrix6X::Constant(6, n, std::numeric_limits<double>::quiet_NaN());
   }
-  const VectorX all = surface.Sigma_B * body.eta.row(i).transpose();
+  const VectorX all = body.Sigma_B.rows() > 0
+                          ? body.Sigma_B * body.zeta.row(i).transpose()
+                          : surface.Sigma_B * body.eta.row(i).transpose();
   return results::turn_to_world(all.reshaped(6, n), find_rotation(body, i));
 }
 
@@ -72,7 +78,7 @@ MovingSurface gather_surfaces(const Recording& recording) {
       all.corners.push_back(all.nodes + corner);
     }
     all.nodes += surface.x_B.cols();
-    all.has_stress = all.has_stress || surface.Sigma_B.cols() > 0;
+    all.has_stress = all.has_stress || has_stress(recording.bodies[b], surface);
   }
   if (all.nodes == 0) {
     throw InputError(fmt::format(

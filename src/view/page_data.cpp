@@ -57,6 +57,16 @@ class PageWriter {
   }
 
  private:
+  json pack_stress(const MatrixX& Sigma_B) {
+    json stress = json::array();
+    for (Eigen::Index k = 0; k < Sigma_B.cols(); ++k) {
+      const Quantised mode = quantise(Sigma_B.col(k));
+      stress.push_back(
+          {{"scale", mode.scale}, {"values", arrays_.add(mode.integers)}});
+    }
+    return stress;
+  }
+
   PackedSurface pack(const Surface& surface) {
     PackedSurface packed;
     const Vector3 origin = surface.x_B.rowwise().mean();
@@ -74,12 +84,6 @@ class PageWriter {
     const auto to_unsigned = [](const std::vector<std::int64_t>& values) {
       return std::vector<std::uint32_t>(values.begin(), values.end());
     };
-    json stress = json::array();
-    for (Eigen::Index k = 0; k < surface.Sigma_B.cols(); ++k) {
-      const Quantised mode = quantise(surface.Sigma_B.col(k));
-      stress.push_back(
-          {{"scale", mode.scale}, {"values", arrays_.add(mode.integers)}});
-    }
     packed.header = {{"body", surface.body},
                      {"nodes", surface.tags.size()},
                      {"tags", arrays_.add(to_unsigned(surface.tags))},
@@ -88,7 +92,9 @@ class PageWriter {
                      {"x", arrays_.add(x.integers)},
                      {"shapes", shapes},
                      {"triangles", arrays_.add(to_unsigned(surface.corners))}};
-    if (!stress.empty()) packed.header["stress"] = stress;
+    if (surface.Sigma_B.cols() > 0) {
+      packed.header["stress"] = pack_stress(surface.Sigma_B);
+    }
     return packed;
   }
 
@@ -121,6 +127,11 @@ class PageWriter {
     if (body.etadot.cols() > 0) packed["etadot"] = arrays_.add(body.etadot);
     packed["error"] = bound_error(body, *surface);
     if (body.truncation > 0.0) packed["truncation"] = body.truncation;
+    if (body.Sigma_B.rows() > 0) {
+      packed["stress"] = pack_stress(body.Sigma_B);
+      packed["zeta"] = arrays_.add(body.zeta);
+      packed["stress_truncation"] = body.stress_truncation;
+    }
     return packed;
   }
 

@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Pages and scenes hold single precision, squares of it among them.
+constexpr double kLargest = 1e18;
+
 class RecordingReader {
  public:
   explicit RecordingReader(const fs::path& file)
@@ -70,9 +73,23 @@ class RecordingReader {
   MatrixX matrix(const std::string& name, Eigen::Index rows,
                  Eigen::Index cols) const {
     MatrixX values = matrix_with_gaps(name, rows, cols);
-    if (values.allFinite()) return values;
-    fail(fmt::format("is damaged: '{}' has a value that is NaN or infinity",
-                     name));
+    if (!values.allFinite()) {
+      fail(fmt::format("is damaged: '{}' has a value that is NaN or infinity",
+                       name));
+    }
+    if (values.size() > 0 && values.cwiseAbs().maxCoeff() > kLargest) {
+      fail(fmt::format("cannot be drawn: '{}' has a value beyond {:.0e}", name,
+                       kLargest));
+    }
+    return values;
+  }
+
+  /// Of rotations, w x y z in each row.
+  MatrixX quaternions(const std::string& name, Eigen::Index rows) const {
+    MatrixX q = matrix(name, rows, 4);
+    const auto errors = (q.rowwise().norm().array() - 1.0).abs();
+    if (errors.maxCoeff() < 1e-3) return q;
+    fail(fmt::format("is damaged: '{}' is no rotation", name));
   }
 
   /// As `matrix`, of values that may be NaN.
@@ -128,8 +145,11 @@ class RecordingReader {
       if (place.size() != 1 || by_place.contains(place[0])) {
         fail(fmt::format("is damaged: place of body '{}'", body.name));
       }
-      if (!read_surface_of(step, body)) bare.push_back(body.name);
-      read_states(step, body);
+      if (read_surface_of(step, body)) {
+        read_states(step, body);
+      } else {
+        bare.push_back(body.name);
+      }
       by_place.emplace(place[0], std::move(body));
     }
     if (!bare.empty()) refuse(bare);
@@ -167,10 +187,14 @@ class RecordingReader {
     const std::string at = "bodies/" + step + "/";
     const Eigen::Index T = outputs();
     body.level = in_.read_text(at + "fidelity");
+    if (body.surface < 0 && body.level != "rigid") {
+      fail(fmt::format("is damaged: flexible link '{}' has no surface",
+                       body.name));
+    }
     body.mass = matrix(drawn + "mass", 1, 1)(0, 0);
     body.inertia = matrix(drawn + "inertia", 3, 3);
     body.p_WB = matrix(at + "p_WB", T, 3);
-    body.quat_WB = matrix(at + "quat_WB", T, 4);
+    body.quat_WB = quaternions(at + "quat_WB", T);
     body.v_WB_W = matrix(at + "v_WB_W", T, 3);
     body.w_WB_B = matrix(at + "w_WB_B", T, 3);
     const Eigen::Index m =
@@ -183,10 +207,19 @@ class RecordingReader {
     if (in_.has(drawn + "eta")) {
       body.eta = matrix(drawn + "eta", T, m);
       body.truncation = matrix(drawn + "truncation", 1, 1)(0, 0);
+      if (in_.has(drawn + "Sigma_B")) read_stress(drawn, body);
       return;
     }
     body.eta = matrix(at + "eta", T, m);
     body.etadot = matrix(at + "etadot", T, m);
+  }
+
+  void read_stress(const std::string& drawn, Body& body) const {
+    const auto nodes =
+        std::ssize(recording_.surfaces[std::size_t(body.surface)].tags);
+    body.Sigma_B = matrix(drawn + "Sigma_B", 6 * nodes, -1);
+    body.zeta = matrix(drawn + "zeta", outputs(), body.Sigma_B.cols());
+    body.stress_truncation = matrix(drawn + "stress_truncation", 1, 1)(0, 0);
   }
 
   Anchor read_anchor(const std::string& at) const {
@@ -215,7 +248,7 @@ class RecordingReader {
       shape.form.kind = in_.read_text(at + "kind");
       shape.form.size = vector(at + "size");
       if (shape.form.kind == "mesh") read_mesh(at, shape.form);
-      const MatrixX q = matrix(at + "quat_BS", 1, 4);
+      const MatrixX q = quaternions(at + "quat_BS", 1);
       shape.X_BS = {Quaternion(q(0, 0), q(0, 1), q(0, 2), q(0, 3))
                         .normalized()
                         .toRotationMatrix(),

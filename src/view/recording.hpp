@@ -41,6 +41,10 @@ struct Body {
                             ///< [kg^1/2 m/s]
   int surface = -1;         ///< index into Recording::surfaces; -1: rigid
   double truncation = 0.0;  ///< of shapes of level `full` [m]
+  /// Stress of a body at level `full`, not linear in eta; or none.
+  MatrixX Sigma_B;                 ///< 6n x r shapes at the surface's nodes [-]
+  MatrixX zeta;                    ///< T x r, their coordinates [Pa]
+  double stress_truncation = 0.0;  ///< von Mises stress left out [Pa]
 };
 
 /// A point of a body, or of the world.

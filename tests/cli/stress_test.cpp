@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/types.hpp"
 
 /// Stress of probes and of `[output] stress`: a steel bar of bricks along x,
 /// 1 m x 0.1 m x 0.05 m, held at x = 0.
@@ -165,6 +167,44 @@ TEST(Stress, OfTheWholeMeshIsThatOfItsModesForASmallLoad) {
     EXPECT_TRUE(largest.at("averaging_error").is_null());
     EXPECT_TRUE(largest.at("correction_share").is_null());
   }
+}
+
+/// Index of the node nearest to a point, of positions as columns.
+Eigen::Index find_nearest(const MatrixX& x, const Vector3& point) {
+  Eigen::Index nearest = 0;
+  (x.colwise() - point).colwise().squaredNorm().minCoeff(&nearest);
+  return nearest;
+}
+
+// At level full it has shapes of its own, from which pages and ParaView have
+// it.
+TEST(Stress, OfTheWholeMeshIsInResultsAndExportsAsBeamTheorySays) {
+  const Workspace place;
+  write_bar(place, {});
+  answer(place, "static s.toml --fidelity full");
+  const double bend = bend_at(0.5);
+  const auto results = Hdf5File::open(place.folder() / "o/results.h5");
+  const std::string at = "scene/bodies/bar/";
+  const MatrixX x_B = results.read_matrix("scene/surfaces/0000/x_B");
+  const VectorX stress =
+      results.read_matrix(at + "Sigma_B") *
+      results.read_matrix(at + "zeta").bottomRows<1>().transpose();
+  ASSERT_EQ(stress.size(), 6 * x_B.cols());
+  // In the middle of the upper side, from the centre of mass.
+  const Eigen::Index node = find_nearest(x_B, {0.0, 0.0, kHalf});
+  EXPECT_NEAR(stress[6 * node], bend, 0.01 * -bend);
+  for (Eigen::Index c = 1; c < 6; ++c) {
+    EXPECT_NEAR(stress[6 * node + c], 0.0, 0.02 * -bend) << c;
+  }
+  EXPECT_LT(results.read_matrix(at + "stress_truncation")(0, 0), 1e-4 * -bend);
+
+  const CommandResult made = place.limber("export o -o m.xdmf");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const auto motion = Hdf5File::open(place.folder() / "m.h5");
+  const MatrixX points = motion.read_matrix("steps/000000/points").transpose();
+  const MatrixX exported = motion.read_matrix("steps/000000/stress");
+  const Eigen::Index same = find_nearest(points, {0.5, 0.05, 2.0 * kHalf});
+  EXPECT_NEAR(exported(same, 0), bend, 0.01 * -bend);
 }
 
 // A load that begins at once makes twice its static stress at most, in a bar

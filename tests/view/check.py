@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The page of `limber view` in headless Chromium, or the glTF scene of `limber
-export` in readers that are not ours: check.py page|gltf|stress LIMBER SCENARIO NODE
-NODE_MODULES FOLDER. Ends with 77, and says why, where packages of node, Chromium
+export` in readers that are not ours: check.py page|gltf|stress|full_stress LIMBER
+SCENARIO NODE NODE_MODULES FOLDER. Ends with 77, and says why, where packages of node, Chromium
 or h5py are missing.
 
 The reference are positions of 100 random surface points at 20 random outputs,
@@ -102,8 +102,11 @@ def main():
         subprocess.run([limber, *arguments], check=True, stdout=subprocess.DEVNULL)
     cache = ["--cache", f"{folder}/cache"]
     here = os.path.dirname(os.path.abspath(__file__))
-    if what == "stress":
-        run("run", scenario, "--out", f"{folder}/run", *cache)
+    if what in ("stress", "full_stress"):
+        more = []
+        if what == "full_stress":
+            more = ["--fidelity", "full", "--set", "time.step=0.0001"]
+        run("run", scenario, "--out", f"{folder}/run", *more, *cache)
         page = f"{folder}/page.html"
         run("view", f"{folder}/run", "-o", page)
         sys.exit(subprocess.run([node, f"{here}/drive_stress.mjs", modules, page, chromium,

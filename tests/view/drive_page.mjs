@@ -79,6 +79,30 @@ const readPixels = (tab) =>
 
 const countDifferent = (a, b) => a.filter((value, i) => value !== b[i]).length;
 
+// Surfaces deformed by the processor, as here, and by shaders, as elsewhere, are one
+// picture, in every field.
+async function checkDeformers(tab) {
+  await tab.evaluate(() => {
+    window.limber.player.seek(window.limber.view.ranges.peak);
+    window.limber.view.setMagnification(300);
+  });
+  for (const field of [0, 1, 2, 3]) {
+    await tab.evaluate((f) => {
+      window.limber.view.setField(f);
+      window.limber.view.setProcessor(true);
+    }, field);
+    const first = await readPixels(tab);
+    await tab.evaluate(() => window.limber.view.setProcessor(false));
+    const different = countDifferent(first, await readPixels(tab));
+    assert.ok(different < 1e-3 * first.length, `field ${field}: ${different} pixels differ`);
+  }
+  await tab.evaluate(() => {
+    window.limber.view.setProcessor(true);
+    window.limber.view.setField(0);
+    window.limber.view.setMagnification(1);
+  });
+}
+
 // What the shader draws, by a point picked where the twin says a node is.
 async function checkPicking(tab) {
   const misses = await tab.evaluate(() => {
@@ -270,6 +294,8 @@ async function main() {
     }
     await shoot(tab, 'velocity');
     await tab.evaluate(() => window.limber.view.setField(0));
+    assert.ok(await tab.evaluate(() => window.limber.view.isProcessor), 'SwiftShader is not told');
+    await checkDeformers(tab);
     await checkPicking(tab);
     await checkPanel(tab);
     await checkArrow(tab);

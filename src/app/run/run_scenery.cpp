@@ -15,6 +15,7 @@
 #include "limber/common/files/input_file.hpp"
 #include "limber/common/overloaded.hpp"
 #include "limber/scene/contacts/triangle_file.hpp"
+#include "limber/scene/probes/stress_points.hpp"
 
 namespace limber::app {
 namespace {
@@ -110,6 +111,9 @@ results::Scenery read_scenery(const scene::Scene& scene) {
   std::vector<std::string> problems;
   for (const scene::Link& link : scene.robot.links) {
     if (!link.flexible) add_link(link, scenery, problems);
+    if (link.flexible && scene::wants_stress(scene.scenario, link.name)) {
+      scenery.stressed.push_back(link.name);
+    }
   }
   if (!problems.empty()) throw InputError(problems);
   return scenery;

@@ -1,10 +1,11 @@
 // The bodies of one result as meshes that a time moves.
 import * as THREE from 'three';
 import { colourOfLink } from './colours.js';
+import { Deformer } from './deform.js';
 import { findSemiAxes } from './ellipsoid.js';
-import { kStressField, makeMaterial } from './material.js';
+import { kStressField, kVelocityField, makeMaterial } from './material.js';
 import { locate } from './motion.js';
-import { Stress } from './stress.js';
+import { Stress, stressModesOf } from './stress.js';
 
 function makeSurface({ x, shapes, triangles }) {
   const geometry = new THREE.BufferGeometry();
@@ -18,18 +19,21 @@ function makeSurface({ x, shapes, triangles }) {
   return geometry;
 }
 
-// The surface's geometry with a list of stress of a body's own.
-function addStress(shared, stress) {
+// The surface's geometry, to which attributes of one body can be added.
+function makeOwn(shared) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', shared.getAttribute('position'));
   geometry.setIndex(shared.getIndex());
   geometry.morphAttributes = shared.morphAttributes;
   geometry.morphTargetsRelative = shared.morphTargetsRelative;
   geometry.boundingSphere = shared.boundingSphere;
+  return geometry;
+}
+
+function addStress(geometry, stress) {
   const attribute = new THREE.BufferAttribute(stress.values, 1);
   attribute.setUsage(THREE.DynamicDrawUsage);
   geometry.setAttribute('limberStress', attribute);
-  return geometry;
 }
 
 // Axes of cylinders and capsules are z here, y in three.js.
@@ -94,13 +98,15 @@ export class Bodies {
       body: b,
     };
     const modes = body.surface >= 0 ? body.modes : 0;
-    const surface = ghost === null && modes > 0 ? this.result.surfaces[body.surface] : null;
-    const stress = surface?.stress ? new Stress(surface) : null;
+    const stressModes = ghost === null && modes > 0 ? stressModesOf(this.result, body) : null;
+    const stress = stressModes
+      ? new Stress(this.result.surfaces[body.surface], stressModes) : null;
     const material = makeMaterial(
       link.colour, modes, ghost === null ? shared : makeBlank(), stress !== null);
     this.setGhost(material, ghost);
     const geometries = this.makeGeometries(body, b, extent);
-    if (stress) geometries[0].geometry = addStress(geometries[0].geometry, stress);
+    if (modes > 0) geometries[0].geometry = makeOwn(geometries[0].geometry);
+    if (stress) addStress(geometries[0].geometry, stress);
     const meshes = geometries.map(({ geometry, p, q, needsBake }) => {
       if (needsBake) {
         geometry.applyMatrix4(
@@ -138,6 +144,19 @@ export class Bodies {
     });
   }
 
+  /// Whether the processor deforms the surfaces, or their shaders do.
+  setProcessor(isSo) {
+    for (const item of this.moving.filter(({ modes }) => modes > 0)) {
+      const { b, meshes, material } = item;
+      const { shapes } = this.result.surfaces[this.result.bodies[b].surface];
+      const start = material.userData.own.limberStart.value;
+      item.deformer = isSo ? new Deformer(meshes[0].geometry, shapes, start) : null;
+      if (isSo) material.defines.LIMBER_DEFORMED = '';
+      else delete material.defines.LIMBER_DEFORMED;
+      material.needsUpdate = true;
+    }
+  }
+
   makeGeometries(body, b, extent) {
     if (body.surface >= 0) {
       const surface = this.result.surfaces[body.surface];
@@ -159,7 +178,7 @@ export class Bodies {
     link.material = new THREE.MeshLambertMaterial({
       color: link.colour, side: THREE.DoubleSide, flatShading: shape.kind === 'box',
     });
-    if (shape.kind === 'plane') this.setGhost(link.material, 1);
+    if (shape.kind === 'plane') this.setPlane(link.material);
     const mesh = makeMesh(makeShape(shape, extent), link.material, link);
     place(link.group, shape.p, shape.q);
     link.group.add(mesh);
@@ -167,15 +186,23 @@ export class Bodies {
     this.group.add(link.group);
   }
 
+  // Glows, so that its colour is the same on all its sides and in the dark.
   setGhost(material, ghost) {
     if (ghost === null) return;
     material.transparent = true;
-    material.opacity = 0.3;
-    material.depthWrite = false;
+    material.opacity = 0.75;
+    material.emissive = new THREE.Color(ghost);
+    material.emissiveIntensity = 0.6;
     // Where both are in one place, the shown result is in front.
     material.polygonOffset = true;
     material.polygonOffsetFactor = 1;
     material.polygonOffsetUnits = 4;
+  }
+
+  setPlane(material) {
+    material.transparent = true;
+    material.opacity = 0.3;
+    material.depthWrite = false;
   }
 
   /// Places everything at a time; stress only for its field.
@@ -197,9 +224,11 @@ export class Bodies {
       this.motion.etadot(b, at, rate);
       own.limberRates.value.set(rate);
       if (item.stress && field === kStressField) {
-        this.largestStress = Math.max(this.largestStress, item.stress.update(eta));
+        const coordinates = this.motion.stressCoordinates(b, at, eta);
+        this.largestStress = Math.max(this.largestStress, item.stress.update(coordinates));
         meshes[0].geometry.getAttribute('limberStress').needsUpdate = true;
       }
+      item.deformer?.update(eta, magnification, field === kVelocityField ? rate : null);
       for (const mesh of meshes) {
         for (let k = 0; k < modes; ++k) mesh.morphTargetInfluences[k] = magnification * eta[k];
       }

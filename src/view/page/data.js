@@ -46,11 +46,11 @@ function unpackSurface(surface) {
     for (let i = 0; i < 3 * n; ++i) shape[i] = scale * values[i];
     return shape;
   });
-  surface.stress = surface.stress?.map(({ scale, values }) => {
-    const mode = new Float32Array(6 * n);
-    for (let i = 0; i < 6 * n; ++i) mode[i] = scale * values[i];
-    return mode;
-  });
+  surface.stress = unpackStress(surface.stress);
+}
+
+function unpackStress(stress) {
+  return stress?.map(({ scale, values }) => Float32Array.from(values, (value) => scale * value));
 }
 
 /// Results, the shown one first. Lists that are empty may be absent in the file.
@@ -65,6 +65,7 @@ export async function readResults() {
   resolve(header, (ref) => readArray(bytes, start, ref));
   for (const result of header.results) {
     result.surfaces.forEach(unpackSurface);
+    for (const body of result.bodies ?? []) body.stress = unpackStress(body.stress);
     for (const list of ['bodies', 'shapes', 'marks', 'loads', 'contacts', 'events', 'probes']) {
       result[list] ??= [];
     }

@@ -6,6 +6,7 @@ import { fillPanel } from './panel.js';
 import { describeNode, pickAt, traceNode, traceStress, watchPicks } from './pick.js';
 import { Player } from './player.js';
 import { save, takeFilm, takePicture } from './record.js';
+import { stressModesOf } from './stress.js';
 import { Timeline } from './timeline.js';
 import { View } from './view.js';
 
@@ -170,7 +171,7 @@ function showPick(view, player, pick) {
       box.append(button);
     };
     offer('displacement', traceNode);
-    if (result.surfaces[body.surface].stress) offer('stress', traceStress);
+    if (stressModesOf(result, body)) offer('stress', traceStress);
   }
   view.fillPick = fill;
   fill();

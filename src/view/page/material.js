@@ -2,7 +2,9 @@
 // the vertex shader.
 import * as THREE from 'three';
 
-/// The field that only results with stress have.
+/// The field that needs modal velocities, and that which only results with stress
+/// have.
+export const kVelocityField = 3;
 export const kStressField = 4;
 
 /// Fields by which surfaces are coloured; `index` is that of the shader.
@@ -10,7 +12,7 @@ export const kFields = [
   { name: 'none', label: 'by link', unit: '', index: 0 },
   { name: 'deformation', label: 'deformation', unit: 'm', index: 1 },
   { name: 'displacement', label: 'displacement from the start', unit: 'm', index: 2 },
-  { name: 'velocity', label: 'velocity', unit: 'm/s', index: 3 },
+  { name: 'velocity', label: 'velocity', unit: 'm/s', index: kVelocityField },
   { name: 'von_mises', label: 'von Mises stress', unit: 'Pa', index: kStressField },
 ];
 
@@ -28,6 +30,11 @@ uniform float limberStart[LIMBER_MODES];
 #ifdef LIMBER_STRESS
 attribute float limberStress;
 #endif
+#ifdef LIMBER_DEFORMED  // by the processor
+attribute vec3 limberDeformation;  // magnified
+attribute vec3 limberDeformationRate;
+attribute vec3 limberDeformationStart;
+#endif
 varying float limberValue;
 `;
 
@@ -37,7 +44,11 @@ vec3 limberX = transformed;
 vec3 limberU = vec3(0.0);
 vec3 limberUdot = vec3(0.0);
 vec3 limberU0 = vec3(0.0);
-#ifdef LIMBER_MODES
+#ifdef LIMBER_DEFORMED
+limberU = limberDeformation;
+limberUdot = limberDeformationRate;
+limberU0 = limberDeformationStart;
+#elif defined(LIMBER_MODES)
 int limberRow = gl_VertexID / morphTargetsTextureSize.x;
 ivec2 limberTexel = ivec2(gl_VertexID - limberRow * morphTargetsTextureSize.x, limberRow);
 if (limberField < 2) {

@@ -113,6 +113,17 @@ export class Motion {
     return out;
   }
 
+  /// Coordinates of a body's stress at a time: the modal ones, or at level `full`
+  /// its own, joined by straight lines.
+  stressCoordinates(b, at, eta) {
+    const { zeta, stress } = this.result.bodies[b];
+    if (!zeta) return eta;
+    const r = stress.length;
+    const { i, s } = at;
+    return Float64Array.from(stress, (_, k) =>
+      s === 0 ? zeta[i * r + k] : mix(zeta[i * r + k], zeta[(i + 1) * r + k], s));
+  }
+
   /// Modal velocities into `out`; by differences where none were recorded.
   etadot(b, at, out) {
     const body = this.result.bodies[b];

@@ -116,6 +116,7 @@ function aboutSection(view) {
     `${result.times.length} outputs, ${format(result.times[0], 's')} to ${format(result.times.at(-1), 's')}`,
     `positions within ${format(error, 'm')} of the results at magnification 1 (16-bit shapes)`,
     ...bodies.filter((b) => b.truncation).map((b) => `${b.name}: motion of all nodes by ${b.modes} shapes, within ${format(b.truncation, 'm')}`),
+    ...bodies.filter((b) => b.stress).map((b) => `${b.name}: its stress by ${b.stress.length} shapes, within ${format(b.stress_truncation, 'Pa')}`),
     `Limber ${result.limber}`,
   ];
   return section('About', lines.map((line) => make('p', { className: 'hint', textContent: line })), false);

@@ -69,10 +69,9 @@ export function traceNode(motion, body, node) {
 /// Its von Mises stress and the components in the axes of its body, for results
 /// that have them.
 export function traceStress(motion, body, node) {
-  const eta = new Float64Array(motion.result.bodies[body].modes);
   const labels = ['von Mises', 'xx', 'yy', 'zz', 'xy', 'yz', 'xz'];
   return trace(motion, body, node, 'Pa', labels, (t) => {
-    const s = stressComponentsAt(motion, body, node, motion.eta(body, locate(motion.times, t), eta));
+    const s = stressComponentsAt(motion, body, node, t);
     return [misesAt(s, 0), ...s];
   });
 }
@@ -89,6 +88,6 @@ export function describeNode(motion, body, node, t) {
     position: now,
     displacement: Math.hypot(...now.map((value, c) => value - start[c])),
     deformation: Math.hypot(...motion.deformation(body, node, eta)),
-    stress: stressAt(motion, body, node, eta),
+    stress: stressAt(motion, body, node, t),
   };
 }

@@ -23,17 +23,24 @@ export function misesAt(s, i) {
   return Math.sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear);
 }
 
+/// Stress per coordinate of a body: its surface's stress modes, or at level `full`
+/// the shapes of its own; undefined without stress.
+export function stressModesOf(result, body) {
+  return body.stress ?? (body.surface >= 0 ? result.surfaces[body.surface].stress : undefined);
+}
+
 /// Of one body; `values` [Pa] are those of the last update.
 export class Stress {
-  constructor(surface) {
-    this.modes = surface.stress;
+  constructor(surface, modes) {
+    this.modes = modes;
     this.all = new Float32Array(6 * surface.nodes);
     this.values = new Float32Array(surface.nodes);
   }
 
+  /// @param coordinates Motion.stressCoordinates()
   /// @returns the largest [Pa]
-  update(eta) {
-    addStress(this.modes, eta, this.all);
+  update(coordinates) {
+    addStress(this.modes, coordinates, this.all);
     let most = 0;
     for (let n = 0; n < this.values.length; ++n) {
       this.values[n] = misesAt(this.all, 6 * n);
@@ -43,23 +50,26 @@ export class Stress {
   }
 }
 
-/// Components (xx, yy, zz, xy, yz, xz) at one node [Pa], in the axes of its body;
-/// null if the result has no stress of it.
-export function stressComponentsAt(motion, b, node, eta) {
-  const { stress } = motion.result.surfaces[motion.result.bodies[b].surface];
+/// Components (xx, yy, zz, xy, yz, xz) at one node and time [Pa], in the axes of
+/// its body; null if the result has no stress of it.
+export function stressComponentsAt(motion, b, node, t) {
+  const body = motion.result.bodies[b];
+  const stress = stressModesOf(motion.result, body);
   if (!stress) return null;
+  const at = locate(motion.times, t);
+  const eta = motion.eta(b, at, new Float64Array(body.modes));
+  const coordinates = motion.stressCoordinates(b, at, eta);
   return [0, 1, 2, 3, 4, 5].map((c) =>
-    stress.reduce((sum, mode, k) => sum + mode[6 * node + c] * eta[k], 0));
+    stress.reduce((sum, mode, k) => sum + mode[6 * node + c] * coordinates[k], 0));
 }
 
 /// Von Mises [Pa], null without stress.
-export function stressAt(motion, b, node, eta) {
-  const s = stressComponentsAt(motion, b, node, eta);
+export function stressAt(motion, b, node, t) {
+  const s = stressComponentsAt(motion, b, node, t);
   return s && misesAt(s, 0);
 }
 
-export const hasStress = (result) =>
-  result.bodies.some((b) => b.surface >= 0 && result.surfaces[b.surface].stress);
+export const hasStress = (result) => result.bodies.some((body) => stressModesOf(result, body));
 
 /// Largest of the run: at all nodes at up to 60 outputs, and of the recorded
 /// largest of each link.
@@ -71,15 +81,16 @@ export function findLargestStress(motion) {
     for (const value of probe.values) most = Math.max(most, value);
   }
   result.bodies.forEach((body, b) => {
-    const surface = result.surfaces[body.surface];
-    if (!surface?.stress) return;
-    const stress = new Stress(surface);
+    const modes = stressModesOf(result, body);
+    if (!modes) return;
+    const stress = new Stress(result.surfaces[body.surface], modes);
     const eta = new Float64Array(body.modes);
     const count = Math.min(kTimes, times.length);
     for (let k = 0; k < count; ++k) {
       const i = Math.round((k / Math.max(1, count - 1)) * (times.length - 1));
-      motion.eta(b, locate(times, times[i]), eta);
-      most = Math.max(most, stress.update(eta));
+      const at = locate(times, times[i]);
+      motion.eta(b, at, eta);
+      most = Math.max(most, stress.update(motion.stressCoordinates(b, at, eta)));
     }
   });
   return most;

@@ -47,6 +47,7 @@ export class View {
     this.listeners = { magnification: [], field: [], links: [], plots: [] };
     this.shared = makeSharedUniforms(makeMap());
     this.makeScene(results, box);
+    this.setProcessor(isSoftware());
     this.makeRenderer();
     this.camera = new Camera(elements.canvas, box);
     this.camera.controls.addEventListener('change', () => this.redraw());
@@ -85,9 +86,16 @@ export class View {
     this.scene = scene;
   }
 
+  /// Whether the processor draws: then it deforms the surfaces, too, in less time.
+  setProcessor(isSo) {
+    this.isProcessor = isSo;
+    for (const one of [this.bodies, ...this.ghosts]) one.setProcessor(isSo);
+    this.redraw();
+  }
+
   makeRenderer() {
     this.renderer = new THREE.WebGLRenderer({
-      canvas: this.elements.canvas, antialias: !isSoftware(),
+      canvas: this.elements.canvas, antialias: !this.isProcessor,
     });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.setDark(document.documentElement.classList.contains('dark'));

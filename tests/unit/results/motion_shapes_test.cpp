@@ -58,6 +58,22 @@ TEST(MotionShapes, StateWhatTheyLeaveOut) {
   EXPECT_LT(motion.error, 1e-6);
 }
 
+TEST(MotionShapes, OfAnotherFieldStateItsOwnSizeOfWhatTheyLeaveOut) {
+  MatrixX field = make_motion(100);
+  field.row(7) += 1e-7 * Eigen::RowVectorXd::Random(100);
+  const auto column = [&](std::size_t i) {
+    return VectorX(field.col(static_cast<Eigen::Index>(i)));
+  };
+  const MotionShapes shapes = find_motion_shapes(
+      column, 100,
+      [](const VectorX& rest) { return rest.segment<6>(6).cwiseAbs().sum(); });
+  const MatrixX rest = field - shapes.shapes * shapes.coordinates.transpose();
+  const double largest =
+      rest.middleRows<6>(6).cwiseAbs().colwise().sum().maxCoeff();
+  EXPECT_GT(largest, 0.0);
+  EXPECT_NEAR(shapes.error, largest, 1e-15);
+}
+
 TEST(MotionShapes, OfABodyAtRestAreNone) {
   const MotionShapes motion = find(MatrixX::Zero(6, 5));
   EXPECT_EQ(motion.shapes.cols(), 0);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/results/full_stress_field.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "limber/common/index.hpp"
+#include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/flexbody/model/stress_modes.hpp"
+#include "limber/results/xdmf_file.hpp"
+
+namespace limber::results {
+namespace {
+
+/// Of six rows a node.
+double find_largest_von_mises(const VectorX& stress) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < stress.size(); i += 6) {
+    largest = std::max(largest,
+                       flexbody::calc_von_mises(Vector6(stress.segment<6>(i))));
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::unique_ptr<FullStressField> FullStressField::make(
+    const dynamics::SystemModel& model, dynamics::BodyIndex body,
+    const std::vector<int>& nodes) {
+  const int full = model.bodies[index(body)].full;
+  if (full < 0) return nullptr;
+  auto stress =
+      flexbody::make_full_stress(*model.full_bodies[index(full)].mesh, nodes);
+  if (stress == nullptr) return nullptr;
+  return std::unique_ptr<FullStressField>(
+      new FullStressField(model, body, std::move(stress)));
+}
+
+FullStressField::FullStressField(
+    const dynamics::SystemModel& model, dynamics::BodyIndex body,
+    std::shared_ptr<const flexbody::FullStress> stress)
+    : model_(model),
+      full_(index(model.bodies[index(body)].full)),
+      stress_(std::move(stress)) {
+  const std::vector<int>& nodes = stress_->nodes();
+  for (std::size_t p = 0; p < nodes.size(); ++p) {
+    if (p > 0 && nodes[p] == nodes[p - 1]) continue;
+    first_points_.push_back(static_cast<Eigen::Index>(p));
+  }
+}
+
+Matrix6X FullStressField::calc_at_home(
+    const dynamics::SystemState& state) const {
+  Matrix6X at_points(6, std::ssize(stress_->nodes()));
+  stress_->calc_stress(dynamics::nodes_of(model_.full_bodies[full_], state.u_H),
+                       at_points);
+  return at_points(Eigen::all, first_points_);
+}
+
+Matrix6X FullStressField::calc_in_world(
+    const dynamics::SystemState& state) const {
+  return turn_to_world(calc_at_home(state), state.X_WH[full_].R);
+}
+
+Matrix6X FullStressField::calc_in_body(
+    const dynamics::SystemState& state) const {
+  dynamics::MeanFrame frame;
+  dynamics::calc_mean_frame(model_, model_.full_bodies[full_], state, frame);
+  return turn_to_world(calc_at_home(state), frame.R_HB.transpose());
+}
+
+MotionShapes find_stress_shapes(const FullStressField& field,
+                                const History& history) {
+  return find_motion_shapes(
+      [&](std::size_t i) {
+        return VectorX(field.calc_in_body(history.states[i]).reshaped());
+      },
+      history.states.size(), find_largest_von_mises);
+}
+
+}  // namespace limber::results

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+#include "limber/flexbody/model/full_stress.hpp"
+#include "limber/results/history.hpp"
+#include "limber/results/motion_shapes.hpp"
+
+namespace limber::results {
+
+/// Cauchy stress at nodes of a link at level `full`; at a border of materials
+/// that of the first.
+class FullStressField {
+ public:
+  /// @param model kept by the caller
+  /// @param nodes increasing
+  /// @returns null below level `full`, and if its solver knows no stress
+  static std::unique_ptr<FullStressField> make(
+      const dynamics::SystemModel& model, dynamics::BodyIndex body,
+      const std::vector<int>& nodes);
+
+  /// 6 x nodes: xx, yy, zz, xy, yz, xz [Pa].
+  [[nodiscard]] Matrix6X calc_in_world(
+      const dynamics::SystemState& state) const;
+  /// The same in the axes of the link's mean-axis frame.
+  [[nodiscard]] Matrix6X calc_in_body(const dynamics::SystemState& state) const;
+
+ private:
+  FullStressField(const dynamics::SystemModel& model, dynamics::BodyIndex body,
+                  std::shared_ptr<const flexbody::FullStress> stress);
+
+  // Axes of the home frame.
+  [[nodiscard]] Matrix6X calc_at_home(const dynamics::SystemState& state) const;
+
+  const dynamics::SystemModel& model_;
+  std::size_t full_;
+  std::shared_ptr<const flexbody::FullStress> stress_;
+  std::vector<Eigen::Index> first_points_;  // of each node
+};
+
+/// Stress in body axes at all output times as a few shapes, 6n rows [1], times
+/// coordinates [Pa]; the error is the largest von Mises stress left out [Pa].
+[[nodiscard]] MotionShapes find_stress_shapes(const FullStressField& field,
+                                              const History& history);
+
+}  // namespace limber::results
