@@ -107,21 +107,62 @@ TEST(View, ShowsTheKeptRunsOfAComparison) {
   expect_refused(place, "view bare", HasSubstr("limber compare --keep"));
 }
 
-TEST(View, RefusesResultsWithValuesThatAreNotFinite) {
-  const Workspace place;
+/// Results of one body at two outputs, the second of which has this time.
+void write_results(const Workspace& place, double end, const std::string& level,
+                   double w) {
   Hdf5File out = Hdf5File::create(place.folder() / "results.h5");
   out.write("format", "limber results", "");
   out.write("scene/version",
             std::vector<std::int64_t>{results::kSceneryVersion}, "-", "");
   out.write("scene/name", "s", "");
   out.write("scene/limber", "1", "");
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  out.write("time", Eigen::Vector3d(0.0, nan, 0.002), "s", "");
+  out.write("time", Eigen::Vector2d(0.0, end), "s", "");
+  out.write("scene/bodies/b/place", std::vector<std::int64_t>{0}, "1", "");
+  out.write("scene/bodies/b/mass", MatrixX::Ones(1, 1), "kg", "");
+  out.write("scene/bodies/b/inertia", MatrixX::Identity(3, 3), "kg m^2", "");
+  out.write("bodies/b/fidelity", level, "");
+  MatrixX quat = MatrixX::Zero(2, 4);
+  quat.col(0) << 1.0, w;
+  out.write("bodies/b/quat_WB", quat, "1", "");
+  for (const char* name : {"p_WB", "v_WB_W", "w_WB_B"}) {
+    out.write(std::string("bodies/b/") + name, MatrixX::Zero(2, 3), "m", "");
+  }
   out.close();
-  const auto why =
-      HasSubstr("is damaged: 'time' has a value that is NaN or infinity");
-  expect_refused(place, "view results.h5", why);
-  expect_refused(place, "export results.h5 -o a.glb", why);
+}
+
+TEST(View, RefusesResultsThatAreDamaged) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  struct Damage {
+    double end = 1.0;
+    std::string level = "rigid";
+    double w = 1.0;
+    std::string why;
+  };
+  const std::vector<Damage> all = {
+      {.end = std::numeric_limits<double>::quiet_NaN(),
+       .why = "is damaged: 'time' has a value that is NaN or infinity"},
+      {.end = kInfinity, .why = "has a value that is NaN or infinity"},
+      {.end = 1e300, .why = "cannot be drawn: 'time' has a value beyond"},
+      {.level = "coupled", .why = "flexible link 'b' has no surface"},
+      {.w = 0.0, .why = "'bodies/b/quat_WB' is no rotation"}};
+  for (const Damage& damage : all) {
+    const Workspace place;
+    write_results(place, damage.end, damage.level, damage.w);
+    for (const char* command :
+         {"view results.h5 -o a.html", "export results.h5 -o a.glb",
+          "export results.h5 -o a.xdmf"}) {
+      expect_refused(place, command, HasSubstr(damage.why));
+    }
+  }
+}
+
+TEST(View, LeavesTheResultsAlone) {
+  const Workspace place;
+  write_scene(place, "boundary");
+  run(place);
+  expect_refused(place, "view o -o o/results.h5",
+                 HasSubstr("would replace the results"));
+  EXPECT_EQ(place.limber("info o/results.h5").status, 0);
 }
 
 // glTF has single precision.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "limber/app/commands/commands.hpp"
@@ -13,6 +14,7 @@
 #include "limber/app/run/view_page.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/view/page.hpp"
+#include "limber/view/recording.hpp"
 
 namespace limber::app {
 namespace {
@@ -46,6 +48,20 @@ std::vector<std::filesystem::path> find_compared(
   return runs;
 }
 
+/// Its page would replace the results.
+void check_page(const std::filesystem::path& page,
+                const std::vector<std::filesystem::path>& results) {
+  for (const std::filesystem::path& one : results) {
+    std::error_code unknown;
+    if (!std::filesystem::equivalent(page, view::find_results(one), unknown)) {
+      continue;
+    }
+    throw InputError(fmt::format(
+        "-o {}: the page would replace the results; take another name",
+        page.string()));
+  }
+}
+
 void show(const Options& options) {
   std::vector<std::filesystem::path> all = find_compared(options.results);
   if (all.empty()) all.emplace_back(options.results);
@@ -59,6 +75,7 @@ void show(const Options& options) {
         std::filesystem::is_directory(given) ? given : given.parent_path();
     page = add_view_to(OutputFolder(folder), recordings);
   } else {
+    check_page(page, all);
     view::write_page(page, recordings);
   }
   fmt::print("{}\n", describe_view(page));
