@@ -32,7 +32,7 @@ def linearize(scenario, at="start", inputs=None, outputs=None, states=None,
     """
     if not isinstance(scenario, Scenario):
         scenario = Scenario(scenario)
-    return scenario.linearize(at, inputs, outputs, states, cache)
+    return scenario._linearize(at, inputs, outputs, states, cache)
 
 
 class Controller:
@@ -195,10 +195,14 @@ class Scenario:
         Returns a :class:`LinearModel`, with matrices of shapes (n, n), (n, m),
         (p, n) and (p, m) for m inputs and p outputs.
         """
+        return self._linearize(at, inputs, outputs, states, cache)
+
+    def _linearize(self, at, inputs, outputs, states, cache):
+        """What both ways to ask for it do; warnings are of their caller's line."""
         made = LinearModel(_core.linearize(
             self._scene, at, _names(inputs), _names(outputs), states, _path(cache)))
         for text in made.warnings:
-            warnings.warn(text, LimberWarning, stacklevel=2)
+            warnings.warn(text, LimberWarning, stacklevel=3)
         return made
 
     def compare(self, levels=(), modes=(), sources=(), steps=(), reference=None,
