@@ -85,6 +85,7 @@ async function checkDeformers(tab) {
   await tab.evaluate(() => {
     window.limber.player.seek(window.limber.view.ranges.peak);
     window.limber.view.setMagnification(300);
+    window.limber.view.setDetail(false);
   });
   for (const field of [0, 1, 2, 3]) {
     await tab.evaluate((f) => {
@@ -96,9 +97,16 @@ async function checkDeformers(tab) {
     const different = countDifferent(first, await readPixels(tab));
     assert.ok(different < 1e-3 * first.length, `field ${field}: ${different} pixels differ`);
   }
+  // Triangles smaller than pixels, with and without their mid-side nodes.
   await tab.evaluate(() => {
     window.limber.view.setProcessor(true);
     window.limber.view.setField(0);
+  });
+  const fine = await readPixels(tab);
+  await tab.evaluate(() => window.limber.view.setDetail(true));
+  const different = countDifferent(fine, await readPixels(tab));
+  assert.ok(different < 0.01 * fine.length, `fewer triangles change ${different} pixels`);
+  await tab.evaluate(() => {
     window.limber.view.setMagnification(1);
   });
 }
@@ -135,9 +143,11 @@ async function checkPicking(tab) {
   assert.equal(misses.near, misses.tried, 'picked points are behind the nodes');
 }
 
-const timeFrames = (tab) =>
-  tab.evaluate(() => {
+// Median time of a frame [ms].
+const timeFrames = (tab, hasGhosts) =>
+  tab.evaluate((isShown) => {
     const { view, player } = window.limber;
+    for (const ghost of view.ghosts) ghost.group.visible = isShown;
     const gl = view.renderer.getContext();
     const pixel = new Uint8Array(4);
     const all = [];
@@ -149,7 +159,7 @@ const timeFrames = (tab) =>
       all.push(performance.now() - start);
     }
     return all.sort((a, b) => a - b)[20];
-  });
+  }, hasGhosts);
 
 async function checkPlay(tab) {
   await tab.evaluate(() => window.limber.player.seek(window.limber.player.start));
@@ -302,12 +312,15 @@ async function main() {
     await checkPlots(tab);
     await checkFiles(tab);
     await checkPlay(tab);
-    const milliseconds = await timeFrames(tab);
+    await tab.setViewportSize({ width: 1280, height: 720 });
+    const alone = await timeFrames(tab, false);
+    const both = await timeFrames(tab, true);
     await takeViews(browser, problems);
     assert.deepEqual(problems, [], 'the page reports errors');
     console.log(
       `${count} positions within ${worst.toExponential(2)} m (stated ${stated.toExponential(2)} m); ` +
-        `${(size / 1e6).toFixed(2)} MB; ${milliseconds.toFixed(1)} ms a frame`);
+        `${(size / 1e6).toFixed(2)} MB; ${alone.toFixed(1)} ms a frame, ` +
+        `${both.toFixed(1)} ms with the ghost`);
   } catch (error) {
     console.error(problems.slice(0, 5).join('\n'));
     throw error;

@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import { colourOfLink } from './colours.js';
 import { Deformer } from './deform.js';
+import { Detail } from './detail.js';
 import { findSemiAxes } from './ellipsoid.js';
 import { kStressField, kVelocityField, makeMaterial } from './material.js';
 import { locate } from './motion.js';
@@ -102,10 +103,10 @@ export class Bodies {
     const stress = stressModes
       ? new Stress(this.result.surfaces[body.surface], stressModes) : null;
     const material = makeMaterial(
-      link.colour, modes, ghost === null ? shared : makeBlank(), stress !== null);
+      link.colour, modes, ghost === null ? shared : makeBlank());
     this.setGhost(material, ghost);
     const geometries = this.makeGeometries(body, b, extent);
-    if (modes > 0) geometries[0].geometry = makeOwn(geometries[0].geometry);
+    if (body.surface >= 0) geometries[0].geometry = makeOwn(geometries[0].geometry);
     if (stress) addStress(geometries[0].geometry, stress);
     const meshes = geometries.map(({ geometry, p, q, needsBake }) => {
       if (needsBake) {
@@ -142,6 +143,34 @@ export class Bodies {
       b, link, meshes, material, modes, eta, stress, rate: new Float64Array(modes),
       back: startMatrix.invert(),
     });
+  }
+
+  /// The field that colours them; those without stress keep their own colour.
+  setField(field) {
+    for (const { material, stress } of this.moving) {
+      const shown = field === kStressField && !stress ? 0 : field;
+      if (material.defines.LIMBER_FIELD === shown) continue;
+      material.defines.LIMBER_FIELD = shown;
+      material.needsUpdate = true;
+    }
+  }
+
+  /// Whether what is small on the screen is drawn by fewer triangles.
+  setDetail(isSo) {
+    this.chooseFine();
+    for (const item of this.moving) {
+      const [{ geometry, userData }] = item.meshes;
+      item.detail = isSo && userData.isSurface ? new Detail(geometry) : null;
+    }
+  }
+
+  /// @param findScale pixels a metre at a point
+  chooseDetail(findScale) {
+    for (const { detail, link } of this.moving) detail?.choose(findScale(link.group.position));
+  }
+
+  chooseFine() {
+    for (const { detail } of this.moving) detail?.chooseFine();
   }
 
   /// Whether the processor deforms the surfaces, or their shaders do.
@@ -239,7 +268,6 @@ export class Bodies {
 // Uniforms of a body that is never coloured by a field.
 function makeBlank() {
   return {
-    limberField: { value: 0 },
     limberMagnification: { value: 1 },
     limberRange: { value: new THREE.Vector2(0, 1) },
     limberMap: { value: null },

@@ -74,6 +74,12 @@ export class Camera {
     this.last = place ? place() : null;
   }
 
+  /// Pixels a metre at a place, in a picture of this height [pixels].
+  findScale(place, height) {
+    const half = Math.tan((this.eye.fov * Math.PI) / 360);
+    return height / (2 * half * this.eye.position.distanceTo(place));
+  }
+
   update() {
     if (!this.followed) return;
     const now = this.followed();

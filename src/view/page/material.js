@@ -1,5 +1,6 @@
 // Material that moves a surface by its modes and colours it by a field, both in
-// the vertex shader.
+// the vertex shader. LIMBER_FIELD is the field: there is a shader for each, as a
+// renderer by the processor also computes what a shader's branch leaves out.
 import * as THREE from 'three';
 
 /// The field that needs modal velocities, and that which only results with stress
@@ -17,7 +18,6 @@ export const kFields = [
 ];
 
 const kDeclarations = /* glsl */ `
-uniform int limberField;
 uniform float limberMagnification;
 uniform vec3 limberVelocity;  // body frame
 uniform vec3 limberSpin;      // body frame
@@ -27,7 +27,7 @@ uniform vec2 limberRange;
 uniform float limberRates[LIMBER_MODES];
 uniform float limberStart[LIMBER_MODES];
 #endif
-#ifdef LIMBER_STRESS
+#if LIMBER_FIELD == 4
 attribute float limberStress;
 #endif
 #ifdef LIMBER_DEFORMED  // by the processor
@@ -35,7 +35,9 @@ attribute vec3 limberDeformation;  // magnified
 attribute vec3 limberDeformationRate;
 attribute vec3 limberDeformationStart;
 #endif
+#if LIMBER_FIELD > 0
 varying float limberValue;
+#endif
 `;
 
 // One fetch of a mode serves the deformation, its rate and that of the start.
@@ -51,52 +53,50 @@ limberU0 = limberDeformationStart;
 #elif defined(LIMBER_MODES)
 int limberRow = gl_VertexID / morphTargetsTextureSize.x;
 ivec2 limberTexel = ivec2(gl_VertexID - limberRow * morphTargetsTextureSize.x, limberRow);
-if (limberField < 2) {
-  for (int i = 0; i < LIMBER_MODES; i++) {
-    limberU += texelFetch(morphTargetsTexture, ivec3(limberTexel, i), 0).xyz *
-               morphTargetInfluences[i];
-  }
-} else {
-  for (int i = 0; i < LIMBER_MODES; i++) {
-    vec3 shape = texelFetch(morphTargetsTexture, ivec3(limberTexel, i), 0).xyz;
-    limberU += shape * morphTargetInfluences[i];
-    limberUdot += shape * limberRates[i];
-    limberU0 += shape * limberStart[i];
-  }
+for (int i = 0; i < LIMBER_MODES; i++) {
+  vec3 shape = texelFetch(morphTargetsTexture, ivec3(limberTexel, i), 0).xyz;
+  limberU += shape * morphTargetInfluences[i];
+#if LIMBER_FIELD == 2
+  limberU0 += shape * limberStart[i];
+#elif LIMBER_FIELD == 3
+  limberUdot += shape * limberRates[i];
+#endif
 }
 #endif
 transformed = limberX + limberU;
 limberU /= limberMagnification;
-float limberSize = 0.0;
-if (limberField == 1) limberSize = length(limberU);
-if (limberField == 2) {
-  vec3 now = (limberBack * vec4(limberX + limberU, 1.0)).xyz;
-  limberSize = distance(now, limberX + limberU0);
-}
-if (limberField == 3) {
-  limberSize = length(limberVelocity + cross(limberSpin, limberX + limberU) + limberUdot);
-}
-#ifdef LIMBER_STRESS
-if (limberField == 4) limberSize = limberStress;
+#if LIMBER_FIELD == 1
+float limberSize = length(limberU);
+#elif LIMBER_FIELD == 2
+vec3 limberNow = (limberBack * vec4(limberX + limberU, 1.0)).xyz;
+float limberSize = distance(limberNow, limberX + limberU0);
+#elif LIMBER_FIELD == 3
+float limberSize =
+    length(limberVelocity + cross(limberSpin, limberX + limberU) + limberUdot);
+#elif LIMBER_FIELD == 4
+float limberSize = limberStress;
 #endif
+#if LIMBER_FIELD > 0
 limberValue = (limberSize - limberRange.x) / (limberRange.y - limberRange.x);
+#endif
+`;
+
+const kColourDeclarations = /* glsl */ `
+#if LIMBER_FIELD > 0
+uniform sampler2D limberMap;
+varying float limberValue;
+#endif
 `;
 
 const kColour = /* glsl */ `
-#ifdef LIMBER_STRESS
-bool limberHasField = limberField > 0;
-#else
-bool limberHasField = limberField > 0 && limberField != 4;
+#if LIMBER_FIELD > 0
+diffuseColor.rgb = texture2D(limberMap, vec2(clamp(limberValue, 0.002, 0.998), 0.5)).rgb;
 #endif
-if (limberHasField) {
-  diffuseColor.rgb = texture2D(limberMap, vec2(clamp(limberValue, 0.002, 0.998), 0.5)).rgb;
-}
 `;
 
 /// Uniforms that every surface of a page shares.
 export function makeSharedUniforms(map) {
   return {
-    limberField: { value: 0 },
     limberMagnification: { value: 1 },
     limberRange: { value: new THREE.Vector2(0, 1) },
     limberMap: { value: map },
@@ -104,8 +104,7 @@ export function makeSharedUniforms(map) {
 }
 
 /// @param shared makeSharedUniforms(), or null: one colour, such as a ghost's
-/// @param hasStress whether its geometry has the attribute limberStress
-export function makeMaterial(colour, modes, shared, hasStress) {
+export function makeMaterial(colour, modes, shared) {
   const material = new THREE.MeshLambertMaterial({
     color: colour,
     flatShading: true,
@@ -115,11 +114,11 @@ export function makeMaterial(colour, modes, shared, hasStress) {
     limberSpin: { value: new THREE.Vector3() },
     limberBack: { value: new THREE.Matrix4() },
   };
+  material.defines = { LIMBER_FIELD: 0 };
   if (modes > 0) {
     own.limberRates = { value: new Float32Array(modes) };
     own.limberStart = { value: new Float32Array(modes) };
-    material.defines = { LIMBER_MODES: modes };
-    if (hasStress) material.defines.LIMBER_STRESS = '';
+    material.defines.LIMBER_MODES = modes;
   }
   material.userData.own = own;
   material.onBeforeCompile = (shader) => {
@@ -130,10 +129,10 @@ export function makeMaterial(colour, modes, shared, hasStress) {
     shader.fragmentShader = shader.fragmentShader
       .replace(
         '#include <common>',
-        '#include <common>\nuniform int limberField;\nuniform sampler2D limberMap;\nvarying float limberValue;',
+        `#include <common>\n${kColourDeclarations}`,
       )
       .replace('#include <color_fragment>', `#include <color_fragment>\n${kColour}`);
   };
-  material.customProgramCacheKey = () => `limber${modes}${hasStress ? 'stress' : ''}`;
+  material.customProgramCacheKey = () => 'limber';
   return material;
 }

@@ -22,6 +22,7 @@ export function watchPicks(canvas, camera, bodies, onPick) {
 
 /// @param x, y in [-1, 1] over the picture
 export function pickAt(x, y, camera, bodies) {
+  bodies.chooseFine(); // until the next frame: a node is one of all
   const ray = new THREE.Raycaster();
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
   const meshes = bodies.moving

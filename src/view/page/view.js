@@ -48,6 +48,7 @@ export class View {
     this.shared = makeSharedUniforms(makeMap());
     this.makeScene(results, box);
     this.setProcessor(isSoftware());
+    this.setDetail(this.isProcessor);
     this.makeRenderer();
     this.camera = new Camera(elements.canvas, box);
     this.camera.controls.addEventListener('change', () => this.redraw());
@@ -90,6 +91,11 @@ export class View {
   setProcessor(isSo) {
     this.isProcessor = isSo;
     for (const one of [this.bodies, ...this.ghosts]) one.setProcessor(isSo);
+    this.redraw();
+  }
+
+  setDetail(isSo) {
+    for (const one of [this.bodies, ...this.ghosts]) one.setDetail(isSo);
     this.redraw();
   }
 
@@ -142,6 +148,7 @@ export class View {
 
   setField(field) {
     this.field = field;
+    this.bodies.setField(field);
     this.tell('field');
   }
 
@@ -196,7 +203,6 @@ export class View {
   }
 
   updateColours() {
-    this.shared.limberField.value = this.field;
     this.shared.limberMagnification.value = this.magnification;
     const most = this.findMost();
     const range = [0, most > 0 ? most : 1];
@@ -212,6 +218,9 @@ export class View {
     for (const ghost of this.ghosts) ghost.update(time, this.magnification);
     this.marks.update(time, this.magnification);
     this.camera.update();
+    for (const one of [this.bodies, ...this.ghosts]) {
+      one.chooseDetail((place) => this.camera.findScale(place, this.elements.stage.clientHeight));
+    }
     this.updateColours();
     this.movePicked(time);
     this.moveSun();
