@@ -19,6 +19,7 @@ import damaged
 import faults
 import files
 import scene
+import settings
 import studies
 from command import Limber, adopt_orphans
 
@@ -29,6 +30,7 @@ FAMILIES = {
     "geometries": (files.attack_geometry, 800, True),
     "meshes": (files.attack_mesh, 800, True),
     "shapes": (files.attack_shape, 400, True),
+    "settings": (settings.attack_setting, 1000, True),
     "study files": (studies.attack_study_file, 300, True),
     "tables": (studies.attack_table, 200, True),
     "study kills": (studies.attack_study_kill, 20, True),

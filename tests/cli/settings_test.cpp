@@ -82,5 +82,31 @@ TEST(Settings, AreRefusedByEveryCommandIfTheirPathIsUnknown) {
   }
 }
 
+TEST(Settings, OfARobotWithoutEffectAreTold) {
+  const Workspace place;
+  place.write("robot.urdf",
+              "<robot name='r'><link name='world'/><link name='arm'><inertial>"
+              "<mass value='2'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+              "ixz='0' iyz='0'/></inertial></link><joint name='hinge' "
+              "type='revolute'><parent link='world'/><child link='arm'/>"
+              "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='5' "
+              "velocity='5'/></joint></robot>");
+  place.write("s.toml",
+              "robot = 'robot.urdf'\n[time]\nduration = 0.01\nstep = 1e-3\n"
+              "[output]\npictures = false\n");
+  const std::string text =
+      "--set robot.joint.hinge.limit.effort=9 changes nothing: it limits "
+      "drives, and no [[drive]] acts on it";
+  const CommandResult told =
+      place.limber("run s.toml --out a --set robot.joint.hinge.limit.effort=9");
+  EXPECT_EQ(told.status, 0) << told.errors;
+  EXPECT_THAT(told.errors, HasSubstr(text));
+  EXPECT_THAT(read_text(place.folder() / "a/summary.json"), HasSubstr(text));
+  const CommandResult acts =
+      place.limber("run s.toml --out b --set robot.joint.hinge.limit.upper=2");
+  EXPECT_EQ(acts.status, 0);
+  EXPECT_EQ(acts.errors, "");
+}
+
 }  // namespace
 }  // namespace limber::test

@@ -15,6 +15,7 @@
 #include "limber/scene/build/scene_checks.hpp"
 #include "limber/scene/build/scene_robots.hpp"
 #include "limber/scene/build/unused_keys.hpp"
+#include "limber/scene/build/unused_settings.hpp"
 #include "limber/scene/contacts/projectiles.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/probes/stress_points.hpp"
@@ -141,6 +142,9 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides) {
   apply(overrides, scene);
   check_stress(overrides, scene);
   for (std::string& text : find_unused_keys(table, scene, overrides)) {
+    scene.scenario.warnings.push_back(std::move(text));
+  }
+  for (std::string& text : find_unused_settings(settings.robots, scene)) {
     scene.scenario.warnings.push_back(std::move(text));
   }
   return scene;

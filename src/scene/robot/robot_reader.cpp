@@ -3,7 +3,10 @@
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
 
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
@@ -158,7 +161,13 @@ void read_standard_part(const std::string& xml, Robot& robot,
                         Problems& problems) {
   LogCapture capture;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(xml);
-  for (const std::string& text : capture.errors) problems.add(0, echo(text));
+  // The reason, and then of what it is part, outwards: one error.
+  if (!capture.errors.empty()) {
+    std::vector<std::string> texts;
+    for (const std::string& text : capture.errors) texts.push_back(echo(text));
+    std::reverse(texts.begin(), texts.end());
+    problems.add(0, fmt::format("{}", fmt::join(texts, ": ")));
+  }
   if (!model || !problems.empty()) {
     if (problems.empty()) problems.add(0, "not a URDF robot");
     return;

@@ -75,7 +75,15 @@ class JointChecks {
 
   void check_limit(const TiXmlElement& joint) {
     const TiXmlElement* limit = joint.FirstChildElement("limit");
-    if (limit == nullptr || !has_one_coordinate(joint)) return;
+    if (limit == nullptr) return;
+    for (const char* name : {"effort", "velocity"}) {
+      if (limit->Attribute(name) != nullptr) continue;
+      fail(*limit, joint,
+           fmt::format("its <limit> has no '{}', which URDF asks for; 0: no "
+                       "limit of drives",
+                       name));
+    }
+    if (!has_one_coordinate(joint)) return;
     XmlElement element(*limit, problems_);
     const double lower = element.number("lower").value_or(0.0);
     const double upper = element.number("upper").value_or(0.0);

@@ -233,7 +233,11 @@ void read_initial(TomlTable& table, Scenario& scenario) {
 
 OutputSpec read_output(TomlTable& table) {
   OutputSpec output;
-  output.folder = table.text("folder").value_or("");
+  const std::optional<std::string> folder = table.text("folder");
+  output.folder = folder.value_or("");
+  if (folder && folder->empty()) {
+    table.fail("folder", "is empty; leave it out for out/SCENARIO");
+  }
   output.xdmf = table.boolean("xdmf").value_or(false);
   output.pictures = table.boolean("pictures").value_or(true);
   output.stress = table.boolean("stress").value_or(false);
