@@ -306,6 +306,33 @@ TEST_F(AStudy, TakesFiguresOfTheSummaryOrTellsThatTheyAreNotThere) {
   EXPECT_THAT(table("c"), HasSubstr("0,0.001,,,"));
 }
 
+// Its names are checked against the start of a run, which has stress, too.
+TEST(AStudyOfStress, HasThePeaksOfItsRuns) {
+  const Workspace place;
+  place.write("s.toml", "scenario = '" LIMBER_SOURCE_DIR
+                        "/examples/beam_stress.toml'\n"
+                        "set = ['time.duration=0.001']\n"
+                        "[[factor]]\nname = 'force'\n"
+                        "path = 'load.push.force.0'\nvalues = [500, 1000]\n"
+                        "[[response]]\nname = 'largest'\n"
+                        "summary = 'stress.0.von_mises'\n"
+                        "[[response]]\nname = 'tip'\n"
+                        "probe = 'tip.max_principal'\n");
+  const CommandResult study = place.limber("study s.toml --out o --csv");
+  ASSERT_EQ(study.status, 0) << study.errors;
+  const CommandResult run = place.limber(
+      "run --from o/study.sqlite#1 --out one --json --set "
+      "output.pictures=false");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const json summary = json::parse(run.out, nullptr, false);
+  const double largest = summary["stress"][0]["von_mises"].get<double>();
+  const double tip =
+      summary["probes"]["tip.max_principal"]["peak"].get<double>();
+  EXPECT_GT(largest, 0.0);
+  EXPECT_THAT(read_text(place.folder() / "o/study.csv"),
+              HasSubstr(fmt::format("1,1000,{},{},", largest, tip)));
+}
+
 TEST_F(AStudy, IsRefusedBeforeAnyRun) {
   const auto refuse = [&](const std::string& old, const std::string& by,
                           const std::string& words) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "limber/app/reports/stress_report.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -308,7 +309,7 @@ Run make_start(const scene::Scene& scene, const scene::BuiltScene& built) {
       scene::evaluate_all(built.probes, built.model, built.initial)};
   run.history.states = {built.initial};
   run.history.energies = {calc_energy(built.model, built.initial)};
-  run.record.peaks.resize(run.history.columns.size());
+  run.record = record_state(built, built.initial);
   return run;
 }
 
