@@ -88,7 +88,6 @@ std::vector<double> find_reaches(const SystemModel& model) {
 DisplacementMeasure::DisplacementMeasure(const BodyModel& body)
     : reduced_(body.reduced) {
   LIMBER_EXPECT(reduced_ != nullptr);
-  nodes_ = DisplacementTree(reduced_->rows.x_B, reduced_->rows.Phi_B);
   find_mode_sizes();
 }
 
@@ -97,7 +96,6 @@ DisplacementMeasure::DisplacementMeasure(const SystemModel& model,
                                          const std::vector<double>& reaches)
     : reduced_(model.bodies[index(body)].reduced) {
   LIMBER_EXPECT(reduced_ != nullptr);
-  nodes_ = DisplacementTree(reduced_->rows.x_B, reduced_->rows.Phi_B);
   for (std::size_t i = 0; i < model.attachments.size(); ++i) {
     const Attachment& a = model.attachments[i];
     if (a.body != body || reaches[i] == 0.0) continue;
@@ -131,7 +129,8 @@ double DisplacementMeasure::calc_displacement(const VectorX& eta) const {
   }
   // Skips the many own nodes if they cannot be the largest.
   if (node_sizes_.dot(eta.cwiseAbs()) <= largest) return largest;
-  return nodes_.find_largest(eta, largest);
+  if (!nodes_) nodes_.emplace(reduced_->rows.x_B, reduced_->rows.Phi_B);
+  return nodes_->find_largest(eta, largest);
 }
 
 PeakDisplacement::PeakDisplacement(const DisplacementMeasure& measure)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "limber/dynamics/equations/displacement_tree.hpp"
@@ -25,7 +26,9 @@ namespace limber::dynamics {
 /// Equation   max over stored nodes |Phi_n eta|, and over the ends of couplers
 ///            |Phi_F eta| + reach |Psi_F eta|
 /// Limits     the second is the displacement of the bodies that it carries: a
-///            bound, as if every joint transmitted every rotation
+///            bound, as if every joint transmitted every rotation. Of one
+///            thread: the tree of the nodes, which costs as much as hundreds of
+///            steps, is made when it is first needed
 class DisplacementMeasure {
  public:
   /// Of the body's own nodes.
@@ -52,7 +55,7 @@ class DisplacementMeasure {
   std::vector<Carried> carried_;
   VectorX mode_sizes_;
   VectorX node_sizes_;  ///< the same of own nodes
-  DisplacementTree nodes_;
+  mutable std::optional<DisplacementTree> nodes_;
 };
 
 /// Peak of a DisplacementMeasure over many modal coordinates. Most are rejected
