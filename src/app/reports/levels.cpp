@@ -41,7 +41,8 @@ bool touches(const SystemModel& model, dynamics::BodyIndex body) {
                      });
 }
 
-/// The run's model with every flexible body at `uncoupled`.
+/// The run's model with every flexible body at `uncoupled`, or at `nonlinear`
+/// with linear elasticity if products of modes move what touches on it.
 SystemModel find_flexible_model(const scene::Scene& scene,
                                 const scene::BuiltScene& built,
                                 const std::filesystem::path& cache) {
@@ -52,11 +53,13 @@ SystemModel find_flexible_model(const scene::Scene& scene,
         .model;
   }
   SystemModel model = built.model;
-  for (dynamics::BodyModel& body : model.bodies) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    dynamics::BodyModel& body = model.bodies[b];
     if (!body.reduced) continue;
     if (body.fidelity == Fidelity::nonlinear) {
       body.elasticity = flexbody::DiagonalStiffness(
           flexbody::DiagonalStiffness::Parameters{body.reduced->lambda});
+      if (touches(model, static_cast<dynamics::BodyIndex>(b))) continue;
     }
     body.fidelity = Fidelity::uncoupled;
   }
@@ -108,11 +111,6 @@ std::vector<BodyLevel> judge_levels(const SystemModel& model,
     level.peaks = peaks;
     level.limits = dynamics::find_limits(settings, *body.reduced);
     level.advice = dynamics::advise(body, peaks, level.limits);
-    if (level.advice.level >= Fidelity::nonlinear &&
-        touches(model, peaks.body)) {
-      level.advice.reason +=
-          "; links that touch others are at most coupled as yet";
-    }
     level.reduced = body.reduced;
     level.track = std::move(tracks[levels.size()]);
     levels.push_back(std::move(level));

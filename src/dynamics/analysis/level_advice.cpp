@@ -136,8 +136,7 @@ bool is_linear_enough(const BodyPeaks& peaks, const LevelLimits& limits,
 }
 
 /// Why linear elasticity does not do, or not even `nonlinear`.
-std::string explain_nonlinear(const BodyModel& body, const BodyPeaks& peaks,
-                              const LevelLimits& limits,
+std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
                               const LevelAdvice& advice) {
   std::string text;
   const auto add = [&](const std::string& more) {
@@ -165,11 +164,7 @@ std::string explain_nonlinear(const BodyModel& body, const BodyPeaks& peaks,
         peaks.tension.value, peaks.compression.value,
         metres(advice.errors.coupled), metres(peaks.total.value)));
   }
-  if (advice.level == Fidelity::full) {
-    add(body.clamped ? "only level full is right, since a clamped link has no "
-                       "level nonlinear"
-                     : "only level full is right");
-  }
+  if (advice.level == Fidelity::full) add("only level full is right");
   return text;
 }
 
@@ -204,7 +199,7 @@ std::string explain(const BodyModel& body, const BodyPeaks& peaks,
           metres(e.uncoupled), limit, metres(e.one_way));
     case Fidelity::nonlinear:
     case Fidelity::full:
-      return explain_nonlinear(body, peaks, limits, advice);
+      return explain_nonlinear(peaks, limits, advice);
     case Fidelity::coupled:
       break;
   }
@@ -264,7 +259,7 @@ LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
   if (advice.is_beyond_linear ||
       (advice.level > Fidelity::rigid &&
        !is_linear_enough(peaks, limits, advice.errors))) {
-    const bool is_too_far = body.clamped || peaks.turn.value > kLargestTurn ||
+    const bool is_too_far = peaks.turn.value > kLargestTurn ||
                             peaks.compression.value > kLargestLoad;
     advice.level = is_too_far ? Fidelity::full : Fidelity::nonlinear;
   }

@@ -64,7 +64,8 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
       deformation(*own),
       axial(model, index_of_body) {
   const BodyModel& b = model.bodies[index(body)];
-  LIMBER_EXPECT(b.fidelity == Fidelity::uncoupled);
+  LIMBER_EXPECT(b.fidelity == Fidelity::uncoupled ||
+                b.fidelity == Fidelity::nonlinear);
   peaks.body = body;
   peaks.modes = VectorX::Zero(b.modes);
   peaks.oscillation = VectorX::Zero(b.modes);
@@ -114,7 +115,8 @@ void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
     state_.etadot.segment(to.offset, to.modes) =
         state.etadot.segment(from.offset, from.modes);
   }
-  if (std::binary_search(jumps_.begin(), jumps_.end(), state.t)) {
+  // Nothing of the scene acts before its start.
+  if (count_ > 0 && std::binary_search(jumps_.begin(), jumps_.end(), state.t)) {
     include(state_, Side::left);
   }
   include(state_, Side::right);

@@ -138,17 +138,8 @@ void add_body_residual(const SystemModel& model, BodyIndex b,
   }
   const Eigen::Index row = first_row(body, index(b));
   const Vector3 force_B = terms.bodies[index(b)].R_WB.transpose() * force_W;
-  double* modes = residual.data() + row + 6;
-  for (int k = 0; k < body.modes; ++k) {
-    modes[k] -= place.Phi_B.col(k).dot(force_B);
-  }
-  const double* eta = terms.pairs.bodies[index(b)].eta;
-  flexbody::for_each_product(
-      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
-        const double f = place.Phi_B.col(body.modes + pair).dot(force_B);
-        modes[i] -= f * eta[j];
-        if (!is_square) modes[j] -= f * eta[i];
-      });
+  add_modal_residual(body, place, terms.pairs.bodies[index(b)].eta, force_B,
+                     residual.data() + row + 6);
   if (!body.has_rigid_motion()) return;
   residual.segment<3>(row) -= force_W;
   residual.segment<3>(row + 3) -= arm_B.cross(force_B);
@@ -187,6 +178,20 @@ void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
   for (Eigen::Index pair = 0; pair < products.force.size(); ++pair) {
     products.force[pair] += place.Phi_B.col(body.modes + pair).dot(force_B);
   }
+}
+
+void add_modal_residual(const BodyModel& body, const joints::PairPlace& place,
+                        const double* eta, const Vector3& force_B,
+                        double* residual) {
+  for (int k = 0; k < body.modes; ++k) {
+    residual[k] -= place.Phi_B.col(k).dot(force_B);
+  }
+  flexbody::for_each_product(
+      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
+        const double f = place.Phi_B.col(body.modes + pair).dot(force_B);
+        residual[i] -= f * eta[j];
+        if (!is_square) residual[j] -= f * eta[i];
+      });
 }
 
 void add_product_forces(const SystemModel& model, const SystemState& state,

@@ -86,6 +86,12 @@ void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
                      const Vector3& force_B, BodyTerms& terms,
                      ProductTerms& products);
 
+/// Takes the forces on the modes at eta, products included, of a force on a
+/// body at a place from their residual. @param force_B body frame [N]
+void add_modal_residual(const BodyModel& body, const joints::PairPlace& place,
+                        const double* eta, const Vector3& force_B,
+                        double* residual);
+
 /// Adds what forces on products are on the modes at eta, once all are known.
 /// @param state supplies eta
 void add_product_forces(const SystemModel& model, const SystemState& state,

@@ -4,6 +4,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/newton/body_increment.hpp"
 #include "limber/dynamics/newton/residual_derivative.hpp"
 #include "limber/dynamics/system/body_model.hpp"
@@ -13,14 +14,25 @@
 namespace limber::dynamics {
 namespace {
 
-// Of a point by the modes at eta, 3 x m: with their products.
-Matrix3X find_columns(const BodyModel& body, const joints::PairPlace& place,
-                      const double* eta) {
-  Matrix3X columns = place.Phi_B.leftCols(body.modes);
-  flexbody::add_product_columns(
-      paired_of(body), place.Phi_B.rightCols(place.Phi_B.cols() - body.modes),
-      eta, columns);
-  return columns;
+// Change of a point's displacement by the products of modes, d_eta at eta.
+Vector3 move_by_products(const BodyModel& body, const joints::PairPlace& place,
+                         const double* eta, const double* d_eta) {
+  Vector3 sum = Vector3::Zero();
+  flexbody::for_each_product(
+      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
+        const double change = is_square ? eta[i] * d_eta[i]
+                                        : eta[i] * d_eta[j] + eta[j] * d_eta[i];
+        sum += change * place.Phi_B.col(body.modes + pair);
+      });
+  return sum;
+}
+
+// The same by the modes and their products.
+Vector3 move_by_modes(const BodyModel& body, const joints::PairPlace& place,
+                      const double* eta, const double* d_eta) {
+  Vector3 sum = move_by_products(body, place, eta, d_eta);
+  for (int k = 0; k < body.modes; ++k) sum += d_eta[k] * place.Phi_B.col(k);
+  return sum;
 }
 
 }  // namespace
@@ -53,16 +65,11 @@ ResidualDerivative::PlaceChange ResidualDerivative::change_place(
   Vector3 v_B = w.cross(arm_B);
   Vector3 d_udot = Vector3::Zero();  // by the products' change
   if (body.modes > 0) {
+    const double* eta = state_->eta.data() + body.offset;
     const double* etadot = state_->etadot.data() + body.offset;
-    const Matrix3X columns =
-        find_columns(body, place, state_->eta.data() + body.offset);
-    change.arm_B = combine(columns, d.eta);
-    v_B += combine(columns, etadot);
-    if (!paired_of(body).empty()) {
-      const Matrix3X first = place.Phi_B.leftCols(body.modes);
-      d_udot = combine(find_columns(body, place, d.eta), etadot) -
-               combine(first, etadot);
-    }
+    change.arm_B = move_by_modes(body, place, eta, d.eta);
+    v_B += move_by_modes(body, place, eta, etadot);
+    d_udot = move_by_products(body, place, d.eta, etadot);
   }
   change.p = d.p + R * (d.theta.cross(arm_B) + change.arm_B);
   change.v = c_.velocity * d.p +
@@ -96,9 +103,8 @@ void ResidualDerivative::change_force(
   const Vector3 force_B = R_BW * force;
   const Vector3 d_force_B = R_BW * d_force - d.theta.cross(force_B);
   const Eigen::Index row = first_row(body, index(b));
-  const Matrix3X columns =
-      find_columns(body, place, state_->eta.data() + body.offset);
-  r.segment(row + 6, body.modes) -= columns.transpose() * d_force_B;
+  add_modal_residual(body, place, state_->eta.data() + body.offset, d_force_B,
+                     r.data() + row + 6);
   if (!body.has_rigid_motion()) return;
   r.segment<3>(row) -= d_force;
   r.segment<3>(row + 3) -= d_arm_B.cross(force_B) + arm_B.cross(d_force_B);

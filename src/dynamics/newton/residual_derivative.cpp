@@ -397,14 +397,19 @@ void ResidualDerivative::change_body_load(const BodyLoad& load,
   r.segment<3>(first_row(body, b)) -=
       terms_->bodies[b].R_WB * d.theta.cross(force);
   if (!is_coupled(body.fidelity)) return;
-  Matrix3X by_mode = history.moment_by_mode.middleCols(
-      i * count_coordinates(body), body.modes);
-  flexbody::add_product_columns(paired_of(body),
-                                history.moment_by_mode.middleCols(
-                                    i * count_coordinates(body) + body.modes,
-                                    count_coordinates(body) - body.modes),
-                                state_->eta.data() + body.offset, by_mode);
-  r.segment<3>(first_row(body, b) + 3) -= combine(by_mode, d.eta);
+  const Eigen::Index first = i * count_coordinates(body);
+  const double* eta = state_->eta.data() + body.offset;
+  Vector3 moment = Vector3::Zero();
+  for (int k = 0; k < body.modes; ++k) {
+    moment += history.moment_by_mode.col(first + k) * d.eta[k];
+  }
+  flexbody::for_each_product(paired_of(body), [&](Eigen::Index pair, int k,
+                                                  int l, bool is_square) {
+    const double change =
+        is_square ? eta[k] * d.eta[k] : eta[k] * d.eta[l] + eta[l] * d.eta[k];
+    moment += history.moment_by_mode.col(first + body.modes + pair) * change;
+  });
+  r.segment<3>(first_row(body, b) + 3) -= moment;
 }
 
 void ResidualDerivative::apply_rest(const VectorX& increments,
