@@ -10,10 +10,12 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 #include "support/differences.hpp"
 #include "support/elastic_kinds.hpp"
 #include "support/linked_bodies.hpp"
+#include "support/paired_bodies.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -224,6 +226,20 @@ INSTANTIATE_TEST_SUITE_P(
       return make_all_links(0.0)[static_cast<std::size_t>(param.param)].name;
     });
 
+void add_nodal_loads(SystemModel& model) {
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
+    const int m = count_coordinates(model.bodies[static_cast<std::size_t>(b)]);
+    Random random(7);
+    flexbody::NodalLoad history;
+    history.times = {-1.0};
+    history.force = 5.0 * random.vector();
+    history.moment = 5.0 * random.vector();
+    history.moment_by_mode = 5.0 * random.vector(3 * m).reshaped(3, m);
+    history.modal = random.vector(m);
+    model.body_loads.push_back({"nodal", b, history, {}});
+  }
+}
+
 // On the far end of every body: forces and moments in either axes.
 void add_loads(const LinkedBodies& linked, SystemModel& model) {
   for (AttachmentIndex i(0); i < std::ssize(linked.model.attachments); ++i) {
@@ -234,17 +250,7 @@ void add_loads(const LinkedBodies& linked, SystemModel& model) {
                            .in_world = i % 2 == 0,
                            .function = Constant{}});
   }
-  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
-    const int m = model.bodies[static_cast<std::size_t>(b)].modes;
-    Random random(7);
-    flexbody::NodalLoad history;
-    history.times = {-1.0};
-    history.force = 5.0 * random.vector();
-    history.moment = 5.0 * random.vector();
-    history.moment_by_mode = 5.0 * random.vector(3 * m).reshaped(3, m);
-    history.modal = random.vector(m);
-    model.body_loads.push_back({"nodal", b, history, {}});
-  }
+  add_nodal_loads(model);
 }
 
 TEST(ResidualDerivative, IsThatOfDifferencesAtEveryLevelUnderLoads) {
@@ -277,6 +283,39 @@ TEST(ResidualDerivative, IsThatOfDifferencesAtEveryLevelUnderLoads) {
       SCOPED_TRACE(static_cast<int>(level));
       margin.expect_below(kGradient);
       EXPECT_GT(rest, 0.01);
+    }
+  }
+}
+
+// Points of pairs, nodal loads, and gravity on a clamped body: of products of
+// modes at level nonlinear, too.
+TEST(ResidualDerivative, OfPairsAndLoadsOnPointsIsThatOfDifferences) {
+  for (const bool is_bent : {false, true}) {
+    for (const bool clamped : {false, true}) {
+      Margin margin;
+      double rest = 0.0;
+      for (unsigned seed = 1; seed <= 4; ++seed) {
+        testing::PairedBodies paired =
+            testing::make_paired_bodies({.is_bent = is_bent, .damping = 2.0});
+        SystemModel& model = paired.model;
+        model.gravity_W = {1, -9, 2};
+        Random random(seed);
+        paired.state.eta = 0.3 * random.vector(model.modal_count);
+        add_nodal_loads(model);
+        if (clamped) {
+          BodyModel& first = model.bodies[0];
+          first.clamped = true;
+          first.P = random.vector(3 * count_coordinates(first))
+                        .reshaped(3, count_coordinates(first));
+          paired.state.bodies[0].v_WB_W.setZero();
+          paired.state.bodies[0].w_WB_B.setZero();
+        }
+        compare(model, make_point(model, paired.state, seed), seed + 50, margin,
+                rest);
+      }
+      SCOPED_TRACE(is_bent ? "nonlinear" : "coupled");
+      margin.expect_below(kGradient);
+      EXPECT_GT(rest, 1e-4);  // springs are soft: of 0.1 s
     }
   }
 }

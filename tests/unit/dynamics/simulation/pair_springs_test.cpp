@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "limber/dynamics/equations/energy.hpp"
@@ -136,6 +137,33 @@ TEST(PairSprings, KeepTheEnergyWithTheEnergyConservingScheme) {
              });
     const double after = calc_energy(bodies.model, bodies.state).total();
     EXPECT_NEAR(after - work, before, 1e-10 * before);
+  }
+}
+
+// The error of a step's end, against half the step's.
+TEST(PairSprings, AtLevelNonlinearHaveTheOrdersOfTheSchemes) {
+  const auto run = [](IntegratorKind kind, double step) {
+    PairedBodies bodies = make_paired_bodies({.is_bent = true, .damping = 1.0});
+    simulate(bodies.model, bodies.state,
+             {.integrator = kind,
+              .end_time = 0.1,
+              .step = step,
+              .newton_tolerance = 1e-13},
+             {});
+    return bodies.state;
+  };
+  for (const auto& [kind, step, order] :
+       {std::tuple{IntegratorKind::generalized_alpha, 1e-3, 2.0},
+        std::tuple{IntegratorKind::energy_conserving, 1e-3, 2.0},
+        std::tuple{IntegratorKind::implicit_euler, 1e-3, 1.0},
+        std::tuple{IntegratorKind::runge_kutta_4, 1e-3, 4.0},
+        std::tuple{IntegratorKind::explicit_euler, 1e-4, 1.0}}) {
+    const SystemState coarse = run(kind, step);
+    const SystemState middle = run(kind, 0.5 * step);
+    const SystemState fine = run(kind, 0.25 * step);
+    const double found =
+        std::log2(find_distance(coarse, middle) / find_distance(middle, fine));
+    EXPECT_NEAR(found, order, 0.15) << to_string(kind);
   }
 }
 

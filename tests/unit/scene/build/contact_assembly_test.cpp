@@ -342,14 +342,29 @@ TEST_F(TouchingBody, MayTouchACylinder) {
       ElementsAre("body/ball", "body/post"));
 }
 
-TEST_F(TouchingBody, IsRefusedAtLevelNonlinear) {
-  EXPECT_THAT(
-      error_of(Vector3(0.0, 0.0, 2.0), "",
-               "[fidelity]\nlinks = { body = 'nonlinear' }\n"),
-      AllOf(HasSubstr("scenario.toml: [[contact]] 1 between 'body' and "
-                      "'ball'"),
-            HasSubstr("link 'body' is at level 'nonlinear', which "
-                      "contacts do not support yet; choose 'coupled'")));
+TEST_F(TouchingBody, NeedsTheSecondOrderOfItsSkinAtLevelNonlinear) {
+  flexbody::QuadraticManifold manifold;
+  manifold.paired = {1, 2};
+  manifold.Q = MatrixX::Zero(2, 3);
+  manifold.S2 = Matrix6X::Zero(6, 3);
+  manifold.Theta_B = MatrixX::Zero(body_.rows.Phi_B.rows(), 3);
+  body_.manifold = manifold;
+  flexbody::write_body(body_, folder_.path() / "body.h5");
+  const Vector3 away(0.0, 0.0, 2.0);
+  const std::string level = "[fidelity]\nlinks = { body = 'nonlinear' }\n";
+  EXPECT_THAT(error_of(away, "", level),
+              HasSubstr("surface 'skin' of its saved body has no second "
+                        "order, which level nonlinear needs"));
+  for (auto& surface : body_.contact_surfaces) {
+    surface.Phi_B = MatrixX::Constant(9, 6, 0.1);
+  }
+  flexbody::write_body(body_, folder_.path() / "body.h5");
+  const BuiltScene built = build(away, "", level);
+  ASSERT_EQ(built.model.pairs.size(), 1U);
+  EXPECT_NO_THROW(built.model.pairs[0].law->check(6, 0));
+  // Lower levels take the modes alone.
+  const BuiltScene coupled = build(away, "", "");
+  EXPECT_NO_THROW(coupled.model.pairs[0].law->check(3, 0));
 }
 
 TEST_F(TouchingBody, IsRefusedWithASurfaceThatItDoesNotHave) {
