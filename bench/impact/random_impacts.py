@@ -27,7 +27,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MOST_RISE = 0.005  # of the energy
 MOST_SECONDS = 60  # of processor time
-LEVELS = ("rigid", "uncoupled", "one-way", "coupled", "full")
+LEVELS = ("rigid", "uncoupled", "one-way", "coupled", "nonlinear", "full")
 KINDS = ("sphere", "box", "cylinder", "capsule", "cube", "ball", "bar", "plane")
 BAR_MASS = 7850.0 * 0.2 * 0.02 * 0.01
 BAR_MODULUS = 210e9

@@ -62,6 +62,29 @@ TEST(BallOnLink, IsStruckAsWholeFiniteElementsSay) {
               impact["impulse"].get<double>() / reduced - 1.0, 2e-3);
 }
 
+// The table refines its peaks between steps as probes do theirs: steps of a
+// fifteenth of the impact, and of an eightieth.
+TEST(BallOnLink, HasOnePeakForceInTableAndProbe) {
+  std::vector<double> peaks;
+  for (const double step : {3.2e-6, 6e-7}) {
+    const Workspace place;
+    write_ball(place,
+               fmt::format("[time]\nduration = 1e-4\nstep = {:g}\n"
+                           "output_interval = 5e-5\n[fidelity]\ndefault = "
+                           "'rigid'\n[[probe]]\nname = 'hit'\ncontact = "
+                           "['bar', 'ball']\nquantity = 'normal_force'\n",
+                           step));
+    const json summary = run(place);
+    const json& impact = summary["contacts"][0];
+    const json& probe = summary["probes"]["hit"];
+    peaks.push_back(impact["peak_force"].get<double>());
+    EXPECT_NEAR(peaks.back() / probe["peak"].get<double>(), 1.0, 2e-3);
+    EXPECT_NEAR(impact["peak_time"].get<double>(),
+                probe["peak_time"].get<double>(), 0.1 * step);
+  }
+  EXPECT_NEAR(peaks[0] / peaks[1], 1.0, 5e-3);
+}
+
 // Two periods of the highest mode fit into the impact, of which a run would warn
 // else, as it does with five modes; peak force as above.
 TEST(BallOnLink, HasAutomaticModesThatAnswerTheImpact) {

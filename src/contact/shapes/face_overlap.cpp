@@ -14,6 +14,8 @@ using Vector2 = Eigen::Vector2d;
 
 // Distance, relative to the circumference, at which corners are one [-].
 constexpr double kSame = 1e-6;
+// Distance from a line, relative to its length, at which a corner is on it [-].
+constexpr double kOnLine = 1e-12;
 
 // Edges are numbered as the corners that they start from, those of B after
 // A's.
@@ -98,20 +100,19 @@ Polygon cut(const Polygon& polygon, const Vector2& a, const Vector2& b,
             std::size_t number) {
   Polygon rest;
   // A corner on the line is left of it, or round-off would choose.
-  const double none = kSame * (b - a).squaredNorm();
-  const auto find_side = [&](const Vector2& x) {
-    return cross(b - a, x - a) + none;
-  };
+  const double none = kOnLine * (b - a).squaredNorm();
+  const auto find_side = [&](const Vector2& x) { return cross(b - a, x - a); };
   for (std::size_t i = 0; i < polygon.count; ++i) {
     const std::size_t next = (i + 1) % polygon.count;
     const double here = find_side(polygon.corners[i]);
     const double there = find_side(polygon.corners[next]);
-    if (here >= 0.0) rest.add(polygon.corners[i], polygon.edges[i]);
-    if ((here >= 0.0) == (there >= 0.0)) continue;
-    const double t = here / (here - there);
+    const bool is_left = here >= -none;
+    if (is_left) rest.add(polygon.corners[i], polygon.edges[i]);
+    if (is_left == (there >= -none)) continue;
+    const double t = std::clamp(here / (here - there), 0.0, 1.0);
     rest.add(
         polygon.corners[i] + t * (polygon.corners[next] - polygon.corners[i]),
-        here >= 0.0 ? number : polygon.edges[i]);
+        is_left ? number : polygon.edges[i]);
   }
   return rest;
 }
@@ -156,7 +157,8 @@ class Overlap {
       if (slope < 0.0) end = std::min(end, -here / slope);
       if (slope == 0.0 && here < 0.0) return false;
     }
-    if (!(begin < end)) return false;
+    // A line through a corner alone has one point, whatever round-off says.
+    if (!(end - begin > kSame)) return false;
     put(first_slot, from + begin * way, 1.0);
     put(first_slot + 1, from + end * way, 1.0);
     return true;
