@@ -69,14 +69,20 @@ TEST(PairBuilder, RefusesALawOfOtherModes) {
                              "pair 'p'", "line 1 has 2 modes of body B");
 }
 
-TEST(PairBuilder, RefusesABodyAtLevelFull) {
+// Such a body has three columns a node and one more.
+TEST(PairBuilder, RefusesALawOfModesForABodyAtLevelFull) {
   testing::Lattice lattice;
   SystemBuilder builder;
   const auto full =
       builder.add_full_body("mesh", lattice.reduced, lattice.full, {});
+  joints::PointSprings::Line line{
+      {}, {}, joints::PointSpring({.stiffness = 1.0})};
+  line.on_B.Phi_B = Matrix3X::Zero(3, 2);
+  const auto springs = std::make_shared<joints::PointSprings>(
+      std::vector<joints::PointSprings::Line>{line});
   expect_refused<InputError>(
-      [&] { builder.add_pair("p", kWorld, full, make_touch(1.0)); },
-      "pair 'p': body 'mesh'", "level full");
+      [&] { builder.add_pair("p", kWorld, full, springs); }, "pair 'p'",
+      "line 1 has 2 modes of body B");
 }
 
 TEST(PointSprings, RefuseNoLinesAndPlacesThatAreNotFinite) {
