@@ -309,15 +309,16 @@ TEST_F(AStudy, TakesFiguresOfTheSummaryOrTellsThatTheyAreNotThere) {
 // Its names are checked against the start of a run, which has stress, too.
 TEST(AStudyOfStress, HasThePeaksOfItsRuns) {
   const Workspace place;
-  place.write("s.toml", "scenario = '" LIMBER_SOURCE_DIR
-                        "/examples/beam_stress.toml'\n"
-                        "set = ['time.duration=0.001']\n"
-                        "[[factor]]\nname = 'force'\n"
-                        "path = 'load.push.force.0'\nvalues = [500, 1000]\n"
-                        "[[response]]\nname = 'largest'\n"
-                        "summary = 'stress.0.von_mises'\n"
-                        "[[response]]\nname = 'tip'\n"
-                        "probe = 'tip.max_principal'\n");
+  place.write("s.toml",
+              "scenario = '" LIMBER_SOURCE_DIR
+              "/examples/beam_stress.toml'\n"
+              "set = ['time.duration=0.001']\n[design]\nkind = 'grid'\n"
+              "[[factor]]\nname = 'force'\n"
+              "path = 'load.push.force.0'\nvalues = [500, 1000]\n"
+              "[[response]]\nname = 'largest'\n"
+              "summary = 'stress.0.von_mises'\n"
+              "[[response]]\nname = 'tip'\n"
+              "probe = 'tip.max_principal'\n");
   const CommandResult study = place.limber("study s.toml --out o --csv");
   ASSERT_EQ(study.status, 0) << study.errors;
   const CommandResult run = place.limber(

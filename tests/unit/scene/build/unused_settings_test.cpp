@@ -46,7 +46,8 @@ const std::string kScenario =
     "max_effort = 3.0\nsignal = { kind = 'constant', value = 0.0 }\n"
     "[[projectile]]\nname = 'ball'\nradius = 0.1\nmass = 1.0\n"
     "position = [0.0, 0.0, 9.0]\n"
-    "[[contact]]\nbetween = ['ball', 'a']\nfriction = 0.1\n";
+    "[[contact]]\nbetween = ['ball', 'a']\nfriction = 0.1\n"
+    "restitution = 0.5\n";
 
 class SettingOfARobot : public ::testing::Test {
  protected:
