@@ -65,6 +65,9 @@ Ends find_ends(const StudyColumn& column) {
   return ends;
 }
 
+// Around the values of a logarithmic axis.
+constexpr double kLogRoom = 1.1;
+
 std::string list_tics(const StudyColumn& column, const Ends& ends,
                       bool has_labels) {
   std::vector<std::string> tics;
@@ -74,10 +77,12 @@ std::string list_tics(const StudyColumn& column, const Ends& ends,
           fmt::format("{} {}", has_labels ? quote(column.texts[i]) : "''", i));
     }
   } else if (ends.least < ends.largest) {
+    // Of values from just above 2 to just below 20 the ends are round, too.
+    const bool is_logarithmic = column.is_logarithmic && ends.least > 0.0;
     for (const double value :
-         column.is_logarithmic&& ends.least > 0.0
-             ? list_logarithmic_tics(ends.least, ends.largest)
-             : list_even_tics(ends.least, ends.largest)) {
+         is_logarithmic ? list_logarithmic_tics(ends.least / kLogRoom,
+                                                ends.largest * kLogRoom)
+                        : list_even_tics(ends.least, ends.largest)) {
       tics.push_back(fmt::format("{:.9g}", value));
     }
   } else {
@@ -96,7 +101,7 @@ void set_axis(GnuplotScript& script, const char* axis,
       fmt::format("{} logscale {}", is_logarithmic ? "set" : "unset", axis));
   if (is_logarithmic) {
     script.add(fmt::format("set {}range [{:.9g}:{:.9g}]", axis,
-                           ends.least / 1.1, ends.largest * 1.1));
+                           ends.least / kLogRoom, ends.largest * kLogRoom));
   } else {
     const double range = ends.largest - ends.least;
     const double room = range > 0.0
