@@ -10,35 +10,33 @@ import json
 import math
 import pathlib
 import resource
+import shutil
 import subprocess
+
+import page
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-INTRODUCTION = """\
-Written by `bench/bending/measure.py`, including all text; do not edit. Bars that stiffen
-in spin, bend far, buckle and are struck while they turn, by public commands: level
-`coupled`, whose bodies are linear, `nonlinear` in one piece and in two, and the closed form
-or the whole mesh (`full`). Errors are percent of the truth. Costs are ratios of one run of
-this page; the time of a step is that of the processor, with reading and writing, less that
-of a run of one step."""
-EI = 2e11 * 0.05**4 / 12  # of bar and arc's section to the fourth [N m^2]
+EI = 2e11 * 0.05**4 / 12  # of the bar's section, 1 m^-2 [N m^2]
 EULER = math.pi**2 * EI / 4  # of the bar, held at one end [N]
 PRINCETON = 13.345  # N
 SIDE = math.sqrt(0.5) * PRINCETON
+LEVELS = ("coupled", "nonlinear", "full")
+REDUCED = LEVELS[:2]
 
-# Name, scene, force on the tip [N], error asked of one piece and of two [%].
+# Name, scene, force on the tip [N], error of `nonlinear` that was aimed at [%].
 BENT = (
-    ("bent to 20 %", "bar", (0, 0, 0.2065 * 3 * EI), 0.3, 0.1),
-    ("bent to 40 %", "bar", (0, 0, 0.465 * 3 * EI), 1.0, 0.15),
-    ("bent to 60 %", "bar", (0, 0, 0.92 * 3 * EI), 2.0, 0.5),
-    ("Princeton, 0 degrees", "strip", (0, 0, PRINCETON), 1.1, 0.15),
-    ("Princeton, 45 degrees", "strip", (0, SIDE, SIDE), 1.1, 0.15),
-    ("pressed by 0.8 of Euler's load", "bar", (-0.8 * EULER, 0, 0.03 * EI), 0.3, None),
-    ("pressed by 1.05", "bar", (-1.05 * EULER, 0, 0.03 * EI), None, 1.0),
-    ("pressed by 1.2", "bar", (-1.2 * EULER, 0, 0.03 * EI), None, 1.0),
-    ("arc, closed further", "arc", (0, 0.225 * EI, 0), 1.5, 0.3),
-    ("arc, opened", "arc", (0.375 * EI, -0.225 * EI, 0), 1.5, 0.3),
-    ("arc, out of its plane", "arc", (0, 0, 0.1125 * EI), 1.5, 0.3),
+    ("bent to 20 %", "bar", (0, 0, 0.2065 * 3 * EI), 0.3),
+    ("bent to 40 %", "bar", (0, 0, 0.465 * 3 * EI), 1.0),
+    ("bent to 60 %", "bar", (0, 0, 0.92 * 3 * EI), 2.0),
+    ("Princeton, 0 degrees", "strip", (0, 0, PRINCETON), 1.1),
+    ("Princeton, 45 degrees", "strip", (0, SIDE, SIDE), 1.1),
+    ("pressed by 0.8 of Euler's load", "bar", (-0.8 * EULER, 0, 0.03 * EI), 0.3),
+    ("pressed by 1.05", "bar", (-1.05 * EULER, 0, 0.03 * EI), None),
+    ("pressed by 1.2, more across", "bar", (-1.2 * EULER, 0, 0.2 * EI), None),
+    ("arc, closed further", "arc", (0, 0.225 * EI, 0), 1.5),
+    ("arc, opened", "arc", (0.375 * EI, -0.225 * EI, 0), 1.5),
+    ("arc, out of its plane", "arc", (0, 0, 0.1125 * EI), 1.5),
 )
 # Of a rotating cantilever, in sqrt(E I / (rho A L^4)): flap and lag (Wright et al., 1982).
 BLADE = {
@@ -54,6 +52,10 @@ BLADE_UNIT = 1.0801234  # rad/s
 SPIN_UP = (0.5738, 6.76, 0.018824, 5.14e-4)
 
 
+class Refused(Exception):
+    """A command that ended with an error."""
+
+
 class Runner:
     """Runs commands of limber, with a cache of bodies."""
 
@@ -61,7 +63,7 @@ class Runner:
         self.limber, self.work = limber, work
 
     def call(self, command, scene, *options):
-        """Its JSON and the processor's seconds; None if it is refused."""
+        """Its JSON and the processor's seconds."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         result = subprocess.run(
             [self.limber, command, scene, "--json", "--cache", self.work / "cache"]
@@ -72,28 +74,30 @@ class Runner:
         )
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         if result.returncode != 0:
-            return None, result.stderr.strip()
+            raise Refused(result.stderr.strip())
         return json.loads(result.stdout), after.ru_utime - before.ru_utime
 
     def run(self, name, scene, *options):
         folder = self.work / name
-        return *self.call("run", scene, "--out", folder, *options), folder
+        found, seconds = self.call("run", scene, "--out", folder, *options)
+        return found, seconds, folder
 
-    def step_seconds(self, name, scene, steps, *options):
-        """Of one step."""
-        quiet = ("--set", "output.pictures=false", *options)
-        spec = json_of_time(scene)
+    def find_step_seconds(self, name, scene, steps, *options):
+        """Of the processor, of one step of a run: less a run of few."""
+        few = max(1, steps // 20)
+        step = find_step(scene)
         times = []
-        for count in (1, steps):
-            end = f"time.duration={count * spec:.17g}"
-            found, seconds, _ = self.run(name + "-cost", scene, *quiet, "--set", end)
-            if found is None:
-                return None
-            times.append(seconds)
-        return (times[1] - times[0]) / (steps - 1)
+        for count in (few, few, steps):  # the first may reduce the body
+            end = f"time.duration={count * step:.17g}"
+            sets = ("--set", end, "--set", "output.pictures=false")
+            interval = f"time.output_interval={few * step:.17g}"
+            times.append(
+                self.run(name + "-cost", scene, *sets, "--set", interval, *options)[1]
+            )
+        return (times[2] - times[1]) / (steps - few)
 
 
-def json_of_time(scene):
+def find_step(scene):
     """The step of a scenario [s]."""
     for line in pathlib.Path(scene).read_text(encoding="utf-8").splitlines():
         if line.startswith("step = "):
@@ -101,123 +105,120 @@ def json_of_time(scene):
     raise SystemExit(f"{scene}: no step")
 
 
-def has_pieces():
-    return "pieces" in (ROOT / "docs/formats/scenario.md").read_text(encoding="utf-8")
+def at_level(level):
+    return ("--fidelity", level)
 
 
-# Columns of all tables: name, options of a command.
-LEVELS = {
-    "coupled": ("--fidelity", "coupled"),
-    "nonlinear": ("--fidelity", "nonlinear"),
-    "two pieces": ("--fidelity", "nonlinear", "--set", "basis.pieces=2"),
-    "full": ("--fidelity", "full"),
-}
-
-
-def levels(runner_levels=tuple(LEVELS)):
-    return [n for n in runner_levels if n != "two pieces" or has_pieces()]
-
-
-def cell(value, digits=2):
-    return "-" if value is None else f"{100 * value:.{digits}f} %"
-
-
-def distance(a, b):
-    return math.dist(a, b) / math.hypot(*b)
+def find_tip(runner, scene, force, level):
+    """Displacement of the tip in equilibrium [m], and the seconds; None: refused."""
+    load = "load.pull.force=[" + ",".join(f"{float(f):.17g}" for f in force) + "]"
+    folder = runner.work / f"{scene}-{level}"
+    file = HERE / f"scenes/{scene}.toml"
+    try:
+        found, seconds = runner.call(
+            "static", file, "--out", folder, "--set", load, *at_level(level)
+        )
+    except Refused as error:
+        print(f"{scene}, {force}, {level}: {error}")
+        return None, None
+    return [found["probes"][f"tip.u{axis}"]["value"] for axis in "xyz"], seconds
 
 
 def measure_bent(runner):
-    """Error of the tip's displacement, and which hold what is asked."""
-    rows, claims, curves = [], [], {}
-    for name, scene, force, one, two in BENT:
-        file = HERE / f"scenes/{scene}.toml"
-        load = "load.pull.force=[" + ",".join(f"{float(f):.17g}" for f in force) + "]"
-        tips = {}
-        for level in levels():
-            folder = runner.work / f"{scene}-{level.replace(' ', '-')}"
-            found, _ = runner.call(
-                "static", file, "--out", folder, "--set", load, *LEVELS[level]
-            )
-            tips[level] = found and [
-                found["probes"][f"tip.d{axis}"]["value"] for axis in "xyz"
-            ]
-        truth = tips["full"]
-        errors = {
-            level: distance(tip, truth) if tip else None for level, tip in tips.items()
-        }
-        rows.append(
-            f"| {name} | {cell(errors['coupled'])} | {cell(errors['nonlinear'])} "
-            f"| {cell(errors.get('two pieces'))} | {math.hypot(*truth):.5f} |"
-        )
-        for what, asked in (("nonlinear", one), ("two pieces", two)):
-            if asked is not None and what in errors:
-                claims.append((f"{name}, {what}", errors[what], asked / 100))
-        curves[name] = errors
-    return rows, claims, curves
+    """Error of the tip's displacement and its cost; claims."""
+    rows, claims = [], []
+    for scene in ("bar", "strip", "arc"):
+        for level in LEVELS:
+            find_tip(runner, scene, (0, 0, 1.0), level)  # fills the cache
+    for name, scene, force, aim in BENT:
+        tips = {level: find_tip(runner, scene, force, level) for level in LEVELS}
+        truth = tips["full"][0]
+        row = [name]
+        for level in REDUCED:
+            tip = tips[level][0]
+            error = math.dist(tip, truth) / math.hypot(*truth) if tip else None
+            row.append(page.percent(error))
+            if level == "nonlinear" and aim is not None:
+                claims.append((name, error, aim / 100))
+        row.append(f"{math.hypot(*truth):.5f}")
+        row += [page.number(tips[level][1]) for level in LEVELS]
+        rows.append(row)
+    return rows, claims
+
+
+def sweep(runner, forces, share):
+    """Curves (level, points) of the bar's tip across over a load."""
+    curves = []
+    for level in LEVELS:
+        points = []
+        for force in forces:
+            tip, _ = find_tip(runner, "bar", force, level)
+            if tip is not None:
+                points.append((share(force), tip[2]))
+        curves.append((level, "linespoints", points))
+    return curves
 
 
 def measure_blade(runner):
     rows, claims = [], []
-    curves = {level: ([], []) for level in ("coupled", "nonlinear")}
+    curves = {level: ([], []) for level in REDUCED}
     file = ROOT / "examples/blade.toml"
     for times, (flap, lag) in BLADE.items():
         speed = f"{times * BLADE_UNIT:.9g}"
-        row = f"| {times} |"
+        sets = ["--set", f"initial.joints.axle.velocity={speed}"]
+        sets += ["--set", f"drive.axle.signal.value={speed}"]
+        row = [str(times)]
         for level, (lags, flaps) in curves.items():
-            found, text = runner.call(
-                "frequencies",
-                file,
-                "--set",
-                f"initial.joints.axle.velocity={speed}",
-                "--set",
-                f"drive.axle.signal.value={speed}",
-                *LEVELS[level],
-            )
-            if found is None:
-                row += " - | - |"
+            try:
+                found, _ = runner.call("frequencies", file, *sets, *at_level(level))
+            except Refused as error:
+                print(f"blade at {times}, {level}: {error}")
+                row += ["-", "-"]
                 continue
-            got = sorted(
-                m["frequency"] * 2 * math.pi / BLADE_UNIT
-                for m in found["modes"]
-                if m["frequency"] * 2 * math.pi / BLADE_UNIT > 0.5
-            )[:2]
+            rates = [m["frequency"] * 2 * math.pi / BLADE_UNIT for m in found["modes"]]
+            got = sorted(rate for rate in rates if rate > 0.5)[:2]
             errors = (got[0] / lag - 1, got[1] / flap - 1)
             lags.append((times, got[0]))
             flaps.append((times, got[1]))
-            row += f" {cell(errors[0], 3)} | {cell(errors[1], 3)} |"
+            row += [page.percent(error, 3) for error in errors]
             if level == "nonlinear":
-                claims.append((f"blade at {times} times, lag", abs(errors[0]), 5e-4))
-                claims.append((f"blade at {times} times, flap", abs(errors[1]), 5e-4))
+                for what, error in zip(("lag", "flap"), errors):
+                    claims.append((f"blade at {times} times, {what}", abs(error), 5e-4))
         rows.append(row)
     return rows, claims, curves
+
+
+def find_column(head, name):
+    """Its place; a head is a name and a unit."""
+    return [column.split(" ")[0] for column in head].index(name)
 
 
 def read_probe(folder, names):
     with open(folder / "probes.csv", encoding="utf-8") as file:
         rows = list(csv.reader(file))
-    columns = [rows[0].index(n) for n in names]
+    columns = [find_column(rows[0], n) for n in names]
     return [[float(r[0])] + [float(r[c]) for c in columns] for r in rows[1:]]
 
 
 def measure_spin_up(runner):
-    rows, claims, curves = [], [], {}
+    rows, claims, curves = [], [], []
     file = ROOT / "examples/spin_up.toml"
-    for level in ("coupled", "nonlinear"):
-        found, _, folder = runner.run(f"spin-up-{level}", file, *LEVELS[level])
-        if found is None:
-            continue
-        tip = read_probe(folder, ["tip_lag.dx", "tip_lag.dy"])
-        t, dx, dy = max(tip, key=lambda r: abs(r[2]))
-        lag = abs(dy)
-        short = -min(r[1] for r in tip)
+    for level in REDUCED:
+        _, _, folder = runner.run(f"spin-up-{level}", file, *at_level(level))
+        tip = read_probe(folder, ["tip_lag.ux", "tip_lag.uy"])
+        t, _, dy = max(tip, key=lambda r: abs(r[2]))
+        lag, short = abs(dy), -min(r[1] for r in tip)
         late = [r[1] for r in tip if r[0] > 16.0]
         stretch = sum(late) / len(late)
-        curves[level] = [(r[0], r[2]) for r in tip]
-        rows.append(
-            f"| {level} | {lag:.4f} ({100 * (lag / SPIN_UP[0] - 1):+.2f} %) | {t:.2f} "
-            f"| {short:.6f} ({100 * (short / SPIN_UP[2] - 1):+.2f} %) "
-            f"| {stretch:.3e} ({100 * (stretch / SPIN_UP[3] - 1):+.2f} %) |"
-        )
+        curves.append((level, "lines", [(r[0], r[2]) for r in tip]))
+        cells = [level]
+        for value, true, digits in (
+            (lag, SPIN_UP[0], ".4f"),
+            (short, SPIN_UP[2], ".6f"),
+            (stretch, SPIN_UP[3], ".3e"),
+        ):
+            cells.append(f"{value:{digits}} ({100 * (value / true - 1):+.2f} %)")
+        rows.append(cells[:2] + [f"{t:.2f}"] + cells[2:])
         if level == "nonlinear":
             claims += [
                 ("spin-up, lag", abs(lag / SPIN_UP[0] - 1), 0.001),
@@ -225,132 +226,101 @@ def measure_spin_up(runner):
                 ("spin-up, stretch", abs(stretch / SPIN_UP[3] - 1), 0.01),
             ]
     rows.append(
-        f"| **finite elements** | {SPIN_UP[0]} | {SPIN_UP[1]} | {SPIN_UP[2]} | {SPIN_UP[3]:.2e} |"
+        ["**finite elements**"]
+        + [f"{SPIN_UP[0]}", f"{SPIN_UP[1]}", f"{SPIN_UP[2]}", f"{SPIN_UP[3]:.2e}"]
     )
+    curves.append(("peak of finite elements", "points", [(SPIN_UP[1], -SPIN_UP[0])]))
     return rows, claims, curves
+
+
+def compare_motion(runner, name, file, probe, *options):
+    """A probe's displacement [m] by level, the largest of `full`, and errors."""
+    columns = [f"{probe}.u{axis}" for axis in "xyz"]
+    motions = {}
+    for level in LEVELS:
+        try:
+            _, _, folder = runner.run(f"{name}-{level}", file, *options, *at_level(level))
+        except Refused as error:
+            print(f"{name}, {level}: {error}")
+            continue
+        motions[level] = read_probe(folder, columns)
+    size = max(math.hypot(*r[1:]) for r in motions["full"])
+    errors = {level: None for level in REDUCED}
+    for level in errors:
+        if level in motions:
+            pairs = zip(motions[level], motions["full"], strict=True)
+            errors[level] = max(math.dist(a[1:], b[1:]) for a, b in pairs) / size
+    return motions, size, errors
 
 
 def measure_struck(runner):
     rows, claims, curves = [], [], {}
     file = HERE / "scenes/struck.toml"
-    for rate, one, two in ((30, 0.5, None), (100, 4.0, 1.0)):
+    for rate, aim in ((30, 0.5), (100, 4.0)):
         spin = ("--set", f"initial.base.angular_velocity=[0.0,0.0,{rate}.0]")
-        tips = {}
-        for level in levels():
-            found, _, folder = runner.run(
-                f"struck-{rate}-{level.replace(' ', '-')}", file, *spin, *LEVELS[level]
-            )
-            if found is not None:
-                tips[level] = read_probe(folder, ["tip.dx", "tip.dy", "tip.dz"])
-        truth = tips["full"]
-        size = max(math.hypot(*r[1:]) for r in truth)
-        row = f"| {rate} rad/s |"
-        for level in ("coupled", "nonlinear", "two pieces"):
-            error = None
-            if level in tips:
-                error = max(
-                    math.dist(a[1:], b[1:]) / size for a, b in zip(tips[level], truth)
-                )
-            row += f" {cell(error)} |"
-            asked = {"nonlinear": one, "two pieces": two}.get(level)
-            if error is not None and asked is not None:
-                claims.append((f"struck at {rate} rad/s, {level}", error, asked / 100))
-        rows.append(row + f" {100 * size:.2f} % |")
-        curves[rate] = {n: [(1e3 * r[0], 1e3 * r[2]) for r in t] for n, t in tips.items()}
+        motions, size, errors = compare_motion(runner, f"struck-{rate}", file, "tip", *spin)
+        row = [f"{rate} rad/s"] + [page.percent(errors[n]) for n in REDUCED]
+        rows.append(row + [page.percent(size)])
+        claims.append((f"struck at {rate} rad/s", errors["nonlinear"], aim / 100))
+        curves[rate] = [
+            (n, "lines", [(1e3 * r[0], 1e3 * r[2]) for r in m]) for n, m in motions.items()
+        ]
     return rows, claims, curves
 
 
-def measure_cost(runner):
+def sum_contacts(folder):
+    """Of all touches: the largest force, the impulse, and their number."""
+    text = (folder / "summary.json").read_text(encoding="utf-8")
+    found = json.loads(text)["contacts"]
+    return {
+        "peak_force": max(c["peak_force"] for c in found),
+        "impulse": sum(c["impulse"] for c in found),
+        "touches": sum(c["touches"] for c in found),
+    }
+
+
+def measure_catch(runner):
+    """Of a bar's tip; of the contact the peak force and the impulse."""
+    file = HERE / "scenes/catch.toml"
+    motions, size, errors = compare_motion(runner, "catch", file, "tip")
+    curves = [
+        (n, "lines", [(1e3 * r[0], 1e3 * r[3]) for r in m]) for n, m in motions.items()
+    ]
+    contacts = {level: sum_contacts(runner.work / f"catch-{level}") for level in motions}
+    truth = contacts["full"]
     rows = []
+    for level in motions:
+        own = contacts[level]
+        row = [level, "" if level == "full" else page.percent(errors[level])]
+        for key in ("peak_force", "impulse"):
+            share = 100 * (own[key] / truth[key] - 1)
+            row.append(f"{own[key]:.4g}" + ("" if level == "full" else f" ({share:+.2f} %)"))
+        rows.append(row + [str(own["touches"])])
+    return rows, size, curves
+
+
+def measure_cost(runner):
+    rows, claims = [], []
     scenes = (
         ("blade", ROOT / "examples/blade.toml", 4000, ("--unset", "initial.equilibrium")),
         ("spin-up", ROOT / "examples/spin_up.toml", 4000, ()),
         ("struck", HERE / "scenes/struck.toml", 4000, ()),
+        ("catch", HERE / "scenes/catch.toml", 1000, ()),
     )
     for name, file, steps, options in scenes:
         seconds = {}
-        for level in levels():
-            count = 30 if level == "full" else steps
-            seconds[level] = runner.step_seconds(
-                f"{name}-{level}", file, count, *options, *LEVELS[level]
+        for level in LEVELS:
+            count = 40 if level == "full" else steps
+            seconds[level] = runner.find_step_seconds(
+                f"{name}-{level}", file, count, *options, *at_level(level)
             )
-        base = seconds["coupled"]
-        ratios = [
-            "-" if not seconds.get(n) else f"{seconds[n] / base:.3g}"
-            for n in ("nonlinear", "two pieces", "full")
-        ]
-        times = seconds["full"] / seconds["nonlinear"] if seconds.get("full") else None
-        rows.append(
-            f"| {name} | 1 | {ratios[0]} | {ratios[1]} | {ratios[2]} "
-            f"| {'-' if times is None else f'{times:.0f}'} |"
-        )
-    return rows
-
-
-def plot(out, name, title, labels, series, extra=()):
-    styles = ("#d55e00", "#0072b2", "#009e73", "#000000")
-    parts = [
-        "set terminal pngcairo noenhanced size 900,480 font 'sans,11'",
-        f"set output '{out / name}.png'",
-        f"set title '{title}'",
-        f"set xlabel '{labels[0]}'",
-        f"set ylabel '{labels[1]}'",
-        "set grid lc rgb '#dddddd'",
-        "set key top left",
-        *extra,
-    ]
-    plots = [
-        f"'-' with {kind} lw 2 pt 7 lc rgb '{styles[i % 4]}' title '{label}'"
-        for i, (label, kind, _) in enumerate(series)
-    ]
-    parts.append("plot " + ", ".join(plots))
-    for _, _, points in series:
-        parts += [f"{x:.6g} {y:.6g}" for x, y in points] + ["e"]
-    subprocess.run(["gnuplot"], input="\n".join(parts) + "\n", text=True, check=True)
-
-
-def draw(out, blade, spin, struck):
-    series = []
-    for level, (lags, flaps) in blade.items():
-        series.append((f"{level}, lag", "lines", lags))
-        series.append((f"{level}, flap", "lines", flaps))
-    truth = [(t, f) for t, (flap, lag) in BLADE.items() for f in (flap, lag)]
-    series.append(("closed form", "points", truth))
-    labels = ("rotation / sqrt(E I / (rho A L^4))", "frequency / the same")
-    plot(out, "blade", "Rotating cantilever", labels, series)
-    series = [(level, "lines", points) for level, points in spin.items()]
-    plot(out, "spin_up", "Spin-up: lag of the tip", ("time [s]", "tip [m]"), series)
-    for rate, tips in struck.items():
-        series = [(level, "lines", points) for level, points in tips.items()]
-        labels = ("time [ms]", "tip across the root [mm]")
-        plot(out, f"struck_{rate}", f"Struck at {rate} rad/s", labels, series)
-
-
-def write_page(out, claims, bent, blade, spin, struck, cost):
-    held = [c for c in claims if c[1] is not None and c[1] <= c[2]]
-    text = ["# Bending: level against truth", "", INTRODUCTION, "", "## Claims", ""]
-    text.append(f"{len(held)} of {len(claims)} held.")
-    text += ["", "| claim | error | asked | |", "|---|---:|---:|---|"]
-    for name, error, asked in claims:
-        verdict = "held" if (name, error, asked) in held else "**missed**"
-        text.append(f"| {name} | {cell(error, 3)} | {cell(asked)} | {verdict} |")
-    head = "| | coupled | nonlinear | in two pieces |"
-    text += ["", "## Bent, pressed and curved bars", "", "Displacement of the tip.", ""]
-    text += [head + " full [m] |", "|---|---:|---:|---:|---:|", *bent, ""]
-    text += ["## A rotating blade", "", "`examples/blade.toml`.", ""]
-    text += ["| times | coupled, lag | flap | nonlinear, lag | flap |"]
-    text += ["|---:|---:|---:|---:|---:|", *blade, "", "![Frequencies](blade.png)", ""]
-    text += ["## A spin-up", "", "`examples/spin_up.toml`.", ""]
-    text += ["| level | lag [m] | at [s] | foreshortening [m] | stretch [m] |"]
-    text += ["|---|---|---:|---|---|", *spin, "", "![Lag](spin_up.png)", ""]
-    text += ["## Struck while it spins", ""]
-    text += ["Largest error in 50 ms of the tip against the root, of its largest way.", ""]
-    text += [head + " way / length |", "|---|---:|---:|---:|---:|", *struck, ""]
-    text += ["![30 rad/s](struck_30.png)", "", "![100 rad/s](struck_100.png)", ""]
-    text += ["## Cost of a step", "", "In that of `coupled`, one run.", ""]
-    text += ["| scene | coupled | nonlinear | in two pieces | full | full / nonlinear |"]
-    text += ["|---|---:|---:|---:|---:|---:|", *cost, ""]
-    (out / "README.md").write_text("\n".join(text), encoding="utf-8")
+        ratio = seconds["nonlinear"] / seconds["coupled"]
+        cheaper = seconds["full"] / seconds["nonlinear"]
+        row = [name] + [f"{1e6 * seconds[n]:.3g}" for n in LEVELS]
+        rows.append(row + [f"{ratio:.2f}", f"{cheaper:.0f}"])
+        if name != "catch":
+            claims.append((name, cheaper, 500.0))
+    return rows, claims
 
 
 def main():
@@ -363,13 +333,23 @@ def main():
     for folder in (out, work):
         folder.mkdir(parents=True, exist_ok=True)
     runner = Runner(pathlib.Path(options.limber).resolve(), work)
-    bent, claims, _ = measure_bent(runner)
-    blade, more, blade_curves = measure_blade(runner)
-    spin, of_spin, spin_curves = measure_spin_up(runner)
-    struck, of_struck, struck_curves = measure_struck(runner)
+    text = page.Page(out)
+    bent, claims = measure_bent(runner)
+    bending = [(0, 0, share * 3 * EI) for share in (0.1, 0.3, 0.5, 0.7, 0.92)]
+    pressing = [(-s * EULER, 0, 0.2 * EI) for s in (0.0, 0.4, 0.8, 1.0, 1.2)]
+    text.draw_static(
+        sweep(runner, bending, lambda f: f[2] / EI),
+        sweep(runner, pressing, lambda f: -f[0] / EULER),
+    )
+    blade, more, frequencies = measure_blade(runner)
+    spin, of_spin, lags = measure_spin_up(runner)
+    struck, of_struck, strikes = measure_struck(runner)
+    catch, size, catches = measure_catch(runner)
     claims += more + of_spin + of_struck
-    draw(out, blade_curves, spin_curves, struck_curves)
-    write_page(out, claims, bent, blade, spin, struck, measure_cost(runner))
+    text.draw_motion(frequencies, BLADE, lags, strikes, catches)
+    cost, cheaper = measure_cost(runner)
+    text.write(claims, cheaper, bent, blade, spin, struck, (catch, size), cost)
+    shutil.rmtree(work / "cache", ignore_errors=True)
 
 
 if __name__ == "__main__":
