@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "limber/dynamics/analysis/equilibrium.hpp"
@@ -113,6 +114,86 @@ TEST(NonlinearLevel, BendsAsTheElastica) {
     EXPECT_NEAR(tip.x(), exact.x, within[i] * exact.y);
     const Vector3 linear = bend_blade(blade, Fidelity::coupled, k);
     EXPECT_GT(linear.y(), (1.0 + linear_off[i]) * exact.y);
+  }
+}
+
+// --- Clamped in its mesh ----------------------------------------------------
+
+// Of 1 m, 20 times as long as thick, fixed at its root.
+std::shared_ptr<const flexbody::ReducedBody> make_clamped() {
+  flexbody::Recipe recipe = make_recipe(Bar{.corner = {0.0, -0.025, -0.025},
+                                            .size = {kLength, 0.05, 0.05},
+                                            .cells = 20,
+                                            .material = {200e9, 0.0, 8000.0},
+                                            .is_clamped = true});
+  recipe.interfaces.erase(recipe.interfaces.begin());
+  recipe.basis.eigenmodes = 4;
+  recipe.manifold = true;
+  return std::make_shared<const flexbody::ReducedBody>(
+      flexbody::reduce(recipe));
+}
+
+constexpr double kClampedEI = 200e9 * 0.05 * 0.05 * 0.05 * 0.05 / 12.0;
+constexpr double kClampedRhoA = 8000.0 * 0.05 * 0.05;
+
+// Displacement of the tip under a force on it and gravity.
+Vector3 push_clamped(const std::shared_ptr<const flexbody::ReducedBody>& bar,
+                     Fidelity level, const Vector3& force,
+                     const Vector3& gravity) {
+  SystemBuilder builder;
+  const BodyIndex body = builder.add_flexible_body("bar", bar, level, {});
+  const Vector3& rest = bar->interfaces[0].p_B;
+  const AttachmentIndex tip = builder.attach_interface(
+      "tip", body, bar->interfaces[0], {Matrix3::Identity(), rest});
+  builder.add_load("force", tip, force, Vector3::Zero(), LoadFrame::world,
+                   Constant{});
+  builder.set_gravity(gravity);
+  const SystemModel model = builder.build();
+  const Equilibrium found = find_equilibrium(model, make_state(model));
+  return find_frame_motion(model, found.state, tip).X_WF.p - rest;
+}
+
+// A beam that keeps its length comes nearer by int w'^2 / 2: under a force at
+// the tip by 3/5 of its w^2 / L, under its weight by 4/7.
+TEST(NonlinearLevel, ComesNearerAsItBendsIfClamped) {
+  const auto bar = make_clamped();
+  const double force = 0.06 * kClampedEI;  // 2 % of the length
+  const double gravity = 0.16 * kClampedEI / kClampedRhoA;
+  const Vector3 pushed = push_clamped(bar, Fidelity::nonlinear,
+                                      {0.0, force, 0.0}, Vector3::Zero());
+  const Vector3 heavy = push_clamped(bar, Fidelity::nonlinear, Vector3::Zero(),
+                                     {0.0, gravity, 0.0});
+  const auto find_share = [](const Vector3& tip) {
+    return -tip.x() * kLength / (tip.y() * tip.y());
+  };
+  EXPECT_NEAR(pushed.y(), 0.02, 2e-4);  // of shear half
+  EXPECT_NEAR(heavy.y(), 0.02, 2e-4);
+  EXPECT_NEAR(find_share(pushed), 3.0 / 5.0, 0.01 * 0.6);
+  EXPECT_NEAR(find_share(heavy), 4.0 / 7.0, 0.01 * 0.57);
+  const Vector3 linear =
+      push_clamped(bar, Fidelity::coupled, {0.0, force, 0.0}, Vector3::Zero());
+  EXPECT_LT(std::abs(linear.x()), 1e-9);
+}
+
+// A beam column: w = F L^3 / (E I) (tan u - u) / u^3, u^2 = P L^2 / (E I); less
+// if pulled, by tanh.
+TEST(NonlinearLevel, SoftensUnderCompressionIfClamped) {
+  const auto bar = make_clamped();
+  const double force = 1e-3 * kClampedEI;
+  const auto find_ratio = [&](Fidelity level, double along) {
+    const auto push = [&](double P) {
+      return push_clamped(bar, level, {P, force, 0.0}, Vector3::Zero()).y();
+    };
+    return push(along) / push(0.0);
+  };
+  for (const double share : {0.5, 0.8}) {
+    const double u = 0.5 * std::numbers::pi * std::sqrt(share);
+    const double P = u * u * kClampedEI;
+    const double pressed = 3.0 * (std::tan(u) - u) / (u * u * u);
+    const double pulled = 3.0 * (u - std::tanh(u)) / (u * u * u);
+    EXPECT_NEAR(find_ratio(Fidelity::nonlinear, -P), pressed, 0.01 * pressed);
+    EXPECT_NEAR(find_ratio(Fidelity::nonlinear, P), pulled, 0.01 * pulled);
+    EXPECT_NEAR(find_ratio(Fidelity::coupled, -P), 1.0, 1e-6);
   }
 }
 
