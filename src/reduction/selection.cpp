@@ -76,12 +76,13 @@ double find_impact_limit(const AutomaticModes& options, const MeshedBody& body) 
   return limit;
 }
 
-void add_modes_below(double limit, const VectorX& lambda,
-                     const CaseShares& shares, ModeSelection& selection) {
+// Up to the first that is above, so that the basis reaches the limit.
+void add_modes_to(double limit, const VectorX& lambda, const CaseShares& shares,
+                  ModeSelection& selection) {
   for (int k = 0; k < lambda.size(); ++k) {
     std::vector<int>& modes = selection.modes;
-    if (lambda[k] > limit || std::binary_search(modes.begin(), modes.end(), k))
-      continue;
+    if (!(limit > 0.0) || (k > 0 && lambda[k - 1] > limit)) break;
+    if (std::binary_search(modes.begin(), modes.end(), k)) continue;
     modes.insert(std::lower_bound(modes.begin(), modes.end(), k), k);
     for (Eigen::Index c = 0; c < shares.totals.size(); ++c) {
       if (shares.totals[c] == 0.0) continue;
@@ -164,8 +165,8 @@ ChosenModes choose_eigenmodes(const MeshedBody& body, const Recipe& recipe,
       find_shares(options.measure, candidates, chosen.cases, body, progress);
   ModeSelection selection =
       select_modes(shares.shares, shares.totals, {options.threshold});
-  add_modes_below(find_impact_limit(options, body), candidates.lambda, shares,
-                  selection);
+  add_modes_to(find_impact_limit(options, body), candidates.lambda, shares,
+               selection);
   chosen.record = make_record(options, selection, candidates, chosen.cases);
   chosen.eigenmodes = {candidates.lambda(selection.modes),
                        candidates.Phi(Eigen::all, selection.modes)};

@@ -96,8 +96,8 @@ TEST(AutomaticModes, TakeMultiplesOfALoadForOneCase) {
   EXPECT_EQ(select_modes(loads, {0.9}).cases.size(), 1U);
 }
 
-// f_max T_c = 2 of Hertz's impact of two free bodies, T_c = 2.9433 d_p / v.
-TEST(AutomaticModes, OfAnImpactAreThoseOfWhichLessThanTwoPeriodsFit) {
+// f_max T_c >= 2 of Hertz's impact of two free bodies, T_c = 2.9433 d_p / v.
+TEST(AutomaticModes, OfAnImpactReachTwoPeriodsInItsDuration) {
   flexbody::Recipe recipe = test::beam_recipe("beam579_v41.msh");
   recipe.basis.interface_modes = false;
   recipe.basis.eigenmodes = 30;
@@ -117,9 +117,9 @@ TEST(AutomaticModes, OfAnImpactAreThoseOfWhichLessThanTwoPeriodsFit) {
       ++expected;
     }
     EXPECT_GT(expected, 0);
-    EXPECT_LT(expected, 30);
+    EXPECT_LT(expected, 29);
     EXPECT_EQ(flexbody::reduce(recipe).selection->modes.size(),
-              static_cast<std::size_t>(expected));
+              static_cast<std::size_t>(expected) + 1);
   }
 }
 
