@@ -170,7 +170,8 @@ LoadCases find_load_cases(const MeshedBody& body, const Recipe& recipe,
   if (cases.count() == 0)
     throw InputError(
         "automatic modes need a load that is not zero: a load on the body, "
-        "nodal forces, an interface or a body that strikes it. For a clamped body there is measure "
+        "nodal forces, an interface or a body that strikes it. For a clamped "
+        "body there is measure "
         "'mass'; or say how many eigenmodes.");
   find_compliance(body.inverse, cases);
   return cases;

@@ -62,7 +62,8 @@ double calc_duration(const ExpectedImpact& impact, double own_mass) {
 constexpr double kPeriods = 2.0;
 
 // Largest lambda that impacts need [rad^2/s^2].
-double find_impact_limit(const AutomaticModes& options, const MeshedBody& body) {
+double find_impact_limit(const AutomaticModes& options,
+                         const MeshedBody& body) {
   const double own = body.support.is_clamped
                          ? std::numeric_limits<double>::infinity()
                          : body.support.matrices.M_s.sum();

@@ -20,17 +20,18 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// The ball of examples/ball_on_link.toml, R = 10 mm at 1 m/s, on the bar.
-void write_ball(
-    const Workspace& place, const std::string& more,
-    const std::string& contact = "",
-    const std::string& robot = LIMBER_SOURCE_DIR "/models/struck_bar.urdf") {
-  place.write("ball.toml",
-              "robot = '" + robot +
-                  "'\n[output]\npictures = false\n"
-              "[[projectile]]\nname = 'ball'\nradius = 0.01\ndensity = 7850\n"
-              "position = [0.0, 0.0, 0.01501]\nvelocity = [0.0, 0.0, -1.0]\n"
-              "[[contact]]\nbetween = ['bar', 'ball']\n" +
-                  contact + more);
+void write_ball(const Workspace& place, const std::string& more,
+                const std::string& contact = "",
+                const std::string& robot = LIMBER_SOURCE_DIR
+                "/models/struck_bar.urdf") {
+  place.write(
+      "ball.toml",
+      "robot = '" + robot +
+          "'\n[output]\npictures = false\n"
+          "[[projectile]]\nname = 'ball'\nradius = 0.01\ndensity = 7850\n"
+          "position = [0.0, 0.0, 0.01501]\nvelocity = [0.0, 0.0, -1.0]\n"
+          "[[contact]]\nbetween = ['bar', 'ball']\n" +
+          contact + more);
 }
 
 json run(const Workspace& place) {
@@ -85,8 +86,8 @@ TEST(BallOnLink, HasOnePeakForceInTableAndProbe) {
   EXPECT_NEAR(peaks[0] / peaks[1], 1.0, 5e-3);
 }
 
-// Two periods of the highest mode fit into the impact, of which a run would warn
-// else, as it does with five modes; peak force as above.
+// Two periods of the highest mode fit into the impact, of which a run would
+// warn else, as it does with five modes; peak force as above.
 TEST(BallOnLink, HasAutomaticModesThatAnswerTheImpact) {
   const Workspace place;
   place.write("bar.urdf",
@@ -191,8 +192,8 @@ TEST(BallOnLink, RefusesWhatCannotTouchInOneErrorWithStatus2) {
   write_ball(place, kFine);
   for (const auto& [option, words] :
        std::vector<std::pair<std::string, std::string>>{
-           {"contact.0.between=[\"bar\",\"bal\"]",
-            "'bal'; did you mean 'ball'"},
+           {"contact.0.between=[\"bar\",\"balll\"]",
+            "'balll'; did you mean 'ball'"},
            {"contact.0.between=[\"bar\",\"finger_*\"]",
             "'finger_*' matches no link"},
            {"robot.contact.bar.surface=body",

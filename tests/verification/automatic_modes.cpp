@@ -103,8 +103,8 @@ TEST(AutomaticModes, OfAnImpactReachTwoPeriodsInItsDuration) {
   recipe.basis.eigenmodes = 30;
   const flexbody::ReducedBody all = flexbody::reduce(recipe);
   constexpr double kMass = 2.0;
-  constexpr double kStiffness = 1e9;
-  for (const double speed : {1e-3, 1.0, 100.0}) {
+  constexpr double kStiffness = 1e8;
+  for (const double speed : {1e-3, 0.1, 10.0}) {
     recipe.basis.automatic = AutomaticModes{
         .candidates = 30, .impacts = {{kMass, kStiffness, speed}}};
     const double mass = 1.0 / (1.0 / kMass + 1.0 / all.mass);

@@ -25,8 +25,8 @@ struct OngoingContact {
 
 constexpr auto fields_of(const OngoingContact*) {
   return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
-                     "longest step [s]", "largest force [N]", "largest depth [m]",
-                     "record");
+                     "longest step [s]", "largest force [N]",
+                     "largest depth [m]", "record");
 }
 
 /// Records every impact from the ends of all accepted steps.

@@ -101,7 +101,7 @@ struct ExpectedImpact {
 /// Selects those of the lowest eigenmodes that reach a share of every load
 /// case. The load cases are the recipe's load patterns and nodal forces; if it
 /// has neither, the forces and moments that its interfaces can carry. Of
-/// impacts, all modes of which less than two periods fit into their duration.
+/// impacts, all modes until two periods of the highest fit into their duration.
 struct AutomaticModes {
   double threshold = 0.9;  ///< of the total of all modes, in [0, 1] [-]
   ModeMeasure measure = ModeMeasure::compliance;

@@ -183,9 +183,8 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     const BodyPlan& plan, const std::string& surface) {
   const dynamics::Fidelity level = scene_.scenario.level_of(plan.name);
   const bool is_rigid = level == dynamics::Fidelity::rigid;
-  const void* body = plan.full
-                         ? static_cast<const void*>(plan.full.get())
-                         : static_cast<const void*>(plan.reduced.get());
+  const void* body = plan.full ? static_cast<const void*>(plan.full.get())
+                               : static_cast<const void*>(plan.reduced.get());
   auto& skin = skins_[{body, surface, level}];
   if (skin) return skin;
   if (plan.full) {
