@@ -107,34 +107,6 @@ TEST(BallOnLink, HasAutomaticModesThatAnswerTheImpact) {
   EXPECT_LT(modes, 40);
 }
 
-// The whole mesh against all of the 40 modes of the same mesh, through the same
-// patches. Elements of 10 mm.
-TEST(BallOnLink, IsStruckAtLevelFullAsWithItsModes) {
-  json found[2];
-  for (const bool is_full : {false, true}) {
-    const Workspace place;
-    write_ball(place,
-               "[time]\nduration = 1.2e-4\nstep = 5e-7\n"
-               "output_interval = 1e-5\n[basis]\neigenmodes = 40\n"
-               "[fidelity]\ndefault = '" +
-                   std::string(is_full ? "full" : "coupled") + "'\n");
-    const CommandResult result = place.limber(
-        "run ball.toml --out o --json --set "
-        "'robot.flexible.bar.mesh.size=0.01'");
-    ASSERT_EQ(result.status, 0) << result.errors;
-    found[is_full ? 1 : 0] = json::parse(result.out, nullptr, false);
-  }
-  const json& coupled = found[0]["contacts"][0];
-  const json& full = found[1]["contacts"][0];
-  EXPECT_EQ(full["touches"], 1);
-  for (const char* key : {"peak_force", "impulse", "duration"}) {
-    EXPECT_NEAR(full[key].get<double>() / coupled[key].get<double>(), 1.0, 0.02)
-        << key;
-  }
-  EXPECT_NEAR(full["restitution"].get<double>(),
-              coupled["restitution"].get<double>(), 0.02);
-}
-
 // Without modes: Hertz's closed form.
 TEST(BallOnLink, OfARigidLinkIsHertzs) {
   const Workspace place;
