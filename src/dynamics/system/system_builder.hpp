@@ -65,7 +65,7 @@ class SystemBuilder {
                            const RigidInertia& inertia);
 
   /// Flexible body; at Fidelity::rigid only its mass properties are used.
-  /// Fidelity::nonlinear needs a body with a manifold, not clamped.
+  /// Fidelity::nonlinear needs a body with a manifold.
   /// @param elasticity of its modes, in place of the reduced body's linear one
   /// @throws InputError for an elasticity of another number of modes, or for
   /// damping by frequencies that its modes do not have each of its own; at
