@@ -106,6 +106,11 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
     responses.push_back(make_response(study, rows, r));
   }
   std::vector<results::Picture> pictures;
+  std::vector<StudyColumn> all = factors;
+  all.insert(all.end(), responses.begin(), responses.end());
+  // The one that takes longest begins.
+  pictures.emplace_back(
+      [&] { return draw_matrix(folder / "matrix.png", study.name, all); });
   for (const StudyColumn& response : responses) {
     const std::string title = fmt::format("{}: {} in {} runs", study.name,
                                           response.name, rows.size());
@@ -118,10 +123,6 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
                        title + ", as colour", response, factors);
     });
   }
-  std::vector<StudyColumn> all = factors;
-  all.insert(all.end(), responses.begin(), responses.end());
-  pictures.emplace_back(
-      [&] { return draw_matrix(folder / "matrix.png", study.name, all); });
   pictures.emplace_back([&] {
     return draw_effects(folder / "effects.png",
                         study.name + ": effects of factors",

@@ -19,6 +19,8 @@ constexpr const char* kBlue = "#0072B2";
 constexpr const char* kOrange = "#D55E00";
 constexpr int kPanel = 360;  // pixels
 constexpr std::size_t kMostColumns = 8;
+constexpr const char* kMatrixMargins =
+    "margins 0.10,0.98,0.10,0.95 spacing 0.012,0.012";
 
 struct Layout {
   std::size_t rows = 1;
@@ -134,6 +136,20 @@ void add_points(GnuplotScript& script, const std::string& block,
   script.add("EOD");
 }
 
+// Many points are smaller, so that they do not hide one another.
+double find_size(double size, std::size_t points) {
+  constexpr double kFew = 200.0;
+  return size *
+         std::clamp(std::sqrt(kFew / static_cast<double>(points)), 0.5, 1.0);
+}
+
+std::string plot_points(const std::string& block, double size,
+                        std::size_t points) {
+  return fmt::format(
+      "plot ${} using 1:2 with points pt 7 ps {:.2g} lc rgb '{}'", block,
+      find_size(size, points), kBlue);
+}
+
 bool is_empty(const StudyColumn& column) {
   return std::none_of(column.values.begin(), column.values.end(), is_number);
 }
@@ -156,9 +172,7 @@ std::string draw_response(const std::filesystem::path& file,
     add_points(script, block, factors[f], response);
     set_axis(script, "x", factors[f], true);
     set_axis(script, "y", response, true);
-    script.add(
-        fmt::format("plot ${} using 1:2 with points pt 7 ps 0.8 lc rgb '{}'",
-                    block, kBlue));
+    script.add(plot_points(block, 0.8, response.values.size()));
   }
   script.add("unset multiplot");
   return script.run();
@@ -184,8 +198,10 @@ std::string draw_maps(const std::filesystem::path& file,
       add_points(script, block, factors[a], factors[b], &response);
       set_axis(script, "x", factors[a], true);
       set_axis(script, "y", factors[b], true);
-      script.add(fmt::format(
-          "plot ${} using 1:2:3 with points pt 7 ps 1.4 lc palette", block));
+      script.add(
+          fmt::format("plot ${} using 1:2:3 with points pt 7 ps {:.2g} lc "
+                      "palette",
+                      block, find_size(1.4, response.values.size())));
     }
   }
   script.add("unset multiplot");
@@ -202,20 +218,22 @@ std::string draw_matrix(const std::filesystem::path& file,
     }
   }
   if (shown.size() < 2) return "";
-  GnuplotScript script =
-      begin(file, title, {shown.size(), shown.size()}, 190,
-            "margins 0.10,0.98,0.10,0.95 spacing 0.012,0.012");
-  for (std::size_t y = 0; y < shown.size(); ++y) {
-    for (std::size_t x = 0; x < shown.size(); ++x) {
+  // Each two once: below the diagonal.
+  const std::size_t last = shown.size() - 1;
+  GnuplotScript script = begin(file, title, {last, last}, 210, kMatrixMargins);
+  script.add("set xtics rotate by -35 font 'sans,8'");
+  script.add("set ytics font 'sans,8'");
+  for (std::size_t y = 1; y <= last; ++y) {
+    for (std::size_t x = 0; x < last; ++x) {
+      if (x >= y) {
+        script.add("set multiplot next");
+        continue;
+      }
       const std::string block = fmt::format("s{}_{}", y, x);
       add_points(script, block, shown[x], shown[y]);
-      set_axis(script, "x", shown[x], y + 1 == shown.size());
+      set_axis(script, "x", shown[x], y == last);
       set_axis(script, "y", shown[y], x == 0);
-      script.add("set xtics rotate by -35 font 'sans,8'");
-      script.add("set ytics font 'sans,8'");
-      script.add(
-          fmt::format("plot ${} using 1:2 with points pt 7 ps 0.45 lc rgb '{}'",
-                      block, x == y ? "#999999" : kBlue));
+      script.add(plot_points(block, 0.6, shown[x].values.size()));
     }
   }
   script.add("unset multiplot");
