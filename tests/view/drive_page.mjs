@@ -57,6 +57,19 @@ async function comparePoints(tab) {
   return { worst, stated, count: points.length };
 }
 
+// By mouse, as users move it.
+async function checkSlider(tab) {
+  const box = await tab.locator('#slider').boundingBox();
+  const y = box.y + box.height / 2;
+  const share = () => tab.evaluate(() => window.limber.player.time / window.limber.player.end);
+  await tab.mouse.click(box.x + 0.25 * box.width, y);
+  assert.ok(Math.abs((await share()) - 0.25) < 0.02, `a click on the slider goes to ${await share()}`);
+  await tab.mouse.down();
+  await tab.mouse.move(box.x + 0.75 * box.width, y, { steps: 5 });
+  await tab.mouse.up();
+  assert.ok(Math.abs((await share()) - 0.75) < 0.02, `the slider drags to ${await share()}`);
+}
+
 // Colours of the canvas as drawn now, on a coarse grid.
 const readPixels = (tab) =>
   tab.evaluate(() => {
@@ -308,6 +321,7 @@ async function main() {
     await checkDeformers(tab);
     await checkPicking(tab);
     await checkPanel(tab);
+    await checkSlider(tab);
     await checkArrow(tab);
     await checkPlots(tab);
     await checkFiles(tab);

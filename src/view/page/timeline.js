@@ -32,8 +32,10 @@ export class Timeline {
     this.find('to').onclick = () => player.setInterval(player.from, player.time);
     this.find('whole').onclick = () => player.setInterval(player.start, player.end);
     this.find('slider').oninput = (e) => {
+      // Before the pause, which puts the slider back to the page's time.
+      const share = e.target.value / 1e5;
       player.pause();
-      player.seek(player.start + (e.target.value / 1e5) * (player.end - player.start));
+      player.seek(player.start + share * (player.end - player.start));
     };
     this.addEvents(events);
     player.onChange(() => this.update());
