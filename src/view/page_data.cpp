@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "limber/version.hpp"
+#include "limber/view/extremes.hpp"
 #include "limber/view/page_arrays.hpp"
 
 namespace limber::view {
@@ -40,6 +41,11 @@ class PageWriter {
       result["bodies"].push_back(
           pack(body, body.surface < 0 ? nullptr
                                       : &surfaces[std::size_t(body.surface)]));
+    }
+    if (!recording.bodies.empty()) {
+      const Extremes most = calc_extremes(recording);
+      result["most"] = arrays_.add(most.fields);
+      result["box"] = {to_json(most.lower), to_json(most.upper)};
     }
     add_marks(recording, result);
     return result;

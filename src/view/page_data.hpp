@@ -17,6 +17,8 @@ namespace limber::view {
 /// Equation   x_B = origin + scale i, Phi_k = scale_k i_k, i 16-bit integers:
 ///            |error| <= sqrt(3) / 2 (scale + sum_k scale_k |eta_k|), which the
 ///            header states of each body as `error` [m]
+///
+/// `most` and `box` of a result are its Extremes.
 /// @param recordings the first is shown, others are its ghosts
 [[nodiscard]] std::string make_page_data(std::span<const Recording> recordings);
 

@@ -55,6 +55,34 @@ def list_points(folder):
     return list_
 
 
+def find_largest(folder):
+    """Largest deformation and speed of the nodes on surfaces, and the output of the first."""
+    import h5py
+    import numpy as np
+    largest = {"deformation": 0.0, "time": 0.0, "velocity": 0.0}
+    with h5py.File(f"{folder}/results.h5") as results:
+        times = results["time"][:, 0]
+        for name, drawn in results["scene/bodies"].items():
+            body = results["bodies"][name]
+            if "surface" not in drawn:
+                continue
+            surface = results["scene/surfaces"][drawn["surface"][()].decode()]
+            shapes, x = surface["Phi_B"][:], surface["x_B"][:].T
+            for i, t in enumerate(times):
+                u = (shapes @ body["eta"][i]).reshape(-1, 3)
+                deformation = np.linalg.norm(u, axis=1).max()
+                if deformation > largest["deformation"]:
+                    largest.update(deformation=deformation, time=t)
+                w, *v = body["quat_WB"][i]
+                turned = body["v_WB_W"][i]
+                turned = turned + 2 * np.cross(v, np.cross(v, turned) - w * turned)  # body frame
+                velocity = (turned + np.cross(body["w_WB_B"][i], x + u)
+                            + (shapes @ body["etadot"][i]).reshape(-1, 3))
+                largest["velocity"] = max(largest["velocity"],
+                                          np.linalg.norm(velocity, axis=1).max())
+    return largest
+
+
 def check_script(folder, points):
     """The script of docs/view.md against the library, at the last output."""
     import h5py
@@ -115,6 +143,8 @@ def main():
     points = f"{folder}/points.json"
     with open(points, "w") as out:
         json.dump(list_points(f"{folder}/run"), out)
+    with open(f"{folder}/largest.json", "w") as out:
+        json.dump(find_largest(f"{folder}/run"), out)
     if what == "page":
         run("run", scenario, "--out", f"{folder}/rigid", "--fidelity", "rigid", *cache)
         page = f"{folder}/page.html"

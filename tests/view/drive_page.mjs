@@ -57,6 +57,19 @@ async function comparePoints(tab) {
   return { worst, stated, count: points.length };
 }
 
+// What the page calls the largest, and its moment, over all nodes and outputs.
+async function compareLargest(tab) {
+  const { deformation, time, velocity } =
+    JSON.parse(await readFile(`${folder}/largest.json`, 'utf8'));
+  const [, most, , fastest, peak] = await tab.evaluate(() => {
+    const { most: all, peak: at } = window.limber.view.ranges;
+    return [...all.slice(0, 4), at];
+  });
+  assert.ok(Math.abs(most / deformation - 1) < 1e-6, `deformation ${most} m, not ${deformation}`);
+  assert.ok(fastest / velocity > 1 - 1e-6, `velocity ${fastest} m/s, less than ${velocity}`);
+  assert.equal(peak, time, 'the moment of the largest deformation');
+}
+
 // By mouse, as users move it.
 async function checkSlider(tab) {
   const box = await tab.locator('#slider').boundingBox();
@@ -303,6 +316,7 @@ async function main() {
     const tab = await open(browser, page, { width: 1440, height: 900 }, problems);
     await shoot(tab, 'default');
     const { worst, stated, count } = await comparePoints(tab);
+    await compareLargest(tab);
     const start = await readPixels(tab);
     assert.ok(new Set(start).size > 20, 'the picture is blank');
     await tab.evaluate(() => window.limber.player.seek(window.limber.player.end));

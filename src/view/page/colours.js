@@ -55,14 +55,15 @@ export function format(value, unit) {
 
 const kGradient = Array.from({ length: 13 }, (_, i) => `rgb(${turbo(i / 12).map(Math.round)})`);
 
-export function showLegend(element, field, range, note) {
+/// @param most at its upper end; its lower one is zero
+export function showLegend(element, field, most, note) {
   const { label, unit } = kFields[field];
   element.hidden = field === 0;
   if (field === 0) return;
-  const middle = (range[0] + range[1]) / 2;
+  const ticks = most > 0 ? [most, most / 2, 0] : [0];
   element.innerHTML =
     `<div class="legend-title">${label}</div><div class="legend-body">` +
     `<div class="legend-bar" style="background:linear-gradient(to top,${kGradient})"></div>` +
-    `<div class="legend-ticks"><span>${format(range[1], unit)}</span><span>${format(middle, unit)}` +
-    `</span><span>${format(range[0], unit)}</span></div></div><div class="legend-note">${note}</div>`;
+    `<div class="legend-ticks">${ticks.map((v) => `<span>${format(v, unit)}</span>`).join('')}</div>` +
+    `</div><div class="legend-note">${note}</div>`;
 }

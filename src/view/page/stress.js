@@ -1,8 +1,6 @@
 // Von Mises stress at the nodes of surfaces whose results have it.
 import { locate } from './motion.js';
 
-const kTimes = 60; // searched for the largest
-
 /// Components (xx, yy, zz, xy, yz, xz) at all nodes: 6n [Pa].
 function addStress(stress, eta, all) {
   all.fill(0);
@@ -70,28 +68,3 @@ export function stressAt(motion, b, node, t) {
 }
 
 export const hasStress = (result) => result.bodies.some((body) => stressModesOf(result, body));
-
-/// Largest of the run: at all nodes at up to 60 outputs, and of the recorded
-/// largest of each link.
-export function findLargestStress(motion) {
-  const { result, times } = motion;
-  let most = 0;
-  for (const probe of result.probes) {
-    if (!probe.name.endsWith('.surface.von_mises')) continue;
-    for (const value of probe.values) most = Math.max(most, value);
-  }
-  result.bodies.forEach((body, b) => {
-    const modes = stressModesOf(result, body);
-    if (!modes) return;
-    const stress = new Stress(result.surfaces[body.surface], modes);
-    const eta = new Float64Array(body.modes);
-    const count = Math.min(kTimes, times.length);
-    for (let k = 0; k < count; ++k) {
-      const i = Math.round((k / Math.max(1, count - 1)) * (times.length - 1));
-      const at = locate(times, times[i]);
-      motion.eta(b, at, eta);
-      most = Math.max(most, stress.update(motion.stressCoordinates(b, at, eta)));
-    }
-  });
-  return most;
-}

@@ -4,7 +4,7 @@ import { Bodies } from './bodies.js';
 import { Camera } from './camera.js';
 import { colourOfGhost, makeMap, showLegend } from './colours.js';
 import { findBox, findRanges, findRangesAt } from './extents.js';
-import { findLargestStress, hasStress } from './stress.js';
+import { hasStress } from './stress.js';
 import { Marks } from './marks.js';
 import { kFields, kStressField, makeSharedUniforms } from './material.js';
 import { Motion } from './motion.js';
@@ -192,23 +192,17 @@ export class View {
 
   /// Largest value of the field, of the run or of this moment.
   findMost() {
-    if (this.field === kStressField) {
-      if (this.scalePerFrame) return this.bodies.largestStress;
-      this.largestStress ??= findLargestStress(this.motion);
-      return this.largestStress;
-    }
-    return this.scalePerFrame
-      ? findRangesAt(this.motion, this.player.time)[this.field]
-      : this.ranges.most[this.field];
+    if (!this.scalePerFrame) return this.ranges.most[this.field];
+    if (this.field === kStressField) return this.bodies.largestStress;
+    return findRangesAt(this.motion, this.player.time)[this.field];
   }
 
   updateColours() {
     this.shared.limberMagnification.value = this.magnification;
     const most = this.findMost();
-    const range = [0, most > 0 ? most : 1];
-    this.shared.limberRange.value.set(...range);
+    this.shared.limberRange.value.set(0, most > 0 ? most : 1);
     const note = this.scalePerFrame ? 'of this moment' : 'of the whole run';
-    showLegend(this.elements.legend, this.field, range, note);
+    showLegend(this.elements.legend, this.field, most, note);
   }
 
   draw() {
