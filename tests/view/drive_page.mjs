@@ -83,6 +83,41 @@ async function checkSlider(tab) {
   assert.ok(Math.abs((await share()) - 0.75) < 0.02, `the slider drags to ${await share()}`);
 }
 
+// Names of links, moved towards the legend, and the legend itself.
+async function checkLabels(tab) {
+  await tab.evaluate(() => {
+    const { view } = window.limber;
+    view.setField(1);
+    view.names.toggle();
+  });
+  let shown = 0;
+  for (const [x, y] of [[0, 0], [200, 60], [360, 150], [420, 260]]) {
+    const boxes = await tab.evaluate(([right, down]) => {
+      const { view } = window.limber;
+      const { clientWidth: w, clientHeight: h } = view.elements.stage;
+      view.camera.eye.setViewOffset(w, h, right, down, w, h);
+      view.draw();
+      view.camera.eye.clearViewOffset();
+      const labels = [...document.querySelectorAll('#names span')].filter(
+        (label) => label.style.visibility === 'visible');
+      return [document.getElementById('legend'), ...labels].map((label) => {
+        const { left, right: r, top, bottom } = label.getBoundingClientRect();
+        return { left, right: r, top, bottom };
+      });
+    }, [x, y]);
+    shown += boxes.length - 1;
+    boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => assert.ok(
+      a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top,
+      `labels overlap, the picture moved by ${x}, ${y}`)));
+  }
+  assert.ok(shown > 10, `${shown} names are shown`);
+  await tab.evaluate(() => {
+    const { view } = window.limber;
+    view.names.toggle();
+    view.setField(0);
+  });
+}
+
 // Colours of the canvas as drawn now, on a coarse grid.
 const readPixels = (tab) =>
   tab.evaluate(() => {
@@ -336,6 +371,7 @@ async function main() {
     await checkPicking(tab);
     await checkPanel(tab);
     await checkSlider(tab);
+    await checkLabels(tab);
     await checkArrow(tab);
     await checkPlots(tab);
     await checkFiles(tab);

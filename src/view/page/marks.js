@@ -7,12 +7,15 @@ const kColours = {
   load: 0xd62728, contact: 0xff7f0e,
 };
 
+// In front of all bodies: most of it is inside of one, or behind.
 function makeArrow(colour) {
-  const material = new THREE.MeshBasicMaterial({ color: colour });
+  const material = new THREE.MeshBasicMaterial({
+    color: colour, depthTest: false, transparent: true });
   const shaft = new THREE.CylinderGeometry(0.025, 0.025, 0.78, 12).translate(0, 0.39, 0);
   const tip = new THREE.ConeGeometry(0.07, 0.22, 16).translate(0, 0.89, 0);
   const arrow = new THREE.Group();
   arrow.add(new THREE.Mesh(shaft, material), new THREE.Mesh(tip, material));
+  for (const part of arrow.children) part.renderOrder = 2;
   return arrow;
 }
 

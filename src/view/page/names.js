@@ -2,8 +2,10 @@
 import * as THREE from 'three';
 
 export class Names {
-  constructor(element, links) {
+  /// @param legend an element beside it that names must leave free
+  constructor(element, links, legend) {
     this.element = element;
+    this.legend = legend;
     this.isShown = false;
     this.items = links.map((link) => {
       const label = document.createElement('span');
@@ -21,7 +23,8 @@ export class Names {
 
   update(camera, width, height) {
     if (!this.isShown) return;
-    const taken = [];
+    const { offsetLeft: x, offsetTop: y, offsetWidth: w, offsetHeight: h } = this.legend;
+    const taken = [{ x, y, w, h }]; // nothing while it is hidden
     for (const { link, label } of this.items) {
       const place = new THREE.Vector3().setFromMatrixPosition(link.group.matrixWorld).project(camera);
       const w = label.offsetWidth;

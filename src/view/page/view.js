@@ -52,7 +52,7 @@ export class View {
     this.makeRenderer();
     this.camera = new Camera(elements.canvas, box);
     this.camera.controls.addEventListener('change', () => this.redraw());
-    this.names = new Names(elements.names, this.bodies.links);
+    this.names = new Names(elements.names, this.bodies.links, elements.legend);
     this.probeGroups = groupProbes(results);
     for (const group of this.probeGroups) {
       for (const s of group.series) if (s.ghost) s.ghostName = this.ghosts[s.ghost - 1].label;
