@@ -69,8 +69,8 @@ bool StudyWorker::simulate(StudyRow& row) {
   scene::BuiltScene built;
   {
     const auto lock = lock_libraries();
-    scene =
-        scene::load_scene(study_.scenario, to_overrides(study_, row.factors));
+    scene = scene::load_scene(study_.scenario,
+                              to_overrides(study_, row.factors), &robots_);
     built = scene::build_system(scene, reducer_, cache_, make_full_maker({}),
                                 known_);
     known_ = built.known;

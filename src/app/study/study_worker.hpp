@@ -9,12 +9,13 @@
 #include "limber/app/study/study_file.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/scene_robots.hpp"
 
 namespace limber::app {
 
 /// Makes runs of a study, in any number of threads. Scenes are loaded one at a
 /// time, because the libraries for it are not safe in threads; each distinct
-/// reduction is done once.
+/// reduction is done once, and a robot is read once with the same settings.
 class StudyWorker {
  public:
   /// @param study must outlive the worker
@@ -41,6 +42,7 @@ class StudyWorker {
 
   // While libraries are locked:
   scene::KnownBodies known_;
+  scene::KnownRobots robots_;
   scene::Reducer reducer_;
 };
 

@@ -127,14 +127,15 @@ void add_contacts(Scene& scene) {
   scene.touching = std::move(touching.pairs);
 }
 
-Scene load(const std::filesystem::path& file, const Overrides& overrides) {
+Scene load(const std::filesystem::path& file, const Overrides& overrides,
+           KnownRobots* known) {
   Scene scene;
   scene.settings = overrides.settings;
   toml::table table = parse_toml_file(file);
   const SortedSettings settings = sort_settings(overrides.settings, table);
   apply_settings(settings.scenario, table);
   scene.scenario = read_scenario(table, file);
-  scene.robot = read_robots(scene.scenario, settings.robots);
+  scene.robot = read_robots(scene.scenario, settings.robots, known);
   add_projectiles(scene.scenario, scene.robot);
   check_scenario(scene.scenario, scene.robot);
   add_contacts(scene);
@@ -152,10 +153,10 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides) {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file,
-                 const Overrides& overrides) {
+Scene load_scene(const std::filesystem::path& file, const Overrides& overrides,
+                 KnownRobots* known) {
   try {
-    return load(file, overrides);
+    return load(file, overrides, known);
   } catch (const InputError& error) {
     if (overrides.settings.empty()) throw;
     throw InputError(name_settings(error.problems(), overrides.settings));

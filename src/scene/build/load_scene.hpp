@@ -4,12 +4,15 @@
 #include <filesystem>
 
 #include "limber/scene/build/scene.hpp"
+#include "limber/scene/build/scene_robots.hpp"
 
 namespace limber::scene {
 
 /// Reads the scenario and its robot, and checks their consistency.
+/// @param known robots that need not be read again; none: read all
 /// @throws InputError with every problem found.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file,
-                               const Overrides& overrides = {});
+                               const Overrides& overrides = {},
+                               KnownRobots* known = nullptr);
 
 }  // namespace limber::scene

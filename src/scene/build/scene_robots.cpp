@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "limber/common/roll_pitch_yaw.hpp"
@@ -38,13 +40,29 @@ std::vector<RobotSetting> select(const std::vector<RobotSetting>& settings,
   return own;
 }
 
+/// The file's robot, read once with the same settings.
+Robot read_once(const std::filesystem::path& file,
+                const std::vector<RobotSetting>& settings, KnownRobots* known) {
+  if (known == nullptr) return read_robot(file, settings);
+  constexpr std::size_t kMostKnown = 64;
+  std::vector<std::string> key = {file.string()};
+  for (const RobotSetting& one : settings) {
+    key.push_back(to_string(one.setting));
+  }
+  const auto found = known->find(key);
+  if (found != known->end()) return found->second;
+  Robot robot = read_robot(file, settings);
+  if (known->size() < kMostKnown) known->emplace(std::move(key), robot);
+  return robot;
+}
+
 /// The file's robot, or none and a problem.
 std::vector<NamedRobot> read_named(const RobotSpec& spec,
                                    const std::vector<RobotSetting>& settings,
-                                   Problems& problems) {
+                                   KnownRobots* known, Problems& problems) {
   NamedRobot named{spec.name, {}, find_pose(spec.start)};
   try {
-    named.robot = read_robot(spec.file, select(settings, spec.name));
+    named.robot = read_once(spec.file, select(settings, spec.name), known);
   } catch (const InputError& error) {
     problems.add(error, 0);
     return {};
@@ -59,13 +77,15 @@ std::vector<NamedRobot> read_named(const RobotSpec& spec,
 
 }  // namespace
 
-Robot read_robots(Scenario& scenario,
-                  const std::vector<RobotSetting>& settings) {
-  if (scenario.robots.empty()) return read_robot(scenario.robot, settings);
+Robot read_robots(Scenario& scenario, const std::vector<RobotSetting>& settings,
+                  KnownRobots* known) {
+  if (scenario.robots.empty()) {
+    return read_once(scenario.robot, settings, known);
+  }
   Problems problems(scenario.file.string());
   std::vector<NamedRobot> all;
   for (const RobotSpec& spec : scenario.robots) {
-    for (NamedRobot& named : read_named(spec, settings, problems)) {
+    for (NamedRobot& named : read_named(spec, settings, known, problems)) {
       all.push_back(std::move(named));
     }
     if (scenario.joints.contains(spec.name)) {

@@ -243,5 +243,27 @@ TEST_F(Robots, AreRewrittenWithTheirFiles) {
   EXPECT_EQ(again.robot.joints[0].X_PJ.p, Vector3(1, 2, 3));
 }
 
+TEST_F(Robots, AreReadOnceWithTheSameSettings) {
+  write("arm", kArm);
+  const auto file = folder_.path() / "scenario.toml";
+  std::ofstream(file) << "robot = 'arm.urdf'\n"
+                      << time_table(0.5, 1e-3) << probes("");
+  const auto end_with = [&](const char* stiffness, KnownRobots* known) {
+    const Overrides overrides{
+        .settings = {{"robot.spring.s.stiffness", stiffness}}};
+    return simulate_probes(folder_.build(load_scene(file, overrides, known)));
+  };
+  KnownRobots known;
+  const auto soft = end_with("7", &known);
+  const auto stiff = end_with("8", &known);
+  EXPECT_EQ(soft, end_with("7", nullptr));
+  EXPECT_EQ(stiff, end_with("8", nullptr));
+  EXPECT_NE(soft, stiff);
+  write("arm", "");
+  EXPECT_EQ(end_with("7", &known), soft);
+  EXPECT_EQ(end_with("8", &known), stiff);
+  EXPECT_THROW((void)end_with("9", &known), InputError);
+}
+
 }  // namespace
 }  // namespace limber::scene
