@@ -168,6 +168,15 @@ bool is_parallel_sided(const ReferenceElement& element, const Matrix3X& x) {
          kStraight * length;
 }
 
+std::vector<SharedFace> find_shared_faces(const Mesh& mesh) {
+  std::vector<SharedFace> shared;
+  const std::vector<KeyedFace> faces = sorted_faces(mesh);
+  for (std::size_t i = 1; i < faces.size(); ++i)
+    if (faces[i].key == faces[i - 1].key)
+      shared.push_back({faces[i - 1].face, faces[i].face});
+  return shared;
+}
+
 void find_boundary(Mesh& mesh) {
   const std::vector<KeyedFace> faces = sorted_faces(mesh);
   std::vector<bool> on_boundary(mesh.node_count(), false);

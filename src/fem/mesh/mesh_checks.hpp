@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "limber/fem/mesh/mesh.hpp"
 
 namespace limber::fem {
@@ -14,6 +17,10 @@ namespace limber::fem {
 /// its Jacobian is constant.
 [[nodiscard]] bool is_parallel_sided(const ReferenceElement& element,
                                      const Matrix3X& x);
+
+/// A face that two elements share, once as a face of each.
+using SharedFace = std::array<BoundaryFace, 2>;
+[[nodiscard]] std::vector<SharedFace> find_shared_faces(const Mesh& mesh);
 
 /// Fills boundary_faces and boundary_nodes: faces of exactly one element.
 /// @throws InputError if more than two elements share a face.
