@@ -8,9 +8,9 @@
 #include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/flexbody/model/shape_integrals.hpp"
 #include "limber/reduction/contact_surface.hpp"
-#include "limber/reduction/initial_rows.hpp"
 #include "limber/reduction/manifold.hpp"
 #include "limber/reduction/meshed_body.hpp"
+#include "limber/reduction/pieces.hpp"
 #include "limber/reduction/rows.hpp"
 #include "limber/reduction/selection.hpp"
 #include "limber/reduction/static_modes.hpp"
@@ -108,6 +108,41 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   return body;
 }
 
+ReducedBody reduce_piece(Pieces& pieces, const Piece& piece,
+                         const Recipe& recipe, const Progress& progress) {
+  PieceOfMesh taken = pieces.take(recipe, piece);
+  // Interfaces of a piece are found on the whole mesh.
+  Recipe bare = taken.recipe;
+  bare.interfaces.clear();
+  bare.load_patterns.clear();
+  MeshedBody meshed(bare, taken.mesh, progress);
+  meshed.interfaces = std::move(taken.interfaces);
+  return reduce(meshed, taken.recipe, progress);
+}
+
+MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
+                   const Progress& progress) {
+  const auto pieces = std::make_shared<Pieces>(made);
+  MeshAtHand mesh;
+  mesh.record = {fem::find_mesh_content(made->mesh), made->notices, made->files,
+                 made->is_repeatable};
+  mesh.reduce = [made, progress](const Recipe& recipe) {
+    return reduce(MeshedBody(recipe, made, progress), recipe, progress);
+  };
+  mesh.take_piece = [pieces, record = mesh.record,
+                     progress](const Piece& piece) {
+    MeshAtHand part;
+    part.record = record;
+    part.record.content = find_piece_content(record.content, piece);
+    part.reduce = [pieces, piece, progress](const Recipe& recipe) {
+      return reduce_piece(*pieces, piece, recipe, progress);
+    };
+    return part;
+  };
+  mesh.advise_pieces = [pieces] { return pieces->advise(); };
+  return mesh;
+}
+
 }  // namespace
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
@@ -116,14 +151,9 @@ ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
 
 Reducer make_reducer(const Progress& progress) {
   const auto make_mesh = [progress](const MeshSource& source) {
-    const auto made =
-        std::make_shared<const fem::TracedMesh>(read_source(source, progress));
-    return MeshAtHand{{fem::find_mesh_content(made->mesh), made->notices,
-                       made->files, made->is_repeatable},
-                      [made, progress](const Recipe& recipe) {
-                        const MeshedBody meshed(recipe, made, progress);
-                        return reduce(meshed, recipe, progress);
-                      }};
+    return at_hand(
+        std::make_shared<const fem::TracedMesh>(read_source(source, progress)),
+        progress);
   };
   return {fem::identify_mesher(), make_mesh};
 }

@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/reduction/interfaces.hpp"
+#include "limber/reduction/meshed_body.hpp"
 
+/// Nodal rows of a body: those that are stored, and its initial deformation.
+/// Part of limber_reduction.
 namespace limber::flexbody {
 
 /// Nodes whose rows are stored, sorted.
@@ -27,5 +31,13 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
 [[nodiscard]] StressModes make_stress_modes(
     const fem::Mesh& mesh, const Recipe& recipe,
     const std::vector<Interface>& interfaces, const MatrixX& Phi);
+
+/// @throws InputError for fields whose number of rows is not that of the body's
+/// free degrees of freedom, or with values that are not finite.
+void check_initial_fields(const MeshedBody& body, const Recipe& recipe);
+
+/// Projections of the recipe's fields on a basis of the free nodes.
+[[nodiscard]] InitialDeformation project_initial_fields(
+    const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis);
 
 }  // namespace limber::flexbody

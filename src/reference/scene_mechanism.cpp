@@ -113,19 +113,6 @@ std::vector<double> join(const Vector3& a, const Vector3& b) {
   return {a[0], a[1], a[2], b[0], b[1], b[2]};
 }
 
-std::vector<scene::ReducedPointer> find_reduced(
-    const scene::Scene& scene, const dynamics::SystemModel& model) {
-  std::map<std::string, scene::ReducedPointer> by_name;
-  for (const dynamics::BodyModel& body : model.bodies) {
-    by_name[body.name] = body.reduced;
-  }
-  std::vector<scene::ReducedPointer> reduced;
-  for (const scene::Link& link : scene.robot.links) {
-    reduced.push_back(link.flexible ? by_name.at(link.name) : nullptr);
-  }
-  return reduced;
-}
-
 void check_levels(const dynamics::SystemModel& model) {
   for (const dynamics::BodyModel& body : model.bodies) {
     if (body.fidelity == dynamics::Fidelity::rigid) continue;
@@ -157,7 +144,8 @@ class Translator {
       : scene_(scene),
         robot_(scene.robot),
         model_(built.model),
-        plans_(scene::plan_bodies(robot_, find_reduced(scene, model_))) {}
+        plans_(
+            scene::plan_bodies(robot_, scene::find_reduced(robot_, model_))) {}
 
   Mechanism run() {
     mechanism_.gravity_W = scene_.scenario.gravity;

@@ -14,8 +14,8 @@
 #include "limber/app/reports/describe.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/file/body_file.hpp"
-#include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
+#include "limber/scene/scenario/link_start.hpp"
 
 namespace limber::app {
 namespace {

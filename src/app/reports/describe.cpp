@@ -27,6 +27,8 @@ Json describe_link(const scene::Link& link) {
     json["source"] =
         (reduced ? link.flexible->reduced_file : link.flexible->mesh.file)
             .string();
+    const int pieces = link.flexible->pieces;
+    json["pieces"] = pieces == 0 ? Json("auto") : Json(pieces);
   } else if (link.inertia) {
     json["mass"] = link.inertia->mass;
   }

@@ -14,6 +14,7 @@
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/scene/build/build_system.hpp"
+#include "limber/scene/build/recipes.hpp"
 
 namespace limber::app {
 namespace {
@@ -41,18 +42,9 @@ bool touches(const SystemModel& model, dynamics::BodyIndex body) {
                      });
 }
 
-/// The run's model with every flexible body at `uncoupled`, or at `nonlinear`
-/// with linear elasticity if products of modes move what touches on it.
-SystemModel find_flexible_model(const scene::Scene& scene,
-                                const scene::BuiltScene& built,
-                                const std::filesystem::path& cache) {
-  if (!has_all_modes(built.model)) {
-    scene::Scene at_start = scene;
-    at_start.scenario.equilibrium.reset();
-    return build_at_level(at_start, Fidelity::uncoupled, built.known, cache)
-        .model;
-  }
-  SystemModel model = built.model;
+/// Every flexible body at `uncoupled`, or at `nonlinear` with linear elasticity
+/// if products of modes move what touches on it.
+SystemModel lower_levels(SystemModel model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     dynamics::BodyModel& body = model.bodies[b];
     if (!body.reduced) continue;
@@ -64,6 +56,33 @@ SystemModel find_flexible_model(const scene::Scene& scene,
     body.fidelity = Fidelity::uncoupled;
   }
   return model;
+}
+
+/// Levels of links that may be in pieces, and are then the same bodies in both
+/// models.
+std::map<std::string, Fidelity> find_cut_links(const scene::Scene& scene) {
+  std::map<std::string, Fidelity> levels;
+  for (const scene::Link& link : scene.robot.links) {
+    const Fidelity level = scene.scenario.level_of(link.name);
+    if (!link.flexible || link.flexible->pieces == 1) continue;
+    if (scene::takes_pieces(level)) levels[link.name] = level;
+  }
+  return levels;
+}
+
+/// The run's model with every flexible body at `uncoupled`.
+SystemModel find_flexible_model(const scene::Scene& scene,
+                                const scene::BuiltScene& built,
+                                const std::filesystem::path& cache) {
+  if (!has_all_modes(built.model)) {
+    scene::Scene at_start = scene;
+    at_start.scenario.equilibrium.reset();
+    return lower_levels(build_at_level(at_start, Fidelity::uncoupled,
+                                       built.known, cache,
+                                       find_cut_links(scene))
+                            .model);
+  }
+  return lower_levels(built.model);
 }
 
 /// The levels that the scenario requests, one per body.
@@ -80,9 +99,10 @@ std::vector<dynamics::Fidelity> find_asked(const scene::Scenario& scenario,
 
 }  // namespace
 
-scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
-                                 const scene::KnownBodies& known,
-                                 const std::filesystem::path& cache) {
+scene::BuiltScene build_at_level(
+    const scene::Scene& scene, Fidelity level, const scene::KnownBodies& known,
+    const std::filesystem::path& cache,
+    const std::map<std::string, Fidelity>& others) {
   scene::Scene same = scene;
   // The same rows as for level `full`, so that nothing is reduced again.
   for (scene::Link& link : same.robot.links) {
@@ -91,7 +111,7 @@ scene::BuiltScene build_at_level(const scene::Scene& scene, Fidelity level,
     }
   }
   same.scenario.fidelity = level;
-  same.scenario.fidelity_of_link.clear();
+  same.scenario.fidelity_of_link = others;
   return scene::build_system(same, make_reducer(make_progress_bar()), cache, {},
                              known);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,10 +70,11 @@ class RunSurvey {
 };
 
 /// The scene with every flexible link at `level`, built with the reduced
-/// bodies that are `known`.
+/// bodies that are `known`; those in `others` at their own.
 [[nodiscard]] scene::BuiltScene build_at_level(
     const scene::Scene& scene, dynamics::Fidelity level,
-    const scene::KnownBodies& known, const std::filesystem::path& cache);
+    const scene::KnownBodies& known, const std::filesystem::path& cache,
+    const std::map<std::string, dynamics::Fidelity>& others = {});
 
 /// Runs the scene with every link rigid and judges the levels that it requests,
 /// for `limber advise`.

@@ -11,6 +11,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/app/reports/contact_report.hpp"
+#include "limber/app/reports/cut_contacts.hpp"
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_manifest.hpp"
@@ -174,6 +175,10 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
              continuation, followed);
   } catch (const NumericalError&) {
     run.failure = std::current_exception();
+  }
+  for (std::string& text : find_cut_contacts(run.scene.robot, run.built.model,
+                                             run.record.contacts)) {
+    run.statistics.warnings.push_back(std::move(text));
   }
   if (survey) run.levels = survey->judge();
   run.history.events = run.statistics.events;

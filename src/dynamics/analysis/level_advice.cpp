@@ -164,7 +164,10 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
         peaks.tension.value, peaks.compression.value,
         metres(advice.errors.coupled), metres(peaks.total.value)));
   }
-  if (advice.level == Fidelity::full) add("only level full is right");
+  if (advice.level == Fidelity::full) {
+    add("only level full is right, or level nonlinear of the link in more "
+        "pieces");
+  }
   return text;
 }
 

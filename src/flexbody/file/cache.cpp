@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/flexbody/file/cache.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <exception>
 #include <optional>
@@ -24,6 +26,8 @@ constexpr int kContactVersion = 2;
 constexpr int kManifoldVersion = 2;
 // The same of stress modes.
 constexpr int kStressVersion = 1;
+// The same of the cuts of meshes.
+constexpr int kPieceVersion = 1;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());
@@ -162,8 +166,15 @@ std::string content_key(const Recipe& recipe, const std::string& mesh) {
   return digest.text();
 }
 
-std::string recipe_key(const Recipe& recipe) {
+std::string find_piece_content(const std::string& mesh, const Piece& piece) {
+  if (piece.count == 1) return mesh;
+  return fmt::format("{}, piece {} of {}, cut {}", mesh, piece.index + 1,
+                     piece.count, kPieceVersion);
+}
+
+std::string recipe_key(const Recipe& recipe, const Piece& piece) {
   Digest digest;
+  digest.add(find_piece_content("", piece));
   digest.add(std::filesystem::absolute(recipe.mesh.file).string());
   digest.add(recipe.mesh.size);
   digest.add(recipe.mesh.order);
@@ -193,11 +204,12 @@ std::filesystem::path default_cache_folder() {
 
 CachedBody load_or_reduce(const Recipe& recipe,
                           const std::filesystem::path& cache,
-                          const Reducer& reducer) {
+                          const Reducer& reducer, const Piece& piece) {
   const std::filesystem::path folder =
       cache.empty() ? default_cache_folder() : cache;
   const auto find = [&](const MeshRecord& mesh) -> std::optional<CachedBody> {
-    const std::string key = content_key(recipe, mesh.content);
+    const std::string key =
+        content_key(recipe, find_piece_content(mesh.content, piece));
     std::optional<ReducedBody> body = find_entry(folder, key);
     if (!body) return std::nullopt;
     // Links of equal shape share an entry; the name is the caller's.
@@ -208,11 +220,12 @@ CachedBody load_or_reduce(const Recipe& recipe,
   if (known) {
     if (std::optional<CachedBody> body = find(*known)) return std::move(*body);
   }
-  const MeshAtHand mesh = reducer.make_mesh(recipe.mesh);
+  MeshAtHand mesh = reducer.make_mesh(recipe.mesh);
   keep_mesh_record(mesh.record, recipe.mesh, reducer.mesher, folder);
   if (std::optional<CachedBody> body = find(mesh.record)) {
     return std::move(*body);
   }
+  if (piece.count > 1) mesh = mesh.take_piece(piece);
   CachedBody made{mesh.reduce(recipe), false, mesh.record.notices};
   made.body.content_key = content_key(recipe, mesh.record.content);
   keep_entry(made.body, recipe.mesh.file, folder);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limber/flexbody/file/mesh_index.hpp"
+#include "limber/flexbody/model/piece.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 
@@ -16,7 +17,15 @@ namespace limber::flexbody {
 struct MeshAtHand {
   MeshRecord record;
   std::function<ReducedBody(const Recipe&)> reduce;
+  /// A piece of it, whose content is find_piece_content(). Null if this program
+  /// cannot cut.
+  std::function<MeshAtHand(const Piece&)> take_piece = {};
+  std::function<PieceAdvice()> advise_pieces = {};
 };
+
+/// Identifies a piece of a mesh. @param mesh MeshRecord::content
+[[nodiscard]] std::string find_piece_content(const std::string& mesh,
+                                             const Piece& piece);
 
 /// Functions that make meshes and bodies; usually flexbody::make_reducer.
 struct Reducer {
@@ -34,7 +43,8 @@ struct Reducer {
 
 /// Hash of the request, with the mesh identified by its file's path: recipes of
 /// one key give the same body as long as no file changes.
-[[nodiscard]] std::string recipe_key(const Recipe& recipe);
+[[nodiscard]] std::string recipe_key(const Recipe& recipe,
+                                     const Piece& piece = {});
 
 /// Default folder of the cache: $LIMBER_CACHE, else $XDG_CACHE_HOME/limber,
 /// else $HOME/.cache/limber.
@@ -60,6 +70,7 @@ struct CachedBody {
 /// default_cache_folder()
 [[nodiscard]] CachedBody load_or_reduce(const Recipe& recipe,
                                         const std::filesystem::path& cache,
-                                        const Reducer& reducer);
+                                        const Reducer& reducer,
+                                        const Piece& piece = {});
 
 }  // namespace limber::flexbody

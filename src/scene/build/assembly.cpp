@@ -12,12 +12,13 @@
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/coupler_assembly.hpp"
 #include "limber/scene/build/interface_tables.hpp"
-#include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
+#include "limber/scene/build/piece_joints.hpp"
 #include "limber/scene/build/recipes.hpp"
 #include "limber/scene/build/rotation_check.hpp"
 #include "limber/scene/control/controller_assembly.hpp"
 #include "limber/scene/probes/stress_points.hpp"
+#include "limber/scene/scenario/link_start.hpp"
 #include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
@@ -53,18 +54,22 @@ void Assembly::add_body(const BodyPlan& plan) {
   }
   const Link& link = scene_.robot.links[index(plan.links.front())];
   const dynamics::ModalDamping& damping = link.flexible->damping;
-  const dynamics::Fidelity level = scene_.scenario.level_of(plan.name);
+  const dynamics::Fidelity level = scene_.scenario.level_of(link.name);
   body_index_.push_back(
       plan.full
           ? builder_.add_full_body(plan.name, plan.reduced, plan.full, damping)
           : builder_.add_flexible_body(plan.name, plan.reduced, level,
                                        damping));
-  if (link.inertia &&
-      std::abs(link.inertia->mass - plan.mass) > kMassShare * plan.mass) {
+  if (plan.piece > 0) return;
+  double mass = 0.0;
+  for (const BodyPlan& piece : find_bodies(plans_, plan.links.front())) {
+    mass += piece.mass;
+  }
+  if (link.inertia && std::abs(link.inertia->mass - mass) > kMassShare * mass) {
     warnings_.push_back(fmt::format(
         "link '{}': the mesh has {:.4g} kg, <inertial> says {:.4g} kg; the "
         "mesh's is used",
-        link.name, plan.mass, link.inertia->mass));
+        link.name, mass, link.inertia->mass));
   }
   if (level == dynamics::Fidelity::rigid &&
       find_start(scene_.scenario, link.name) != nullptr) {
@@ -77,6 +82,7 @@ void Assembly::add_body(const BodyPlan& plan) {
 void Assembly::add_inputs() { scene::add_inputs(scene_.scenario, builder_); }
 
 void Assembly::add_couplers() {
+  add_piece_joints(scene_, plans_, sites_, builder_);
   CouplerAssembly(scene_, plans_, sites_, builder_, warnings_).add_all();
 }
 
@@ -115,8 +121,8 @@ void Assembly::add_nodal_load(const LoadSpec& load) {
   const ForceFile file = read_force_file(load.nodal_forces);
   const MatrixX forces = spread_over_nodes(
       *plan.reduced, flexible.clamped_groups, file, load.nodal_forces);
-  const bool is_second =
-      scene_.scenario.level_of(plan.name) == dynamics::Fidelity::nonlinear;
+  const bool is_second = scene_.scenario.level_of(load.where.link) ==
+                         dynamics::Fidelity::nonlinear;
   const auto reduce = is_second ? flexbody::reduce_second_order_load
                                 : flexbody::reduce_nodal_load;
   builder_.add_nodal_load(load.name, sites_.body_of(link),
@@ -129,7 +135,7 @@ void Assembly::check_moment(const LoadSpec& load,
   const int link = find_link(scene_.robot, load.where.link);
   if (load.frame == dynamics::LoadFrame::body) {
     check_rotation(site, joints::rotation_about(load.moment));
-  } else if (sites_.plan_of(link).reduced->clamped) {
+  } else if (sites_.plan_of(link, site.anchor.piece).reduced->clamped) {
     const Matrix3& R_WL = motions_[index(link)].X_WL.R;
     check_rotation(site,
                    joints::rotation_about(R_WL.transpose() * load.moment));
@@ -148,8 +154,8 @@ void Assembly::add_load(const LoadSpec& load) {
   Pose X_LF{Matrix3::Identity(), load.where.point.value_or(Vector3::Zero())};
   Anchor anchor;
   if (plan.reduced) {
-    anchor = find_anchor(plan, load.where);
-    X_LF.p = sites_.X_BL(link).inverse() * anchor.table->p_B;
+    anchor = find_anchor(sites_.pieces_of(link), load.where);
+    X_LF.p = sites_.X_BL(link, anchor.piece).inverse() * anchor.table->p_B;
   }
   const AttachmentSite site = sites_.find_site(link, X_LF, anchor);
   check_moment(load, site);
@@ -203,6 +209,11 @@ StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec) const {
   const int link = find_link(scene_.robot, spec.where.link);
   const dynamics::Fidelity level = scene_.scenario.level_of(spec.where.link);
   if (!has_stress(level)) throw InputError(explain_no_stress(level));
+  if (sites_.pieces_of(link).size() > 1) {
+    throw InputError(
+        "stress of a link in pieces is not recorded yet; leave it in one piece "
+        "to see its stress");
+  }
   const BodyPlan& plan = sites_.plan_of(link);
   const StressPlace place = {find_place_interface(spec.where),
                              spec.where.nodes};
@@ -221,9 +232,11 @@ StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec) const {
 
 void Assembly::add_stress_of_links(std::vector<Probe>& probes) const {
   for (const BodyPlan& plan : plans_.bodies) {
-    if (!plan.reduced || !wants_stress(scene_.scenario, plan.name)) continue;
-    const std::string name = plan.name + ".surface";
-    with_context("[output] stress: link '" + plan.name + "'", [&] {
+    const std::string& link =
+        scene_.robot.links[index(plan.links.front())].name;
+    if (!plan.reduced || !wants_stress(scene_.scenario, link)) continue;
+    const std::string name = link + ".surface";
+    with_context("[output] stress: link '" + link + "'", [&] {
       const auto is_taken = [&](const Probe& probe) {
         return probe.name == name;
       };
@@ -232,7 +245,7 @@ void Assembly::add_stress_of_links(std::vector<Probe>& probes) const {
                          "'; rename that");
       }
       StressProbeSpec everywhere;
-      everywhere.where.link = plan.name;
+      everywhere.where.link = link;
       StressProbe probe = make_stress_probe(everywhere);
       probe.is_of_link = true;
       probes.push_back({name, std::move(probe)});
@@ -270,19 +283,20 @@ PointProbe Assembly::make_point_probe(const PointProbeSpec& spec) const {
 
 PointProbe Assembly::make_followed_point(const Place& where, bool turns) const {
   const int link = find_link(scene_.robot, where.link);
-  const BodyPlan& plan = sites_.plan_of(link);
-  const Pose& X_BL = sites_.X_BL(link);
+  const Pose X_BL = sites_.X_BL(link);
   PointProbe probe;
   probe.body = sites_.body_of(link);
   probe.R_BL = X_BL.R;
   probe.p_B = X_BL * where.point.value_or(Vector3::Zero());
-  if (!plan.reduced) return probe;
-  const Anchor anchor = find_anchor(plan, where);
+  if (!sites_.plan_of(link).reduced) return probe;
+  const Anchor anchor = find_anchor(sites_.pieces_of(link), where);
+  const BodyPlan& plan = sites_.plan_of(link, anchor.piece);
+  probe.body = sites_.body_of(link, anchor.piece);
   if (turns) check_rotation(*anchor.table, Matrix3::Identity());
   probe.p_B = anchor.table->p_B;
   probe.Phi_B = anchor.table->Phi_B;
   probe.Psi_B = anchor.table->Psi_B;
-  if (scene_.scenario.level_of(plan.name) == dynamics::Fidelity::nonlinear) {
+  if (scene_.scenario.level_of(where.link) == dynamics::Fidelity::nonlinear) {
     probe.second = std::make_shared<const flexbody::QuadraticFrame>(
         flexbody::make_quadratic_frame(plan.reduced->manifold->paired,
                                        anchor.table->Phi2_B,
@@ -325,7 +339,8 @@ dynamics::SystemState Assembly::make_initial_state(
     if (body_index_[i] == dynamics::kWorld) continue;
     const int link = plans_.bodies[i].links.front();
     const LinkMotion& motion = motions_[index(link)];
-    const Pose X_WB = motion.X_WL * sites_.X_BL(link).inverse();
+    const Pose X_WB =
+        motion.X_WL * sites_.X_BL(link, plans_.bodies[i].piece).inverse();
     dynamics::BodyState& body = state.bodies[index(body_index_[i])];
     body.p_WB = X_WB.p;
     body.quat_WB = Quaternion(X_WB.R).normalized();

@@ -22,26 +22,30 @@ CouplerSide make_side(const BodyPlan& plan, const Pose& X_BF,
 
 }  // namespace
 
-const BodyPlan& AttachmentSites::plan_of(int link) const {
-  return plans_.bodies[index(plans_.body_of_link[index(link)])];
+std::span<const BodyPlan> AttachmentSites::pieces_of(int link) const {
+  return find_bodies(plans_, link);
 }
 
-dynamics::BodyIndex AttachmentSites::body_of(int link) const {
-  return body_of_plan_[index(plans_.body_of_link[index(link)])];
+const BodyPlan& AttachmentSites::plan_of(int link, int piece) const {
+  return pieces_of(link)[index(piece)];
 }
 
-const Pose& AttachmentSites::X_BL(int link) const {
-  return plans_.X_BL[index(link)];
+dynamics::BodyIndex AttachmentSites::body_of(int link, int piece) const {
+  return body_of_plan_[index(plans_.body_of_link[index(link)] + piece)];
+}
+
+Pose AttachmentSites::X_BL(int link, int piece) const {
+  return find_X_BL(plans_, link, piece);
 }
 
 AttachmentSite AttachmentSites::find_site(int link, const Pose& X_LF,
                                           const Anchor& anchor) const {
   AttachmentSite site;
   site.link = scene_.robot.links[index(link)].name;
-  site.body = body_of(link);
-  site.X_BF = X_BL(link) * X_LF;
+  site.body = body_of(link, anchor.piece);
+  site.X_BF = X_BL(link, anchor.piece) * X_LF;
   site.anchor = anchor;
-  site.side = make_side(plan_of(link), site.X_BF, anchor.table);
+  site.side = make_side(plan_of(link, anchor.piece), site.X_BF, anchor.table);
   if (site.body == dynamics::kWorld) {
     site.X_BF = start_.front().X_WL * site.X_BF;
   }
@@ -49,7 +53,8 @@ AttachmentSite AttachmentSites::find_site(int link, const Pose& X_LF,
 }
 
 Anchor AttachmentSites::find_end_anchor(const Place& where) const {
-  const BodyPlan& plan = plan_of(find_link(scene_.robot, where.link));
+  const int link = find_link(scene_.robot, where.link);
+  const BodyPlan& plan = plan_of(link);
   const bool has_nodes = where.nodes || !where.interface.empty();
   if (!plan.reduced) {
     if (!has_nodes) return {};
@@ -62,7 +67,7 @@ Anchor AttachmentSites::find_end_anchor(const Place& where) const {
         "link '{}' is flexible; name one of its interfaces or select nodes",
         where.link));
   }
-  Anchor anchor = find_anchor(plan, where);
+  Anchor anchor = find_anchor(pieces_of(link), where);
   if (where.point && anchor.table->rotation_rank() < 3) {
     throw InputError(fmt::format(
         "'{}' of link '{}' has too few nodes to carry a point beside them; "
@@ -81,7 +86,8 @@ Pose AttachmentSites::find_pose(const ConnectorEnd& end,
   const Pose& X_WL = motions[index(link)].X_WL;
   const Anchor anchor = find_end_anchor(where);
   if (!anchor.table || where.point) return X_WL * Pose{end.R, point};
-  return {X_WL.R * end.R, X_WL * (X_BL(link).inverse() * anchor.table->p_B)};
+  const Pose X_LB = X_BL(link, anchor.piece).inverse();
+  return {X_WL.R * end.R, X_WL * (X_LB * anchor.table->p_B)};
 }
 
 AttachmentSite AttachmentSites::find_site(
@@ -101,7 +107,7 @@ AttachmentSite AttachmentSites::find_site(
 dynamics::AttachmentIndex attach(const std::string& name,
                                  const AttachmentSite& site,
                                  dynamics::SystemBuilder& builder) {
-  const auto& [table, nodes] = site.anchor;
+  const auto& [piece, table, nodes] = site.anchor;
   if (site.body == dynamics::kWorld) {
     return builder.attach_world(name, site.X_BF);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,12 @@ class AttachmentSites {
         start_(start),
         body_of_plan_(body_of_plan) {}
 
-  [[nodiscard]] const BodyPlan& plan_of(int link) const;
-  [[nodiscard]] dynamics::BodyIndex body_of(int link) const;
-  [[nodiscard]] const Pose& X_BL(int link) const;
+  /// The bodies of a link.
+  [[nodiscard]] std::span<const BodyPlan> pieces_of(int link) const;
+  /// One of them, by default the first.
+  [[nodiscard]] const BodyPlan& plan_of(int link, int piece = 0) const;
+  [[nodiscard]] dynamics::BodyIndex body_of(int link, int piece = 0) const;
+  [[nodiscard]] Pose X_BL(int link, int piece = 0) const;
   /// Motion of all links at the start.
   [[nodiscard]] const std::vector<LinkMotion>& start() const { return start_; }
 

@@ -15,10 +15,13 @@ BasisChoice merge(const BasisChoice& base, const BasisChoice& over) {
   if (over.interfaces) choice.interfaces = over.interfaces;
   if (over.loads) choice.loads = over.loads;
   if (over.terms) choice.terms = over.terms;
+  if (over.pieces) choice.pieces = over.pieces;
   return choice;
 }
 
-void apply(const BasisChoice& choice, flexbody::BasisOptions& basis) {
+void apply(const BasisChoice& choice, FlexibleLink& link) {
+  flexbody::BasisOptions& basis = link.basis;
+  link.pieces = choice.pieces.value_or(link.pieces);
   if (choice.eigenmodes) {
     basis.eigenmodes = *choice.eigenmodes;
     basis.automatic.reset();
@@ -42,7 +45,7 @@ void choose_bases(const Scenario& scenario, const BasisChoice& over,
     choice = merge(choice, over);
     if (choice == BasisChoice{}) continue;
     if (link.flexible->reduced_file.empty()) {
-      apply(choice, link.flexible->basis);
+      apply(choice, *link.flexible);
       continue;
     }
     problems.add(

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "limber/common/index.hpp"
 #include "limber/scene/text/problems.hpp"
 
@@ -14,9 +17,13 @@ Matrix3 steiner(double m, const Vector3& d) {
   return m * (d.squaredNorm() * Matrix3::Identity() - d * d.transpose());
 }
 
+std::string name_piece(const std::string& link, int piece) {
+  return fmt::format("{}.{}", link, piece + 1);
+}
+
 class Planner {
  public:
-  Planner(const Robot& robot, const std::vector<ReducedPointer>& reduced)
+  Planner(const Robot& robot, const std::vector<ReducedPieces>& reduced)
       : robot_(robot), reduced_(reduced), problems_(robot.file.string()) {}
 
   BodyPlans run() {
@@ -36,12 +43,36 @@ class Planner {
 
  private:
   void add_body(int link) {
+    const ReducedPieces& pieces = reduced_[index(link)];
     BodyPlan body;
     body.name = robot_.links[index(link)].name;
     body.links = {link};
-    body.reduced = reduced_[index(link)];
+    if (!pieces.empty()) body.reduced = pieces.front();
     plans_.body_of_link[index(link)] = static_cast<int>(plans_.bodies.size());
-    plans_.bodies.push_back(body);
+    if (pieces.size() < 2) {
+      plans_.bodies.push_back(body);
+      return;
+    }
+    body.piece_count = static_cast<int>(pieces.size());
+    for (const ReducedPointer& piece : pieces) {
+      BodyPlan part = body;
+      part.piece = body.piece++;
+      part.name = name_piece(body.name, part.piece);
+      part.reduced = piece;
+      part.p_FB = piece->p_MoBcm_M - pieces.front()->p_MoBcm_M;
+      check_name(part);
+      plans_.bodies.push_back(part);
+    }
+  }
+
+  void check_name(const BodyPlan& piece) {
+    for (const Link& link : robot_.links) {
+      if (link.name != piece.name) continue;
+      problems_.add(0, fmt::format("link '{}' is called like piece {} of link "
+                                   "'{}'; rename it",
+                                   link.name, piece.piece + 1,
+                                   robot_.links[index(piece.links[0])].name));
+    }
   }
 
   void add_joint(int i) {
@@ -56,8 +87,9 @@ class Planner {
       return;
     }
     add_body(joint.child);
-    const ReducedPointer& child = reduced_[index(joint.child)];
-    if (child && child->clamped) {
+    const ReducedPieces& child = reduced_[index(joint.child)];
+    if (std::any_of(child.begin(), child.end(),
+                    [](const ReducedPointer& body) { return body->clamped; })) {
       check_clamped(joint, plans_.bodies[index(parent)]);
     } else {
       plans_.coupled_joints.push_back(i);
@@ -82,12 +114,13 @@ class Planner {
   }
 
   void place_flexible(BodyPlan& body) {
+    body.mass = body.reduced->mass;
+    body.inertia = body.reduced->inertia();
+    if (body.piece > 0) return;  // placed from the first
     const int link = body.links.front();
     const Pose X_LM = robot_.links[index(link)].flexible->X_LM;
     const Pose X_MB{Matrix3::Identity(), body.reduced->p_MoBcm_M};
     plans_.X_BL[index(link)] = (X_LM * X_MB).inverse();
-    body.mass = body.reduced->mass;
-    body.inertia = body.reduced->inertia();
   }
 
   void place_rigid(BodyPlan& body) {
@@ -117,15 +150,51 @@ class Planner {
   }
 
   const Robot& robot_;
-  const std::vector<ReducedPointer>& reduced_;
+  const std::vector<ReducedPieces>& reduced_;
   Problems problems_;
   BodyPlans plans_;
 };
 
 }  // namespace
 
+std::span<const BodyPlan> find_bodies(const BodyPlans& plans, int link) {
+  const BodyPlan* first = &plans.bodies[index(plans.body_of_link[index(link)])];
+  return {first, index(first->piece_count)};
+}
+
+Pose find_X_BL(const BodyPlans& plans, int link, int piece) {
+  Pose X_BL = plans.X_BL[index(link)];
+  // The axes of all pieces are the mesh's.
+  X_BL.p -= find_bodies(plans, link)[index(piece)].p_FB;
+  return X_BL;
+}
+
+std::vector<ReducedPieces> find_reduced(const Robot& robot,
+                                        const dynamics::SystemModel& model) {
+  std::map<std::string, ReducedPointer> by_name;
+  for (const dynamics::BodyModel& body : model.bodies) {
+    by_name[body.name] = body.reduced;
+  }
+  std::vector<ReducedPieces> reduced;
+  for (const Link& link : robot.links) {
+    ReducedPieces& pieces = reduced.emplace_back();
+    if (!link.flexible) continue;
+    if (const auto whole = by_name.find(link.name); whole != by_name.end()) {
+      pieces = {whole->second};
+      continue;
+    }
+    for (int piece = 0;; ++piece) {
+      const auto found = by_name.find(name_piece(link.name, piece));
+      if (found == by_name.end()) break;
+      pieces.push_back(found->second);
+    }
+    LIMBER_EXPECT(!pieces.empty());
+  }
+  return reduced;
+}
+
 BodyPlans plan_bodies(const Robot& robot,
-                      const std::vector<ReducedPointer>& reduced) {
+                      const std::vector<ReducedPieces>& reduced) {
   return Planner(robot, reduced).run();
 }
 

@@ -211,8 +211,9 @@ bool CarriedLoads::is_beyond(int link, int joint) const {
 }
 
 Vector3 CarriedLoads::find_centre(const BodyPlan& plan) const {
-  const auto link = index(plan.links.front());
-  return start_[link].X_WL * plans_.X_BL[link].inverse().p;
+  const int link = plan.links.front();
+  const Pose X_BL = find_X_BL(plans_, link, plan.piece);
+  return start_[index(link)].X_WL * X_BL.inverse().p;
 }
 
 double CarriedLoads::find_radius(int link, const Vector3& centre) const {

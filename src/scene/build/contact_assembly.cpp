@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -48,6 +49,13 @@ const Surface& find_surface(const std::vector<Surface>& surfaces,
   }
   throw InputError(describe_unknown("surface", name, known) +
                    "; a saved body has those that it was reduced with");
+}
+
+bool has_surface(const flexbody::ReducedBody& body, const std::string& name) {
+  return std::any_of(body.contact_surfaces.begin(), body.contact_surfaces.end(),
+                     [&](const flexbody::ContactSurface& surface) {
+                       return surface.name == name;
+                     });
 }
 
 // Rigid but for what its material gives way near the surface.
@@ -158,21 +166,24 @@ ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
 
 ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
   const Link& source = scene_.robot.links[index(link)];
-  const BodyPlan& plan = sites_.plan_of(link);
   const std::vector<std::string> surfaces = find_surfaces(source);
   Sides sides;
-  for (const std::string& name : surfaces) {
-    with_context(fmt::format("link '{}'", source.name), [&] {
-      const auto skin = get_skin(plan, name);
-      const flexbody::ContactSurface& surface = skin->surface();
-      sides.push_back(
-          {surfaces.size() > 1 ? source.name + "." + name : source.name,
-           sites_.body_of(link),
-           {{skin, Pose{}},
-            contact::SurfaceMaterial{surface.youngs_modulus,
-                                     surface.poisson_ratio},
-            find_mass(plan)}});
-    });
+  for (const BodyPlan& plan : sites_.pieces_of(link)) {
+    for (const std::string& name : surfaces) {
+      // A surface need not reach over all pieces.
+      if (plan.piece_count > 1 && !has_surface(*plan.reduced, name)) continue;
+      with_context(fmt::format("link '{}'", source.name), [&] {
+        const auto skin = get_skin(plan, name);
+        const flexbody::ContactSurface& surface = skin->surface();
+        sides.push_back(
+            {surfaces.size() > 1 ? plan.name + "." + name : plan.name,
+             sites_.body_of(link, plan.piece),
+             {{skin, Pose{}},
+              contact::SurfaceMaterial{surface.youngs_modulus,
+                                       surface.poisson_ratio},
+              find_mass(plan)}});
+      });
+    }
   }
   return sides;
 }
@@ -181,7 +192,8 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
 // their products are further ones.
 std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     const BodyPlan& plan, const std::string& surface) {
-  const dynamics::Fidelity level = scene_.scenario.level_of(plan.name);
+  const dynamics::Fidelity level = scene_.scenario.level_of(
+      scene_.robot.links[index(plan.links.front())].name);
   const bool is_rigid = level == dynamics::Fidelity::rigid;
   const void* body = plan.full ? static_cast<const void*>(plan.full.get())
                                : static_cast<const void*>(plan.reduced.get());

@@ -60,7 +60,9 @@ void CouplerAssembly::check_joint_interface(const Joint& joint, int link,
                                             const AttachmentSite& site) {
   const flexbody::InterfaceTable& table = *site.anchor.table;
   const double distance = (site.X_BF.p - table.p_B).norm();
-  if (distance > kFarShare * sites_.plan_of(link).reduced->size.norm()) {
+  if (distance >
+      kFarShare *
+          sites_.plan_of(link, site.anchor.piece).reduced->size.norm()) {
     warnings_.push_back(fmt::format(
         "joint '{}' is {:.3g} m from the middle of interface '{}' of link "
         "'{}'; check the joint's origin and the mesh's <origin> and unit",
@@ -72,12 +74,18 @@ AttachmentSite CouplerAssembly::find_joint_site(const Joint& joint, int link,
                                                 const Pose& X_LF) {
   const BodyPlan& plan = sites_.plan_of(link);
   if (!plan.reduced || joint.kind == joints::JointKind::floating) {
+    if (plan.piece_count > 1) {
+      throw InputError(fmt::format(
+          "joint '{}': damping of a floating link in pieces would act on its "
+          "first piece alone; leave link '{}' in one piece",
+          joint.name, scene_.robot.links[index(link)].name));
+    }
     return sites_.find_site(link, X_LF, {});
   }
   const Link& source = scene_.robot.links[index(link)];
   const Anchor anchor = with_context(
       "joint '" + joint.name + "' on link '" + source.name + "'", [&] {
-        return find_anchor(plan,
+        return find_anchor(sites_.pieces_of(link),
                            find_joint_interface(*source.flexible, joint.name));
       });
   AttachmentSite site = sites_.find_site(link, X_LF, anchor);

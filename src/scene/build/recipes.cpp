@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/nodal_forces.hpp"
 #include "limber/scene/probes/stress_points.hpp"
+#include "limber/scene/scenario/link_start.hpp"
 
 namespace limber::scene {
 namespace {
@@ -113,6 +113,11 @@ const Place* find_probed_place(const ProbeSpec& probe) {
 }
 
 }  // namespace
+
+bool takes_pieces(dynamics::Fidelity level) {
+  return level == dynamics::Fidelity::coupled ||
+         level == dynamics::Fidelity::nonlinear;
+}
 
 std::string find_joint_interface(const FlexibleLink& link,
                                  const std::string& joint) {

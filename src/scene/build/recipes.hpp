@@ -20,6 +20,10 @@ namespace limber::scene {
 /// recipes and share one reduction.
 [[nodiscard]] std::string find_place_interface(const Place& place);
 
+/// Whether links that are cut are in pieces at a level; others take the whole
+/// mesh.
+[[nodiscard]] bool takes_pieces(dynamics::Fidelity level);
+
 /// Recipe of a flexible link in this scenario: the link's interfaces, those of
 /// its joints and connectors, and those of the loads and probes on it, with the
 /// load cases of automatic modes and the nodal fields of the initial

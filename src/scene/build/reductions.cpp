@@ -4,19 +4,29 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/scene/build/expected_impacts.hpp"
 #include "limber/scene/build/link_motion.hpp"
-#include "limber/scene/build/link_start.hpp"
 #include "limber/scene/build/recipes.hpp"
 #include "limber/scene/probes/stress_points.hpp"
+#include "limber/scene/scenario/link_start.hpp"
 #include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
 namespace {
+
+// All pieces are of one mesh, which is made when the first is reduced.
+Reducer mesh_once(const Reducer& reducer) {
+  const auto made = std::make_shared<std::optional<flexbody::MeshAtHand>>();
+  return {reducer.mesher, [reducer, made](const flexbody::MeshSource& source) {
+            if (!*made) *made = reducer.make_mesh(source);
+            return **made;
+          }};
+}
 
 class Reduction {
  public:
@@ -29,18 +39,20 @@ class Reduction {
   Reductions run() {
     for (std::size_t i = 0; i < scene_.robot.links.size(); ++i) {
       result_.of_link.push_back(find(static_cast<int>(i)));
-      warn(scene_.robot.links[i].name, result_.of_link.back());
+      for (const ReducedPointer& body : result_.of_link.back()) {
+        warn(scene_.robot.links[i].name, body);
+      }
     }
     return result_;
   }
 
  private:
-  ReducedPointer find(int index) {
+  ReducedPieces find(int index) {
     const Link& link = scene_.robot.links[static_cast<std::size_t>(index)];
-    if (!link.flexible) return nullptr;
+    if (!link.flexible) return {};
     try {
       if (!link.flexible->reduced_file.empty()) {
-        return read(link);
+        return {read(link)};
       }
       flexbody::Recipe recipe =
           make_recipe(scene_.robot, index, scene_.scenario);
@@ -48,7 +60,7 @@ class Reduction {
         recipe.basis.automatic->impacts = find_expected_impacts(
             scene_, find_link_motions(scene_.robot, scene_.scenario), index);
       }
-      return reduce(recipe, link.name);
+      return reduce_pieces(recipe, link);
     } catch (const InputError& error) {
       std::vector<std::string> texts;
       for (const std::string& text : error.problems()) {
@@ -59,11 +71,54 @@ class Reduction {
     }
   }
 
+  ReducedPieces reduce_pieces(const flexbody::Recipe& recipe,
+                              const Link& link) {
+    const bool is_cut = takes_pieces(scene_.scenario.level_of(link.name)) &&
+                        link.flexible->pieces != 1;
+    if (!is_cut) return {reduce(recipe, link.name, reducer_, {})};
+    const Reducer once = mesh_once(reducer_);
+    const int count = count_pieces(recipe.mesh, link, once);
+    if (count > 1) check_start(link);
+    ReducedPieces pieces;
+    for (int i = 0; i < count; ++i) {
+      pieces.push_back(reduce(recipe, link.name, once, {count, i}));
+    }
+    return pieces;
+  }
+
+  int count_pieces(const flexbody::MeshSource& mesh, const Link& link,
+                   const Reducer& reducer) {
+    if (link.flexible->pieces > 0) return link.flexible->pieces;
+    const flexbody::PieceAdvice advice =
+        reducer.make_mesh(mesh).advise_pieces();
+    if (advice.count == 1) {
+      result_.warnings.push_back(fmt::format(
+          "link '{}' is left in one piece: {}", link.name, advice.reason));
+    }
+    return advice.count;
+  }
+
+  void check_start(const Link& link) const {
+    if (find_start(scene_.scenario, link.name) == nullptr) return;
+    throw InputError(fmt::format(
+        "[initial.links.{}] deforms it at the start, by modes or fields of the "
+        "whole mesh, and it is cut into pieces; leave it in one piece, or "
+        "start from an equilibrium",
+        link.name));
+  }
+
   ReducedPointer read(const Link& link) {
     ReducedPointer& body = saved_[link.flexible->reduced_file];
     if (!body) {
       body = std::make_shared<const flexbody::ReducedBody>(
           flexbody::read_body(link.flexible->reduced_file));
+    }
+    for (const flexbody::InterfaceTable& table : body->interfaces) {
+      if (!flexbody::is_cut(table.name)) continue;
+      throw InputError(fmt::format(
+          "its saved body is a piece of a mesh, with the interface '{}' where "
+          "it was cut; give the link the mesh and 'pieces'",
+          table.name));
     }
     if (!link.flexible->clamped_groups.empty() && !body->clamped) {
       throw InputError(
@@ -84,7 +139,6 @@ class Reduction {
   }
 
   void warn(const std::string& link, const ReducedPointer& body) {
-    if (!body) return;
     const auto add = [&](const std::vector<std::string>& texts) {
       for (const std::string& text : texts) {
         result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
@@ -99,12 +153,12 @@ class Reduction {
     }
   }
 
-  ReducedPointer reduce(const flexbody::Recipe& recipe,
-                        const std::string& link) {
-    ReducedPointer& known = result_.known[flexbody::recipe_key(recipe)];
+  ReducedPointer reduce(const flexbody::Recipe& recipe, const std::string& link,
+                        const Reducer& reducer, const flexbody::Piece& piece) {
+    ReducedPointer& known = result_.known[flexbody::recipe_key(recipe, piece)];
     if (known) return known;
     flexbody::CachedBody found =
-        flexbody::load_or_reduce(recipe, cache_, reducer_);
+        flexbody::load_or_reduce(recipe, cache_, reducer, piece);
     for (const std::string& notice : found.notices) {
       // Links may share a mesh.
       if (!reported_.insert(notice).second) continue;

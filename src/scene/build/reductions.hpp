@@ -17,22 +17,22 @@ namespace limber::scene {
 /// Makes meshes and reduced bodies; usually flexbody::make_reducer.
 using Reducer = flexbody::Reducer;
 
-/// Available reduced bodies, by flexbody::recipe_key.
+/// Available reduced bodies, by flexbody::recipe_key of recipe and piece.
 using KnownBodies =
     std::map<std::string, std::shared_ptr<const flexbody::ReducedBody>>;
 
 struct Reductions {
-  std::vector<ReducedPointer> of_link;  ///< null if the link is rigid
-  int reduced = 0;                      ///< number of reductions done now
-  int cached = 0;                       ///< number of reductions from the cache
+  std::vector<ReducedPieces> of_link;
+  int reduced = 0;  ///< number of reductions done now
+  int cached = 0;   ///< number of reductions from the cache
   /// Shortfalls of the bodies' bases, and notices of their meshes.
   std::vector<std::string> warnings;
   KnownBodies known;  ///< given, reduced and cached ones
 };
 
-/// Reduced bodies of all flexible links: from a file, from the cache, or from
-/// `reducer`; links with equal recipes or one file share one. Those in `known`
-/// take precedence.
+/// Reduced bodies of all flexible links, of each of their pieces: from a file,
+/// from the cache, or from `reducer`; links with equal recipes or one file
+/// share one. Those in `known` take precedence.
 /// @throws InputError naming the link.
 [[nodiscard]] Reductions find_reductions(const Scene& scene,
                                          const Reducer& reducer,

@@ -97,6 +97,11 @@ void set_basis(toml::table& root, const BasisChoice& choice) {
   if (choice == BasisChoice{}) return;
   toml::table& basis = get_table(root, "basis");
   set_basis(basis, "", "eigenmodes", choice.eigenmodes);
+  if (choice.pieces == 0) {
+    set_basis(basis, "", "pieces", std::optional<std::string>("auto"));
+  } else {
+    set_basis(basis, "", "pieces", choice.pieces);
+  }
   set_basis(basis, "static_deformation", "interfaces", choice.interfaces);
   set_basis(basis, "static_deformation", "loads", choice.loads);
   set_basis(basis, "static_deformation", "terms", choice.terms);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "limber/scene/build/recipes.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 
 namespace limber::scene {
@@ -29,6 +30,7 @@ class Finder {
     look_at_levels();
     look_at_flexible_links();
     look_at_stress();
+    look_at_pieces();
     for (std::size_t i = 0; i < scenario_.loads.size(); ++i) look_at_load(i);
     look_at_controllers();
     look_at_releases();
@@ -128,6 +130,20 @@ class Finder {
       if (!link.flexible || has_stress(level)) continue;
       tell("[output] stress of link '" + link.name + "'",
            explain_no_stress(level));
+    }
+  }
+
+  // Levels of the command line are those of a comparison.
+  void look_at_pieces() {
+    if (overrides_.fidelity) return;
+    for (const Link& link : links_) {
+      if (!link.flexible || link.flexible->pieces == 1) continue;
+      const Fidelity level = scenario_.level_of(link.name);
+      if (takes_pieces(level)) continue;
+      tell("'pieces' of link '" + link.name + "'",
+           fmt::format("level {} takes the whole mesh; coupled and nonlinear "
+                       "are of pieces",
+                       to_string(level)));
     }
   }
 

@@ -146,6 +146,22 @@ void add_interface(XmlElement& element, FlexibleLink& link) {
   link.interfaces.push_back(request);
 }
 
+/// How a number of pieces is left open.
+constexpr const char* kAutomatic = "auto";
+constexpr int kMostPieces = 1000;
+
+void read_pieces(XmlElement& element, FlexibleLink& link) {
+  if (!element.has("pieces")) return;
+  if (element.text("pieces") == kAutomatic) {
+    link.pieces = 0;
+  } else {
+    link.pieces = element.integer("pieces", 1, kMostPieces).value_or(1);
+  }
+  if (link.reduced_file.empty() || link.pieces == 1) return;
+  element.fail(
+      "'pieces' cuts a <mesh>; a saved body is one body and stays whole");
+}
+
 /// Number of occurrences of each tag that may be given once.
 using Counts = std::map<std::string, int>;
 
@@ -222,6 +238,7 @@ FlexibleLink read_flexible(XmlElement& element,
   element.read_children(readers);
   check_counts(element, counts);
   check_whole(element, link);
+  read_pieces(element, link);
   if (!link.reduced_file.empty()) check_saved(element, link, counts);
   return link;
 }

@@ -47,6 +47,7 @@ struct FlexibleLink {
   std::map<std::string, std::string> interface_of_joint;
   /// Groups whose surfaces the scenario's contacts need, "skin" for the whole.
   std::vector<std::string> contact_groups = {};
+  int pieces = 1;  ///< bodies that the mesh is cut into; 0: by its slenderness
 };
 
 /// <collision> or <visual> of a rigid link.

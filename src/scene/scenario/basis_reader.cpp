@@ -4,9 +4,20 @@
 namespace limber::scene {
 namespace {
 
+std::optional<int> read_pieces(TomlTable& table) {
+  constexpr int kMostPieces = 1000;
+  if (!table.is_text("pieces")) {
+    return table.integer("pieces", 1, kMostPieces);
+  }
+  if (table.text("pieces") == "auto") return 0;
+  table.fail("pieces", "expected a number of pieces or \"auto\"");
+  return std::nullopt;
+}
+
 BasisChoice read_basis_choice(TomlTable& table) {
   BasisChoice choice;
   choice.eigenmodes = table.integer("eigenmodes", 0, 100000);
+  choice.pieces = read_pieces(table);
   const toml::table* shapes = table.table("static_deformation");
   if (shapes == nullptr) return choice;
   TomlTable sources(*shapes, table.path() + ".static_deformation",

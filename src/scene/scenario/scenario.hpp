@@ -162,6 +162,7 @@ struct BasisChoice {
   std::optional<bool> interfaces;  ///< their static-deformation modes
   std::optional<bool> loads;       ///< their static-deformation modes
   std::optional<int> terms = {};   ///< number of Krylov terms for each of these
+  std::optional<int> pieces = {};  ///< of its mesh; 0: by its slenderness
 
   bool operator==(const BasisChoice&) const = default;
 };

@@ -40,6 +40,11 @@ bool TomlTable::is_array(const std::string& key) const {
   return node != nullptr && node->is_array();
 }
 
+bool TomlTable::is_text(const std::string& key) const {
+  const toml::node* node = table_.get(key);
+  return node != nullptr && node->is_string();
+}
+
 bool TomlTable::is_table(const std::string& key) const {
   const toml::node* node = table_.get(key);
   return node != nullptr && node->is_table();

@@ -32,6 +32,7 @@ class TomlTable {
   [[nodiscard]] bool has(const std::string& key) const;
   [[nodiscard]] bool is_array(const std::string& key) const;
   [[nodiscard]] bool is_table(const std::string& key) const;
+  [[nodiscard]] bool is_text(const std::string& key) const;
 
   /// Readers of one key; each marks the key as known.
   [[nodiscard]] std::optional<std::string> text(const std::string& key);

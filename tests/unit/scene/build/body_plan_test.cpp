@@ -34,7 +34,7 @@ TEST(BodyPlan, MergesFixedRigidLinksByTheParallelAxisTheorem) {
   robot.links = {make_link("a", 1), make_link("mount", 0), make_link("b", 3)};
   robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
                   make_joint(1, 2, joints::JointKind::fixed)};
-  const BodyPlans plans = plan_bodies(robot, {nullptr, nullptr, nullptr});
+  const BodyPlans plans = plan_bodies(robot, std::vector<ReducedPieces>(3));
   ASSERT_EQ(plans.bodies.size(), 1U);
   EXPECT_EQ(plans.bodies[0].mass, 4.0);
   // Two masses 2 m apart: mu d^2 = (3/4) 4 about the axes across.
@@ -49,7 +49,7 @@ TEST(BodyPlan, TakesTheLinkCalledWorldAsTheWorld) {
   robot.links = {make_link("world", 0), make_link("a", 0), make_link("b", 2)};
   robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
                   make_joint(1, 2, joints::JointKind::revolute)};
-  const BodyPlans plans = plan_bodies(robot, {nullptr, nullptr, nullptr});
+  const BodyPlans plans = plan_bodies(robot, std::vector<ReducedPieces>(3));
   ASSERT_EQ(plans.bodies.size(), 2U);
   EXPECT_TRUE(plans.bodies[0].is_world);
   EXPECT_EQ(plans.body_of_link[1], 0);
@@ -60,10 +60,54 @@ TEST(BodyPlan, RefusesAMovingBodyWithoutMass) {
   Robot robot;
   robot.links = {make_link("a", 1), make_link("b", 0)};
   robot.joints = {make_joint(0, 1, joints::JointKind::revolute)};
-  const std::string text = test::input_error([&] {
-    (void)plan_bodies(robot, {nullptr, nullptr});
-  });
+  const std::string text = test::input_error(
+      [&] { (void)plan_bodies(robot, std::vector<ReducedPieces>(2)); });
   EXPECT_THAT(text, testing::HasSubstr("link 'b' moves but has no mass"));
+}
+
+std::shared_ptr<const flexbody::ReducedBody> make_piece(double mass, double x) {
+  flexbody::ReducedBody body;
+  body.mass = mass;
+  body.p_MoBcm_M = {x, 0.0, 0.0};
+  return std::make_shared<const flexbody::ReducedBody>(body);
+}
+
+Robot make_arm() {
+  Robot robot;
+  robot.links = {make_link("base", 1.0), make_link("arm", 0.0),
+                 make_link("tool", 2.0)};
+  robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
+                  make_joint(1, 2, joints::JointKind::fixed)};
+  robot.links[1].flexible.emplace();
+  robot.links[1].flexible->X_LM.p = {0.0, 0.0, 0.5};
+  return robot;
+}
+
+TEST(BodyPlan, GivesEachPieceOfALinkABodyAtItsCentreOfMass) {
+  const Robot robot = make_arm();
+  const BodyPlans plans = plan_bodies(
+      robot, {{}, {make_piece(3.0, 0.2), make_piece(4.0, 0.7)}, {}});
+  ASSERT_EQ(plans.bodies.size(), 4U);
+  const auto pieces = find_bodies(plans, 1);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].name, "arm.1");
+  EXPECT_EQ(pieces[1].name, "arm.2");
+  EXPECT_EQ(pieces[1].mass, 4.0);
+  EXPECT_LT((find_X_BL(plans, 1, 0).inverse().p - Vector3(0.2, 0, 0.5)).norm(),
+            kRoundOff);
+  EXPECT_LT((find_X_BL(plans, 1, 1).inverse().p - Vector3(0.7, 0, 0.5)).norm(),
+            kRoundOff);
+  EXPECT_EQ(find_bodies(plans, 2).front().name, "tool");
+}
+
+TEST(BodyPlan, RefusesALinkCalledLikeAPiece) {
+  Robot robot = make_arm();
+  robot.links[2].name = "arm.2";
+  const std::string text = test::input_error([&] {
+    (void)plan_bodies(robot,
+                      {{}, {make_piece(3.0, 0.2), make_piece(4.0, 0.7)}, {}});
+  });
+  EXPECT_THAT(text, testing::HasSubstr("'arm.2' is called like piece 2"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/scene/build/link_start.hpp"
+#include "limber/scene/scenario/link_start.hpp"
 
 #include <fmt/format.h>
 
