@@ -34,7 +34,7 @@ def _resume_to_the_whole(limber, problems):
     ended = limber.run(*RESUME)
     problems += ended.problems
     if ended.status != 0:
-        problems.append(f"resume: status {ended.status}: {ended.errors[:200]}")
+        problems.append(f"resume: status {ended.status}: {ended.errors[-200:]}")
         return
     differs = scene.answers_differ(limber.place / "out", prepare(limber) / "whole")
     if differs:

@@ -79,7 +79,7 @@ def _go_on(limber, problems):
     ended = limber.run(*STUDY)
     problems += ended.problems
     if ended.status != 0:
-        problems.append(f"again: status {ended.status}: {ended.errors[:200]}")
+        problems.append(f"again: status {ended.status}: {ended.errors[-200:]}")
     elif tables_differ(limber):
         problems.append(f"again: {tables_differ(limber)}")
 
