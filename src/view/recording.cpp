@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/hdf5_file.hpp"
@@ -22,6 +23,23 @@ namespace fs = std::filesystem;
 // Pages and scenes hold single precision, squares of it among them.
 constexpr double kLargest = 1e18;
 
+/// Whether triangles bound a solid: an even number of them at every edge.
+bool is_closed(const std::vector<std::int64_t>& corners) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> edges;
+  edges.reserve(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    edges.push_back(std::minmax({corners[i], corners[next]}));
+  }
+  std::sort(edges.begin(), edges.end());
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto end = std::upper_bound(edge, edges.end(), *edge);
+    if ((end - edge) % 2 != 0) return false;
+    edge = end;
+  }
+  return true;
+}
+
 class RecordingReader {
  public:
   explicit RecordingReader(const fs::path& file)
@@ -32,7 +50,7 @@ class RecordingReader {
     recording_.name = in_.read_text("scene/name");
     recording_.limber = in_.read_text("scene/limber");
     recording_.times = matrix("time", -1, 1).col(0);
-    if (outputs() == 0) fail("has no output times");
+    check_times();
     read_surfaces();
     read_bodies();
     read_shapes();
@@ -65,6 +83,16 @@ class RecordingReader {
         "holds what to draw in layout {}, but this version of Limber reads "
         "layout {}. Run the scenario again",
         version.empty() ? 0 : version[0], results::kSceneryVersion));
+  }
+
+  void check_times() const {
+    const VectorX& times = recording_.times;
+    if (times.size() == 0) fail("has no output times");
+    for (Eigen::Index i = 1; i < times.size(); ++i) {
+      if (times[i] > times[i - 1]) continue;
+      fail(fmt::format("is damaged: output {} is at {} s, not after {} s",
+                       i + 1, times[i], times[i - 1]));
+    }
   }
 
   Eigen::Index outputs() const { return recording_.times.size(); }
@@ -170,12 +198,13 @@ class RecordingReader {
       fail(fmt::format("is damaged: it has no surface '{}'", name));
     }
     body.surface = found->second;
-    return true;
+    // Rows of a group or an interface have the triangles between them alone.
+    return is_closed(recording_.surfaces[std::size_t(body.surface)].corners);
   }
 
   [[noreturn]] void refuse(const std::vector<std::string>& bare) const {
     fail(fmt::format(
-        "cannot be drawn: the nodes on the surface of {} '{}' were not kept. "
+        "cannot be drawn: not all nodes on the surface of {} '{}' were kept. "
         "Take rows=\"boundary\" (the default) in <flexible><basis> of the "
         "robot, or `limber reduce --rows boundary` for a saved body, and run "
         "the scenario again",

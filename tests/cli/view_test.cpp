@@ -74,6 +74,16 @@ TEST(View, NamesLinksWhoseSurfaceWasNotKept) {
   expect_refused(place, "export o -o a.glb", why);
 }
 
+// The face of a group has triangles, which are not the link.
+TEST(View, NamesLinksWhoseSurfaceWasKeptInPart) {
+  const Workspace place;
+  write_scene(place, "tip");
+  run(place);
+  expect_refused(place, "view o",
+                 AllOf(HasSubstr("not all nodes on the surface of link 'beam'"),
+                       HasSubstr("rows=\"boundary\"")));
+}
+
 TEST(View, RefusesWhatIsNoResult) {
   const Workspace place;
   write_scene(place, "boundary");
@@ -143,6 +153,8 @@ TEST(View, RefusesResultsThatAreDamaged) {
        .why = "is damaged: 'time' has a value that is NaN or infinity"},
       {.end = kInfinity, .why = "has a value that is NaN or infinity"},
       {.end = 1e300, .why = "cannot be drawn: 'time' has a value beyond"},
+      {.end = -1.0, .why = "is damaged: output 2 is at -1 s, not after 0 s"},
+      {.end = 0.0, .why = "is damaged: output 2 is at 0 s, not after 0 s"},
       {.level = "coupled", .why = "flexible link 'b' has no surface"},
       {.w = 0.0, .why = "'bodies/b/quat_WB' is no rotation"}};
   for (const Damage& damage : all) {
