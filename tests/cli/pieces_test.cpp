@@ -93,6 +93,34 @@ TEST(LinkInPieces, IsWholeAtLevelsThatNeedNoPieces) {
   }
 }
 
+// Beyond Euler's load, where Newton's method may jump to an unstable branch.
+TEST(LinkInPieces, BucklesAsTheWholeMesh) {
+  const Workspace place;
+  write_bar(place, 0.0);
+  const std::string load =
+      "--set load.pull.force=[-308425.1,0.0,20833.3] ";  // 1.2 Euler, 0.2 E I
+  const double whole = bend(place, load + "--fidelity full");
+  EXPECT_GT(whole, 0.5);
+  EXPECT_NEAR(bend(place, load + "--set basis.pieces=2"), whole, 0.01 * whole);
+}
+
+TEST(LinkInPieces, IsComparedWithTheWholeMesh) {
+  const Workspace place;
+  write_bar(place, kFar);
+  const auto find_error = [&](int pieces) {
+    const CommandResult r = place.limber(fmt::format(
+        "compare s.toml --out o --cache c --fidelity nonlinear,full "
+        "--reference "
+        "full --set time.duration=0.01 --set basis.pieces={} --json",
+        pieces));
+    EXPECT_EQ(r.status, 0) << r.errors;
+    const json runs = json::parse(r.out)["runs"];
+    EXPECT_EQ(runs[0]["fidelity"], "nonlinear");
+    return runs[0]["error"]["displacement"]["rms"].get<double>();
+  };
+  EXPECT_LT(find_error(2), 0.5 * find_error(1));
+}
+
 TEST(LinkInPieces, ShowsItsBodiesAndKeepsItsEnergy) {
   const Workspace place;
   write_bar(place, 2000.0);

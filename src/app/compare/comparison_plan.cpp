@@ -8,7 +8,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
-#include "limber/scene/build/recipes.hpp"
 
 namespace limber::app {
 namespace {
@@ -188,23 +187,6 @@ std::string describe_details(const Choice& choice) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Motions are compared body by body.
-void check_pieces(const ComparisonPlan& plan, const scene::Scene& scene) {
-  for (const Choice& choice : plan.runs) {
-    const bool is_cut = scene::takes_pieces(choice.level);
-    if (is_cut == scene::takes_pieces(plan.reference.level)) continue;
-    for (const scene::Link& link : scene.robot.links) {
-      if (!link.flexible || link.flexible->pieces == 1) continue;
-      throw InputError(fmt::format(
-          "bodies are compared one by one, and link '{}' is in pieces at level "
-          "{} but whole at level {}; compare levels coupled and nonlinear "
-          "alone, or leave it whole: --set robot.flexible.{}.pieces=1",
-          link.name, to_string(is_cut ? choice.level : plan.reference.level),
-          to_string(is_cut ? plan.reference.level : choice.level), link.name));
-    }
-  }
-}
-
 }  // namespace
 
 scene::Overrides to_overrides(const Choice& choice,
@@ -253,7 +235,6 @@ ComparisonPlan make_plan(const Axes& axes, const ReferenceWish& wish,
     }
   }
   check_runs(plan, axes);
-  check_pieces(plan, scene);
   return plan;
 }
 
