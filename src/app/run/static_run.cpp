@@ -36,18 +36,39 @@ void observe(StaticRun& run) {
   run.history.energies = {calc_energy(run.built.model, state)};
 }
 
+bool is_unstable(const StaticReport& report) {
+  return report.lowest_frequency && *report.lowest_frequency < 0.0;
+}
+
 void warn(const std::filesystem::path& cache, StaticRun& run) {
   run.warnings = run.built.warnings;
   RunSurvey survey(run.scene, run.built, cache);
   survey.include(run.found.state);
   const auto levels = find_level_warnings(survey.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
-  const std::optional<double>& lowest = run.report.lowest_frequency;
-  if (lowest && *lowest < 0.0) {
+  if (is_unstable(run.report)) {
     run.warnings.push_back(fmt::format(
         "this equilibrium is unstable: a disturbance grows as exp(2 pi {:.3g} "
         "Hz t)",
-        -*lowest));
+        -*run.report.lowest_frequency));
+  }
+}
+
+/// Newton's method may jump to another branch in one load step, as beyond
+/// buckling. In small ones it follows that of the start.
+void follow_branch(StaticRun& run, const Progress& progress) {
+  constexpr double kShare = 0.05;
+  if (run.method != dynamics::EquilibriumMethod::newton) return;
+  try {
+    const dynamics::Equilibrium found = find_equilibrium(
+        run.built.model, run.built.initial, {.largest_share = kShare},
+        number_stage(progress, 2, 2));
+    const StaticReport stable = report_equilibrium(run.built, found);
+    if (is_unstable(stable)) return;
+    run.found = found;
+    run.report = stable;
+  } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
+    // The branch of the start ends before the whole load: what was found stays.
   }
 }
 
@@ -91,8 +112,9 @@ StaticRun find_static(const scene::Scene& scene,
         "equilibrium; give it a load, gravity or a drive that pulls",
         run.scene.scenario.file.string()));
   }
-  observe(run);
   run.report = report_equilibrium(run.built, run.found);
+  if (is_unstable(run.report)) follow_branch(run, progress);
+  observe(run);
   run.stress = find_stress_peaks(run.built, run.history,
                                  record_state(run.built, run.found.state));
   warn(cache, run);

@@ -54,7 +54,7 @@ class Continuation {
     constexpr double kOnTheWay = 1e-6;
     constexpr int kEasy = 6;  // most iterations after which the load step grows
     double reached = 0.0;
-    double step = 1.0;
+    double step = settings_.largest_share;
     int steps = 0;
     while (reached < 1.0) {
       const double next = std::min(1.0, reached + step);
@@ -68,7 +68,9 @@ class Continuation {
         reached = next;
         ++steps;
         report(progress, "equilibrium", reached);
-        if (newton_.iterations() - before <= kEasy) step *= 2.0;
+        if (newton_.iterations() - before <= kEasy) {
+          step = std::min(2.0 * step, settings_.largest_share);
+        }
         continue;
       }
       step = 0.5 * (next - reached);

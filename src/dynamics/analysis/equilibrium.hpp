@@ -24,6 +24,7 @@ struct EquilibriumSettings {
   double tolerance = 1e-12;       ///< last correction over the extent [-]
   int newton_iterations = 20;     ///< largest number per load step
   double smallest_share = 1e-4;   ///< of the load, a load step [-]
+  double largest_share = 1.0;     ///< of the load, a load step [-]
   int relaxation_steps = 100000;  ///< largest number
 };
 
