@@ -46,7 +46,10 @@ async function comparePicked(tab) {
     for (let node = 0; node < nodes; ++node) {
       const at = motion.position(0, node, player.time);
       const screen = eye.position.clone().set(...at).project(eye);
-      if (window.limber.pickAt(screen.x, screen.y)?.node !== node) continue;
+      // A click is on a whole pixel: not at the edge of what is seen.
+      const around = [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]].map(([dx, dy]) =>
+        window.limber.pickAt(screen.x + (2 * dx) / box.width, screen.y + (2 * dy) / box.height));
+      if (around.some((hit) => hit?.node !== node)) continue;
       return { x: box.left + ((screen.x + 1) / 2) * box.width,
         y: box.top + ((1 - screen.y) / 2) * box.height };
     }
