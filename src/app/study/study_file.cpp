@@ -80,6 +80,13 @@ class StudyFile::Database {
     }
   }
 
+  /// Without tables, after what was not committed is undone.
+  [[nodiscard]] bool is_empty() const {
+    Statement count(*this, "SELECT count(*) FROM sqlite_master");
+    (void)count.step();
+    return count.whole(0) == 0;
+  }
+
   class Statement {
    public:
     Statement(const Database& database, const std::string& sql)
@@ -158,10 +165,10 @@ StudyFile::StudyFile(const fs::path& file, const StudyRecord& record)
     refuse(file, "another process writes it now");
   }
   try {
-    const bool is_new = fs::file_size(file) == 0;
     database_ = std::make_unique<Database>(file, true);
     database_->run("PRAGMA synchronous = NORMAL");
-    is_new ? create() : check(record);
+    // A file of a process that was killed while it made the tables has none.
+    database_->is_empty() ? create() : check(record);
   } catch (...) {
     database_.reset();
     close(lock_);

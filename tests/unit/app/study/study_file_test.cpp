@@ -98,6 +98,30 @@ TEST_F(AFileOfAStudy, HasResponsesTimesAndReasons) {
   EXPECT_EQ(ask("SELECT steps = 0.25 FROM timing WHERE run = 0"), "1");
 }
 
+// What a process leaves that is killed while it makes the tables: some pages,
+// and a journal that undoes them.
+TEST_F(AFileOfAStudy, IsMadeAnewAfterAKillBeforeItHadTables) {
+  const fs::path begun = file_.string() + ".begun";
+  const fs::path left = file_.string() + ".left";
+  fs::remove(begun);
+  ASSERT_EQ(sqlite3_open(begun.c_str(), &database_), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database_,
+                         "PRAGMA cache_size = 1; BEGIN EXCLUSIVE;"
+                         "CREATE TABLE study (key TEXT, value TEXT);"
+                         "INSERT INTO study VALUES ('a', zeroblob(1000000));",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  const auto overwrite = fs::copy_options::overwrite_existing;
+  fs::copy_file(begun, left, overwrite);
+  fs::copy_file(begun.string() + "-journal", left.string() + "-journal",
+                overwrite);
+  ASSERT_GT(fs::file_size(left), 0U);
+  StudyFile file(left, record_);
+  EXPECT_TRUE(file.read_rows().empty());
+  EXPECT_EQ(file.record().runs, 2U);
+  for (const fs::path& one : {begun, left}) fs::remove(one);
+}
+
 TEST_F(AFileOfAStudy, RefusesRowsThatAreNotAsTheyWereWritten) {
   EXPECT_EQ(StudyFile(file_).read_rows().at(0).responses.at(0), -0.1);
   for (const std::string change :
