@@ -23,14 +23,22 @@ namespace fs = std::filesystem;
 // Pages and scenes hold single precision, squares of it among them.
 constexpr double kLargest = 1e18;
 
-/// Whether triangles bound a solid: an even number of them at every edge.
-bool is_closed(const std::vector<std::int64_t>& corners) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> edges;
-  edges.reserve(corners.size());
+using Edge = std::pair<std::int64_t, std::int64_t>;
+
+/// Edges of a surface's triangles, by the tags of their nodes.
+void add_edges(const Surface& surface, std::vector<Edge>& edges) {
+  const std::vector<std::int64_t>& corners = surface.corners;
+  const auto tag_of = [&](std::size_t corner) {
+    return surface.tags[static_cast<std::size_t>(corners[corner])];
+  };
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-    edges.push_back(std::minmax({corners[i], corners[next]}));
+    edges.push_back(std::minmax({tag_of(i), tag_of(next)}));
   }
+}
+
+/// Whether triangles bound a solid: an even number of them at every edge.
+bool are_closed(std::vector<Edge> edges) {
   std::sort(edges.begin(), edges.end());
   for (auto edge = edges.begin(); edge != edges.end();) {
     const auto end = std::upper_bound(edge, edges.end(), *edge);
@@ -38,6 +46,15 @@ bool is_closed(const std::vector<std::int64_t>& corners) {
     edge = end;
   }
   return true;
+}
+
+/// The link of a body: of "arm.2", a piece of one, "arm".
+std::string find_link(const std::string& body) {
+  const std::size_t dot = body.rfind('.');
+  const bool is_piece =
+      dot != std::string::npos && dot + 1 < body.size() &&
+      body.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return is_piece ? body.substr(0, dot) : body;
 }
 
 class RecordingReader {
@@ -185,6 +202,8 @@ class RecordingReader {
       body_of_[body.name] = static_cast<int>(recording_.bodies.size());
       recording_.bodies.push_back(std::move(body));
     }
+    const std::vector<std::string> open = find_open_links();
+    if (!open.empty()) refuse(open);
   }
 
   /// @returns whether it has a surface or needs none
@@ -198,8 +217,24 @@ class RecordingReader {
       fail(fmt::format("is damaged: it has no surface '{}'", name));
     }
     body.surface = found->second;
-    // Rows of a group or an interface have the triangles between them alone.
-    return is_closed(recording_.surfaces[std::size_t(body.surface)].corners);
+    return true;
+  }
+
+  /// Names of links whose surfaces are open: rows of a group or an interface
+  /// have the triangles between them alone. Pieces of a link are open where
+  /// they are cut, and closed together.
+  [[nodiscard]] std::vector<std::string> find_open_links() const {
+    std::map<std::string, std::vector<Edge>> edges;
+    for (const Body& body : recording_.bodies) {
+      if (body.surface < 0) continue;
+      add_edges(recording_.surfaces[std::size_t(body.surface)],
+                edges[find_link(body.name)]);
+    }
+    std::vector<std::string> open;
+    for (const auto& [link, all] : edges) {
+      if (!are_closed(all)) open.push_back(link);
+    }
+    return open;
   }
 
   [[noreturn]] void refuse(const std::vector<std::string>& bare) const {

@@ -111,7 +111,7 @@ TEST(LinkInPieces, IsComparedWithTheWholeMesh) {
     const CommandResult r = place.limber(fmt::format(
         "compare s.toml --out o --cache c --fidelity nonlinear,full "
         "--reference "
-        "full --set time.duration=0.01 --set basis.pieces={} --json",
+        "full --set time.duration=0.03 --set basis.pieces={} --json",
         pieces));
     EXPECT_EQ(r.status, 0) << r.errors;
     const json runs = json::parse(r.out)["runs"];
