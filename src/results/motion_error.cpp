@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/piece_names.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
@@ -322,7 +323,7 @@ std::vector<BodyIndex> find_pieces(const dynamics::SystemModel& model,
   std::vector<BodyIndex> pieces;
   for (;;) {
     const auto next =
-        find_body(model, link + "." + std::to_string(pieces.size() + 1));
+        find_body(model, name_piece(link, static_cast<int>(pieces.size())));
     if (next.empty()) return pieces;
     pieces.push_back(next.front());
   }
@@ -337,7 +338,7 @@ std::vector<Counterparts> list_counterparts(
     Counterparts one{name, find_body(own, name), {static_cast<BodyIndex>(b)}};
     if (one.own.empty()) one.own = find_pieces(own, name);
     if (one.own.empty()) {
-      one.name = name.substr(0, name.rfind('.'));
+      one.name = find_whole(name);
       one.own = find_body(own, one.name);
       one.reference = find_pieces(reference, one.name);
       LIMBER_EXPECT(!one.own.empty());

@@ -12,6 +12,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/hdf5_file.hpp"
+#include "limber/common/piece_names.hpp"
 #include "limber/results/path_step.hpp"
 #include "limber/results/results_file.hpp"
 
@@ -46,15 +47,6 @@ bool are_closed(std::vector<Edge> edges) {
     edge = end;
   }
   return true;
-}
-
-/// The link of a body: of "arm.2", a piece of one, "arm".
-std::string find_link(const std::string& body) {
-  const std::size_t dot = body.rfind('.');
-  const bool is_piece =
-      dot != std::string::npos && dot + 1 < body.size() &&
-      body.find_first_not_of("0123456789", dot + 1) == std::string::npos;
-  return is_piece ? body.substr(0, dot) : body;
 }
 
 class RecordingReader {
@@ -228,7 +220,7 @@ class RecordingReader {
     for (const Body& body : recording_.bodies) {
       if (body.surface < 0) continue;
       add_edges(recording_.surfaces[std::size_t(body.surface)],
-                edges[find_link(body.name)]);
+                edges[find_whole(body.name)]);
     }
     std::vector<std::string> open;
     for (const auto& [link, all] : edges) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "limber/common/index.hpp"
+#include "limber/common/piece_names.hpp"
 
 namespace limber::app {
 namespace {
@@ -24,16 +25,13 @@ struct CutSide {
   const ContactRecord* record = nullptr;
 };
 
-/// Bodies called LINK.1, LINK.2, ... are pieces of LINK.
+/// The link of which a body is a piece, or nothing.
 std::string find_cut_link(const scene::Robot& robot, const std::string& body) {
+  const std::string whole = find_whole(body);
+  if (whole == body) return "";
   for (const scene::Link& link : robot.links) {
-    if (!link.flexible || link.flexible->pieces == 1) continue;
-    if (body.size() > link.name.size() + 1 &&
-        body.starts_with(link.name + ".") &&
-        body.find_first_not_of("0123456789", link.name.size() + 1) ==
-            std::string::npos) {
-      return link.name;
-    }
+    if (link.name != whole || !link.flexible) continue;
+    return link.flexible->pieces == 1 ? "" : whole;
   }
   return "";
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "limber/common/index.hpp"
+#include "limber/common/piece_names.hpp"
 #include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
@@ -15,10 +16,6 @@ namespace {
 /// Inertia of a mass `m` at distance `d` from a point.
 Matrix3 steiner(double m, const Vector3& d) {
   return m * (d.squaredNorm() * Matrix3::Identity() - d * d.transpose());
-}
-
-std::string name_piece(const std::string& link, int piece) {
-  return fmt::format("{}.{}", link, piece + 1);
 }
 
 class Planner {
