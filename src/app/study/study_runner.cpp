@@ -158,7 +158,6 @@ class Runner {
         if (!row) break;
         const std::lock_guard lock(rows_mutex_);
         rows_.push_back(std::move(*row));
-        ready_.notify_one();
       }
     } catch (...) {
       const std::lock_guard lock(rows_mutex_);
