@@ -7,6 +7,7 @@
 #include <cmath>
 #include <variant>
 
+#include "limber/app/console/percent.hpp"
 #include "limber/common/index.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/scene/probes/followed_probes.hpp"
@@ -77,10 +78,6 @@ std::optional<double> find_correction(const scene::BuiltScene& built,
 
 Json to_json_or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
-}
-
-std::string to_percent(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2g}%", 100.0 * *value) : "-";
 }
 
 }  // namespace
