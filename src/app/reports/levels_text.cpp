@@ -155,7 +155,9 @@ Json to_json(const BodyLevel& level) {
   json["left_out"] = {{"rigid", advice.errors.rigid},
                       {"uncoupled", advice.errors.uncoupled},
                       {"one-way", advice.errors.one_way},
-                      {"coupled", advice.errors.coupled}};
+                      {"coupled", advice.errors.coupled},
+                      {"nonlinear", advice.errors.nonlinear}};
+  json["mean_strain"] = to_json(peaks.strain);
   if (!level.impacts.empty()) json["impacts"] = Json::array();
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {
     json["impacts"].push_back(
@@ -187,14 +189,16 @@ std::string to_text(const BodyLevel& level) {
       "{:.3g} "
       "m at {:.4g} s\n"
       "  left out     rigid {:.3g} m, uncoupled {:.3g} m, one-way {:.3g} m, "
-      "coupled {:.3g} m\n"
+      "coupled {:.3g} m,\n"
+      "               nonlinear {:.3g} m\n"
       "  buckling     tension {:.3g}, compression {:.3g} of the load; "
       "interfaces turn by {:.3g} rad\n",
       peaks.loads.value, peaks.loads.time, peaks.inertial.value,
       peaks.inertial.time, peaks.total.value, peaks.total.time,
       peaks.deformation.value, peaks.deformation.time, advice.errors.rigid,
       advice.errors.uncoupled, advice.errors.one_way, advice.errors.coupled,
-      peaks.tension.value, peaks.compression.value, peaks.turn.value);
+      advice.errors.nonlinear, peaks.tension.value, peaks.compression.value,
+      peaks.turn.value);
   text += fmt::format("  recommended  {}: {}\n", to_string(advice.level),
                       advice.reason);
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kClampedBeam = 12.0 * 2.467 / 12.362;
 constexpr double kFreeBeam = 12.0 / 49.481;
+constexpr double kSpunBar = 1.2;
 constexpr double kLong = 0.1;  // of the largest second moment
 
 // Lowest eigenvalue with attachment `a` fixed: the rigid motion follows from
@@ -33,6 +34,17 @@ double find_held_eigenvalue(const BodyModel& body, const VectorX& lambda,
          Eigen::SelfAdjointEigenSolver<MatrixX>(scaled, Eigen::EigenvaluesOnly)
              .eigenvalues()
              .maxCoeff();
+}
+
+// s_k = a' int x phi_k' dm a of each mode, from J1 = tr(S) 1 - S, S = int x
+// phi' + phi x' dm [kg^1/2 m].
+VectorX find_stretch(const BodyModel& body, const Vector3& axis) {
+  VectorX stretch(body.modes);
+  for (int k = 0; k < body.modes; ++k) {
+    const Matrix3 J1 = unpack_symmetric(body.inertia->J1.col(k));
+    stretch[k] = 0.5 * (0.5 * J1.trace() - axis.dot(J1 * axis));
+  }
+  return stretch;
 }
 
 // Ends of couplers that can hold a body, on it.
@@ -66,9 +78,14 @@ AxialLoad::AxialLoad(const SystemModel& model, BodyIndex body_index)
   const Eigen::SelfAdjointEigenSolver<Matrix3> own(S0_);
   axes_ = own.eigenvectors();
   const Vector3 S = own.eigenvalues();
+  stretch_ = VectorX::Zero(body.modes);
   for (int k = 0; k < 3; ++k) {
     if (S[k] < kLong * S[2]) continue;
     loads_[k] = (is_held_ ? kClampedBeam : kFreeBeam) * lowest * S[k];
+    const VectorX s = find_stretch(body, axes_.col(k));
+    softness_[k] =
+        s.cwiseAbs2().cwiseQuotient(lambda).sum() / (kSpunBar * S[k] * S[k]);
+    stretch_ = stretch_.cwiseMax(s.cwiseAbs() / std::sqrt(S[k]));
   }
 }
 
@@ -108,17 +125,21 @@ Matrix3 AxialLoad::calc_stress(const SystemState& state, Side side,
   return 0.5 * (T + T.transpose());
 }
 
-double AxialLoad::calc_share(const SystemState& state, Side side,
-                             const SystemTerms& terms) const {
-  if (loads_.isZero(0.0)) return 0.0;
+AxialState AxialLoad::calc_state(const SystemState& state, Side side,
+                                 const SystemTerms& terms) const {
+  AxialState largest;
+  if (loads_.isZero(0.0)) return largest;
   const Matrix3 T = calc_stress(state, side, terms);
-  double share = 0.0;
+  const auto include = [](double& most, double value) {
+    if (std::abs(value) > std::abs(most)) most = value;
+  };
   for (int k = 0; k < 3; ++k) {
     if (loads_[k] == 0.0) continue;
-    const double own = axes_.col(k).dot(T * axes_.col(k)) / loads_[k];
-    if (std::abs(own) > std::abs(share)) share = own;
+    const double along = axes_.col(k).dot(T * axes_.col(k));
+    include(largest.share, along / loads_[k]);
+    include(largest.strain, along * softness_[k]);
   }
-  return share;
+  return largest;
 }
 
 InterfaceTurn find_turn(const SystemModel& model, BodyIndex body,

@@ -7,32 +7,43 @@
 
 namespace limber::dynamics {
 
-/// What a body carries along itself, against what makes it buckle: an estimate
-/// of the geometric stiffness that levels up to `coupled` lack, without tables
-/// of second order.
+/// What a body carries along itself at one instant.
+struct AxialState {
+  double share = 0.0;   ///< of what makes it buckle, > 0 under tension [-]
+  double strain = 0.0;  ///< mean, > 0 under tension [-]
+};
+
+/// What a body carries along itself, against what makes it buckle and what
+/// stretches it: estimates of the geometric stiffness that levels up to
+/// `coupled` lack, and of the stretch's own nonlinearity that `nonlinear`
+/// lacks, without tables of second order.
 ///
 /// Equation   N_a / P_a = a' T a / (c lambda S_a) for each long axis a, with
-/// the
-///            integral of the stress T = sym(sum r f' - S0 [w]^2), r and f of
-///            the forces on the body, S0 = int x x' dm, S_a = a' S0 a, and
+///            the integral of the stress T = sym(sum r f' - S0 [w]^2), r and f
+///            of the forces on the body, S0 = int x x' dm, S_a = a' S0 a, and
 ///            lambda the lowest eigenvalue of the body, held at a joint if it
-///            has one
+///            has one. Mean strain e_a = a' T a C_a / (1.2 S_a^2), C_a = sum
+///            s_k^2 / lambda_k, s_k = a' int x phi_k' dm a
 /// Source     T: virial theorem; c: ratio of the first eigenvalue to Euler's
 ///            load P L^2 / (E I) of a uniform beam: 2.467 * 12 / 12.36 = 2.4
 ///            (clamped, free), and of a free one that to the slope of its mode,
-///            12 / 49.48 = 0.243 [@blevins1979]
+///            12 / 49.48 = 0.243 [@blevins1979]; 1.2: E V C_a / S_a^2 of a
+///            uniform bar that spins, int N^2 / (E A) dx = (rho A)^2 L^5 / (120
+///            E A)
 /// Limits     long axes: S_a at least a tenth of the largest. Contacts, files
 ///            of nodal forces and moments are left out; a clamped body has
-///            none.
+///            none. A basis without modes of stretch shows no strain.
 class AxialLoad {
  public:
   AxialLoad(const SystemModel& model, BodyIndex body);
 
   /// @param terms at the state, with the forces of couplers
-  /// @returns N_a / P_a of the axis where its magnitude is largest, > 0 under
-  /// tension [-]
-  [[nodiscard]] double calc_share(const SystemState& state, Side side,
-                                  const SystemTerms& terms) const;
+  /// @returns each of the axis where its magnitude is largest
+  [[nodiscard]] AxialState calc_state(const SystemState& state, Side side,
+                                      const SystemTerms& terms) const;
+  /// How much of each mode is a stretch along a long axis: the largest |s_k| /
+  /// sqrt(S_a), from 0 to 1 [-]. Empty without a long axis.
+  [[nodiscard]] const VectorX& stretch() const { return stretch_; }
   /// Lowest frequency of the body alone, held at a joint if it has one [rad/s].
   [[nodiscard]] double frequency() const { return frequency_; }
   [[nodiscard]] bool is_held() const { return is_held_; }
@@ -47,7 +58,9 @@ class AxialLoad {
   double frequency_ = 0.0;
   Matrix3 axes_ = Matrix3::Identity();  // columns, principal axes of S0
   Vector3 loads_ = Vector3::Zero();     // c lambda S_a, 0: not long [J]
-  Matrix3 S0_ = Matrix3::Zero();        // [kg m^2]
+  Vector3 softness_ = Vector3::Zero();  // C_a / (1.2 S_a^2) [1/J]
+  VectorX stretch_;
+  Matrix3 S0_ = Matrix3::Zero();  // [kg m^2]
 };
 
 /// Largest rotation of the body's interfaces relative to its mean axes, and to

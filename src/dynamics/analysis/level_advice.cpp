@@ -125,14 +125,31 @@ double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
   return bent + std::min(phase, 2.0) * oscillation;
 }
 
+/// Error of `nonlinear`: a mode of stretch is stiffer by three times the mean
+/// strain, which shifts its phase. Damped oscillation is forgotten.
+double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
+  const VectorX& lambda = require_eigenvalues(body, "advice on levels");
+  double error = 0.0;
+  for (int k = 0; k < body.modes; ++k) {
+    double time = peaks.strain_time;
+    if (body.damping[k] > 0.0) {
+      time = std::min(time, 2.0 * peaks.strain.value / body.damping[k]);
+    }
+    const double phase = 1.5 * std::sqrt(lambda[k]) * time;
+    error += peaks.mode_sizes[k] * peaks.stretch[k] * std::min(phase, 2.0);
+  }
+  return error;
+}
+
 /// "1.2e-06 m".
 std::string metres(double value) { return fmt::format("{:.2g} m", value); }
 
-/// Whether what `coupled` lacks is small, or a small share of the deformation.
-bool is_linear_enough(const BodyPeaks& peaks, const LevelLimits& limits,
-                      const LevelErrors& errors) {
-  return errors.coupled <=
-         std::max(limits.displacement, kCoupledShare * peaks.total.value);
+/// Whether an error is one that the user neglects, or a small share of the
+/// deformation.
+bool is_negligible(double error, const BodyPeaks& peaks,
+                   const LevelLimits& limits) {
+  return error <=
+         std::max(limits.displacement, kLargestShare * peaks.total.value);
 }
 
 /// Why linear elasticity does not do, or not even `nonlinear`.
@@ -156,7 +173,15 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
         "by {:.2g} rad, beyond {:g} rad",
         peaks.turn.value, peaks.relative_turn.value, kLargestTurn));
   }
-  if (!is_linear_enough(peaks, limits, advice.errors)) {
+  const bool is_stretched =
+      !is_negligible(advice.errors.nonlinear, peaks, limits);
+  if (is_stretched) {
+    add(fmt::format(
+        "its mean strain reaches {:.2g}, which shifts the phase of its "
+        "oscillation along itself: without it the error may reach {} of {}",
+        peaks.strain.value, metres(advice.errors.nonlinear),
+        metres(peaks.total.value)));
+  } else if (!is_negligible(advice.errors.coupled, peaks, limits)) {
     add(fmt::format(
         "its axial load reaches {:.2g} of that at which it buckles under "
         "tension, {:.2g} under compression: without geometric stiffness the "
@@ -165,8 +190,9 @@ std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
         metres(advice.errors.coupled), metres(peaks.total.value)));
   }
   if (advice.level == Fidelity::full) {
-    add("only level full is right, or level nonlinear of the link in more "
-        "pieces");
+    add(is_stretched ? "only level full is right"
+                     : "only level full is right, or level nonlinear of the "
+                       "link in more pieces");
   }
   return text;
 }
@@ -234,7 +260,8 @@ LevelErrors estimate_errors(const BodyModel& body, const BodyPeaks& peaks) {
   LevelErrors errors;
   errors.rigid = peaks.total.value;
   if (body.modes == 0 || body.clamped) return errors;
-  errors.coupled = find_axial_error(body, peaks);
+  errors.nonlinear = find_stretch_error(body, peaks);
+  errors.coupled = std::max(find_axial_error(body, peaks), errors.nonlinear);
   errors.one_way = find_modal_error(body, peaks) + peaks.turned_aside;
   errors.rigid += peaks.turned_aside;
   errors.uncoupled = kSudden * peaks.inertial.value + errors.one_way;
@@ -261,9 +288,11 @@ LevelAdvice advise(const BodyModel& body, const BodyPeaks& peaks,
                             peaks.relative_turn.value > kLargestTurn;
   if (advice.is_beyond_linear ||
       (advice.level > Fidelity::rigid &&
-       !is_linear_enough(peaks, limits, advice.errors))) {
-    const bool is_too_far = peaks.turn.value > kLargestTurn ||
-                            peaks.compression.value > kLargestLoad;
+       !is_negligible(advice.errors.coupled, peaks, limits))) {
+    const bool is_too_far =
+        peaks.turn.value > kLargestTurn ||
+        peaks.compression.value > kLargestLoad ||
+        !is_negligible(advice.errors.nonlinear, peaks, limits);
     advice.level = is_too_far ? Fidelity::full : Fidelity::nonlinear;
   }
   advice.reason = explain(body, peaks, limits, advice);

@@ -37,13 +37,18 @@ struct LevelErrors {
   double uncoupled = 0.0;  ///< [m]
   double one_way = 0.0;    ///< [m]
   double coupled = 0.0;    ///< [m]
+  double nonlinear = 0.0;  ///< [m]
 };
 
 /// Equation   rigid      u + s
 ///            uncoupled  2 u_i + e
 ///            one-way    e = s + sum_k |phi_k| (f_k / lambda_k + d_k)
 ///            coupled    g u + min(d, 2) o, g = k N / (P + N), P the load at
-///            which the body buckles, d = k omega int |N| / P dt / 2
+///            which the body buckles, d = k omega int |N| / P dt / 2; at least
+///            that of nonlinear
+///            nonlinear  sum_k |phi_k| min(d_k, 2) o_k, d_k = 3/2 omega_k int
+///            |e| dt, e the mean strain and o_k the part of the oscillation
+///            that stretches the body
 /// Source     docs/theory/choosing.md, "Which level"; u, u_i and s are
 ///            BodyPeaks' total, inertial and turned_aside; f_k bounds the
 ///            forces on mode k that one-way neglects, d_k the effect of
@@ -55,7 +60,7 @@ struct LevelErrors {
 
 /// What a level may be off by of the deformation, where it is above what the
 /// user neglects [-].
-inline constexpr double kCoupledShare = 0.1;
+inline constexpr double kLargestShare = 0.1;
 /// Rotation of interfaces relative to one another beyond which linear
 /// kinematics, and relative to the mean axes beyond which those of second order
 /// are off by 2 % [rad].

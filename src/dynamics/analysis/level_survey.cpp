@@ -181,7 +181,8 @@ void LevelSurvey::include_axial_load(const SystemState& state, Side side,
                                      Watch& watch) const {
   if (watch.is_unreduced) return;
   // Bending follows the mean over its own time, no single step.
-  const double now = watch.axial.calc_share(state, side, terms_);
+  const auto [now, mean_strain] = watch.axial.calc_state(state, side, terms_);
+  const double strain = std::abs(mean_strain);
   const double time = state.t - watch.last_time;
   const double share = watch.has_begun
                            ? now + (watch.last_share - now) *
@@ -193,8 +194,11 @@ void LevelSurvey::include_axial_load(const SystemState& state, Side side,
   if (watch.has_begun) {
     peaks.axial_time +=
         0.5 * (std::abs(share) + std::abs(watch.last_share)) * time;
+    peaks.strain_time += 0.5 * (strain + watch.last_strain) * time;
   }
+  include_largest(peaks.strain, strain, state.t);
   watch.last_share = share;
+  watch.last_strain = strain;
 }
 
 // Oscillation after a change of the static response: the whole change if
@@ -287,6 +291,9 @@ std::vector<BodyPeaks> LevelSurvey::find_peaks() const {
     peaks.relative_turn.value *= factor;
     peaks.is_held = watch.axial.is_held();
     peaks.frequency = watch.axial.frequency();
+    peaks.stretch = watch.axial.stretch().size() > 0
+                        ? peaks.oscillation.cwiseProduct(watch.axial.stretch())
+                        : VectorX::Zero(peaks.oscillation.size()).eval();
     peaks.oscillation *= factor;
     if (watch.is_observed && watch.misses_inertial) {
       // The static response is included; oscillation may add as much again.
@@ -313,9 +320,10 @@ void LevelSurvey::exchange_memory(Archive& archive, Watch& watch) {
           watch.slipped);
   BodyPeaks& peaks = watch.peaks;
   archive(peaks.angle, peaks.Omega_B, peaks.turned_aside, peaks.oscillation,
-          peaks.modes, peaks.axial_time, watch.last_share);
-  for (Peak* peak : {&peaks.tension, &peaks.compression, &peaks.turn,
-                     &peaks.relative_turn}) {
+          peaks.modes, peaks.axial_time, peaks.strain_time, watch.last_share,
+          watch.last_strain);
+  for (Peak* peak : {&peaks.tension, &peaks.compression, &peaks.strain,
+                     &peaks.turn, &peaks.relative_turn}) {
     archive(peak->value, peak->time);
   }
   std::size_t points = watch.track.size();

@@ -51,6 +51,11 @@ struct BodyPeaks {
   double frequency = 0.0;  ///< [rad/s]
   /// Integral of the share's magnitude [s].
   double axial_time = 0.0;
+  Peak strain;               ///< magnitude of the mean along the body [-]
+  double strain_time = 0.0;  ///< its integral [s]
+  /// Amplitudes of oscillation along the body, for a force that acts at once
+  /// [kg^1/2 m].
+  VectorX stretch;
   /// Largest rotations of interfaces, relative to the body's mean axes and to
   /// one another [rad].
   Peak turn;
@@ -105,7 +110,8 @@ class LevelSurvey {
     PeakDisplacement total;
     PeakDisplacement deformation;
     AxialLoad axial;
-    double last_share = 0.0;       ///< magnitude
+    double last_share = 0.0;       ///< of the buckling load
+    double last_strain = 0.0;      ///< magnitude of the mean strain
     bool is_observed = false;      ///< source computes its modes
     bool misses_inertial = false;  ///< but without inertial forces on them
     bool is_unreduced = false;     ///< source has its nodes and other forces

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
@@ -24,18 +25,24 @@ constexpr double kRhoA = 8000.0 * 0.02 * 0.01;                    // [kg/m]
 constexpr double kPi = 3.14159265358979;
 
 // Its root face in the origin.
-std::shared_ptr<const flexbody::ReducedBody> make_beam() {
-  flexbody::Recipe recipe = make_recipe(Bar{.corner = {0.0, -0.005, -0.01},
-                                            .size = {kLength, 0.01, 0.02},
-                                            .cells = 20,
-                                            .material = {200e9, 0.0, 8000.0}});
-  recipe.basis.eigenmodes = 4;
+std::shared_ptr<const flexbody::ReducedBody> make_beam(double thickness,
+                                                       double width,
+                                                       int eigenmodes) {
+  flexbody::Recipe recipe =
+      make_recipe(Bar{.corner = {0.0, -0.5 * thickness, -0.5 * width},
+                      .size = {kLength, thickness, width},
+                      .cells = 20,
+                      .material = {200e9, 0.0, 8000.0}});
+  recipe.basis.eigenmodes = eigenmodes;
   return std::make_shared<const flexbody::ReducedBody>(
       flexbody::reduce(recipe));
 }
 
 struct Beam {
-  std::shared_ptr<const flexbody::ReducedBody> reduced = make_beam();
+  explicit Beam(std::shared_ptr<const flexbody::ReducedBody> of =
+                    make_beam(0.01, 0.02, 4))
+      : reduced(std::move(of)) {}
+  std::shared_ptr<const flexbody::ReducedBody> reduced;
   SystemBuilder builder;
   BodyIndex body =
       builder.add_flexible_body("beam", reduced, Fidelity::uncoupled, {});
@@ -56,13 +63,19 @@ struct Beam {
     }
   }
   [[nodiscard]] double share(const Vector3& w) const {
+    return calc_state(w).share;
+  }
+  [[nodiscard]] double strain(const Vector3& w) const {
+    return calc_state(w).strain;
+  }
+  [[nodiscard]] AxialState calc_state(const Vector3& w) const {
     const SystemModel model = builder.build();
     SystemState state = make_state(model);
     state.bodies[0].p_WB.x() = 0.5 * kLength;
     state.bodies[0].w_WB_B = w;
     SystemTerms terms = make_terms(model);
     calc_terms(model, state, Side::right, terms);
-    return AxialLoad(model, body).calc_share(state, Side::right, terms);
+    return AxialLoad(model, body).calc_state(state, Side::right, terms);
   }
 };
 
@@ -115,6 +128,46 @@ TEST(AxialLoad, OfASpinningBeamIsItsMeanTension) {
     EXPECT_NEAR(beam.share(w), expected, 1e-3 * expected);
   }
   EXPECT_LT(std::abs(beam.share(Vector3(kOmega, 0, 0))), 1e-4 * expected);
+}
+
+// Short, so that its first mode of stretch is among its first twelve.
+Beam make_thick_beam() { return Beam(make_beam(0.3, 0.4, 12)); }
+
+// F / (E A), and rho Omega^2 L^2 / (12 E).
+TEST(AxialLoad, StrainIsThatOfAPulledAndOfASpinningBar) {
+  constexpr double kForce = 4e6;  // [N]
+  Beam pulled = make_thick_beam();
+  pulled.pull(Vector3(-kForce, 0.0, 0.0), Vector3(kForce, 0.0, 0.0));
+  const double expected = kForce / (200e9 * 0.3 * 0.4);
+  EXPECT_NEAR(pulled.strain(Vector3::Zero()), expected, 0.01 * expected);
+  constexpr double kOmega = 50.0;  // [rad/s]
+  const double spun =
+      8000.0 * kOmega * kOmega * kLength * kLength / (12.0 * 200e9);
+  EXPECT_NEAR(make_thick_beam().strain(Vector3(0, 0, kOmega)), spun,
+              0.01 * spun);
+}
+
+// A free bar's first mode of stretch, sin(pi x / L) sqrt(2 / m), has sqrt(96) /
+// pi^2 of x; its modes of bending have none.
+TEST(AxialLoad, KnowsWhichModesStretch) {
+  const Beam lone = make_thick_beam();
+  const SystemModel model = lone.builder.build();
+  const AxialLoad load(model, lone.body);
+  const VectorX& stretch = load.stretch();
+  const VectorX& lambda = flexbody::rest_stiffness(model.bodies[0].elasticity);
+  ASSERT_EQ(stretch.size(), lambda.size());
+  const double first = kPi / kLength * std::sqrt(200e9 / 8000.0);  // [rad/s]
+  int found = 0;
+  for (Eigen::Index k = 0; k < stretch.size(); ++k) {
+    if (std::abs(std::sqrt(lambda[k]) - first) < 0.01 * first) {
+      EXPECT_NEAR(stretch[k], std::sqrt(96.0) / (kPi * kPi), 0.01);
+      ++found;
+    } else if (std::sqrt(lambda[k]) < 0.9 * first) {
+      EXPECT_LT(stretch[k], 1e-6);
+    }
+  }
+  EXPECT_EQ(found, 1);
+  EXPECT_LT(stretch.squaredNorm(), 1.0 + 1e-9);
 }
 
 TEST(AxialLoad, TurnOfInterfacesIsThatOfTheirTables) {

@@ -229,6 +229,30 @@ TEST(LevelAdvice, AsksForNonlinearWhereAxialLoadStiffens) {
   EXPECT_EQ(level(), Fidelity::full);
 }
 
+// A mean strain of 1e-3 for a second: phase 1.5 * omega * 1e-3 s.
+TEST(LevelAdvice, AsksForFullWhereTheStretchRunsAhead) {
+  const SystemModel model = make_chain_model(1);
+  const LevelLimits limits{1e-9, 1.0, std::nullopt};
+  BodyPeaks peaks = bend(model);
+  const double omega =
+      std::sqrt(flexbody::rest_stiffness(model.bodies[0].elasticity)[0]);
+  const double u = peaks.total.value;
+  peaks.stretch[0] = 0.5 * u / peaks.mode_sizes[0];
+  peaks.strain = {1e-3, 0.0};
+  const auto advise_at = [&](double phase) {
+    peaks.strain_time = phase / (1.5 * omega);
+    return advise(model.bodies[0], peaks, limits);
+  };
+  EXPECT_LE(advise_at(0.0).level, Fidelity::coupled);
+  EXPECT_NEAR(advise_at(0.1).errors.nonlinear, 0.05 * u, 1e-9 * u);
+  EXPECT_LE(advise_at(0.19).level, Fidelity::coupled);
+  const LevelAdvice advice = advise_at(0.21);
+  EXPECT_EQ(advice.level, Fidelity::full);
+  EXPECT_GE(advice.errors.coupled, advice.errors.nonlinear);
+  EXPECT_THAT(advice.reason, HasSubstr("its mean strain reaches 0.001"));
+  EXPECT_NEAR(advise_at(50.0).errors.nonlinear, u, 1e-9 * u);
+}
+
 // A share of 0.01 for 10 s: phase 0.5 * 0.25 * 0.01 * 10 s * 50 rad/s.
 TEST(LevelAdvice, AsksForNonlinearWhereAnOscillationRunsAhead) {
   SystemModel model = make_chain_model(1);
