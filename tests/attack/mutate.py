@@ -38,6 +38,8 @@ def change_number(text, random):
 
 def change_word(text, random):
     words = list(WORD.finditer(text))
+    if not words:
+        return text
     other = random.choice(words).group()
     return _put(text, random.choice(words), other)
 
