@@ -121,6 +121,7 @@ class GeneralizedAlpha final : public Integrator {
   Rates inc_;  // motion over the step
   VectorX residual_;
   VectorX x_;
+  VectorX last_x_;  // of the last correction
   VectorX kept_wrenches_;  // of the last state
   std::vector<Vector6> gaps_;
 };

@@ -10,6 +10,7 @@ constexpr double kErrorShare = 0.01;
 constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
+constexpr double kReversed = 0.1;
 
 double find_rest(double size, double before) {
   const double c = before > 0.0 ? size / before : 1.0;
@@ -39,6 +40,11 @@ bool has_converged(const CorrectionSize& correction,
   };
   return is_done(correction.rigid, before.rigid, limit.rigid, roundoff.rigid) &&
          is_done(correction.modal, before.modal, limit.modal, roundoff.modal);
+}
+
+bool is_reverse(const VectorX& correction, const VectorX& before) {
+  return (correction + before).squaredNorm() <=
+         kReversed * kReversed * correction.squaredNorm();
 }
 
 }  // namespace limber::dynamics

@@ -36,4 +36,8 @@ inline constexpr double kLeastShare = 1e-12;
                                  const CorrectionSize& limit,
                                  const Roundoff& roundoff);
 
+/// Whether a correction takes back the one before it, but for a tenth.
+/// @param correction, before increments as in NewtonMatrix
+[[nodiscard]] bool is_reverse(const VectorX& correction, const VectorX& before);
+
 }  // namespace limber::dynamics

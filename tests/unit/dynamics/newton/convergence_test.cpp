@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What ending Newton's method by the step's error does to results and cost.
+#include "limber/dynamics/newton/convergence.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -92,6 +94,16 @@ TEST_P(NewtonsMethod, ContinuesToTheToleranceThatIsSet) {
 INSTANTIATE_TEST_SUITE_P(Implicit, NewtonsMethod,
                          ::testing::Values(IntegratorKind::generalized_alpha,
                                            IntegratorKind::implicit_euler));
+
+TEST(Reverse, IsACorrectionThatTakesTheLastOneBack) {
+  const VectorX last = VectorX::LinSpaced(5, -1.0, 3.0);
+  VectorX next = -last;
+  EXPECT_TRUE(is_reverse(next, last));
+  next[4] += 0.09 * last.norm();
+  EXPECT_TRUE(is_reverse(next, last));
+  EXPECT_FALSE(is_reverse(-0.8 * last, last));
+  EXPECT_FALSE(is_reverse(last, last));
+}
 
 }  // namespace
 }  // namespace limber::dynamics

@@ -50,5 +50,14 @@ TEST(FullContactRun, OfABallOnABarIsThatOfItsModes) {
             1.005 * full["energy"]["initial"].get<double>());
 }
 
+/// The ball meets a corner of four faces, two of which are nearest once they
+/// are pressed inwards.
+TEST(FullContactRun, OfABallOnACornerOfFacesTakesFewIterations) {
+  const json full = strike("full");
+  EXPECT_LE(full["newton_iterations"].get<long>(),
+            5 * full["steps"].get<long>());
+  EXPECT_EQ(full["steps_halved"].get<long>(), 0);
+}
+
 }  // namespace
 }  // namespace limber::test
