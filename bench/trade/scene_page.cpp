@@ -118,7 +118,7 @@ bool Verdict::is_safe() const {
 
 bool Verdict::agrees_by_full() const {
   return std::all_of(links.begin(), links.end(), [](const LinkVerdict& link) {
-    return link.needed_by_full == link.advised;
+    return link.needed_by_full.value_or(Fidelity::full) == link.advised;
   });
 }
 

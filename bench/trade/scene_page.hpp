@@ -37,7 +37,7 @@ struct LinkVerdict {
   std::vector<double> from_coupled = {};
   std::vector<double> from_full = {};
   Fidelity needed = Fidelity::coupled;          ///< by from_coupled
-  std::optional<Fidelity> needed_by_full = {};  ///< none if no level is enough
+  std::optional<Fidelity> needed_by_full = {};  ///< none: only `full` is enough
 };
 
 struct Verdict {
