@@ -24,6 +24,7 @@ Json to_json(const ContactRecord& record) {
       {"peak_force", record.peak_force},
       {"peak_time", record.peak_time},
       {"peak_depth", record.peak_depth},
+      {"peak_depth_over_radius", record.peak_depth_over_radius},
       {"duration", record.duration},
       {"touch_speed", record.touch_speed},
       {"restitution", restitution ? Json(*restitution) : Json(nullptr)}};

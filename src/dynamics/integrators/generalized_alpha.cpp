@@ -26,21 +26,14 @@ constexpr double kPoorContraction = 0.3;
 // Forces evaluated within this fraction of a step's motion from its end count
 // as those of the end [-].
 constexpr double kSamePlace = 1e-9;
-// Size of corrections between two faces of a surface that ends the iteration,
-// as a share of the step's motion [-].
+// Size of corrections between two faces of a whole mesh that ends the
+// iteration, as a share of the step's motion [-].
 constexpr double kBetweenFaces = 1e-3;
 // Number of slow corrections with fresh factors after which the exact
 // derivative is used.
 constexpr int kSlowCorrections = 2;
 // Number of successive growing exact corrections that counts as divergence.
 constexpr int kMostGrowing = 4;
-
-bool has_points(const SystemTerms& terms) {
-  return std::any_of(terms.pairs.responses.begin(), terms.pairs.responses.end(),
-                     [](const joints::PairResponse& response) {
-                       return !response.points().empty();
-                     });
-}
 
 }  // namespace
 
@@ -356,8 +349,8 @@ FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    const bool goes_back =
-        iteration > 1 && has_points(terms_) && is_reverse(x_, last_x_);
+    const bool goes_back = iteration > 1 && acts_on_nodes(model_, terms_) &&
+                           is_reverse(x_, last_x_);
     last_x_ = x_;
     const CorrectionSize last = correction;
     correction = measure_correction(model_, x_);
@@ -382,8 +375,8 @@ FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
     needs_factors = exactly;
     if (iteration == 1 && settings_.max_iterations > 1) continue;
     const double contraction = correction.value / last.value;
-    // Where an edge of a surface is pressed inwards, two of its faces are
-    // nearest, each by the solution for the other.
+    // Where an edge of a mesh is pressed inwards, two of its faces are nearest,
+    // each by the solution for the other.
     if (goes_back && correction.value <= kBetweenFaces * motion) return course;
     const auto is_done = [&] {
       return has_converged(correction, last, limit, roundoff);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <set>
 
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
@@ -79,6 +81,11 @@ void ContactLog::include(std::size_t i, const SystemState& state,
   record.peak_force = pair.most_force.peak().value;
   record.peak_time = pair.most_force.peak().time;
   record.peak_depth = pair.most_depth.peak().value;
+  if (now.area > 0.0) {
+    record.peak_depth_over_radius =
+        std::max(record.peak_depth_over_radius,
+                 std::numbers::pi * now.depth * now.depth / now.area);
+  }
   if (is_strongest) keep_stiffest(state, record);
   pair.force = now.normal_force;
   pair.is_touching = touches_now;
@@ -130,11 +137,27 @@ void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
         pair.longest_step,
         pair.record.impact_duration / TouchWatch::kStepsOfImpact));
   }
-  for (const ImpactSpectrum& spectrum :
-       find_impact_spectra(model_, find_records())) {
+  const std::vector<ContactRecord> records = find_records();
+  for (const ImpactSpectrum& spectrum : find_impact_spectra(model_, records)) {
     if (!spectrum.is_enough()) warnings.push_back(describe(spectrum));
   }
+  add_deep(records, warnings);
   add_stable_step(warnings);
+}
+
+void ContactLog::add_deep(const std::vector<ContactRecord>& records,
+                          std::vector<std::string>& warnings) {
+  std::set<std::string> said;
+  for (const ContactRecord& record : records) {
+    if (record.peak_depth_over_radius <= kDeepest) continue;
+    if (!said.insert(record.pair).second) continue;
+    warnings.push_back(fmt::format(
+        "contact '{}': the impact at t = {:.6g} s is {:.3g} m deep, {:.2g} of "
+        "the radius of curvature; Hertz's law is that of small deformation: "
+        "beyond {:g} do not trust its force and energy",
+        record.pair, record.time, record.peak_depth,
+        record.peak_depth_over_radius, kDeepest));
+  }
 }
 
 void ContactLog::add_stable_step(std::vector<std::string>& warnings) const {

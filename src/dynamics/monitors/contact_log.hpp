@@ -44,9 +44,13 @@ class ContactLog {
   /// state.
   [[nodiscard]] std::vector<ContactRecord> find_records() const;
   /// On steps too long for the impacts that they went through, on bases too
-  /// small for them (ImpactSpectrum), and on the stable step of an explicit
-  /// scheme where the force was largest.
+  /// small for them (ImpactSpectrum), on contacts deeper than kDeepest, and on
+  /// the stable step of an explicit scheme where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
+  /// Depth over the radius of curvature beyond which to warn: the area's radius
+  /// is then 0.3 of it, where Hertz's paraboloid on a half space takes it to be
+  /// small [@johnson1985] [-].
+  static constexpr double kDeepest = 0.1;
 
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
@@ -61,6 +65,8 @@ class ContactLog {
 
   void keep_stiffest(const SystemState& state, const ContactRecord& record);
   void add_stable_step(std::vector<std::string>& warnings) const;
+  static void add_deep(const std::vector<ContactRecord>& records,
+                       std::vector<std::string>& warnings);
 
   const SystemModel& model_;
   IntegratorKind scheme_;

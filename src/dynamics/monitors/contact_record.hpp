@@ -18,6 +18,9 @@ struct ContactRecord {
   double peak_force = 0.0;   ///< normal [N]
   double peak_time = 0.0;    ///< [s]
   double peak_depth = 0.0;   ///< [m]
+  /// Largest pi depth^2 / area: of Hertz's contact, whose area is pi R_e depth,
+  /// the depth over the radius R_e [-].
+  double peak_depth_over_radius = 0.0;
   double duration = 0.0;     ///< from the first touch to the last leave, or to
                              ///< the end of the run [s]
   double touch_speed = 0.0;  ///< approach at the first touch [m/s]
@@ -36,7 +39,7 @@ struct ContactRecord {
 
 constexpr auto fields_of(const ContactRecord*) {
   return list_fields("contact", "pair", "time [s]", "touches", "impulse [N s]",
-                     "peak force [N]", "peak time [s]", "peak depth [m]",
+                     "peak force [N]", "peak time [s]", "peak depth [m]", "peak depth over radius",
                      "duration [s]", "touch speed [m/s]", "parting speed [m/s]",
                      "has parted", "impact duration [s]");
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -117,11 +118,37 @@ TEST(ContactPair, OfABallAndAHalfSpaceIsHertzsImpact) {
   EXPECT_NEAR(contact.time, 1e-4, 1e-3 * exact.duration);
   EXPECT_NEAR(contact.peak_force / exact.force, 1.0, 5e-3);
   EXPECT_NEAR(contact.peak_depth / exact.depth, 1.0, 5e-3);
+  EXPECT_NEAR(contact.peak_depth_over_radius / (exact.depth / kRadius), 1.0,
+              5e-3);
   EXPECT_NEAR(contact.duration / exact.duration, 1.0, 5e-3);
   EXPECT_NEAR(contact.impact_duration / exact.duration, 1.0, 1e-3);
   EXPECT_NEAR(contact.impulse / (2.0 * kMass), 1.0, 1e-3);
   ASSERT_TRUE(contact.restitution().has_value());
   EXPECT_NEAR(*contact.restitution(), 1.0, 1e-3);
+}
+
+// A tenth of the radius at the speed at which the energy is enough for it.
+TEST(ContactPair, DeeperThanATenthOfTheRadiusIsWarnedOf) {
+  const double k = find_closed_form(kMass, kRadius, 1.0).force /
+                   std::pow(find_closed_form(kMass, kRadius, 1.0).depth, 1.5);
+  const double speed =
+      std::sqrt(0.8 * k * std::pow(0.1 * kRadius, 2.5) / kMass);
+  for (const double share : {0.9, 1.1}) {
+    const double v = share * speed;
+    const ClosedForm exact = find_closed_form(kMass, kRadius, v);
+    Scene scene = make_ball_and_floor({}, 1e-4, {0.0, 0.0, -v});
+    SimulationStatistics statistics;
+    run(scene,
+        {.end_time = 2.0 * exact.duration + 1e-4 / v,
+         .step = exact.duration / 100.0},
+        &statistics);
+    const auto is_deep = [](const std::string& text) {
+      return text.find("of the radius of curvature") != std::string::npos;
+    };
+    EXPECT_EQ(std::any_of(statistics.warnings.begin(),
+                          statistics.warnings.end(), is_deep),
+              share > 1.0);
+  }
 }
 
 TEST(ContactPair, ThatBeginsWhereAStepEndsTouchesOnce) {
