@@ -11,13 +11,13 @@ namespace limber::dynamics {
 /// An impact of two bodies, or that one rests on the other: all touches of a
 /// pair that follow each other faster than the impact has lasted by then.
 struct ContactRecord {
-  std::string pair;          ///< name
-  double time = 0.0;         ///< of the first touch [s]
-  int touches = 0;           ///< count
-  double impulse = 0.0;      ///< of the normal force [N s]
-  double peak_force = 0.0;   ///< normal [N]
-  double peak_time = 0.0;    ///< [s]
-  double peak_depth = 0.0;   ///< [m]
+  std::string pair;         ///< name
+  double time = 0.0;        ///< of the first touch [s]
+  int touches = 0;          ///< count
+  double impulse = 0.0;     ///< of the normal force [N s]
+  double peak_force = 0.0;  ///< normal [N]
+  double peak_time = 0.0;   ///< [s]
+  double peak_depth = 0.0;  ///< [m]
   /// Largest pi depth^2 / area: of Hertz's contact, whose area is pi R_e depth,
   /// the depth over the radius R_e [-].
   double peak_depth_over_radius = 0.0;
@@ -39,9 +39,10 @@ struct ContactRecord {
 
 constexpr auto fields_of(const ContactRecord*) {
   return list_fields("contact", "pair", "time [s]", "touches", "impulse [N s]",
-                     "peak force [N]", "peak time [s]", "peak depth [m]", "peak depth over radius",
-                     "duration [s]", "touch speed [m/s]", "parting speed [m/s]",
-                     "has parted", "impact duration [s]");
+                     "peak force [N]", "peak time [s]", "peak depth [m]",
+                     "peak depth over radius", "duration [s]",
+                     "touch speed [m/s]", "parting speed [m/s]", "has parted",
+                     "impact duration [s]");
 }
 
 }  // namespace limber::dynamics
