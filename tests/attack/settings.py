@@ -144,11 +144,21 @@ def _is_equal(word, before):
         return value.strip("'\"") == str(before)
 
 
+def _is_longer(word, before):
+    """Whether it only makes the wall's normal longer, which has one component."""
+    path, _, value = word.partition("=")
+    try:
+        return ".normal" in path and float(before) * float(value) > 0
+    except (TypeError, ValueError):
+        return False
+
+
 def _draw_settings(name, random):
     """Words of the command line, none with a byte 0, and whether they set one
     key that is there to something else, which then has to act."""
     words, before = _draw_setting(name, random)
-    acts = before is not None and not LABELS.match(words[1]) and not _is_equal(words[1], before)
+    acts = (before is not None and not LABELS.match(words[1])
+            and not _is_equal(words[1], before) and not _is_longer(words[1], before))
     if random.random() < 0.25:
         words += random.choice([words, _draw_setting(name, random)[0]])
         acts = False
