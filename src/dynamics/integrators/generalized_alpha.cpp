@@ -26,9 +26,6 @@ constexpr double kPoorContraction = 0.3;
 // Forces evaluated within this fraction of a step's motion from its end count
 // as those of the end [-].
 constexpr double kSamePlace = 1e-9;
-// Size of corrections between two faces of a whole mesh that ends the
-// iteration, as a share of the step's motion [-].
-constexpr double kBetweenFaces = 1e-3;
 // Number of slow corrections with fresh factors after which the exact
 // derivative is used.
 constexpr int kSlowCorrections = 2;
@@ -50,7 +47,7 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       terms_(make_terms(model)),
       residual_(VectorX::Zero(count_unknowns(model))),
       x_(VectorX::Zero(count_unknowns(model))),
-      last_x_(x_),
+      faces_(x_.size()),
       kept_wrenches_(VectorX::Zero(count_wrench_rows(terms_))),
       gaps_(model.couplers.size() + model.transmissions.size(),
             Vector6::Zero()) {
@@ -131,7 +128,6 @@ void GeneralizedAlpha::renew_factors(double h, double end, StepResult& result) {
   try {
     refactor(result.factorizations > 0);
   } catch (const NumericalError& error) {
-    // The error already names the body or coupler.
     throw NumericalError(fmt::format("{} (a step of {:.3g} s to t = {:.9g} s)",
                                      error.what(), h, end));
   }
@@ -349,9 +345,7 @@ FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    const bool goes_back = iteration > 1 && acts_on_nodes(model_, terms_) &&
-                           is_reverse(x_, last_x_);
-    last_x_ = x_;
+    faces_.include(x_, iteration == 1 || !acts_on_nodes(model_, terms_));
     const CorrectionSize last = correction;
     correction = measure_correction(model_, x_);
     ++result.iterations;
@@ -375,9 +369,7 @@ FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
     needs_factors = exactly;
     if (iteration == 1 && settings_.max_iterations > 1) continue;
     const double contraction = correction.value / last.value;
-    // Where an edge of a mesh is pressed inwards, two of its faces are nearest,
-    // each by the solution for the other.
-    if (goes_back && correction.value <= kBetweenFaces * motion) return course;
+    if (faces_.ends(correction.value, motion)) return course;
     const auto is_done = [&] {
       return has_converged(correction, last, limit, roundoff);
     };

@@ -10,6 +10,7 @@
 #include "limber/dynamics/integrators/damper_work.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
 #include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/exact_correction.hpp"
 #include "limber/dynamics/newton/factor_plan.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
@@ -121,7 +122,7 @@ class GeneralizedAlpha final : public Integrator {
   Rates inc_;  // motion over the step
   VectorX residual_;
   VectorX x_;
-  VectorX last_x_;  // of the last correction
+  FaceCycle faces_;        // of unreduced bodies that touch
   VectorX kept_wrenches_;  // of the last state
   std::vector<Vector6> gaps_;
 };

@@ -11,6 +11,7 @@ constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
 constexpr double kReversed = 0.1;
+constexpr double kBetweenFaces = 1e-3;
 
 double find_rest(double size, double before) {
   const double c = before > 0.0 ? size / before : 1.0;
@@ -42,9 +43,18 @@ bool has_converged(const CorrectionSize& correction,
          is_done(correction.modal, before.modal, limit.modal, roundoff.modal);
 }
 
-bool is_reverse(const VectorX& correction, const VectorX& before) {
-  return (correction + before).squaredNorm() <=
-         kReversed * kReversed * correction.squaredNorm();
+FaceCycle::FaceCycle(Eigen::Index corrections)
+    : last_(VectorX::Zero(corrections)) {}
+
+void FaceCycle::include(const VectorX& correction, bool is_first) {
+  goes_back_ =
+      !is_first && (correction + last_).squaredNorm() <=
+                       kReversed * kReversed * correction.squaredNorm();
+  last_ = correction;
+}
+
+bool FaceCycle::ends(double size, double motion) const {
+  return goes_back_ && size <= kBetweenFaces * motion;
 }
 
 }  // namespace limber::dynamics

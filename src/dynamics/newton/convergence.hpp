@@ -36,8 +36,25 @@ inline constexpr double kLeastShare = 1e-12;
                                  const CorrectionSize& limit,
                                  const Roundoff& roundoff);
 
-/// Whether a correction takes back the one before it, but for a tenth.
-/// @param correction, before increments as in NewtonMatrix
-[[nodiscard]] bool is_reverse(const VectorX& correction, const VectorX& before);
+/// Where an edge of a mesh is pressed inwards, two of its faces are nearest,
+/// each by the solution for the other, and corrections go back and forth
+/// between them.
+class FaceCycle {
+ public:
+  /// @param corrections as in NewtonMatrix
+  explicit FaceCycle(Eigen::Index corrections);
+
+  /// @param is_first of a step, or no mesh touches: it takes nothing back
+  void include(const VectorX& correction, bool is_first);
+
+  /// Whether the last correction took back the one before it, but for a tenth,
+  /// and is at most 1e-3 of the step's motion.
+  /// @param size, motion [m]
+  [[nodiscard]] bool ends(double size, double motion) const;
+
+ private:
+  VectorX last_;
+  bool goes_back_ = false;
+};
 
 }  // namespace limber::dynamics

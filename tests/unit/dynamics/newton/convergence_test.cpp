@@ -95,14 +95,25 @@ INSTANTIATE_TEST_SUITE_P(Implicit, NewtonsMethod,
                          ::testing::Values(IntegratorKind::generalized_alpha,
                                            IntegratorKind::implicit_euler));
 
-TEST(Reverse, IsACorrectionThatTakesTheLastOneBack) {
-  const VectorX last = VectorX::LinSpaced(5, -1.0, 3.0);
-  VectorX next = -last;
-  EXPECT_TRUE(is_reverse(next, last));
-  next[4] += 0.09 * last.norm();
-  EXPECT_TRUE(is_reverse(next, last));
-  EXPECT_FALSE(is_reverse(-0.8 * last, last));
-  EXPECT_FALSE(is_reverse(last, last));
+TEST(FaceCycle, EndsWhereASmallCorrectionTakesTheLastOneBack) {
+  const VectorX first = VectorX::LinSpaced(5, -1.0, 3.0);
+  const auto ends = [&](const VectorX& next, double size) {
+    FaceCycle cycle(5);
+    cycle.include(first, true);
+    cycle.include(next, false);
+    return cycle.ends(size, 1.0);
+  };
+  VectorX back = -first;
+  EXPECT_TRUE(ends(back, 1e-3));
+  EXPECT_FALSE(ends(back, 1.1e-3));
+  back[4] += 0.09 * first.norm();
+  EXPECT_TRUE(ends(back, 1e-3));
+  EXPECT_FALSE(ends(-0.8 * first, 1e-3));
+  EXPECT_FALSE(ends(first, 1e-3));
+  FaceCycle other(5);
+  other.include(first, true);
+  other.include(-first, true);  // of the next step
+  EXPECT_FALSE(other.ends(1e-3, 1.0));
 }
 
 }  // namespace
