@@ -66,6 +66,7 @@ std::vector<const Attachment*> find_holds(const SystemModel& model,
 AxialLoad::AxialLoad(const SystemModel& model, BodyIndex body_index)
     : model_(&model), body_(body_index) {
   const BodyModel& body = model.bodies[index(body_)];
+  stretch_ = VectorX::Zero(body.modes);
   if (body.modes == 0 || body.clamped || !body.reduced) return;
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
   double lowest = lambda.minCoeff();
@@ -78,7 +79,6 @@ AxialLoad::AxialLoad(const SystemModel& model, BodyIndex body_index)
   const Eigen::SelfAdjointEigenSolver<Matrix3> own(S0_);
   axes_ = own.eigenvectors();
   const Vector3 S = own.eigenvalues();
-  stretch_ = VectorX::Zero(body.modes);
   for (int k = 0; k < 3; ++k) {
     if (S[k] < kLong * S[2]) continue;
     loads_[k] = (is_held_ ? kClampedBeam : kFreeBeam) * lowest * S[k];

@@ -42,7 +42,7 @@ class AxialLoad {
   [[nodiscard]] AxialState calc_state(const SystemState& state, Side side,
                                       const SystemTerms& terms) const;
   /// How much of each mode is a stretch along a long axis: the largest |s_k| /
-  /// sqrt(S_a), from 0 to 1 [-]. Empty without a long axis.
+  /// sqrt(S_a), from 0 to 1 [-].
   [[nodiscard]] const VectorX& stretch() const { return stretch_; }
   /// Lowest frequency of the body alone, held at a joint if it has one [rad/s].
   [[nodiscard]] double frequency() const { return frequency_; }

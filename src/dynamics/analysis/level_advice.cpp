@@ -106,6 +106,12 @@ double find_missing(const BodyPeaks& peaks) {
   return peaks.is_held ? 0.25 : 0.6;
 }
 
+/// Damped oscillation is forgotten. @param time in which a phase shifts, an
+/// integral of what is at most `largest` [s] @param rate of damping [1/s]
+double find_remembered(double time, double largest, double rate) {
+  return rate > 0.0 ? std::min(time, 2.0 * largest / rate) : time;
+}
+
 /// Error of `coupled`: of static deformation, which tension lessens and
 /// compression raises, and of the phase of oscillation.
 double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
@@ -114,11 +120,9 @@ double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
   const double pushed = peaks.compression.value /
                         std::max(1.0 - peaks.compression.value, kNearBuckling);
   const double bent = missing * std::max(pulled, pushed) * peaks.total.value;
-  // Damped oscillation is forgotten.
-  const double rate = body.damping.minCoeff();
   const double most = std::max(peaks.tension.value, peaks.compression.value);
-  double time = peaks.axial_time;
-  if (rate > 0.0) time = std::min(time, 2.0 * most / rate);
+  const double time =
+      find_remembered(peaks.axial_time, most, body.damping.minCoeff());
   const double phase = 0.5 * missing * peaks.frequency * time;
   const double oscillation =
       std::min(peaks.mode_sizes.dot(peaks.oscillation), peaks.total.value);
@@ -126,15 +130,13 @@ double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
 }
 
 /// Error of `nonlinear`: a mode of stretch is stiffer by three times the mean
-/// strain, which shifts its phase. Damped oscillation is forgotten.
+/// strain, which shifts its phase.
 double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
   double error = 0.0;
   for (int k = 0; k < body.modes; ++k) {
-    double time = peaks.strain_time;
-    if (body.damping[k] > 0.0) {
-      time = std::min(time, 2.0 * peaks.strain.value / body.damping[k]);
-    }
+    const double time =
+        find_remembered(peaks.strain_time, peaks.strain.value, body.damping[k]);
     const double phase = 1.5 * std::sqrt(lambda[k]) * time;
     error += peaks.mode_sizes[k] * peaks.stretch[k] * std::min(phase, 2.0);
   }

@@ -291,9 +291,7 @@ std::vector<BodyPeaks> LevelSurvey::find_peaks() const {
     peaks.relative_turn.value *= factor;
     peaks.is_held = watch.axial.is_held();
     peaks.frequency = watch.axial.frequency();
-    peaks.stretch = watch.axial.stretch().size() > 0
-                        ? peaks.oscillation.cwiseProduct(watch.axial.stretch())
-                        : VectorX::Zero(peaks.oscillation.size()).eval();
+    peaks.stretch = peaks.oscillation.cwiseProduct(watch.axial.stretch());
     peaks.oscillation *= factor;
     if (watch.is_observed && watch.misses_inertial) {
       // The static response is included; oscillation may add as much again.

@@ -345,7 +345,7 @@ FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    faces_.include(x_, iteration == 1 || !acts_on_nodes(model_, terms_));
+    faces_.include(x_, iteration == 1, acts_on_nodes(model_, terms_));
     const CorrectionSize last = correction;
     correction = measure_correction(model_, x_);
     ++result.iterations;

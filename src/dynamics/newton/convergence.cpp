@@ -10,7 +10,9 @@ constexpr double kErrorShare = 0.01;
 constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
+// Share by which a correction may miss the last one reversed [-].
 constexpr double kReversed = 0.1;
+// Largest correction between two faces, of the step's motion [-].
 constexpr double kBetweenFaces = 1e-3;
 
 double find_rest(double size, double before) {
@@ -46,11 +48,13 @@ bool has_converged(const CorrectionSize& correction,
 FaceCycle::FaceCycle(Eigen::Index corrections)
     : last_(VectorX::Zero(corrections)) {}
 
-void FaceCycle::include(const VectorX& correction, bool is_first) {
-  goes_back_ =
-      !is_first && (correction + last_).squaredNorm() <=
-                       kReversed * kReversed * correction.squaredNorm();
-  last_ = correction;
+void FaceCycle::include(const VectorX& correction, bool is_first,
+                        bool touches) {
+  goes_back_ = touches && touched_ && !is_first &&
+               (correction + last_).squaredNorm() <=
+                   kReversed * kReversed * correction.squaredNorm();
+  touched_ = touches;
+  if (touches) last_ = correction;
 }
 
 bool FaceCycle::ends(double size, double motion) const {

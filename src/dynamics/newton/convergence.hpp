@@ -44,8 +44,9 @@ class FaceCycle {
   /// @param corrections as in NewtonMatrix
   explicit FaceCycle(Eigen::Index corrections);
 
-  /// @param is_first of a step, or no mesh touches: it takes nothing back
-  void include(const VectorX& correction, bool is_first);
+  /// @param is_first of a step: it takes nothing back
+  /// @param touches whether a mesh does; costs nothing else
+  void include(const VectorX& correction, bool is_first, bool touches);
 
   /// Whether the last correction took back the one before it, but for a tenth,
   /// and is at most 1e-3 of the step's motion.
@@ -54,6 +55,7 @@ class FaceCycle {
 
  private:
   VectorX last_;
+  bool touched_ = false;
   bool goes_back_ = false;
 };
 

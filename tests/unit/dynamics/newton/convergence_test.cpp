@@ -99,8 +99,8 @@ TEST(FaceCycle, EndsWhereASmallCorrectionTakesTheLastOneBack) {
   const VectorX first = VectorX::LinSpaced(5, -1.0, 3.0);
   const auto ends = [&](const VectorX& next, double size) {
     FaceCycle cycle(5);
-    cycle.include(first, true);
-    cycle.include(next, false);
+    cycle.include(first, true, true);
+    cycle.include(next, false, true);
     return cycle.ends(size, 1.0);
   };
   VectorX back = -first;
@@ -111,8 +111,14 @@ TEST(FaceCycle, EndsWhereASmallCorrectionTakesTheLastOneBack) {
   EXPECT_FALSE(ends(-0.8 * first, 1e-3));
   EXPECT_FALSE(ends(first, 1e-3));
   FaceCycle other(5);
-  other.include(first, true);
-  other.include(-first, true);  // of the next step
+  other.include(first, true, true);
+  other.include(-first, true, true);  // of the next step
+  EXPECT_FALSE(other.ends(1e-3, 1.0));
+  other.include(first, false, true);
+  EXPECT_TRUE(other.ends(1e-3, 1.0));
+  other.include(-first, false, false);  // they have parted
+  EXPECT_FALSE(other.ends(1e-3, 1.0));
+  other.include(-first, false, true);
   EXPECT_FALSE(other.ends(1e-3, 1.0));
 }
 
