@@ -88,10 +88,12 @@ class Study:
         once, whatever happens to workers or to this process; the same call
         goes on with the others.
 
+        A run whose worker was lost is made again, three times at most.
+
         ``progress(done, runs)`` is called after each.
 
         Returns :class:`StudyResults`. Ctrl-C raises Interrupted; finished runs
-        stay. Raises RuntimeError if the executor lost runs.
+        stay. Raises RuntimeError if the executor lost runs each time.
         """
         folder = pathlib.Path("out") / self.name if out is None else pathlib.Path(out)
         folder.mkdir(parents=True, exist_ok=True)
@@ -109,44 +111,62 @@ class Study:
         own = None
         if executor is None:
             executor = own = concurrent.futures.ThreadPoolExecutor(os.cpu_count())
-        digest = _digest(self._plan)
-        futures, lost = {}, []
         try:
-            for run in left:
-                futures[executor.submit(make_row, self._task, digest, run)] = run
-            for future in concurrent.futures.as_completed(futures):
-                self._take(future, futures[future], file, lost)
-                if progress is not None:
-                    progress(self.runs - len(left) + _count(futures), self.runs)
+            for attempt in range(_ATTEMPTS):
+                lost = self._attempt(executor, attempt, left, file, progress)
+                left = list(lost)
+                if not left:
+                    return
         except KeyboardInterrupt as cause:
             raise Interrupted(
                 f"interrupted after {len(file.rows)} of {self.runs} runs; the same "
                 "call goes on with the others") from cause
         finally:
             self._plan.stop()
-            for future in futures:
-                future.cancel()
             if own is not None:
                 own.shutdown(wait=True)
-        if lost:
-            run, error = lost[0]
-            raise RuntimeError(
-                f"{len(lost)} of {self.runs} runs were lost by the executor, run "
-                f"{run} first: {type(error).__name__}: {error}. The same call goes "
-                "on with them") from error
+        run, error = next(iter(lost.items()))
+        raise RuntimeError(
+            f"{len(lost)} of {self.runs} runs were lost by the executor {_ATTEMPTS} "
+            f"times, run {run} first: {type(error).__name__}: {error}. The same call "
+            "goes on with them") from error
+
+    def _attempt(self, executor, attempt, runs, file, progress):
+        """Makes ``runs``. Returns those that the executor lost, {run: error}."""
+        digest = _digest(self._plan)
+        futures, lost = {}, {}
+        try:
+            for run in runs:
+                try:
+                    future = executor.submit(make_row, self._task, digest, run, attempt)
+                except RuntimeError as error:  # broken, or shut down
+                    lost[run] = error
+                else:
+                    futures[future] = run
+            done = self.runs - len(runs)
+            for future in concurrent.futures.as_completed(futures):
+                done += self._take(future, futures[future], file, lost)
+                if progress is not None:
+                    progress(done, self.runs)
+        finally:
+            for future in futures:
+                future.cancel()
+        return lost
 
     @staticmethod
     def _take(future, run, file, lost):
+        """Writes its row. Returns whether there is one."""
         try:
             row = future.result()
         except InputError:
             raise
         except Exception as error:  # of the executor: a run's own is in its row
-            lost.append((run, error))
-            return
+            lost[run] = error
+            return False
         if row is None:
             raise KeyboardInterrupt
         file.add([row])
+        return True
 
 
 class StudyResults:
@@ -200,6 +220,8 @@ class StudyResults:
 
 _Task = collections.namedtuple("_Task", "text file cache")
 
+_ATTEMPTS = 3
+
 
 @functools.lru_cache(maxsize=4)
 def _plan(task):
@@ -211,9 +233,11 @@ def _digest(plan):
     return hashlib.sha256(plan.manifest.encode()).hexdigest()
 
 
-def make_row(task, digest, run):
+def make_row(task, digest, run, attempt=0):
     """One run, in a worker's process. Returns its row, or None if ended by a
-    signal."""
+    signal. ``attempt`` is for executors that know work by its arguments (Dask):
+    a run that was lost is other work the next time."""
+    del attempt
     plan = _plan(task)
     found = _digest(plan)
     if found != digest:
@@ -222,10 +246,6 @@ def make_row(task, digest, run):
             f"study {task.file} (its scenario and robot), than the process that "
             "made the study")
     return plan.make_row(run)
-
-
-def _count(futures):
-    return sum(future.done() for future in futures)
 
 
 def _to_values(names, texts):

@@ -170,6 +170,55 @@ def test_a_killed_dask_worker_loses_and_doubles_no_row(sled, tmp_path):
     assert rows == of_command(file)
 
 
+class Losing(concurrent.futures.ThreadPoolExecutor):
+    """Threads that lose a run as often as told, as a killed worker does."""
+
+    def __init__(self, run, times):
+        super().__init__(2)
+        self.run, self.left = run, times
+
+    def submit(self, work, task, digest, run, attempt):
+        if run != self.run or self.left == 0:
+            return super().submit(work, task, digest, run, attempt)
+        self.left -= 1
+        future = concurrent.futures.Future()
+        future.set_exception(ValueError("worker lost"))
+        return future
+
+
+def test_a_run_that_the_executor_loses_is_made_again(sled, tmp_path):
+    file = write(sled)
+    told = []
+    with Losing(7, times=2) as executor:
+        results = limber.Study(file).run(executor, out=tmp_path / "python",
+                                         progress=lambda *n: told.append(n))
+    assert read(results.file) == of_command(file)
+    assert told[-1] == (12, 12) and max(told) == (12, 12)
+
+
+def test_a_run_that_is_lost_each_time_is_told_and_the_others_are_kept(sled, tmp_path):
+    file = write(sled)
+    study = limber.Study(file)
+    with Losing(7, times=1000) as executor:
+        with pytest.raises(RuntimeError, match="1 of 12 .* run 7 .*worker lost"):
+            study.run(executor, out=tmp_path / "python")
+    assert len(read(tmp_path / "python/study.sqlite")) == 11
+    assert read(study.run(out=tmp_path / "python").file) == of_command(file)
+
+
+def test_a_broken_pool_is_told_in_words(sled, tmp_path):
+    study = limber.Study(write(sled, samples=40, duration=5.0))
+    context = multiprocessing.get_context("spawn")
+
+    def kill(done, runs):
+        for process in list(pool._processes.values()):
+            process.kill()
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        with pytest.raises(RuntimeError, match="of 40 runs were lost"):
+            study.run(pool, out=tmp_path / "python", progress=kill)
+    assert 0 < len(read(tmp_path / "python/study.sqlite")) < 40
+
+
 def test_mpi_has_the_rows_of_the_command(sled, tmp_path):
     pytest.importorskip("mpi4py")
     mpiexec = shutil.which("mpiexec")
