@@ -4,7 +4,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 #include "limber/dynamics/system/time_function.hpp"
-#include "limber/joints/signal.hpp"
+#include "limber/joints/scalar/signal.hpp"
 
 namespace limber::python {
 namespace {

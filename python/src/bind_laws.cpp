@@ -5,7 +5,7 @@
 #include "laws.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/joints/coupler_law.hpp"
-#include "limber/joints/scalar_law.hpp"
+#include "limber/joints/scalar/scalar_law.hpp"
 
 namespace limber::python {
 namespace {

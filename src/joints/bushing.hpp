@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coupler_law_kind.hpp"
-#include "limber/joints/motion.hpp"
 
 namespace limber::joints {
 

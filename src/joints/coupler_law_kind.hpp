@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "limber/common/instant.hpp"
-#include "limber/joints/axis_coordinate.hpp"
+#include "limber/joints/coordinates/axis_coordinate.hpp"
+#include "limber/joints/coordinates/discrete_gradient.hpp"
+#include "limber/joints/coordinates/motion.hpp"
+#include "limber/joints/coordinates/required_rotations.hpp"
+#include "limber/joints/coordinates/switches.hpp"
 #include "limber/joints/coupler_memory.hpp"
-#include "limber/joints/discrete_gradient.hpp"
-#include "limber/joints/motion.hpp"
-#include "limber/joints/required_rotations.hpp"
-#include "limber/joints/scalar_law.hpp"
-#include "limber/joints/scalar_law_kind.hpp"
-#include "limber/joints/switches.hpp"
+#include "limber/joints/scalar/scalar_law.hpp"
+#include "limber/joints/scalar/scalar_law_kind.hpp"
 
 /// What a law between two frames provides. What does not apply to a law it
 /// inherits from one of the bases below; a law that lacks a function does not

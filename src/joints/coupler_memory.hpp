@@ -5,7 +5,7 @@
 
 #include "limber/common/pose.hpp"
 #include "limber/common/records/fields.hpp"
-#include "limber/joints/switches.hpp"
+#include "limber/joints/coordinates/switches.hpp"
 
 namespace limber::joints {
 

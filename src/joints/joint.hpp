@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "limber/common/records/fields.hpp"
-#include "limber/joints/axis_coordinate.hpp"
 #include "limber/joints/bushing.hpp"
+#include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/coupler_law_kind.hpp"
-#include "limber/joints/scalar_law.hpp"
+#include "limber/joints/scalar/scalar_law.hpp"
 #include "limber/joints/universal_hold.hpp"
 
 namespace limber::joints {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/joint_kind.hpp"
-#include "limber/joints/motion.hpp"
 
 namespace limber::joints {
 

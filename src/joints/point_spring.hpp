@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coupler_law_kind.hpp"
-#include "limber/joints/motion.hpp"
-#include "limber/joints/scalar_spring.hpp"
+#include "limber/joints/scalar/scalar_spring.hpp"
 
 namespace limber::joints {
 

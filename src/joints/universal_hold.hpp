@@ -2,8 +2,8 @@
 #pragma once
 
 #include "limber/common/records/fields.hpp"
-#include "limber/joints/motion.hpp"
-#include "limber/joints/required_rotations.hpp"
+#include "limber/joints/coordinates/motion.hpp"
+#include "limber/joints/coordinates/required_rotations.hpp"
 
 namespace limber::joints {
 

@@ -7,8 +7,8 @@
 #include "limber/common/pose.hpp"
 #include "limber/dynamics/system/time_function.hpp"
 #include "limber/flexbody/model/nodal_load.hpp"
-#include "limber/joints/axis_coordinate.hpp"
 #include "limber/joints/bushing.hpp"
+#include "limber/joints/coordinates/axis_coordinate.hpp"
 #include "limber/joints/point_spring.hpp"
 #include "limber/joints/universal_hold.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/joints/drive_gain.hpp"
+#include "limber/joints/scalar/drive_gain.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
-#include "limber/joints/scalar_motion.hpp"
+#include "limber/joints/coordinates/scalar_motion.hpp"
 
 /// Motion and response of couplers at a state, for observers. Commands that
 /// jump at its time are evaluated after the jump.

@@ -7,8 +7,8 @@
 #include "limber/dynamics/equations/kinematics.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/system/system_model.hpp"
-#include "limber/joints/motion.hpp"
-#include "limber/joints/scalar_motion.hpp"
+#include "limber/joints/coordinates/motion.hpp"
+#include "limber/joints/coordinates/scalar_motion.hpp"
 
 namespace limber::dynamics {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "limber/dynamics/integrators/step_motion.hpp"
-#include "limber/joints/discrete_gradient.hpp"
+#include "limber/joints/coordinates/discrete_gradient.hpp"
 
 namespace limber::dynamics {
 

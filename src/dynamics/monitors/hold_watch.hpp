@@ -7,7 +7,7 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
-#include "limber/joints/motion.hpp"
+#include "limber/joints/coordinates/motion.hpp"
 
 namespace limber::dynamics {
 

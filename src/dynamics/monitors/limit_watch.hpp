@@ -9,7 +9,7 @@
 #include "limber/dynamics/equations/workspace.hpp"
 #include "limber/dynamics/monitors/event.hpp"
 #include "limber/dynamics/system/system_state.hpp"
-#include "limber/joints/scalar_law.hpp"
+#include "limber/joints/scalar/scalar_law.hpp"
 
 namespace limber::dynamics {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "limber/flexbody/model/reduced_body.hpp"
-#include "limber/joints/required_rotations.hpp"
+#include "limber/joints/coordinates/required_rotations.hpp"
 
 /// Nodes on one line define no rotation about it, a single node none at all.
 /// Uses of a rotation that an interface does not define are rejected, at every

@@ -8,7 +8,7 @@
 
 #include "limber/common/records/fields.hpp"
 #include "limber/dynamics/system/controller.hpp"
-#include "limber/joints/signal.hpp"
+#include "limber/joints/scalar/signal.hpp"
 
 namespace limber::dynamics {
 

@@ -6,8 +6,8 @@
 #include "limber/common/instant.hpp"
 #include "limber/common/pose.hpp"
 #include "limber/dynamics/system/system_model.hpp"
+#include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coupler_memory.hpp"
-#include "limber/joints/motion.hpp"
 
 namespace limber::dynamics {
 

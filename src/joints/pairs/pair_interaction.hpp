@@ -9,7 +9,7 @@
 #include "limber/common/instant.hpp"
 #include "limber/common/records/manifest.hpp"
 #include "limber/common/types.hpp"
-#include "limber/joints/discrete_gradient.hpp"
+#include "limber/joints/coordinates/discrete_gradient.hpp"
 
 namespace limber::joints {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "limber/dynamics/system/interface_rotation.hpp"
-#include "limber/joints/required_rotations.hpp"
+#include "limber/joints/coordinates/required_rotations.hpp"
 #include "limber/scene/build/attachment_sites.hpp"
 
 /// Uses of a rotation that an interface does not define are rejected.

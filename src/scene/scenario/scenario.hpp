@@ -19,8 +19,8 @@
 #include "limber/dynamics/system/time_function.hpp"
 #include "limber/flexbody/model/full_body.hpp"
 #include "limber/flexbody/model/recipe.hpp"
-#include "limber/joints/drive.hpp"
 #include "limber/joints/joint_motion.hpp"
+#include "limber/joints/scalar/drive.hpp"
 #include "limber/scene/robot/place.hpp"
 #include "limber/scene/scenario/contact_spec.hpp"
 

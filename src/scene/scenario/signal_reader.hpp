@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/joints/signal.hpp"
+#include "limber/joints/scalar/signal.hpp"
 #include "limber/scene/text/toml_table.hpp"
 
 namespace limber::scene {

@@ -6,7 +6,7 @@
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/simulation/simulator.hpp"
-#include "limber/joints/end_stop.hpp"
+#include "limber/joints/scalar/end_stop.hpp"
 #include "support/sliding_masses.hpp"
 #include "unit/dynamics/simulation/sampled_mass.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/flexbody/file/body_file.hpp"
-#include "limber/joints/friction.hpp"
 #include "limber/joints/joint_kind.hpp"
 #include "limber/joints/latch.hpp"
+#include "limber/joints/scalar/friction.hpp"
 #include "support/point_mass_body.hpp"
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
