@@ -3,45 +3,65 @@
 
 #include <cstddef>
 
+#include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// One for each IntegratorKind, in its order.
+IntegratorTraits make_traits(IntegratorKind kind) {
+  switch (kind) {
+    case IntegratorKind::generalized_alpha:
+      return {.name = "generalized-alpha",
+              .is_implicit = true,
+              .is_adaptive = true,
+              .has_spectral_radius = true,
+              .takes_full_bodies = true,
+              .leaves_end_terms = true};
+    case IntegratorKind::runge_kutta_4:
+      return {.name = "runge-kutta-4",
+              .order = 4,
+              .takes_full_bodies = true,
+              .limit = StepLimit::growth};
+    case IntegratorKind::explicit_euler:
+      return {.name = "explicit-euler", .order = 1, .takes_exact_modes = false};
+    case IntegratorKind::central_differences:
+      return {.name = "central-differences",
+              .takes_full_bodies = true,
+              .leaves_end_terms = true,
+              .limit = StepLimit::stability};
+    case IntegratorKind::implicit_euler:
+      return {.name = "implicit-euler",
+              .order = 1,
+              .is_implicit = true,
+              .takes_full_bodies = true,
+              .leaves_end_terms = true};
+    case IntegratorKind::energy_conserving:
+      return {.name = "energy-conserving",
+              .is_implicit = true,
+              .leaves_end_terms = true};
+    case IntegratorKind::splitting:
+      return {.name = "splitting", .limit = StepLimit::growth};
+  }
+  throw ContractError("an IntegratorKind without traits");
+}
+
+// In the order of IntegratorKind.
 const std::vector<IntegratorTraits>& all_traits() {
-  static const std::vector<IntegratorTraits> traits = {
-      {.name = "generalized-alpha",
-       .is_implicit = true,
-       .is_adaptive = true,
-       .has_spectral_radius = true,
-       .takes_full_bodies = true,
-       .leaves_end_terms = true},
-      {.name = "runge-kutta-4",
-       .order = 4,
-       .takes_full_bodies = true,
-       .limit = StepLimit::growth},
-      {.name = "explicit-euler", .order = 1, .takes_exact_modes = false},
-      {.name = "central-differences",
-       .takes_full_bodies = true,
-       .leaves_end_terms = true,
-       .limit = StepLimit::stability},
-      {.name = "implicit-euler",
-       .order = 1,
-       .is_implicit = true,
-       .takes_full_bodies = true,
-       .leaves_end_terms = true},
-      {.name = "energy-conserving",
-       .is_implicit = true,
-       .leaves_end_terms = true},
-      {.name = "splitting", .limit = StepLimit::growth}};
+  static const std::vector<IntegratorTraits> traits = [] {
+    std::vector<IntegratorTraits> all;
+    for (int kind = 0; kind <= static_cast<int>(kLastIntegrator); ++kind) {
+      all.push_back(make_traits(static_cast<IntegratorKind>(kind)));
+    }
+    return all;
+  }();
   return traits;
 }
 
 }  // namespace
 
 const IntegratorTraits& traits_of(IntegratorKind kind) {
-  return all_traits()[static_cast<std::size_t>(kind)];
+  return all_traits().at(static_cast<std::size_t>(kind));
 }
 
 const std::vector<std::string>& integrator_names() {

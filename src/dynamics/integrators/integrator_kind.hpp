@@ -14,8 +14,9 @@ enum class IntegratorKind {
   central_differences,
   implicit_euler,
   energy_conserving,
-  splitting,
+  splitting,  // kLastIntegrator
 };
+inline constexpr IntegratorKind kLastIntegrator = IntegratorKind::splitting;
 
 /// How steps too long for an explicit scheme are detected, to be divided.
 enum class StepLimit {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 
@@ -181,19 +182,28 @@ class Iteration {
 
 double find_stable_step(const SystemModel& model, const SystemState& state,
                         IntegratorKind scheme) {
-  const bool is_splitting = scheme == IntegratorKind::splitting;
-  Iteration iteration(model, state, !is_splitting);
+  Iteration iteration(model, state, scheme != IntegratorKind::splitting);
   const double omega_squared = iteration.find_largest(false);
   const double c = iteration.find_largest(true);
-  double longest = 2.0;  // times rate
-  double rate = c + std::sqrt(c * c + omega_squared);
-  if (is_splitting) {
-    rate = std::max(c, std::sqrt(omega_squared));
-  } else if (scheme == IntegratorKind::runge_kutta_4) {
-    longest = 2.6;
-    rate = 0.5 * (c + std::sqrt(c * c + 4.0 * omega_squared));
+  const auto divide = [](double longest, double rate) {
+    return rate > 0.0 ? longest / rate
+                      : std::numeric_limits<double>::infinity();
+  };
+  switch (scheme) {
+    case IntegratorKind::central_differences:
+      return divide(2.0, c + std::sqrt(c * c + omega_squared));
+    case IntegratorKind::splitting:
+      return divide(2.0, std::max(c, std::sqrt(omega_squared)));
+    case IntegratorKind::runge_kutta_4:
+      return divide(2.6, 0.5 * (c + std::sqrt(c * c + 4.0 * omega_squared)));
+    case IntegratorKind::generalized_alpha:
+    case IntegratorKind::explicit_euler:
+    case IntegratorKind::implicit_euler:
+    case IntegratorKind::energy_conserving:
+      break;
   }
-  return rate > 0.0 ? longest / rate : std::numeric_limits<double>::infinity();
+  throw ContractError("the stable step of " + to_string(scheme) +
+                      " is not known");
 }
 
 std::size_t find_fastest_body(const SystemModel& model,

@@ -2,9 +2,11 @@
 #include "limber/dynamics/simulation/settings_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
@@ -30,6 +32,18 @@ void check_controllers(const SystemModel& model, const SystemState& state,
           controller.name, controller.find_time(own.next - 1), state.t));
     }
   }
+}
+
+// "a, b or c": the integrators that have a property.
+std::string name_those(bool IntegratorTraits::*property) {
+  std::vector<std::string> names;
+  for (const std::string& name : integrator_names()) {
+    if (traits_of(parse_integrator(name)).*property) names.push_back(name);
+  }
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last
+                       : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
 }  // namespace
@@ -83,9 +97,10 @@ void check_settings(const SystemModel& model, const SystemState& state,
   }
   const IntegratorTraits& traits = traits_of(settings.integrator);
   if (settings.tolerance > 0.0 && !traits.is_adaptive) {
-    refuse(
-        "only generalized-alpha takes steps to a tolerance; give a step "
-        "instead, or no integrator");
+    refuse(fmt::format(
+        "only {} takes steps to a tolerance; give a step instead, or no "
+        "integrator",
+        name_those(&IntegratorTraits::is_adaptive)));
   }
   if (settings.most_steps < 1) {
     refuse(fmt::format("most_steps is {}; expected >= 1", settings.most_steps));
@@ -98,10 +113,9 @@ void check_settings(const SystemModel& model, const SystemState& state,
   }
   if (!traits.takes_full_bodies && !model.full_bodies.empty()) {
     refuse(fmt::format(
-        "body '{}' is at level full, which {} does not integrate; use "
-        "generalized-alpha, implicit-euler or central-differences",
+        "body '{}' is at level full, which {} does not integrate; use {}",
         model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)].name,
-        traits.name));
+        traits.name, name_those(&IntegratorTraits::takes_full_bodies)));
   }
 }
 

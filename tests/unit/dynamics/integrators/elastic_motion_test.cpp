@@ -30,7 +30,7 @@ namespace {
 
 using testing::Duffing;
 
-constexpr int kIntegrators = 7;
+constexpr int kIntegrators = static_cast<int>(kLastIntegrator) + 1;
 
 std::string name_scheme(IntegratorKind kind) {
   std::string name = to_string(kind);
