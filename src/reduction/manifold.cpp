@@ -34,15 +34,11 @@ Matrix3 invert_on(const Matrix3X& axes, const Matrix3& A) {
 
 // theta: without what the paired modes themselves span.
 MatrixX solve_fields(const MeshedBody& body, const MatrixX& Phi_P,
-                     const VectorX& lambda_P, const MatrixX& loads) {
+                     const MatrixX& loads) {
   const std::vector<int>& free = body.support.free_nodes;
-  const MatrixX own = take_rows(loads, free);
-  const MatrixX fields =
-      -put_rows(body.inverse.solve(own), free, body.mesh.x.cols());
-  // Phi' K K^+ g = Phi' g, since modes have no rigid motion.
-  const MatrixX shares =
-      lambda_P.cwiseInverse().asDiagonal() * (Phi_P.transpose() * loads);
-  return fields + Phi_P * shares;
+  return -put_rows(
+      body.inverse.solve(take_rows(loads, free), take_rows(Phi_P, free)), free,
+      body.mesh.x.cols());
 }
 
 MatrixX make_strains(const fem::SecondOrderTerms& terms,
@@ -103,7 +99,7 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
   const VectorX lambda_P = lambda(paired);
   const fem::SecondOrderTerms terms = fem::calc_second_order(
       body.mesh, find_materials(body.mesh, recipe), Phi_P);
-  made.Theta = solve_fields(body, Phi_P, lambda_P, terms.loads);
+  made.Theta = solve_fields(body, Phi_P, terms.loads);
   made.tables.Q = make_strains(terms, lambda_P);
   made.tables.S2 =
       make_integrals(body.M_s, body.mesh.x.colwise() - center, made.Theta);

@@ -109,19 +109,32 @@ MatrixX ElasticInverse::solve_shifted(const MatrixX& F) const {
   return project_motion(factor_.solve(project_load(F)));
 }
 
-MatrixX ElasticInverse::solve(const MatrixX& F) const {
+MatrixX ElasticInverse::solve(const MatrixX& F, const MatrixX& modes) const {
   constexpr int kMaxSteps = 60;
   constexpr double kTolerance = 1e-13;  // correction, relative to the solution
   constexpr double kStalled = 1e-9;     // roundoff allowed for a hard matrix
   constexpr double kCoarse = 1e-9;      // accuracy that the matrix suffices for
-  const MatrixX load = project_load(F);
-  MatrixX X = solve_shifted(load);
+  const MatrixX forces = multiply_stiffness(*matrices_, modes);
+  const VectorX flexibilities =
+      modes.cwiseProduct(forces).colwise().sum().transpose().cwiseInverse();
+  // D and D', with which the solution and what is left of the load vanish on
+  // the modes together, whatever the shift.
+  const auto exclude = [&](const MatrixX& Y) -> MatrixX {
+    if (modes.cols() == 0) return Y;
+    return Y - modes * flexibilities.asDiagonal() * (forces.transpose() * Y);
+  };
+  const auto exclude_from_load = [&](const MatrixX& Y) -> MatrixX {
+    if (modes.cols() == 0) return Y;
+    return Y - forces * flexibilities.asDiagonal() * (modes.transpose() * Y);
+  };
+  const MatrixX load = exclude_from_load(project_load(F));
+  MatrixX X = exclude(solve_shifted(load));
   double previous = std::numeric_limits<double>::infinity();
   bool is_fine = false;  // residual by the product, which costs more
   for (int step = 0; step < kMaxSteps; ++step) {
-    const MatrixX correction =
+    const MatrixX correction = exclude(
         solve_shifted(is_fine ? calc_residual(*matrices_, load, X)
-                              : load - multiply_stiffness(matrices_->K, X));
+                              : load - multiply_stiffness(matrices_->K, X)));
     X += correction;
     const double change =
         (correction.colwise().norm().array() /

@@ -37,7 +37,18 @@ class ElasticInverse {
   [[nodiscard]] MatrixX solve_shifted(const MatrixX& F) const;
 
   /// K^+ F. @throws NumericalError if the refinement stalls.
-  [[nodiscard]] MatrixX solve(const MatrixX& F) const;
+  [[nodiscard]] MatrixX solve(const MatrixX& F) const {
+    return solve(F, MatrixX(F.rows(), 0));
+  }
+
+  /// K^+ F without its components along `modes`: V' K (the solution) = 0. Of a
+  /// slender body's response along its axis this is accurate where K^+ F is
+  /// not, because round-off bends the body.
+  ///
+  /// Equation   D K^+ F, D = I - V (V' K V)^-1 V' K
+  /// @param modes V, 3N x k with K-orthogonal columns, free of rigid motion
+  /// @throws NumericalError if the refinement stalls.
+  [[nodiscard]] MatrixX solve(const MatrixX& F, const MatrixX& modes) const;
 
   /// P X: without rigid motion.
   [[nodiscard]] MatrixX project_motion(const MatrixX& X) const;

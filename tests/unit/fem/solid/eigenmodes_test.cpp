@@ -127,6 +127,24 @@ TEST_P(FreeAndClamped, ElasticInverseAnswersLoadsToRoundoff) {
   EXPECT_LT((work - work.transpose()).norm() / work.norm(), 1e-11);
 }
 
+TEST_P(FreeAndClamped, ElasticInverseLeavesOutTheModesThatItIsGiven) {
+  const ElasticInverse inverse = body_.inverse();
+  const MatrixX V = find_eigenmodes(inverse, 6).Phi;
+  std::mt19937_64 random{7};
+  std::normal_distribution<double> normal;
+  MatrixX F(body_.matrices.dof_count(), 9);
+  for (double& value : F.reshaped()) value = normal(random);
+  const MatrixX X = inverse.solve(F, V);
+  const MatrixX KX = multiply_stiffness(body_.matrices.K, X);
+  EXPECT_LT((V.transpose() * KX).norm(), 1e-9 * V.norm() * F.norm());
+  // The load less what holds the modes and rigid motion.
+  MatrixX held(V.rows(), V.cols() + body_.R.cols());
+  held << V, body_.R;
+  const MatrixX load =
+      F - multiply_mass(body_.matrices.M_s, held) * (held.transpose() * F);
+  EXPECT_LT((KX - load).norm() / load.norm(), 1e-9);
+}
+
 TEST_P(FreeAndClamped, ResultsAreTheSameForAnyNumberOfThreads) {
   const auto solve = [&](unsigned threads) {
     set_thread_count(threads);
