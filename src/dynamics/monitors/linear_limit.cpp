@@ -69,6 +69,25 @@ const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
              : "it leaves its undeformed shape; level full tells how far";
 }
 
+// Largest rotation of an interface relative to the mean-axis frame [rad].
+double find_turn(const SystemModel& model, const SystemState& state,
+                 std::size_t body) {
+  double turn = 0.0;
+  const double* eta = state.eta.data() + model.bodies[body].offset;
+  for (const Attachment& attachment : model.attachments) {
+    if (!attachment.second || attachment.body != static_cast<int>(body)) {
+      continue;
+    }
+    Matrix3X Phi_B = attachment.Phi_B;
+    Matrix3X Psi_B = attachment.Psi_B;
+    flexbody::add_slopes(*attachment.second, eta, Phi_B, Psi_B);
+    const Vector3 psi =
+        0.5 * (combine(attachment.Psi_B, eta) + combine(Psi_B, eta));
+    turn = std::max(turn, psi.norm());
+  }
+  return turn;
+}
+
 }  // namespace
 
 double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
@@ -99,6 +118,19 @@ std::optional<std::string> describe_softening(const BodyModel& body,
       body.name, speed, speed / std::sqrt(mu), tell_beyond(body.elasticity));
 }
 
+std::optional<std::string> describe_large_turn(const SystemModel& model,
+                                               const SystemState& state,
+                                               std::size_t body) {
+  if (model.bodies[body].fidelity != Fidelity::nonlinear) return std::nullopt;
+  const double turn = find_turn(model, state, body);
+  if (!(turn > kLargeTurn)) return std::nullopt;
+  return fmt::format(
+      "body '{}' has bent until an interface turned by {:.3g} rad, where level "
+      "nonlinear holds up to {:g} rad; smaller loads and speeds, pieces or "
+      "level full may help",
+      model.bodies[body].name, turn, kLargeTurn);
+}
+
 LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -106,26 +138,6 @@ LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
     bodies_.push_back(
         {b, body.reduced->size.maxCoeff(), DisplacementMeasure(body)});
   }
-}
-
-// Largest rotation of an interface relative to the mean-axis frame [rad].
-double LinearLimit::find_turn(const SystemState& state,
-                              const Body& body) const {
-  double turn = 0.0;
-  const BodyModel& model = model_.bodies[body.index];
-  const double* eta = state.eta.data() + model.offset;
-  for (const Attachment& attachment : model_.attachments) {
-    if (!attachment.second || attachment.body != static_cast<int>(body.index)) {
-      continue;
-    }
-    Matrix3X Phi_B = attachment.Phi_B;
-    Matrix3X Psi_B = attachment.Psi_B;
-    flexbody::add_slopes(*attachment.second, eta, Phi_B, Psi_B);
-    const Vector3 psi =
-        0.5 * (combine(attachment.Psi_B, eta) + combine(Psi_B, eta));
-    turn = std::max(turn, psi.norm());
-  }
-  return turn;
 }
 
 void LinearLimit::check_deformation(const SystemState& state, Body& body,
@@ -137,7 +149,7 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
   const double deformation = body.measure.calc_displacement(eta);
   if (deformation <= kLarge * body.size) return;
   const bool is_nonlinear = model.fidelity == Fidelity::nonlinear;
-  const double turn = is_nonlinear ? find_turn(state, body) : 0.0;
+  const double turn = is_nonlinear ? find_turn(model_, state, body.index) : 0.0;
   if (is_nonlinear && turn <= kLargeTurn && deformation <= body.size) return;
   const Eigen::Index mode = find_largest_mode(body.measure, eta);
   const std::string what = fmt::format(

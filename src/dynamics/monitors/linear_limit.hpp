@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,8 +54,6 @@ class LinearLimit {
   };
   void check_deformation(const SystemState& state, Body& body,
                          std::vector<std::string>& warnings) const;
-  [[nodiscard]] double find_turn(const SystemState& state,
-                                 const Body& body) const;
   void check_speed(const SystemState& state, Body& body,
                    std::vector<std::string>& warnings) const;
 
@@ -65,5 +64,10 @@ class LinearLimit {
 /// Warning about a body that spins too fast; nothing if it does not.
 [[nodiscard]] std::optional<std::string> describe_softening(
     const BodyModel& body, const Vector3& w_WB_B);
+
+/// Warning about a body at level nonlinear, an interface of which has turned by
+/// more than 0.4 rad; nothing if none has.
+[[nodiscard]] std::optional<std::string> describe_large_turn(
+    const SystemModel& model, const SystemState& state, std::size_t body);
 
 }  // namespace limber::dynamics

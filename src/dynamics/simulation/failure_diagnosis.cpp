@@ -72,6 +72,8 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
     const auto soft =
         describe_softening(model.bodies[b], state.bodies[b].w_WB_B);
     if (soft) return *soft;
+    const auto bent = describe_large_turn(model, state, b);
+    if (bent) return *bent;
   }
   return describe_turn(model, state, h);
 }
