@@ -11,6 +11,7 @@
 
 #include "isolated.hpp"
 #include "refusals.hpp"
+#include "support/meshed_bodies.hpp"
 #include "support/random_scene.hpp"
 #include "support/run_random_scene.hpp"
 
@@ -21,8 +22,9 @@ namespace {
 using testing::RandomOutcome;
 using Kind = RandomOutcome::Kind;
 
-std::string run_seed(unsigned seed) {
-  RandomOutcome outcome = testing::run_random_scene(seed);
+std::string run_seed(unsigned seed,
+                     const testing::RandomSceneOptions& options) {
+  RandomOutcome outcome = testing::run_random_scene(seed, options);
   if (testing::is_silent_about_drift(outcome)) {
     outcome.kind = Kind::failed;
     outcome.text =
@@ -128,13 +130,14 @@ void write_list(const std::string& path, const std::vector<unsigned>& seeds,
   }
 }
 
-int run(const std::vector<unsigned>& seeds, double limit,
+int run(const std::vector<unsigned>& seeds,
+        const testing::RandomSceneOptions& options, double limit,
         const std::string& list) {
   Tally tally;
   std::vector<std::function<std::string()>> work;
   work.reserve(seeds.size());
   for (const unsigned seed : seeds) {
-    work.emplace_back([seed] { return run_seed(seed); });
+    work.emplace_back([seed, &options] { return run_seed(seed, options); });
   }
   const bool shows = isatty(STDERR_FILENO) == 1;
   const auto endings = do_isolated(work, limit, 2, [&](std::size_t done) {
@@ -155,6 +158,7 @@ int run(const std::vector<unsigned>& seeds, double limit,
 }  // namespace limber::bench
 
 int main(int argc, char** argv) {
+  using namespace limber;
   CLI::App app("Random scenes: how they end");
   unsigned first = 1;
   unsigned number = 10000;
@@ -166,10 +170,20 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", seeds, "These, in place of a row of them")
       ->delimiter(',');
   app.add_option("--limit", limit, "Processor time for each [s]");
+  testing::RandomSceneOptions options;
+  bool is_meshed = false;
+  app.add_flag("--meshed", is_meshed, "Bodies reduced from meshes");
+  app.add_option_function<std::string>(
+      "--level",
+      [&](const std::string& name) {
+        options.level = dynamics::parse_fidelity(name);
+      },
+      "Of all flexible bodies, in place of random ones");
   app.add_option("--list", list, "File to tell of each scene in (TSV)");
   CLI11_PARSE(app, argc, argv);
   for (unsigned i = 0; seeds.size() < number && !app.count("--seeds"); ++i) {
     seeds.push_back(first + i);
   }
-  return limber::bench::run(seeds, limit, list);
+  if (is_meshed) options.make_body = testing::make_meshed_bodies();
+  return limber::bench::run(seeds, options, limit, list);
 }

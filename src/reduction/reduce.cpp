@@ -127,7 +127,7 @@ MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
   mesh.record = {fem::find_mesh_content(made->mesh), made->notices, made->files,
                  made->is_repeatable};
   mesh.reduce = [made, progress](const Recipe& recipe) {
-    return reduce(MeshedBody(recipe, made, progress), recipe, progress);
+    return flexbody::reduce(recipe, made, progress);
   };
   mesh.take_piece = [pieces, record = mesh.record,
                      progress](const Piece& piece) {
@@ -147,6 +147,13 @@ MeshAtHand at_hand(const std::shared_ptr<const fem::TracedMesh>& made,
 
 ReducedBody reduce(const Recipe& recipe, const Progress& progress) {
   return reduce(MeshedBody(recipe, progress), recipe, progress);
+}
+
+ReducedBody reduce(const Recipe& recipe,
+                   std::shared_ptr<const fem::TracedMesh> mesh,
+                   const Progress& progress) {
+  return reduce(MeshedBody(recipe, std::move(mesh), progress), recipe,
+                progress);
 }
 
 Reducer make_reducer(const Progress& progress) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limber/dynamics/system/system_builder.hpp"
@@ -18,9 +19,27 @@ namespace {
 
 using dynamics::AttachmentIndex;
 
+std::shared_ptr<const flexbody::ReducedBody> make_points(const BodyDraw& draw) {
+  PointMassBody points =
+      make_point_mass_body(14 + draw.modes, draw.modes, draw.mass, draw.length,
+                           draw.lowest, draw.variant);
+  points.reduced.size = {draw.length / 3.0, draw.length / 3.0, draw.length};
+  const auto add = [&](const char* name, int first, int last) {
+    flexbody::InterfaceTable table = make_interface(points, first, last);
+    table.name = name;
+    points.reduced.interfaces.push_back(std::move(table));
+  };
+  add("near", 0, 5);
+  add("far", 5, 10);
+  return share(points);
+}
+
 class SceneDraw {
  public:
-  explicit SceneDraw(unsigned seed) : random_(seed) {}
+  SceneDraw(unsigned seed, const RandomSceneOptions& options)
+      : random_(seed), options_(options) {
+    if (!options_.make_body) options_.make_body = make_points;
+  }
 
   RandomScene draw() {
     const int bodies = draw_body_count();
@@ -83,25 +102,26 @@ class SceneDraw {
       far_.emplace_back(0.0, 0.0, 0.5 * length);
     } else {
       const int modes = draw_int(1, 8);
-      PointMassBody points = make_point_mass_body(
-          14 + modes, modes, mass, length, frequency_ * log_uniform(0.3, 3.0),
-          static_cast<unsigned>(b % 7));
-      points.reduced.size = {length / 3.0, length / 3.0, length};
-      const auto near_table = make_interface(points, 0, 5);
-      const auto far_table = make_interface(points, 5, 10);
+      const auto reduced = options_.make_body(
+          {modes, mass, length, frequency_ * log_uniform(0.3, 3.0),
+           static_cast<unsigned>(b % 7)});
       using dynamics::Fidelity;
-      const Fidelity level = chance(0.6)   ? Fidelity::coupled
+      const Fidelity drawn = chance(0.6)   ? Fidelity::coupled
                              : chance(0.5) ? Fidelity::one_way
                                            : Fidelity::uncoupled;
       dynamics::ModalDamping damping;
       if (chance(0.5)) damping.ratios = {log_uniform(1e-4, 1e2)};
-      body = builder_.add_flexible_body(name, share(points), level, damping);
-      near = builder_.attach_interface(name + "_near", body, near_table,
-                                       {Matrix3::Identity(), near_table.p_B});
-      far = builder_.attach_interface(name + "_far", body, far_table,
-                                      {Matrix3::Identity(), far_table.p_B});
-      near_.push_back(near_table.p_B);
-      far_.push_back(far_table.p_B);
+      body = builder_.add_flexible_body(
+          name, reduced, options_.level.value_or(drawn), damping);
+      const auto attach = [&](const char* end, std::vector<Vector3>& places) {
+        const flexbody::InterfaceTable& table =
+            reduced->interfaces[find_interface(*reduced, end)];
+        places.push_back(table.p_B);
+        return builder_.attach_interface(name + "_" + end, body, table,
+                                         {Matrix3::Identity(), table.p_B});
+      };
+      near = attach("near", near_);
+      far = attach("far", far_);
     }
     place(b);
     join(b, name, near);
@@ -238,6 +258,7 @@ class SceneDraw {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   std::mt19937 random_;
+  RandomSceneOptions options_;
   dynamics::SystemBuilder builder_;
   double size_ = 1.0;
   double mass_ = 1.0;
@@ -253,6 +274,8 @@ class SceneDraw {
 
 }  // namespace
 
-RandomScene draw_scene(unsigned seed) { return SceneDraw(seed).draw(); }
+RandomScene draw_scene(unsigned seed, const RandomSceneOptions& options) {
+  return SceneDraw(seed, options).draw();
+}
 
 }  // namespace limber::testing

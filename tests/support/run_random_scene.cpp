@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "limber/common/errors.hpp"
-#include "support/random_scene.hpp"
 
 namespace limber::testing {
 namespace {
@@ -38,7 +37,8 @@ bool is_silent_about_drift(const RandomOutcome& outcome) {
       });
 }
 
-RandomOutcome run_random_scene(unsigned seed) {
+RandomOutcome run_random_scene(unsigned seed,
+                               const RandomSceneOptions& options) {
   using Kind = RandomOutcome::Kind;
   dynamics::SimulationStatistics statistics;
   dynamics::RunRecord record;
@@ -46,7 +46,7 @@ RandomOutcome run_random_scene(unsigned seed) {
   double drift = 0.0;
   std::optional<double> first;
   try {
-    RandomScene scene = draw_scene(seed);
+    RandomScene scene = draw_scene(seed, options);
     dynamics::simulate(
         scene.model, scene.state, scene.settings,
         [&](const dynamics::SystemState& state,

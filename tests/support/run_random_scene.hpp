@@ -4,6 +4,7 @@
 #include <string>
 
 #include "limber/dynamics/simulation/run_record.hpp"
+#include "support/random_scene.hpp"
 
 namespace limber::testing {
 
@@ -28,6 +29,7 @@ struct RandomOutcome {
 [[nodiscard]] bool is_silent_about_drift(const RandomOutcome& outcome);
 
 /// Draws the scene of a seed and runs it.
-RandomOutcome run_random_scene(unsigned seed);
+RandomOutcome run_random_scene(unsigned seed,
+                               const RandomSceneOptions& options = {});
 
 }  // namespace limber::testing
