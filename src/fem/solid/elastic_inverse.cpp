@@ -64,6 +64,23 @@ double choose_shift(const StructuralMatrices& matrices, const MatrixX& R,
   return -kFraction * estimate_first_eigenvalue(matrices, R, MR, x);
 }
 
+/// X - U W' X, with W' U = I: what W measures of it vanishes.
+MatrixX remove_span(const MatrixX& X, const MatrixX& U, const MatrixX& W) {
+  if (U.cols() == 0) return X;
+  return X - U * (W.transpose() * X);
+}
+
+/// V with V' K V = I, of columns that are K-orthogonal.
+MatrixX scale_to_unit_stiffness(const StructuralMatrices& matrices,
+                                const MatrixX& modes) {
+  const VectorX stiffnesses =
+      modes.cwiseProduct(multiply_stiffness(matrices, modes))
+          .colwise()
+          .sum()
+          .transpose();
+  return modes * stiffnesses.cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
 constexpr double kLong = 20.0;  // s; eigenmodes take about as long again
 
 // @param order of degrees of freedom, those of a node adjacent
@@ -98,11 +115,11 @@ ElasticInverse::ElasticInverse(const StructuralMatrices& matrices,
 }
 
 MatrixX ElasticInverse::project_motion(const MatrixX& X) const {
-  return X - R_ * (MR_.transpose() * X);
+  return remove_span(X, R_, MR_);
 }
 
 MatrixX ElasticInverse::project_load(const MatrixX& F) const {
-  return F - MR_ * (R_.transpose() * F);
+  return remove_span(F, MR_, R_);
 }
 
 MatrixX ElasticInverse::solve_shifted(const MatrixX& F) const {
@@ -114,27 +131,19 @@ MatrixX ElasticInverse::solve(const MatrixX& F, const MatrixX& modes) const {
   constexpr double kTolerance = 1e-13;  // correction, relative to the solution
   constexpr double kStalled = 1e-9;     // roundoff allowed for a hard matrix
   constexpr double kCoarse = 1e-9;      // accuracy that the matrix suffices for
-  const MatrixX forces = multiply_stiffness(*matrices_, modes);
-  const VectorX flexibilities =
-      modes.cwiseProduct(forces).colwise().sum().transpose().cwiseInverse();
   // D and D', with which the solution and what is left of the load vanish on
   // the modes together, whatever the shift.
-  const auto exclude = [&](const MatrixX& Y) -> MatrixX {
-    if (modes.cols() == 0) return Y;
-    return Y - modes * flexibilities.asDiagonal() * (forces.transpose() * Y);
-  };
-  const auto exclude_from_load = [&](const MatrixX& Y) -> MatrixX {
-    if (modes.cols() == 0) return Y;
-    return Y - forces * flexibilities.asDiagonal() * (modes.transpose() * Y);
-  };
-  const MatrixX load = exclude_from_load(project_load(F));
-  MatrixX X = exclude(solve_shifted(load));
+  const MatrixX V = scale_to_unit_stiffness(*matrices_, modes);
+  const MatrixX KV = multiply_stiffness(*matrices_, V);
+  const MatrixX load = remove_span(project_load(F), KV, V);
+  MatrixX X = remove_span(solve_shifted(load), V, KV);
   double previous = std::numeric_limits<double>::infinity();
   bool is_fine = false;  // residual by the product, which costs more
   for (int step = 0; step < kMaxSteps; ++step) {
-    const MatrixX correction = exclude(
+    const MatrixX correction = remove_span(
         solve_shifted(is_fine ? calc_residual(*matrices_, load, X)
-                              : load - multiply_stiffness(matrices_->K, X)));
+                              : load - multiply_stiffness(matrices_->K, X)),
+        V, KV);
     X += correction;
     const double change =
         (correction.colwise().norm().array() /
