@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/command.hpp"
+#include "cli/impact_run.hpp"
 
 namespace limber::test {
 namespace {
@@ -64,25 +64,13 @@ json strike(const std::string& level) {
   place.write("rod.geo", kRod);
   place.write("rod.urdf", kRobot);
   place.write("strike.toml", kScenario);
-  const CommandResult result =
-      place.limber("run strike.toml --out o --json --fidelity " + level);
-  EXPECT_EQ(result.status, 0) << result.errors;
-  return json::parse(result.out, nullptr, false);
+  return run_for_summary(place, "strike.toml --fidelity " + level);
 }
 
 TEST(FullContactRun, OfTwoFlexibleLinksIsThatOfTheirModes) {
   const json full = strike("full");
   const json coupled = strike("coupled");
-  ASSERT_EQ(full["contacts"].size(), 1U);
-  ASSERT_EQ(coupled["contacts"].size(), 1U);
-  for (const char* key : {"impulse", "peak_force", "duration"}) {
-    EXPECT_NEAR(coupled["contacts"][0][key].get<double>() /
-                    full["contacts"][0][key].get<double>(),
-                1.0, 0.005)
-        << key;
-  }
-  EXPECT_NEAR(coupled["contacts"][0]["restitution"].get<double>(),
-              full["contacts"][0]["restitution"].get<double>(), 0.002);
+  expect_same_impact(coupled, full, 0.005, 0.002);
   // Without friction the end would move by 240 and 120 um along x and y.
   for (const char* component : {"end.ux", "end.uy", "end.uz"}) {
     EXPECT_NEAR(coupled["probes"][component]["final"].get<double>(),
