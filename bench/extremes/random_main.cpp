@@ -173,17 +173,16 @@ int main(int argc, char** argv) {
   testing::RandomSceneOptions options;
   bool is_meshed = false;
   app.add_flag("--meshed", is_meshed, "Bodies reduced from meshes");
-  app.add_option_function<std::string>(
-      "--level",
-      [&](const std::string& name) {
-        options.level = dynamics::parse_fidelity(name);
-      },
-      "Of all flexible bodies, in place of random ones");
+  std::string level;
+  app.add_option("--level", level,
+                 "Of all flexible bodies, in place of random ones")
+      ->check(CLI::IsMember(dynamics::fidelity_names()));
   app.add_option("--list", list, "File to tell of each scene in (TSV)");
   CLI11_PARSE(app, argc, argv);
   for (unsigned i = 0; seeds.size() < number && !app.count("--seeds"); ++i) {
     seeds.push_back(first + i);
   }
+  if (!level.empty()) options.level = dynamics::parse_fidelity(level);
   if (is_meshed) options.make_body = testing::make_meshed_bodies();
   return limber::bench::run(seeds, options, limit, list);
 }

@@ -48,7 +48,7 @@ struct Similarity {
   double frequency = 1.0;
 };
 
-void scale(const Similarity& by, flexbody::InterfaceTable& table) {
+void scale(flexbody::InterfaceTable& table, const Similarity& by) {
   const double mode = 1.0 / std::sqrt(by.mass);
   table.p_B *= by.length;
   table.Phi_B *= mode;
@@ -75,7 +75,7 @@ flexbody::ReducedBody scale(flexbody::ReducedBody body, const Similarity& by) {
   body.lambda *= by.frequency * by.frequency;
   body.rows.x_B *= by.length;
   body.rows.Phi_B /= root_mass;
-  for (flexbody::InterfaceTable& table : body.interfaces) scale(by, table);
+  for (flexbody::InterfaceTable& table : body.interfaces) scale(table, by);
   body.manifold->Q *= by.frequency / (root_mass * by.length);
   body.manifold->Theta_B /= by.mass * by.length;
   return body;
