@@ -30,14 +30,19 @@ class EnergyWatch {
   /// @param is_end whether the run ends here
   /// @returns whether it can only be a numerical artefact
   [[nodiscard]] bool is_blown_up(double stored, bool is_end = false) {
-    const bool is_too_much = !(stored <= kFactor * supplied_ + kLeast);
+    const bool is_much = is_too_much(stored);
     const bool is_far_off =
         !lags_ && supplied_ > 0.0 && stored > kFarFactor * supplied_;
     const bool was_too_much = last_ < kNone;
-    const bool is_blown = is_too_much && (is_far_off || !(stored <= last_) ||
-                                          (is_end && was_too_much));
-    last_ = is_too_much ? stored : kNone;
+    const bool is_blown = is_much && (is_far_off || !(stored <= last_) ||
+                                      (is_end && was_too_much));
+    last_ = is_much ? stored : kNone;
     return is_blown;
+  }
+  /// Whether more than ten times the energy at the start and of the work is
+  /// stored.
+  [[nodiscard]] bool is_too_much(double stored) const {
+    return !(stored <= kFactor * supplied_ + kLeast);
   }
   /// Whether the last check found too much energy, but the lag of work may
   /// explain it until the next step.

@@ -102,6 +102,19 @@ std::vector<std::string> HoldWatch::find_warnings() const {
   return warnings;
 }
 
+std::optional<std::string> HoldWatch::find_overpowered() const {
+  const Hold* worst = nullptr;
+  double most = kOverpowered;
+  for (const Hold& hold : holds_) {
+    const double share = std::max(hold.give / hold.size, hold.turn);
+    if (share <= most) continue;
+    most = share;
+    worst = &hold;
+  }
+  if (worst == nullptr) return std::nullopt;
+  return describe(*worst) + ": the loads are stronger than this joint";
+}
+
 void HoldWatch::exchange_memory(Archive& archive) {
   for (Hold& hold : holds_) {
     archive(hold.give, hold.turn, hold.give_time, hold.turn_time);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,13 @@ class HoldWatch {
   [[nodiscard]] std::vector<std::string> find_warnings() const;
   /// Of a body's size, and in rotation [-, rad].
   static constexpr double kLargest = 1e-3;
+
+  /// The joint that was displaced most, if by more than kOverpowered; nothing
+  /// if none was.
+  [[nodiscard]] std::optional<std::string> find_overpowered() const;
+  /// Of a body's size, and in rotation: nothing that a joint's springs
+  /// constrain moves so far where they hold [-, rad].
+  static constexpr double kOverpowered = 0.5;
 
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);

@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/monitors/hold_watch.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 
 namespace limber::dynamics {
@@ -42,6 +44,18 @@ std::string describe_stability(const SystemModel& model,
       h, stable);
 }
 
+// A scheme that blows up displaces joints, too: nothing is said of them then.
+std::string describe_overpowered(const SystemModel& model,
+                                 const SystemState& state,
+                                 const EnergyWatch& energy) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  if (energy.is_too_much(calc_energy(model, state, terms).total())) return {};
+  HoldWatch watch(model);
+  watch.include(terms, state.t);
+  return watch.find_overpowered().value_or("");
+}
+
 std::string describe_turn(const SystemModel& model, const SystemState& state,
                           double h) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -59,7 +73,8 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
 }  // namespace
 
 std::string find_cause(const SystemModel& model, const SystemState& state,
-                       IntegratorKind integrator, double h) {
+                       IntegratorKind integrator, double h,
+                       const EnergyWatch& energy) {
   if (may_be_unstable(integrator)) {
     try {
       std::string text = describe_stability(model, state, integrator, h);
@@ -74,6 +89,12 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
     if (soft) return *soft;
     const auto bent = describe_large_turn(model, state, b);
     if (bent) return *bent;
+  }
+  try {
+    std::string text = describe_overpowered(model, state, energy);
+    if (!text.empty()) return text;
+  } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
+    // A joint whose axis is reversed names itself.
   }
   return describe_turn(model, state, h);
 }

@@ -100,7 +100,7 @@ double TimeLoop::find_share(double t) const {
 
 void TimeLoop::fail(const SystemState& state, double h,
                     const std::string& what) const {
-  const std::string cause = find_cause(model_, state, settings_.integrator, h);
+  const auto cause = find_cause(model_, state, settings_.integrator, h, watch_);
   throw NumericalError(cause.empty() ? what : what + "; " + cause);
 }
 
