@@ -264,10 +264,9 @@ def judge(result, must_touch=True):
     summary = json.loads(result.stdout)
     energy = summary["energy"]
     rise = energy["peaks"]["stored"]["value"] / energy["initial"] - 1.0
-    if not rise <= MOST_RISE and DEEP in result.stderr:
-        return "too deep", summary
     if not rise <= MOST_RISE:
-        return f"energy rose by {100 * rise:.3g} %", summary
+        is_deep = DEEP in result.stderr
+        return "too deep" if is_deep else f"energy rose by {100 * rise:.3g} %", summary
     if must_touch and not summary["contacts"]:
         return "passed through", summary
     return "good", summary

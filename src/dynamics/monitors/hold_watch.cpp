@@ -95,23 +95,18 @@ std::string HoldWatch::describe(const Hold& hold) const {
 std::vector<std::string> HoldWatch::find_warnings() const {
   std::vector<std::string> warnings;
   for (const Hold& hold : holds_) {
-    if (std::max(hold.give / hold.size, hold.turn) > kLargest) {
-      warnings.push_back(describe(hold));
-    }
+    if (hold.largest() > kLargest) warnings.push_back(describe(hold));
   }
   return warnings;
 }
 
 std::optional<std::string> HoldWatch::find_overpowered() const {
-  const Hold* worst = nullptr;
-  double most = kOverpowered;
-  for (const Hold& hold : holds_) {
-    const double share = std::max(hold.give / hold.size, hold.turn);
-    if (share <= most) continue;
-    most = share;
-    worst = &hold;
+  const auto worst = std::max_element(
+      holds_.begin(), holds_.end(),
+      [](const Hold& a, const Hold& b) { return a.largest() < b.largest(); });
+  if (worst == holds_.end() || worst->largest() <= kOverpowered) {
+    return std::nullopt;
   }
-  if (worst == nullptr) return std::nullopt;
   return describe(*worst) + ": the loads are stronger than this joint";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -50,6 +51,8 @@ class HoldWatch {
     double turn = 0.0;       // theta at its largest [rad]
     double give_time = 0.0;  // [s]
     double turn_time = 0.0;  // [s]
+    // The larger of both, of the body's size or [rad].
+    [[nodiscard]] double largest() const { return std::max(give / size, turn); }
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;
 
