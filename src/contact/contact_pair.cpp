@@ -12,7 +12,6 @@
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
 #include "limber/contact/meetings.hpp"
-#include "limber/contact/pads_on_plane.hpp"
 #include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
 
@@ -84,13 +83,12 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
     : A_(std::move(side_A)),
       B_(std::move(side_B)),
       parameters_(parameters),
-      shapes_(A_.shape, B_.shape),
+      shapes_(A_.shape, B_.shape, !parameters.radius && !parameters.stiffness),
       law_(parameters, find_pair_moduli(A_.material, B_.material),
            check_masses(A_, B_), find_roundness(A_.shape, B_.shape)),
-      pads_(make_pad_law({A_.shape, A_.material}, {B_.shape, B_.material},
-                         parameters)),
+      pads_(PadContact::make(shapes_, {A_.shape, A_.material},
+                             {B_.shape, B_.material}, parameters)),
       twist_(make_twist(parameters)),
-      pad_area_(pads_ ? find_pads(A_.shape, B_.shape)->area : VectorX()),
       size_(contact::find_size(A_.shape, B_.shape)),
       mode_reach_A_(find_mode_reach(A_.shape)),
       mode_reach_B_(find_mode_reach(B_.shape)) {}
@@ -189,43 +187,45 @@ void ContactPair::meet(const PairBodies& bodies, double reach,
                        std::span<Meeting> out) const {
   shapes_.find(bodies, reach, out);
   if (shapes_.has_loose_features()) follow_memory(memory, out);
-  if (!shapes_.keeps_order()) take_slots(memory, size_, out);
+  const std::size_t ordered = shapes_.ordered_count();
+  if (ordered == out.size()) return;
+  take_slots(memory.subspan(kPointNumbers * ordered), size_,
+             out.subspan(ordered));
 }
 
 void ContactPair::evaluate_pads(std::span<const Meeting> meetings,
                                 PadLaw::Response& out) const {
-  if (!pads_) return;
-  pads_->evaluate(list_depths(meetings), out);
+  if (pads_) pads_->evaluate(meetings, out);
 }
 
 HertzLaw ContactPair::find_first_law(const Meeting& meeting,
                                      std::size_t i) const {
-  if (!pads_) return find_law(meeting, 1.0);
-  return HertzLaw(
-      {HertzLaw::kRigid, 1.0 / pads_->uniform_stiffness(static_cast<int>(i))});
+  if (!is_pad(i)) return find_law(meeting, 1.0);
+  const double stiffness = pads_->law().uniform_stiffness(static_cast<int>(i));
+  return HertzLaw({HertzLaw::kRigid, 1.0 / stiffness});
 }
 
 PointMemory ContactPair::recall(const PointMemory& memory,
                                 const Meeting& meeting, std::size_t i,
                                 double rate) const {
-  if (!pads_ || memory.is_touching()) return memory;
+  if (!is_pad(i) || memory.is_touching()) return memory;
   return law_.begin(find_first_law(meeting, i), rate);
 }
 
 bool ContactPair::touches(const Meeting& meeting, std::size_t i,
                           const PadLaw::Response& pads) const {
-  if (!pads_) return meeting.depth > 0.0;
+  if (!is_pad(i)) return meeting.depth > 0.0;
   return !(pads.force[static_cast<Eigen::Index>(i)] <= 0.0);
 }
 
 PointResponse ContactPair::respond(const PointMotion& motion, std::size_t i,
                                    const PadLaw::Response& pads,
                                    const PointMemory& before) const {
-  if (!pads_) return law_.evaluate(motion, before);
+  if (!is_pad(i)) return law_.evaluate(motion, before);
   const auto pad = static_cast<Eigen::Index>(i);
   PointResponse response = law_.evaluate(
       motion, ElasticForce{pads.force[pad], pads.stiffness(pad, pad)}, before);
-  response.area = pad_area_[pad];
+  response.area = pads_->area(i);
   return response;
 }
 
@@ -248,6 +248,7 @@ void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
   for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];
     if (!touches(meeting, i, pads)) continue;
+    const std::size_t at = out.points().size();
     joints::PairPoint& point = out.add();
     const PointMemory known = load_memory(numbers_of(i, memory));
     const PointMotion motion = place(bodies, meeting, known, now.t, point);
@@ -255,7 +256,7 @@ void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
     const PointResponse response = respond(motion, i, pads, before);
     set_response(response, point, out);
     out.energy += response.energy;
-    if (pads_) points.add(i, response.by_elastic_W, meeting.normal_W);
+    if (is_pad(i)) points.add(at, i, response.by_elastic_W, meeting.normal_W);
     if (twist_) add_twist(bodies, meeting, response, now.t - before.time, out);
   }
   points.couple(pads, out);
@@ -356,7 +357,7 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
     save_memory(next, numbers);
   }
   const HertzLaw whole =
-      pads_ ? HertzLaw({HertzLaw::kRigid, 1.0 / pads_->total_stiffness()})
+      pads_ ? HertzLaw({HertzLaw::kRigid, 1.0 / pads_->law().total_stiffness()})
             : find_law(meetings[deepest], 1.0);
   return law_.find_duration(whole,
                             load_memory(numbers_of(deepest, memory)).speed);

@@ -5,8 +5,8 @@
 
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/materials.hpp"
-#include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/law/point_law.hpp"
+#include "limber/contact/pad_contact.hpp"
 #include "limber/contact/point_twist.hpp"
 #include "limber/contact/shapes/shape_pair.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
@@ -27,9 +27,9 @@ struct ContactSide {
 /// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth,
 ///            k of 1/R_e = the sum of both curvatures, R = R_A + R_B of what
 ///            the bases leave out at both places; t a bristle within mu f
-///            between a plane and a flat surface of a flexible body the forces
-///            of its pads: PadLaw of what the basis leaves out, of the plane's
-///            own half space, and 0.1 % of the surface's
+///            of a flat surface of a flexible body on a plane, a face of a box,
+///            an end of a cylinder or another flat surface the forces of its
+///            pads (PadContact)
 /// Source     docs/theory/contact_laws.md
 ///            of shapes that meet at one place PointTwist against turning
 ///            about the normal
@@ -101,6 +101,9 @@ class ContactPair final : public joints::PairInteraction,
   void meet(const joints::PairStep& step, std::span<const double> memory,
             std::span<Meeting> begin, std::span<Meeting> middle,
             std::span<Meeting> end) const;
+  [[nodiscard]] bool is_pad(std::size_t i) const {
+    return i < shapes_.pad_count();
+  }
   void evaluate_pads(std::span<const Meeting> meetings,
                      PadLaw::Response& out) const;
   // Of a feature as it first touches.
@@ -115,7 +118,14 @@ class ContactPair final : public joints::PairInteraction,
                                       const PointMemory& before) const;
   [[nodiscard]] bool touches(const Meeting& meeting, std::size_t i,
                              const PadLaw::Response& pads) const;
+  // The meetings of a step's begin, middle and end.
+  struct StepMeetings {
+    std::span<const Meeting> begin;
+    std::span<const Meeting> middle;
+    std::span<const Meeting> end;
+  };
   void evaluate_pads_over_step(const joints::PairStep& step,
+                               const StepMeetings& meetings,
                                std::span<const double> memory,
                                joints::PairResponse& out) const;
   [[nodiscard]] PointMotion place(const joints::PairBodies& bodies,
@@ -135,9 +145,8 @@ class ContactPair final : public joints::PairInteraction,
   ContactParameters parameters_;
   ShapePair shapes_;
   PointLaw law_;
-  std::optional<PadLaw> pads_;
+  std::optional<PadContact> pads_;
   std::optional<PointTwist> twist_;
-  VectorX pad_area_;  // [m^2]
   double size_;
   VectorX mode_reach_A_;
   VectorX mode_reach_B_;

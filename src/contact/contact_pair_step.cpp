@@ -8,7 +8,6 @@
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
 #include "limber/contact/meetings.hpp"
-#include "limber/contact/pads_on_plane.hpp"
 #include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
 
@@ -62,7 +61,8 @@ void ContactPair::meet(const joints::PairStep& step,
                        std::span<const double> memory, std::span<Meeting> begin,
                        std::span<Meeting> middle,
                        std::span<Meeting> end) const {
-  if (shapes_.keeps_order()) {
+  const std::size_t ordered = shapes_.ordered_count();
+  if (ordered == end.size()) {
     meet(step.end, kInfinity, memory, end);
     shapes_.find(step.begin, kInfinity, begin);
     shapes_.find(step.middle, kInfinity, middle);
@@ -74,8 +74,11 @@ void ContactPair::meet(const joints::PairStep& step,
   meet(step.begin, kInfinity, memory, begin);
   shapes_.find(step.end, kInfinity, end);
   shapes_.find(step.middle, kInfinity, middle);
-  take_slots(std::span<const Meeting>(begin), size_, end);
-  take_slots(std::span<const Meeting>(end), size_, middle);
+  const auto others = [ordered](std::span<Meeting> all) {
+    return all.subspan(ordered);
+  };
+  take_slots(std::span<const Meeting>(others(begin)), size_, others(end));
+  take_slots(std::span<const Meeting>(others(end)), size_, others(middle));
 }
 
 void ContactPair::evaluate_over_step(const joints::PairStep& step,
@@ -84,15 +87,15 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
   if (find_clearance(step.begin) > 0.0 && find_clearance(step.end) > 0.0) {
     return;
   }
-  if (pads_) {
-    evaluate_pads_over_step(step, memory, out);
-    return;
-  }
   Meetings begin(count_features());
   Meetings middle(count_features());
   Meetings end(count_features());
   meet(step, memory, begin.all(), middle.all(), end.all());
-  for (std::size_t i = 0; i < count_features(); ++i) {
+  if (pads_) {
+    evaluate_pads_over_step(step, {begin.all(), middle.all(), end.all()},
+                            memory, out);
+  }
+  for (std::size_t i = shapes_.pad_count(); i < count_features(); ++i) {
     if (!(begin[i].depth > 0.0) && !(end[i].depth > 0.0)) continue;
     joints::PairPoint& point = out.add();
     // What is a feature at one instant alone.
@@ -122,24 +125,23 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
 // As HertzLaw::evaluate_over_step, of all pads at once: the mean of the forces
 // at both ends, and what of the energy it leaves by the pads' ways.
 void ContactPair::evaluate_pads_over_step(const joints::PairStep& step,
+                                          const StepMeetings& meetings,
                                           std::span<const double> memory,
                                           joints::PairResponse& out) const {
-  Meetings meetings(count_features());
   PadLaw::Response begin;
   PadLaw::Response end;
-  shapes_.find(step.begin, kInfinity, meetings.all());
-  evaluate_pads(meetings.all(), begin);
-  shapes_.find(step.end, kInfinity, meetings.all());
-  evaluate_pads(meetings.all(), end);
-  shapes_.find(step.middle, kInfinity, meetings.all());
+  evaluate_pads(meetings.begin, begin);
+  evaluate_pads(meetings.end, end);
   PadLaw::Response mean;
   mean.force = 0.5 * (begin.force + end.force);
   mean.stiffness = 0.5 * end.stiffness;
   PadLaw::Vector ways = PadLaw::Vector::Zero(mean.force.size());
   joints::PairPoint& scratch = out.add();
-  for (std::size_t i = 0; i < count_features(); ++i) {
+  for (std::size_t i = 0; i < shapes_.pad_count(); ++i) {
+    const Meeting& middle = meetings.middle[i];
+    if (middle.depth == Meeting{}.depth) continue;
     const PointMotion motion =
-        place(step.middle, meetings[i], {}, step.times.middle(), scratch);
+        place(step.middle, middle, {}, step.times.middle(), scratch);
     const Vector3 way = (find_position(step.end.B, scratch.on_B) -
                          find_position(step.begin.B, scratch.on_B)) -
                         (find_position(step.end.A, scratch.on_A) -
@@ -153,18 +155,21 @@ void ContactPair::evaluate_pads_over_step(const joints::PairStep& step,
     mean.force += left / square * ways;
   }
   CoupledPads points;
-  for (std::size_t i = 0; i < count_features(); ++i) {
+  for (std::size_t i = 0; i < shapes_.pad_count(); ++i) {
     const auto pad = static_cast<Eigen::Index>(i);
+    const Meeting& middle = meetings.middle[i];
+    if (middle.depth == Meeting{}.depth) continue;
     if (begin.force[pad] <= 0.0 && end.force[pad] <= 0.0) continue;
     mean.force[pad] = std::max(mean.force[pad], 0.0);
+    const std::size_t at = out.points().size();
     joints::PairPoint& point = out.add();
     const PointMemory known = load_memory(numbers_of(i, memory));
     const PointMotion motion =
-        place(step.middle, meetings[i], known, step.times.middle(), point);
-    const PointMemory before = recall(known, meetings[i], i, motion.rate());
+        place(step.middle, middle, known, step.times.middle(), point);
+    const PointMemory before = recall(known, middle, i, motion.rate());
     const PointResponse response = respond(motion, i, mean, before);
     set_response(response, point, out);
-    points.add(i, response.by_elastic_W, meetings[i].normal_W);
+    points.add(at, i, response.by_elastic_W, middle.normal_W);
   }
   points.couple(mean, out);
 }

@@ -13,89 +13,95 @@ constexpr double kPi = std::numbers::pi;
 // A pad of a smaller share of the depth's scale is neither pressed nor free.
 constexpr double kNone = 1e-12;
 
-}  // namespace
+using Vector = PadLaw::Vector;
+using Matrix = PadLaw::Matrix;
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1, 0, PadLaw::kMost, 1>;
 
-PadLaw::PadLaw(const MatrixX& compliance) {
-  if (compliance.rows() < 1 || compliance.rows() > kMost ||
-      compliance.cols() != compliance.rows() || !compliance.allFinite()) {
-    throw InputError("contact: the flexibility of its pads has no valid size");
+// Pads that are pressed.
+struct Active {
+  static Active of(const Flags& flags) {
+    Active active;
+    for (int i = 0; i < flags.size(); ++i) {
+      if (flags[i]) active.at[active.count++] = i;
+    }
+    return active;
   }
-  C_ = compliance;
-  const Eigen::LLT<Matrix> factor(C_);
-  if (factor.info() != Eigen::Success) {
-    throw InputError(
-        "contact: the flexibility of its pads is not positive definite");
-  }
-  uniform_ = factor.solve(Vector::Ones(C_.rows()));
-  total_ = uniform_.sum();
-  uniform_ = uniform_.cwiseMax(0.01 * total_ / static_cast<double>(C_.rows()));
-}
+  Eigen::Array<int, PadLaw::kMost, 1> at;
+  int count = 0;
+};
 
-PadLaw::Active PadLaw::Active::of(const Flags& flags) {
-  Active active;
-  for (int i = 0; i < flags.size(); ++i) {
-    if (flags[i]) active.at[active.count++] = i;
-  }
-  return active;
-}
+// The forces of depths by a flexibility.
+class Pressing {
+ public:
+  Pressing(const Matrix& C, const Vector& depth) : C_(C), depth_(depth) {}
 
-Eigen::LLT<PadLaw::Matrix> PadLaw::factor(const Active& active) const {
-  Matrix C(active.count, active.count);
-  for (int i = 0; i < active.count; ++i) {
-    for (int j = 0; j < active.count; ++j) {
-      C(i, j) = C_(active.at[i], active.at[j]);
+  void find(Flags& active, Vector& force) const {
+    active = depth_.array() > 0.0;
+    if (!find_by_sets(active, force)) find_one_by_one(active, force);
+  }
+  // The inverse among the active pads.
+  void invert(const Flags& flags, Matrix& out) const {
+    const Active active = Active::of(flags);
+    if (active.count == 0) return;
+    const Matrix inverse =
+        factor(active).solve(Matrix::Identity(active.count, active.count));
+    for (int i = 0; i < active.count; ++i) {
+      for (int j = 0; j < active.count; ++j) {
+        out(active.at[i], active.at[j]) = inverse(i, j);
+      }
     }
   }
-  return Eigen::LLT<Matrix>(C);
-}
 
-PadLaw::Vector PadLaw::solve(const Vector& depth, const Flags& flags) const {
-  Vector force = Vector::Zero(count());
-  const Active active = Active::of(flags);
-  if (active.count == 0) return force;
-  Vector d(active.count);
-  for (int i = 0; i < active.count; ++i) d[i] = depth[active.at[i]];
-  factor(active).solveInPlace(d);
-  for (int i = 0; i < active.count; ++i) force[active.at[i]] = d[i];
-  return force;
-}
-
-// The inverse among the active pads.
-void PadLaw::invert(const Flags& flags, Matrix& out) const {
-  const Active active = Active::of(flags);
-  if (active.count == 0) return;
-  const Matrix inverse =
-      factor(active).solve(Matrix::Identity(active.count, active.count));
-  for (int i = 0; i < active.count; ++i) {
-    for (int j = 0; j < active.count; ++j) {
-      out(active.at[i], active.at[j]) = inverse(i, j);
+ private:
+  [[nodiscard]] Eigen::LLT<Matrix> factor(const Active& active) const {
+    Matrix C(active.count, active.count);
+    for (int i = 0; i < active.count; ++i) {
+      for (int j = 0; j < active.count; ++j) {
+        C(i, j) = C_(active.at[i], active.at[j]);
+      }
     }
+    return Eigen::LLT<Matrix>(C);
   }
-}
 
-bool PadLaw::find_by_sets(const Vector& depth, Flags& active,
-                          Vector& force) const {
-  constexpr int kMostSets = 20;
-  for (int i = 0; i < kMostSets; ++i) {
-    force = solve(depth, active);
-    const Vector left = depth - C_ * force;
-    const Flags next = active.select(force.array() > 0.0, left.array() > 0.0);
-    if ((next == active).all()) return true;
-    active = next;
+  // Forces of the active pads alone, of any sign.
+  [[nodiscard]] Vector solve(const Flags& flags) const {
+    Vector force = Vector::Zero(depth_.size());
+    const Active active = Active::of(flags);
+    if (active.count == 0) return force;
+    Vector d(active.count);
+    for (int i = 0; i < active.count; ++i) d[i] = depth_[active.at[i]];
+    factor(active).solveInPlace(d);
+    for (int i = 0; i < active.count; ++i) force[active.at[i]] = d[i];
+    return force;
   }
-  return false;
-}
 
-void PadLaw::find_one_by_one(const Vector& depth, Flags& active,
-                             Vector& force) const {
-  const double least = kNone * depth.cwiseAbs().maxCoeff();
+  bool find_by_sets(Flags& active, Vector& force) const {
+    constexpr int kMostSets = 20;
+    for (int i = 0; i < kMostSets; ++i) {
+      force = solve(active);
+      const Vector left = depth_ - C_ * force;
+      const Flags next = active.select(force.array() > 0.0, left.array() > 0.0);
+      if ((next == active).all()) return true;
+      active = next;
+    }
+    return false;
+  }
+
+  void find_one_by_one(Flags& active, Vector& force) const;
+
+  const Matrix& C_;
+  const Vector& depth_;
+};
+
+void Pressing::find_one_by_one(Flags& active, Vector& force) const {
+  const double least = kNone * depth_.cwiseAbs().maxCoeff();
   active.setConstant(false);
   force.setZero();
-  for (int added = 0; added < 4 * kMost; ++added) {
-    const Vector left = depth - C_ * force;
+  for (int added = 0; added < 4 * PadLaw::kMost; ++added) {
+    const Vector left = depth_ - C_ * force;
     int next = -1;
     double most = least;
-    for (int i = 0; i < count(); ++i) {
+    for (int i = 0; i < depth_.size(); ++i) {
       if (active[i] || left[i] <= most) continue;
       next = i;
       most = left[i];
@@ -103,10 +109,10 @@ void PadLaw::find_one_by_one(const Vector& depth, Flags& active,
     if (next < 0) return;
     active[next] = true;
     while (true) {
-      const Vector trial = solve(depth, active);
+      const Vector trial = solve(active);
       double share = 1.0;
       int gone = -1;
-      for (int i = 0; i < count(); ++i) {
+      for (int i = 0; i < depth_.size(); ++i) {
         if (!active[i] || trial[i] > 0.0) continue;
         const double until = force[i] / (force[i] - trial[i]);
         if (gone >= 0 && until >= share) continue;
@@ -124,8 +130,32 @@ void PadLaw::find_one_by_one(const Vector& depth, Flags& active,
   }
 }
 
+}  // namespace
+
+PadLaw::PadLaw(const MatrixX& compliance, double common) {
+  if (compliance.rows() < 1 || compliance.rows() > kMost ||
+      compliance.cols() != compliance.rows() || !compliance.allFinite()) {
+    throw InputError("contact: the flexibility of its pads has no valid size");
+  }
+  C_ = compliance;
+  const Eigen::LLT<Matrix> factor(C_);
+  if (factor.info() != Eigen::Success) {
+    throw InputError(
+        "contact: the flexibility of its pads is not positive definite");
+  }
+  uniform_ = factor.solve(Vector::Ones(C_.rows()));
+  uniform_ /= 1.0 + common * uniform_.sum();  // Sherman and Morrison
+  total_ = uniform_.sum();
+  uniform_ = uniform_.cwiseMax(0.01 * total_ / static_cast<double>(C_.rows()));
+}
+
 void PadLaw::evaluate(const Vector& depth, Response& out) const {
-  LIMBER_EXPECT(depth.size() == C_.rows());
+  evaluate(depth, Matrix::Zero(C_.rows(), C_.rows()), out);
+}
+
+void PadLaw::evaluate(const Vector& depth, const Matrix& added,
+                      Response& out) const {
+  LIMBER_EXPECT(depth.size() == C_.rows() && added.rows() == C_.rows());
   const auto k = depth.size();
   out.force.setZero(k);
   out.stiffness.setZero(k, k);
@@ -135,12 +165,12 @@ void PadLaw::evaluate(const Vector& depth, Response& out) const {
     return;
   }
   if (!(depth.maxCoeff() > 0.0)) return;
-  Flags active = depth.array() > 0.0;
-  if (!find_by_sets(depth, active, out.force)) {
-    find_one_by_one(depth, active, out.force);
-  }
-  out.energy = 0.5 * out.force.dot(C_ * out.force);
-  invert(active, out.stiffness);
+  const Matrix C = C_ + added;
+  const Pressing pressing(C, depth);
+  Flags active;
+  pressing.find(active, out.force);
+  out.energy = 0.5 * out.force.dot(C * out.force);
+  pressing.invert(active, out.stiffness);
 }
 
 MatrixX calc_half_space_compliance(const Matrix3X& places, const VectorX& area,

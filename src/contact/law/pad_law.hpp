@@ -25,8 +25,10 @@ class PadLaw {
 
   /// @param compliance k x k, 1 <= k <= kMost, symmetric positive
   /// definite [m/N]
+  /// @param common what is added to all of its elements in most states, for
+  /// uniform_stiffness and total_stiffness [m/N]
   /// @throws InputError if it is not.
-  explicit PadLaw(const MatrixX& compliance);
+  explicit PadLaw(const MatrixX& compliance, double common = 0.0);
 
   [[nodiscard]] int count() const { return static_cast<int>(C_.rows()); }
 
@@ -38,6 +40,9 @@ class PadLaw {
   /// @param depth k of them, of any sign [m]
   /// @param out takes no memory from the heap
   void evaluate(const Vector& depth, Response& out) const;
+  /// Of C and what is added to it. @param added k x k, symmetric positive
+  /// semidefinite [m/N]
+  void evaluate(const Vector& depth, const Matrix& added, Response& out) const;
 
   /// df_i/dd of pad i if all go equally deep, at least a hundredth of their
   /// mean [N/m].
@@ -46,21 +51,6 @@ class PadLaw {
   [[nodiscard]] double total_stiffness() const { return total_; }
 
  private:
-  using Flags = Eigen::Array<bool, Eigen::Dynamic, 1, 0, kMost, 1>;
-  // Pads that are pressed.
-  struct Active {
-    static Active of(const Flags& flags);
-    Eigen::Array<int, kMost, 1> at;
-    int count = 0;
-  };
-  [[nodiscard]] Eigen::LLT<Matrix> factor(const Active& active) const;
-  // Forces of the active pads alone, of any sign.
-  [[nodiscard]] Vector solve(const Vector& depth, const Flags& flags) const;
-  void invert(const Flags& flags, Matrix& out) const;
-  [[nodiscard]] bool find_by_sets(const Vector& depth, Flags& active,
-                                  Vector& force) const;
-  void find_one_by_one(const Vector& depth, Flags& active, Vector& force) const;
-
   Matrix C_;
   Vector uniform_;
   double total_ = 0.0;

@@ -57,6 +57,35 @@ void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
 [[nodiscard]] double find_skins_clearance(const PlacedShape& A,
                                           const PlacedShape& B);
 
+/// Most pads of a flat surface that touches others than half spaces.
+inline constexpr std::size_t kMostPads = 25;
+/// Whether A is a flat surface with so many pads at most, and B a box, a
+/// cylinder or such a surface that is not smaller.
+[[nodiscard]] bool is_flat_pair(const Shape& A, const Shape& B);
+/// Pads of a shape; 0 of all that is no flat surface.
+[[nodiscard]] std::size_t count_pads(const Shape& A);
+/// Of A's pads with the face, or the end, that B turns to them.
+///
+/// Equation   depth = -height of the pad over B's surface along B's normal;
+///            share = 1 - what the pad's node is beyond B's rim / the pad's
+///            radius, times 1 up to a tilt of 30 degrees and 0 from 45
+///            degrees on, linear in its cosine
+/// Limits     B is taken to go on in the plane of its face up to that
+///            distance
+/// @param out one a pad
+void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
+                       std::span<Meeting> out);
+/// Reduces the shares of A's other places: what remains are corners and edges
+/// between its pads that are deeper than all of them.
+///
+/// Equation   share (1 - hold) deeper: hold is 1 up to half of a pad's radius
+///            from a line between two covered pads, 0 from 1.5 of it on;
+///            deeper is 0 at the depth of the deepest pad, 1 where that is a
+///            tenth less
+/// @param A whose pads they are
+void take_what_pads_miss(const Shape& A, std::span<const Meeting> pads,
+                         std::span<Meeting> others);
+
 /// Of B's features with a half space: how many, and each of them.
 ///
 /// Equation   depth = -height of the feature's lowest point

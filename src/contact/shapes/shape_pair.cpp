@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/contact/shapes/pair_rules.hpp"
-#include "limber/contact/shapes/placed_shape.hpp"
 #include "limber/contact/shapes/shape_skin.hpp"
 
 namespace limber::contact {
@@ -27,11 +28,22 @@ bool is_skin(const Shape& shape) {
   return is_a<std::shared_ptr<const Skin>>(shape);
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double find_deepest(std::span<const Meeting> meetings) {
+  double deepest = -kInfinity;
+  for (const Meeting& meeting : meetings) {
+    deepest = std::max(deepest, meeting.depth);
+  }
+  return deepest;
+}
+
 bool has_skin(const Shape& shape) { return is_skin(shape) || is_convex(shape); }
 
 }  // namespace
 
-ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
+ShapePair::ShapePair(const Shape& A, const Shape& B, bool with_pads)
+    : A_(A), B_(B) {
   check_shape(A_);
   check_shape(B_);
   const bool is_sphere_B = is_a<Sphere>(B_);
@@ -43,6 +55,8 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
     is_swapped_ = is_a<HalfSpace>(B_);
     most_points_ = count_half_space_features(is_swapped_ ? A_ : B_);
     is_loose_ = has_loose_features_on_plane(is_swapped_ ? A_ : B_);
+    pad_count_ = count_pads(is_swapped_ ? A_ : B_);
+    has_pads_on_A_ = is_swapped_;
   } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
     rule_ = Rule::kCapsules;
   } else if (is_convex(A_) && is_convex(B_)) {
@@ -52,7 +66,14 @@ ShapePair::ShapePair(const Shape& A, const Shape& B) : A_(A), B_(B) {
     rule_ = Rule::kSkins;
     skin_A_ = make_skin(A_);
     skin_B_ = make_skin(B_);
-    most_points_ = kSkinFeatures;
+    unordered_count_ = kSkinFeatures;
+    if (with_pads && (is_flat_pair(A_, B_) || is_flat_pair(B_, A_))) {
+      rule_ = Rule::kFlat;
+      is_swapped_ = !is_flat_pair(A_, B_);
+      has_pads_on_A_ = !is_swapped_;
+      pad_count_ = count_pads(is_swapped_ ? B_ : A_);
+    }
+    most_points_ = pad_count_ + unordered_count_;
   } else {
     throw InputError(fmt::format(
         "contact: there is no rule for a {} with a {}; all other shapes touch "
@@ -81,6 +102,9 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
     case Rule::kConvex:
       meet_convex(first, second, out);
       break;
+    case Rule::kFlat:
+      meet_flat(first, second, bodies, reach, out);
+      break;
     case Rule::kSkins:
       meet_skins(PlacedShape(skin_A_, bodies.A), PlacedShape(skin_B_, bodies.B),
                  reach, out);
@@ -93,8 +117,42 @@ void ShapePair::find(const joints::PairBodies& bodies, double reach,
   }
 }
 
+void ShapePair::meet_flat(const PlacedShape& padded, const PlacedShape& face,
+                          const joints::PairBodies& bodies, double reach,
+                          std::span<Meeting> out) const {
+  const std::span<Meeting> pads = out.first(pad_count_);
+  // Those that do not touch yet stand for places that do, too.
+  meet_pads_on_face(padded, face, kInfinity, pads);
+  const std::span<Meeting> others = out.subspan(pad_count_);
+  const PlacedShape skin_A(skin_A_, bodies.A);
+  const PlacedShape skin_B(skin_B_, bodies.B);
+  if (is_swapped_) {
+    meet_skins(skin_B, skin_A, reach, others);
+  } else {
+    meet_skins(skin_A, skin_B, reach, others);
+  }
+  take_what_pads_miss(padded.shape, pads, others);
+}
+
+double ShapePair::find_flat_clearance(const PlacedShape& padded,
+                                      const PlacedShape& face,
+                                      const joints::PairBodies& bodies) const {
+  const double distance = find_skins_clearance(PlacedShape(skin_A_, bodies.A),
+                                               PlacedShape(skin_B_, bodies.B));
+  std::array<Meeting, kMostPads + kSkinFeatures> all;
+  const auto pads = std::span(all).first(pad_count_);
+  if (distance > 0.0) {
+    meet_pads_on_face(padded, face, distance, pads);
+    return std::min(distance, -find_deepest(pads));
+  }
+  // Where pads stand for the place at which the surfaces touch.
+  const auto features = std::span(all).first(most_points_);
+  meet_flat(padded, face, bodies, kInfinity, features);
+  return -find_deepest(features);
+}
+
 Meeting ShapePair::find_enclosed(const joints::PairBodies& bodies) const {
-  if (rule_ != Rule::kSkins) return {};
+  if (unordered_count_ == 0) return {};
   return find_enclosed_corner(PlacedShape(skin_A_, bodies.A),
                               PlacedShape(skin_B_, bodies.B));
 }
@@ -117,6 +175,9 @@ double ShapePair::find_clearance(const joints::PairBodies& bodies) const {
       break;
     case Rule::kConvex:
       distance = find_convex_clearance(first, second);
+      break;
+    case Rule::kFlat:
+      distance = find_flat_clearance(first, second, bodies);
       break;
     case Rule::kSkins:
       distance = find_skins_clearance(PlacedShape(skin_A_, bodies.A),

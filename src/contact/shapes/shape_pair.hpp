@@ -5,6 +5,7 @@
 #include <span>
 
 #include "limber/contact/shapes/meeting.hpp"
+#include "limber/contact/shapes/placed_shape.hpp"
 #include "limber/contact/shapes/shape.hpp"
 #include "limber/contact/shapes/shape_properties.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
@@ -23,7 +24,10 @@ namespace limber::contact {
 ///                                  A enters and leaves B's, and the nearest
 ///     skin with skin, box,
 ///       cylinder, capsule          8, the deepest that are apart: these have
-///                                  no order that lasts (keeps_order())
+///                                  no order that lasts (ordered_count())
+///     flat skin with flat skin,
+///       box, cylinder              n, the pads of the smaller one, then 8 of
+///                                  what these miss, as of any skin
 ///     half space with capsule      2, its ends
 ///                     box          8, its corners
 ///                     cylinder     6, three of each rim
@@ -32,8 +36,10 @@ namespace limber::contact {
 ///                                  no fixed order
 class ShapePair {
  public:
+  /// @param with_pads whether flat skins touch others than half spaces with
+  /// their pads
   /// @throws InputError as check_shape, or for a pair of kinds without a rule.
-  ShapePair(const Shape& A, const Shape& B);
+  ShapePair(const Shape& A, const Shape& B, bool with_pads = true);
 
   [[nodiscard]] const Shape& A() const { return A_; }
   [[nodiscard]] const Shape& B() const { return B_; }
@@ -44,8 +50,14 @@ class ShapePair {
   /// another; its SurfacePlace tells which one it is.
   [[nodiscard]] bool has_loose_features() const { return is_loose_; }
 
-  /// Whether a feature is always at the same place of `out`.
-  [[nodiscard]] bool keeps_order() const { return rule_ != Rule::kSkins; }
+  /// The pads' features, which are the first.
+  [[nodiscard]] std::size_t pad_count() const { return pad_count_; }
+  /// Whose pads they are, if there are any.
+  [[nodiscard]] bool has_pads_on_A() const { return has_pads_on_A_; }
+  /// Features that are always at the same place of `out`, which are the first.
+  [[nodiscard]] std::size_t ordered_count() const {
+    return most_points_ - unordered_count_;
+  }
 
   /// Fills `out`, one Meeting a feature. Allocates nothing.
   /// @param reach >= 0: a feature whose surfaces are farther apart may have
@@ -64,7 +76,14 @@ class ShapePair {
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:
-  enum class Rule { kSphere, kHalfSpace, kCapsules, kConvex, kSkins };
+  enum class Rule { kSphere, kHalfSpace, kCapsules, kConvex, kFlat, kSkins };
+
+  void meet_flat(const PlacedShape& padded, const PlacedShape& face,
+                 const joints::PairBodies& bodies, double reach,
+                 std::span<Meeting> out) const;
+  [[nodiscard]] double find_flat_clearance(
+      const PlacedShape& padded, const PlacedShape& face,
+      const joints::PairBodies& bodies) const;
 
   Shape A_;
   Shape B_;
@@ -73,7 +92,10 @@ class ShapePair {
   Rule rule_ = Rule::kSphere;
   bool is_swapped_ = false;  // B is the rule's first shape
   bool is_loose_ = false;
+  bool has_pads_on_A_ = false;
   std::size_t most_points_ = 1;
+  std::size_t pad_count_ = 0;
+  std::size_t unordered_count_ = 0;
 };
 
 }  // namespace limber::contact

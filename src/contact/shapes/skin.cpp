@@ -44,6 +44,7 @@ void Skin::prepare() {
   tree_ = SkinTree(surface_.faces, surface_.x_B,
                    modes_.rows() > 0 ? surface_.Phi_B : MatrixX(3 * n, 0));
   measure();
+  if (pad_count() > 0) measure_flat_area();
 }
 
 void Skin::check() const {

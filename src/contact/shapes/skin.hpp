@@ -109,6 +109,12 @@ class Skin {
     SurfacePlace place;
   };
   [[nodiscard]] PadHit find_pad(std::size_t pad, const ModalView& eta) const;
+  /// Of a flat surface the normal of its mean plane as it is deformed, unit;
+  /// linear in eta but for its length.
+  ///
+  /// Equation   sum over faces of (x_1 - x_0) x (x_2 - x_0) / 2, x their
+  ///            corners
+  [[nodiscard]] Vector3 find_mean_normal(const ModalView& eta) const;
 
   /// Weights of the face's nodes at a place, and the modes' rows there.
   /// @param out 3 x mode_count() [kg^-1/2]
@@ -216,6 +222,7 @@ class Skin {
   void add_rows(int node, double weight, Matrix3X& out) const;
   [[nodiscard]] double sum_weights(int node) const;
   void measure();
+  void measure_flat_area();
   void mark_inner();
   void connect();
   void mark_border();
@@ -236,6 +243,8 @@ class Skin {
   double radius_ = 0.0;
   VectorX largest_motions_;  // m, of any control point under each mode
   SkinTree tree_;
+  Vector3 flat_area_ = Vector3::Zero();  // of a flat surface [m^2]
+  Matrix3X flat_area_by_modes_;          // 3 x m
   std::vector<FaceMeasures> measures_;
   double longest_edge_ = 0.0;
   double mean_edge_ = 0.0;

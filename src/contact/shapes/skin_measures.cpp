@@ -73,6 +73,32 @@ int Skin::find_neighbour(int f, int edge) const {
   return -1;
 }
 
+void Skin::measure_flat_area() {
+  const Eigen::Index m = modes_.rows();
+  flat_area_by_modes_ = Matrix3X::Zero(3, m);
+  for (int f = 0; f < static_cast<int>(face_count()); ++f) {
+    const Face& n = face(f);
+    const Vector3 a = surface_.x_B.col(n[1]) - surface_.x_B.col(n[0]);
+    const Vector3 b = surface_.x_B.col(n[2]) - surface_.x_B.col(n[0]);
+    flat_area_ += 0.5 * a.cross(b);
+    for (Eigen::Index k = 0; k < m; ++k) {
+      const auto move = [&](std::size_t corner) -> Vector3 {
+        return modes_.block<1, 3>(k, 3 * n[corner]) -
+               modes_.block<1, 3>(k, 3 * n[0]);
+      };
+      flat_area_by_modes_.col(k) += 0.5 * (move(1).cross(b) + a.cross(move(2)));
+    }
+  }
+}
+
+Vector3 Skin::find_mean_normal(const ModalView& eta) const {
+  Vector3 area = flat_area_;
+  for (Eigen::Index k = 0; k < eta.size(); ++k) {
+    area += eta[k] * flat_area_by_modes_.col(k);
+  }
+  return area.normalized();
+}
+
 void Skin::measure() {
   constexpr double kSharpCosine = 0.94;  // of 20 degrees
   constexpr double kMiddle = 1.0 / 3.0;

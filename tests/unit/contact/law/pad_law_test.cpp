@@ -113,6 +113,29 @@ TEST(PadLaw, ExertsNothingApartAndPassesOnWhatIsNotANumber) {
   EXPECT_TRUE(response.force.hasNaN());
 }
 
+TEST(PadLaw, TakesWhatIsAddedToItsFlexibility) {
+  std::mt19937 random(4);
+  for (int k = 1; k < 7; ++k) {
+    const MatrixX C = draw_compliance(k, random);
+    const MatrixX added = draw_compliance(k, random);
+    const VectorX d = draw_depths(k, random);
+    PadLaw::Response response;
+    PadLaw(C).evaluate(d, added, response);
+    const VectorX f = try_all_sets(C + added, d);
+    EXPECT_LT((response.force - f).norm(), 1e-9 * (1.0 + f.norm()));
+    EXPECT_NEAR(response.energy, 0.5 * f.dot((C + added) * f),
+                1e-9 * (1.0 + response.energy));
+  }
+}
+
+TEST(PadLaw, CountsWhatIsCommonInItsStiffness) {
+  std::mt19937 random(5);
+  const MatrixX C = draw_compliance(4, random);
+  const MatrixX whole = C + MatrixX::Constant(4, 4, 0.7);
+  EXPECT_NEAR(PadLaw(C, 0.7).total_stiffness(), PadLaw(whole).total_stiffness(),
+              1e-9);
+}
+
 TEST(PadLaw, RefusesFlexibilitiesThatAreNone) {
   EXPECT_THROW(PadLaw(MatrixX::Zero(3, 3)), InputError);
   EXPECT_THROW(PadLaw(-MatrixX::Identity(3, 3)), InputError);

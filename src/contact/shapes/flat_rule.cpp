@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+namespace {
+
+using SkinPointer = std::shared_ptr<const Skin>;
+
+// Cosines of the angles between two faces up to which pads count in full, and
+// from which on they do not count: 30 and 45 degrees [-].
+constexpr double kFlat = 0.5 * std::numbers::sqrt3;
+constexpr double kTilted = 0.5 * std::numbers::sqrt2;
+// Shares up to this are round-off.
+constexpr double kNoShare = 1e-9;
+// A place between pads counts as far as it is deeper than the deepest pad, in
+// full from this part of its depth on [-].
+constexpr double kDeeper = 0.1;
+// Distance from the line between two pads' nodes, of a pad's radius, up to
+// which they stand for a place, and from one radius more on do not [-].
+constexpr double kOfPad = 1.0;
+// Share from which on a pad stands for the places next to it [-].
+constexpr double kCovered = 0.1;
+
+const Skin* find_flat(const Shape& shape) {
+  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
+  return skin != nullptr && (*skin)->pad_count() > 0 ? skin->get() : nullptr;
+}
+
+double find_radius(const flexbody::ContactPads& pads, Eigen::Index pad) {
+  return std::sqrt(pads.area[pad] / std::numbers::pi);
+}
+
+// What a flat side has opposite to a point.
+struct Opposite {
+  Vector3 normal_W = Vector3::UnitZ();  // unit, outward [-]
+  Vector3 p_W = Vector3::Zero();        // its point there, or on its rim [m]
+  SurfacePlace place;
+};
+
+// A face of a box or an end of a cylinder: that which is turned against a
+// direction.
+std::optional<Opposite> find_opposite(const PlacedShape& shape,
+                                      const Vector3& p_W,
+                                      const Vector3& way_W) {
+  const Vector3 way = shape.X_WS.R.transpose() * way_W;
+  Vector3 p = shape.X_WS.inverse() * p_W;
+  int axis = 2;
+  double height = 0.0;
+  if (const auto* box = std::get_if<Box>(&shape.shape.kind)) {
+    way.cwiseAbs().maxCoeff(&axis);
+    height = box->half_size[axis];
+    p = p.cwiseMax(-box->half_size).cwiseMin(box->half_size);
+  } else {
+    const auto* rod = std::get_if<Cylinder>(&shape.shape.kind);
+    if (rod == nullptr) return std::nullopt;
+    height = rod->half_length;
+    const double far = std::hypot(p.x(), p.y());
+    if (far > rod->radius) p *= rod->radius / far;
+  }
+  const double side = way[axis] > 0.0 ? -1.0 : 1.0;
+  p[axis] = side * height;
+  return Opposite{side * shape.X_WS.R.col(axis), shape.X_WS * p,
+                  shape.make_place(p)};
+}
+
+double sum_area(const Skin& skin) { return skin.surface().pads.area.sum(); }
+
+// Of a flat surface that deforms. @param reach of points beyond its rim [m]
+std::optional<Opposite> find_opposite(const PlacedShape& shape,
+                                      const Skin& skin, const Vector3& p_W,
+                                      double reach) {
+  const ModalView eta = find_modal_coordinates(skin, shape.body);
+  const double deepest = std::sqrt(sum_area(skin));
+  const auto hit =
+      skin.find_nearest(shape.X_WB.inverse() * p_W, eta, reach, deepest);
+  if (!hit || !std::isfinite(hit->nearest.distance)) return std::nullopt;
+  return Opposite{shape.X_WB.R * skin.find_mean_normal(eta),
+                  shape.X_WB * hit->nearest.point, hit->place};
+}
+
+// Part of a pad that is over the other side, by what its node is beyond the
+// rim.
+double find_cover(double beyond, double radius) {
+  return std::clamp(1.0 - beyond / radius, 0.0, 1.0);
+}
+
+double find_share_of_tilt(double cosine) {
+  return std::clamp((cosine - kTilted) / (kFlat - kTilted), 0.0, 1.0);
+}
+
+// The pads that are over the other side.
+class CoveredPads {
+ public:
+  CoveredPads(const flexbody::ContactPads& pads,
+              std::span<const Meeting> meetings) {
+    for (std::size_t i = 0; i < meetings.size(); ++i) {
+      const Meeting& meeting = meetings[i];
+      if (meeting.depth == Meeting{}.depth) continue;
+      const auto pad = static_cast<Eigen::Index>(i);
+      all_[count_++] = {pads.x_B.col(pad), find_radius(pads, pad),
+                        std::min(meeting.share / kCovered, 1.0)};
+      deepest_ = std::max(deepest_, meeting.share * meeting.depth);
+    }
+  }
+
+  // The largest share times depth, at least 0 [m].
+  [[nodiscard]] double deepest() const { return deepest_; }
+
+  // How far they stand for a place: 1 on the line between two of them.
+  [[nodiscard]] double find_hold(const Vector3& x_B) const {
+    double hold = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t j = i; j < count_; ++j) {
+        const Pad& a = all_[i];
+        const Pad& b = all_[j];
+        const Vector3 way = b.x_B - a.x_B;
+        const double square = way.squaredNorm();
+        const double along = square > 0.0 ? way.dot(x_B - a.x_B) / square : 0.0;
+        const double t = std::clamp(along, 0.0, 1.0);
+        const double far = (x_B - a.x_B - t * way).norm();
+        const double near = 1.0 + kOfPad - far / std::min(a.radius, b.radius);
+        hold = std::max(
+            hold, std::min(a.cover, b.cover) * std::clamp(near, 0.0, 1.0));
+      }
+    }
+    return hold;
+  }
+
+ private:
+  struct Pad {
+    Vector3 x_B;
+    double radius = 0.0;  // [m]
+    double cover = 0.0;   // 1 from kCovered on [-]
+  };
+  std::array<Pad, kMostPads> all_;
+  std::size_t count_ = 0;
+  double deepest_ = 0.0;  // [m]
+};
+
+// A pad of A and what is opposite to it on B.
+Meeting meet_pad(const PlacedShape& A, const Skin& skin, std::size_t i,
+                 const PlacedShape& B, double reach) {
+  const flexbody::ContactPads& pads = skin.surface().pads;
+  const ModalView eta = find_modal_coordinates(skin, A.body);
+  const Skin::PadHit hit = skin.find_pad(i, eta);
+  const Vector3 p_W = A.X_WB * hit.x;
+  const Vector3 own_normal_W = A.X_WB.R * skin.find_mean_normal(eta);
+  const double radius = find_radius(pads, static_cast<Eigen::Index>(i));
+  const Skin* other = find_flat(B.shape);
+  const auto found = other != nullptr
+                         ? find_opposite(B, *other, p_W, reach + radius)
+                         : find_opposite(B, p_W, own_normal_W);
+  Meeting meeting;
+  if (!found) return meeting;
+  const Vector3 arm = p_W - found->p_W;
+  const double height = found->normal_W.dot(arm);
+  const double beyond = (arm - height * found->normal_W).norm();
+  meeting.share = find_cover(beyond, radius) *
+                  find_share_of_tilt(-own_normal_W.dot(found->normal_W));
+  if (!(meeting.share > kNoShare) || height > reach) {
+    return {};
+  }
+  meeting.depth = -height;
+  meeting.normal_W = -found->normal_W;
+  meeting.p_W = 0.5 * (p_W + found->p_W);
+  meeting.on_A = hit.place;
+  meeting.on_B = found->place;
+  return meeting;
+}
+
+}  // namespace
+
+bool is_flat_pair(const Shape& A, const Shape& B) {
+  const Skin* skin = find_flat(A);
+  if (skin == nullptr || skin->pad_count() > kMostPads) return false;
+  if (const Skin* other = find_flat(B))
+    return sum_area(*skin) <= sum_area(*other);
+  return std::holds_alternative<Box>(B.kind) ||
+         std::holds_alternative<Cylinder>(B.kind);
+}
+
+std::size_t count_pads(const Shape& A) {
+  const Skin* skin = find_flat(A);
+  return skin != nullptr ? skin->pad_count() : 0;
+}
+
+void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
+                       std::span<Meeting> out) {
+  const Skin& skin = *find_flat(A.shape);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = meet_pad(A, skin, i, B, reach);
+  }
+}
+
+void take_what_pads_miss(const Shape& A, std::span<const Meeting> pads,
+                         std::span<Meeting> others) {
+  const CoveredPads covered(find_flat(A)->surface().pads, pads);
+  for (Meeting& meeting : others) {
+    if (meeting.depth == Meeting{}.depth) continue;
+    if (meeting.depth > 0.0) {
+      const double deeper = (meeting.depth - covered.deepest()) / meeting.depth;
+      meeting.share *= std::clamp(deeper / kDeeper, 0.0, 1.0);
+    }
+    if (meeting.share > kNoShare) {
+      meeting.share *= 1.0 - covered.find_hold(meeting.on_A.x_B);
+    }
+    if (!(meeting.share > kNoShare)) meeting = {};
+  }
+}
+
+}  // namespace limber::contact

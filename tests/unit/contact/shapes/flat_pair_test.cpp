@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "limber/common/rotation.hpp"
+#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/shapes/skin.hpp"
+#include "unit/contact/shapes/surfaces.hpp"
+
+/// Pads of a square sheet that looks up, |x|, |y| <= 10 mm, and what is above.
+namespace limber::contact {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHalf = 0.01;  // [m]
+constexpr int kCells = 2;       // a pad on each of 3 x 3 nodes
+
+Shape make_sheet() {
+  auto sheet = testing::make_sheet_surface(kHalf, kCells, false,
+                                           [](double, double) { return 0.0; });
+  const Eigen::Index n = sheet.x_B.cols();
+  sheet.pads.normal_B = Vector3::UnitZ();
+  sheet.pads.x_B = sheet.x_B;
+  sheet.pads.Phi_B = MatrixX::Zero(3 * n, 0);
+  sheet.pads.flexibility = MatrixX::Identity(n, n);
+  sheet.pads.area.resize(n);
+  const double cell = 2.0 * kHalf / kCells;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double area = cell * cell;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (std::abs(sheet.x_B(axis, i)) > 0.9 * kHalf) area *= 0.5;
+    }
+    sheet.pads.area[i] = area;
+  }
+  sheet.youngs_modulus = 1e9;
+  return {std::make_shared<const Skin>(sheet), {}};
+}
+
+struct Placed {
+  Matrix3 R = Matrix3::Identity();
+  Vector3 p = Vector3::Zero();
+  [[nodiscard]] joints::PairBody body() const { return {.R_WB = R, .p_WB = p}; }
+};
+
+std::vector<Meeting> meet(const ShapePair& pair, const Placed& above) {
+  std::vector<Meeting> out(pair.most_points());
+  pair.find({joints::PairBody{}, above.body()}, kInfinity, out);
+  return out;
+}
+
+const Shape kBox{Box{{0.03, 0.03, 0.02}}, {}};
+
+TEST(FlatPair, MeetsAFaceWithItsPadsAsItsPlane) {
+  const ShapePair on_box(make_sheet(), kBox);
+  ASSERT_EQ(on_box.pad_count(), 9U);
+  const Pose down{exp_rotation(Vector3(std::numbers::pi, 0.0, 0.0)),
+                  {0.0, 0.0, -0.02}};
+  const ShapePair on_plane(make_sheet(), Shape{HalfSpace{}, down});
+  const Placed above{exp_rotation(Vector3(0.03, -0.02, 0.4)),
+                     {0.002, 0.001, 0.0199}};
+  const auto box = meet(on_box, above);
+  const auto plane = meet(on_plane, above);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_NEAR(box[i].depth, plane[i].depth, 1e-15);
+    EXPECT_LT((box[i].normal_W - plane[i].normal_W).norm(), 1e-14);
+    EXPECT_LT((box[i].p_W - plane[i].p_W).norm(), 1e-15);
+    EXPECT_LT((box[i].on_B.x_B - plane[i].on_B.x_B).norm(), 1e-15);
+    EXPECT_NEAR(box[i].share, 1.0, 1e-12);
+  }
+  // All others are where pads are.
+  for (std::size_t i = 9; i < box.size(); ++i) {
+    EXPECT_LE(box[i].depth, 0.0);
+  }
+}
+
+TEST(FlatPair, IsTheSameInBothOrders) {
+  const Placed above{exp_rotation(Vector3(0.03, -0.02, 0.4)),
+                     {0.002, 0.001, 0.0199}};
+  const auto forward = meet(ShapePair(make_sheet(), kBox), above);
+  const ShapePair swapped(kBox, make_sheet());
+  EXPECT_FALSE(swapped.has_pads_on_A());
+  std::vector<Meeting> back(swapped.most_points());
+  swapped.find({above.body(), joints::PairBody{}}, kInfinity, back);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(back[i].depth, forward[i].depth);
+    EXPECT_EQ(back[i].normal_W, -forward[i].normal_W);
+    EXPECT_EQ(back[i].on_A.x_B, forward[i].on_B.x_B);
+  }
+}
+
+TEST(FlatPair, CountsPadsByWhatIsBeyondTheRim) {
+  const ShapePair pair(make_sheet(), kBox);
+  const double area = kHalf * kHalf / 2.0;  // of the pad at x = 10 mm, y = 0
+  const double radius = std::sqrt(area / std::numbers::pi);
+  for (const double beyond : {-0.2, 0.0, 0.25, 0.75, 1.5}) {
+    // The box ends there at x = 10 mm - beyond.
+    const Placed above{Matrix3::Identity(),
+                       {kHalf - beyond * radius - 0.03, 0.0, 0.01999}};
+    for (const Meeting& meeting : meet(pair, above)) {
+      if ((meeting.on_A.x_B - Vector3(kHalf, 0.0, 0.0)).norm() > 1e-12)
+        continue;
+      EXPECT_LE(beyond, 1.0);
+      EXPECT_NEAR(meeting.share, std::min(1.0 - beyond, 1.0), 1e-12);
+    }
+  }
+}
+
+TEST(FlatPair, LeavesTiltedFacesToEdgesAndCorners) {
+  const ShapePair pair(make_sheet(), kBox);
+  for (const double degrees : {0.0, 29.0, 38.0, 44.9}) {
+    const double tilt = degrees * std::numbers::pi / 180.0;
+    // The middle of the box's lower face is that of the sheet.
+    const Matrix3 R = exp_rotation(Vector3(tilt, 0.0, 0.0));
+    const auto meetings = meet(pair, {R, R * Vector3(0.0, 0.0, 0.02)});
+    const double share =
+        (std::cos(tilt) - std::sqrt(0.5)) / (std::sqrt(0.75) - std::sqrt(0.5));
+    bool is_there = false;
+    for (std::size_t i = 0; i < 9; ++i) {
+      if (meetings[i].on_A.x_B.norm() > 1e-12) continue;
+      EXPECT_NEAR(meetings[i].share, std::min(share, 1.0), 1e-9);
+      is_there = true;
+    }
+    EXPECT_TRUE(is_there);
+  }
+}
+
+// A small box over the middle of four pads, none of which is under it.
+TEST(FlatPair, FindsACornerBetweenPads) {
+  const ShapePair pair(make_sheet(), Shape{Box{{0.001, 0.001, 0.001}}, {}});
+  const Matrix3 R = exp_rotation(Vector3(0.1, 0.15, 0.0));
+  const Placed above{R, {0.005, 0.005, 0.00105}};
+  // Of its eight corners the lowest.
+  double lowest = kInfinity;
+  for (const double x : {-1e-3, 1e-3}) {
+    for (const double y : {-1e-3, 1e-3}) {
+      lowest = std::min(lowest, (above.p + R * Vector3(x, y, -1e-3)).z());
+    }
+  }
+  ASSERT_LT(lowest, 0.0);
+  double deepest = -kInfinity;
+  double share = 0.0;
+  for (const Meeting& meeting : meet(pair, above)) {
+    if (!(meeting.depth > deepest)) continue;
+    deepest = meeting.depth;
+    share = meeting.share;
+  }
+  EXPECT_NEAR(deepest, -lowest, 1e-3 * std::abs(lowest));
+  EXPECT_GT(share, 0.9);
+  EXPECT_EQ(pair.find_clearance({joints::PairBody{}, above.body()}), 0.0);
+}
+
+TEST(FlatPair, TellsItsClearance) {
+  const ShapePair pair(make_sheet(), kBox);
+  for (const double gap : {1e-9, 1e-5, 0.3}) {
+    const Placed above{Matrix3::Identity(), {0.001, 0.002, 0.02 + gap}};
+    EXPECT_NEAR(pair.find_clearance({joints::PairBody{}, above.body()}), gap,
+                gap > 0.1 ? 0.5 * gap : 1e-12);
+  }
+}
+
+TEST(FlatPair, HasTheSmallerSurfacesPads) {
+  const auto sheet = make_sheet();
+  auto large = std::get<std::shared_ptr<const Skin>>(sheet.kind)->surface();
+  large.pads.area *= 2.0;
+  const Shape other{std::make_shared<const Skin>(large), {}};
+  EXPECT_TRUE(ShapePair(sheet, other).has_pads_on_A());
+  EXPECT_FALSE(ShapePair(other, sheet).has_pads_on_A());
+  EXPECT_EQ(ShapePair(sheet, kBox, false).pad_count(), 0U);
+  EXPECT_EQ(ShapePair(sheet, Shape{Capsule{0.1, 0.2}, {}}).pad_count(), 0U);
+  EXPECT_EQ(ShapePair(sheet, Shape{Cylinder{0.1, 0.2}, {}}).pad_count(), 9U);
+}
+
+}  // namespace
+}  // namespace limber::contact
