@@ -338,6 +338,8 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
   Meetings meetings(count_features());
   meet(bodies, kInfinity, memory, meetings.all());
   const std::size_t deepest = meetings.find_deepest();
+  // Surfaces that cross where neither has an inside.
+  if (meetings[deepest].depth == Meeting{}.depth) return kInfinity;
   const double least_depth = meetings[deepest].depth - kTogether * size_;
   for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];

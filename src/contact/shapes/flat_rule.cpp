@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -18,6 +19,9 @@ using SkinPointer = std::shared_ptr<const Skin>;
 // from which on they do not count: 30 and 45 degrees [-].
 constexpr double kFlat = 0.5 * std::numbers::sqrt3;
 constexpr double kTilted = 0.5 * std::numbers::sqrt2;
+// Part of the face's width by which the plane of B's face may go deeper than B
+// itself for pads to count in full; at twice as much they do not count [-].
+constexpr double kOverhang = 0.01;
 // Shares up to this are round-off.
 constexpr double kNoShare = 1e-9;
 // A place between pads counts as far as it is deeper than the deepest pad, in
@@ -43,6 +47,8 @@ struct Opposite {
   Vector3 normal_W = Vector3::UnitZ();  // unit, outward [-]
   Vector3 p_W = Vector3::Zero();        // its point there, or on its rim [m]
   SurfacePlace place;
+  // Of what is behind it [m].
+  double thickness = std::numeric_limits<double>::infinity();
 };
 
 // A face of a box or an end of a cylinder: that which is turned against a
@@ -68,19 +74,21 @@ std::optional<Opposite> find_opposite(const PlacedShape& shape,
   const double side = way[axis] > 0.0 ? -1.0 : 1.0;
   p[axis] = side * height;
   return Opposite{side * shape.X_WS.R.col(axis), shape.X_WS * p,
-                  shape.make_place(p)};
+                  shape.make_place(p), 2.0 * height};
 }
 
 double sum_area(const Skin& skin) { return skin.surface().pads.area.sum(); }
+
+// Pads that are deeper are behind the other side, not in it.
+double find_width(const Skin& skin) { return std::sqrt(sum_area(skin)); }
 
 // Of a flat surface that deforms. @param reach of points beyond its rim [m]
 std::optional<Opposite> find_opposite(const PlacedShape& shape,
                                       const Skin& skin, const Vector3& p_W,
                                       double reach) {
   const ModalView eta = find_modal_coordinates(skin, shape.body);
-  const double deepest = std::sqrt(sum_area(skin));
-  const auto hit =
-      skin.find_nearest(shape.X_WB.inverse() * p_W, eta, reach, deepest);
+  const auto hit = skin.find_nearest(shape.X_WB.inverse() * p_W, eta, reach,
+                                     find_width(skin));
   if (!hit || !std::isfinite(hit->nearest.distance)) return std::nullopt;
   return Opposite{shape.X_WB.R * skin.find_mean_normal(eta),
                   shape.X_WB * hit->nearest.point, hit->place};
@@ -145,9 +153,16 @@ class CoveredPads {
   double deepest_ = 0.0;  // [m]
 };
 
-// A pad of A and what is opposite to it on B.
-Meeting meet_pad(const PlacedShape& A, const Skin& skin, std::size_t i,
-                 const PlacedShape& B, double reach) {
+// A pad of A and what is opposite to it on B, in its plane or at its rim.
+struct PadOpposite {
+  Meeting meeting;
+  double radius = 0.0;  // of the pad [m]
+  double cover = 0.0;   // of the pad by B [-]
+  double sine = 0.0;    // of the angle between both faces [-]
+};
+
+PadOpposite meet_pad(const PlacedShape& A, const Skin& skin, std::size_t i,
+                     const PlacedShape& B, double reach) {
   const flexbody::ContactPads& pads = skin.surface().pads;
   const ModalView eta = find_modal_coordinates(skin, A.body);
   const Skin::PadHit hit = skin.find_pad(i, eta);
@@ -158,22 +173,39 @@ Meeting meet_pad(const PlacedShape& A, const Skin& skin, std::size_t i,
   const auto found = other != nullptr
                          ? find_opposite(B, *other, p_W, reach + radius)
                          : find_opposite(B, p_W, own_normal_W);
-  Meeting meeting;
-  if (!found) return meeting;
+  PadOpposite out{.meeting = {}, .radius = radius};
+  if (!found) return out;
   const Vector3 arm = p_W - found->p_W;
   const double height = found->normal_W.dot(arm);
+  const double deepest = std::min(found->thickness, find_width(skin));
+  const double tilt = find_share_of_tilt(-own_normal_W.dot(found->normal_W));
+  if (!(tilt > 0.0) || height > reach || -height > deepest) return out;
   const double beyond = (arm - height * found->normal_W).norm();
-  meeting.share = find_cover(beyond, radius) *
-                  find_share_of_tilt(-own_normal_W.dot(found->normal_W));
-  if (!(meeting.share > kNoShare) || height > reach) {
-    return {};
+  out.sine = own_normal_W.cross(found->normal_W).norm();
+  out.cover = find_cover(beyond, radius);
+  out.meeting.share = out.cover * tilt;
+  out.meeting.depth = -height;
+  out.meeting.normal_W = -found->normal_W;
+  out.meeting.p_W = 0.5 * (p_W + found->p_W);
+  out.meeting.on_A = hit.place;
+  out.meeting.on_B = found->place;
+  return out;
+}
+
+// How far the plane of B's face goes deeper into A beyond its rim than B itself
+// does, where B's rim is pressed into A [m].
+double find_overhang(std::span<const PadOpposite> pads) {
+  double of_plane = -std::numeric_limits<double>::infinity();
+  double of_face = of_plane;
+  for (const PadOpposite& pad : pads) {
+    const double depth = pad.meeting.depth;
+    if (depth == Meeting{}.depth) continue;
+    of_plane = std::max(of_plane, depth);
+    if (!(pad.cover > 0.0)) continue;
+    const double beyond = (1.0 - pad.cover) * pad.radius;
+    of_face = std::max(of_face, depth - beyond * pad.sine);
   }
-  meeting.depth = -height;
-  meeting.normal_W = -found->normal_W;
-  meeting.p_W = 0.5 * (p_W + found->p_W);
-  meeting.on_A = hit.place;
-  meeting.on_B = found->place;
-  return meeting;
+  return of_plane - of_face;
 }
 
 }  // namespace
@@ -195,8 +227,17 @@ std::size_t count_pads(const Shape& A) {
 void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
                        std::span<Meeting> out) {
   const Skin& skin = *find_flat(A.shape);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = meet_pad(A, skin, i, B, reach);
+  std::array<PadOpposite, kMostPads> all;
+  const auto pads = std::span(all).first(out.size());
+  for (std::size_t i = 0; i < pads.size(); ++i) {
+    pads[i] = meet_pad(A, skin, i, B, reach);
+  }
+  const double overhang = find_overhang(pads) / (kOverhang * find_width(skin));
+  const double flat = std::clamp(2.0 - overhang, 0.0, 1.0);
+  for (std::size_t i = 0; i < pads.size(); ++i) {
+    out[i] = pads[i].meeting;
+    out[i].share *= flat;
+    if (!(out[i].share > kNoShare)) out[i] = {};
   }
 }
 

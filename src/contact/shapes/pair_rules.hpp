@@ -69,9 +69,12 @@ inline constexpr std::size_t kMostPads = 25;
 /// Equation   depth = -height of the pad over B's surface along B's normal;
 ///            share = 1 - what the pad's node is beyond B's rim / the pad's
 ///            radius, times 1 up to a tilt of 30 degrees and 0 from 45
-///            degrees on, linear in its cosine
+///            degrees on, linear in its cosine, and times 0 where B's rim is
+///            pressed into A: where the plane of B's face goes deeper than B
+///            by 2 % of the root of A's area, 1 up to 1 %
 /// Limits     B is taken to go on in the plane of its face up to that
-///            distance
+///            distance. A pad deeper than B is thick, or than the root of A's
+///            area, is behind B and does not touch.
 /// @param out one a pad
 void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
                        std::span<Meeting> out);

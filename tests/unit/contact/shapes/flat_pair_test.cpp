@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -102,6 +103,7 @@ TEST(FlatPair, CountsPadsByWhatIsBeyondTheRim) {
     const Placed above{Matrix3::Identity(),
                        {kHalf - beyond * radius - 0.03, 0.0, 0.01999}};
     for (const Meeting& meeting : meet(pair, above)) {
+      if (meeting.depth == Meeting{}.depth) continue;
       if ((meeting.on_A.x_B - Vector3(kHalf, 0.0, 0.0)).norm() > 1e-12)
         continue;
       EXPECT_LE(beyond, 1.0);
@@ -121,11 +123,45 @@ TEST(FlatPair, LeavesTiltedFacesToEdgesAndCorners) {
         (std::cos(tilt) - std::sqrt(0.5)) / (std::sqrt(0.75) - std::sqrt(0.5));
     bool is_there = false;
     for (std::size_t i = 0; i < 9; ++i) {
-      if (meetings[i].on_A.x_B.norm() > 1e-12) continue;
+      if (meetings[i].depth == Meeting{}.depth ||
+          meetings[i].on_A.x_B.norm() > 1e-12) {
+        continue;
+      }
       EXPECT_NEAR(meetings[i].share, std::min(share, 1.0), 1e-9);
       is_there = true;
     }
     EXPECT_TRUE(is_there);
+  }
+}
+
+// A wedge whose edge is pressed into the middle of the sheet.
+TEST(FlatPair, LeavesARimThatIsPressedInToEdges) {
+  const ShapePair pair(make_sheet(), kBox);
+  const double width = 2.0 * kHalf;
+  for (const double degrees : {0.1, 0.8, 1.4, 5.0}) {
+    const double tilt = degrees * std::numbers::pi / 180.0;
+    const Matrix3 R = exp_rotation(Vector3(tilt, 0.0, 0.0));
+    // The lower edge at y < 0 is 1 um deep at y = 0.
+    const auto meetings = meet(
+        pair, {R, Vector3(0.0, 0.0, -1e-6) - R * Vector3(0.0, -0.03, -0.02)});
+    // The plane goes on to y = -10 mm.
+    const double overhang = kHalf * std::sin(tilt) / (0.01 * width);
+    const double share = std::clamp(2.0 - overhang, 0.0, 1.0);
+    double found = 0.0;
+    double deepest_other = 0.0;
+    for (std::size_t i = 0; i < meetings.size(); ++i) {
+      const Meeting& meeting = meetings[i];
+      if (meeting.depth == Meeting{}.depth) continue;
+      if (i >= 9) {
+        deepest_other = std::max(deepest_other, meeting.depth);
+      } else if (meeting.on_A.x_B.norm() < 1e-12) {
+        found = meeting.share;
+      }
+    }
+    EXPECT_NEAR(found, share, 1e-3);
+    if (share == 0.0) {
+      EXPECT_NEAR(deepest_other, 1e-6, 1e-9);
+    }
   }
 }
 
