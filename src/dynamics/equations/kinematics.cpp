@@ -133,7 +133,7 @@ SystemState make_state(const SystemModel& model) {
   for (const ControllerModel& controller : model.controllers) {
     state.controllers.push_back({0, controller.memory});
   }
-  state.pair_memory.assign(model.pair_memory_size, 0.0);
+  state.pair_memory = PairMemory(model.pair_memory_size);
   state.far_pairs.assign(model.pairs.size(), 0);
   return state;
 }

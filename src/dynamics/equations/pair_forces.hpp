@@ -23,8 +23,7 @@ namespace limber::dynamics {
 /// A pair's part of SystemState::pair_memory.
 template <typename State>
 [[nodiscard]] auto memory_of(const Pair& pair, State& state) {
-  return std::span(state.pair_memory)
-      .subspan(pair.first_memory, pair.law->memory_size());
+  return state.pair_memory.at(pair.first_memory, pair.law->memory_size());
 }
 
 /// Whether a pair has no points in this step (SystemState::far_pairs).

@@ -5,6 +5,7 @@
 
 #include "limber/common/instant.hpp"
 #include "limber/common/pose.hpp"
+#include "limber/dynamics/system/pair_memory.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/joints/coordinates/motion.hpp"
 #include "limber/joints/coupler_memory.hpp"
@@ -47,7 +48,7 @@ struct SystemState {
   std::vector<InputState> inputs;
   std::vector<ControllerState> controllers;  ///< one a controller
   /// Memory of pairs, one after the other; changes only at accepted steps.
-  std::vector<double> pair_memory;
+  PairMemory pair_memory;
   /// Of each pair 1 if its bodies do not touch: it then has no points in the
   /// coming step, and is not evaluated; empty if nothing is known.
   std::vector<char> far_pairs;
