@@ -152,7 +152,8 @@ TEST(PadLaw, MakesAHalfSpaceAsStiffAsUnderASquarePunch) {
   constexpr double kModulus = 2e11;
   Matrix3X places(3, 25);
   for (int i = 0; i < 25; ++i) {
-    places.col(i) << (i % 5 - 2) * kSide / 5, (i / 5 - 2) * kSide / 5, 0.0;
+    const int row = i / 5;
+    places.col(i) << (i % 5 - 2) * kSide / 5, (row - 2) * kSide / 5, 0.0;
   }
   const VectorX area = VectorX::Constant(25, kSide * kSide / 25);
   const PadLaw law(calc_half_space_compliance(places, area, kModulus));

@@ -125,17 +125,19 @@ TEST_P(IntegratorOrder, IsMetByRotationTranslationAndModes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, IntegratorOrder,
-    ::testing::Values(
-        Scheme{IntegratorKind::generalized_alpha, {2, 2, 2}, 4e-3},
-        Scheme{IntegratorKind::runge_kutta_4, {4, 4, 4}, 8e-3},
-        Scheme{IntegratorKind::explicit_euler, {1, 1, 1}, 2e-4},
-        Scheme{IntegratorKind::implicit_euler, {1, 1, 1}, 4e-4},
-        Scheme{IntegratorKind::energy_conserving, {2, 2, 2}, 4e-3},
-        Scheme{IntegratorKind::splitting, {2, 2, 2}, 4e-3},
-        Scheme{IntegratorKind::central_differences, {2, 2, 2}, 4e-3}),
-    name_of);
+constexpr std::array kSchemes = {
+    Scheme{IntegratorKind::generalized_alpha, {2, 2, 2}, 4e-3},
+    Scheme{IntegratorKind::runge_kutta_4, {4, 4, 4}, 8e-3},
+    Scheme{IntegratorKind::explicit_euler, {1, 1, 1}, 2e-4},
+    Scheme{IntegratorKind::implicit_euler, {1, 1, 1}, 4e-4},
+    Scheme{IntegratorKind::energy_conserving, {2, 2, 2}, 4e-3},
+    Scheme{IntegratorKind::splitting, {2, 2, 2}, 4e-3},
+    Scheme{IntegratorKind::central_differences, {2, 2, 2}, 4e-3}};
+static_assert(kSchemes.size() == static_cast<std::size_t>(kLastIntegrator) + 1,
+              "the order of each scheme is tested");
+
+INSTANTIATE_TEST_SUITE_P(All, IntegratorOrder, ::testing::ValuesIn(kSchemes),
+                         name_of);
 
 // --- Stiff hinges -----------------------------------------------------------
 
