@@ -2,10 +2,10 @@
 #include "limber/contact/pad_contact.hpp"
 
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/contact/shapes/pair_rules.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {
@@ -16,13 +16,6 @@ namespace {
 constexpr double kShare = 1e-3;
 // Where a pad does not touch [m].
 constexpr double kFar = -1.0;
-
-// None of a shape that is no flat surface.
-const flexbody::ContactPads* find_pads(const Shape& shape) {
-  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&shape.kind);
-  if (skin == nullptr || (*skin)->pad_count() == 0) return nullptr;
-  return &(*skin)->surface().pads;
-}
 
 MatrixX calc_compliance(const flexbody::ContactPads& pads,
                         const SurfaceMaterial& material) {
@@ -64,23 +57,23 @@ std::optional<PadContact> PadContact::make(
   }
   const SurfaceSide& own = shapes.has_pads_on_A() ? A : B;
   const SurfaceSide& other = shapes.has_pads_on_A() ? B : A;
-  const flexbody::ContactPads& pads = *find_pads(own.shape);
-  const flexbody::ContactPads* opposite = find_pads(other.shape);
+  const flexbody::ContactPads& pads = find_flat(own.shape)->surface().pads;
+  const Skin* opposite = find_flat(other.shape);
   MatrixX C = pads.flexibility;
   VectorX D = C.diagonal();
   if (own.material) D = calc_compliance(pads, *own.material).diagonal();
   C.diagonal() += kShare * D;
   double common = 0.0;
   if (opposite != nullptr) {
-    common = opposite->flexibility.mean();
+    common = opposite->surface().pads.flexibility.mean();
   } else if (other.material) {
     C += calc_compliance(pads, *other.material);
   }
   PadContact contact(PadLaw(C, common), pads, D);
   contact.is_on_A_ = shapes.has_pads_on_A();
   if (opposite != nullptr) {
-    contact.opposite_x_B_ = opposite->x_B;
-    contact.opposite_ = opposite->flexibility;
+    contact.opposite_x_B_ = opposite->surface().pads.x_B;
+    contact.opposite_ = opposite->surface().pads.flexibility;
   }
   return contact;
 }

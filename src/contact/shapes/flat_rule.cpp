@@ -13,8 +13,6 @@
 namespace limber::contact {
 namespace {
 
-using SkinPointer = std::shared_ptr<const Skin>;
-
 // Cosines of the angles between two faces up to which pads count in full, and
 // from which on they do not count: 30 and 45 degrees [-].
 constexpr double kFlat = 0.5 * std::numbers::sqrt3;
@@ -32,11 +30,6 @@ constexpr double kDeeper = 0.1;
 constexpr double kOfPad = 1.0;
 // Share from which on a pad stands for the places next to it [-].
 constexpr double kCovered = 0.1;
-
-const Skin* find_flat(const Shape& shape) {
-  const auto* skin = std::get_if<SkinPointer>(&shape.kind);
-  return skin != nullptr && (*skin)->pad_count() > 0 ? skin->get() : nullptr;
-}
 
 double find_radius(const flexbody::ContactPads& pads, Eigen::Index pad) {
   return std::sqrt(pads.area[pad] / std::numbers::pi);
@@ -82,16 +75,28 @@ double sum_area(const Skin& skin) { return skin.surface().pads.area.sum(); }
 // Pads that are deeper are behind the other side, not in it.
 double find_width(const Skin& skin) { return std::sqrt(sum_area(skin)); }
 
+// A flat surface where its body is.
+struct FlatSide {
+  FlatSide(const PlacedShape& shape_, const Skin& skin_)
+      : shape(shape_),
+        skin(skin_),
+        eta(find_modal_coordinates(skin_, shape_.body)),
+        normal_W(shape_.X_WB.R * skin_.find_mean_normal(eta)) {}
+
+  const PlacedShape& shape;
+  const Skin& skin;
+  ModalView eta;
+  Vector3 normal_W;  // of its mean plane, unit, outward [-]
+};
+
 // Of a flat surface that deforms. @param reach of points beyond its rim [m]
-std::optional<Opposite> find_opposite(const PlacedShape& shape,
-                                      const Skin& skin, const Vector3& p_W,
+std::optional<Opposite> find_opposite(const FlatSide& side, const Vector3& p_W,
                                       double reach) {
-  const ModalView eta = find_modal_coordinates(skin, shape.body);
-  const auto hit = skin.find_nearest(shape.X_WB.inverse() * p_W, eta, reach,
-                                     find_width(skin));
+  const auto hit = side.skin.find_nearest(
+      side.shape.X_WB.inverse() * p_W, side.eta, reach, find_width(side.skin));
   if (!hit || !std::isfinite(hit->nearest.distance)) return std::nullopt;
-  return Opposite{shape.X_WB.R * skin.find_mean_normal(eta),
-                  shape.X_WB * hit->nearest.point, hit->place};
+  return Opposite{side.normal_W, side.shape.X_WB * hit->nearest.point,
+                  hit->place};
 }
 
 // Part of a pad that is over the other side, by what its node is beyond the
@@ -161,27 +166,24 @@ struct PadOpposite {
   double sine = 0.0;    // of the angle between both faces [-]
 };
 
-PadOpposite meet_pad(const PlacedShape& A, const Skin& skin, std::size_t i,
-                     const PlacedShape& B, double reach) {
-  const flexbody::ContactPads& pads = skin.surface().pads;
-  const ModalView eta = find_modal_coordinates(skin, A.body);
-  const Skin::PadHit hit = skin.find_pad(i, eta);
-  const Vector3 p_W = A.X_WB * hit.x;
-  const Vector3 own_normal_W = A.X_WB.R * skin.find_mean_normal(eta);
-  const double radius = find_radius(pads, static_cast<Eigen::Index>(i));
-  const Skin* other = find_flat(B.shape);
-  const auto found = other != nullptr
-                         ? find_opposite(B, *other, p_W, reach + radius)
-                         : find_opposite(B, p_W, own_normal_W);
+// @param other B if it is a flat surface, too
+PadOpposite meet_pad(const FlatSide& A, std::size_t i, const PlacedShape& B,
+                     const std::optional<FlatSide>& other, double reach) {
+  const Skin::PadHit hit = A.skin.find_pad(i, A.eta);
+  const Vector3 p_W = A.shape.X_WB * hit.x;
+  const double radius =
+      find_radius(A.skin.surface().pads, static_cast<Eigen::Index>(i));
+  const auto found = other ? find_opposite(*other, p_W, reach + radius)
+                           : find_opposite(B, p_W, A.normal_W);
   PadOpposite out{.meeting = {}, .radius = radius};
   if (!found) return out;
   const Vector3 arm = p_W - found->p_W;
   const double height = found->normal_W.dot(arm);
-  const double deepest = std::min(found->thickness, find_width(skin));
-  const double tilt = find_share_of_tilt(-own_normal_W.dot(found->normal_W));
+  const double deepest = std::min(found->thickness, find_width(A.skin));
+  const double tilt = find_share_of_tilt(-A.normal_W.dot(found->normal_W));
   if (!(tilt > 0.0) || height > reach || -height > deepest) return out;
   const double beyond = (arm - height * found->normal_W).norm();
-  out.sine = own_normal_W.cross(found->normal_W).norm();
+  out.sine = A.normal_W.cross(found->normal_W).norm();
   out.cover = find_cover(beyond, radius);
   out.meeting.share = out.cover * tilt;
   out.meeting.depth = -height;
@@ -210,6 +212,11 @@ double find_overhang(std::span<const PadOpposite> pads) {
 
 }  // namespace
 
+const Skin* find_flat(const Shape& shape) {
+  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&shape.kind);
+  return skin != nullptr && (*skin)->pad_count() > 0 ? skin->get() : nullptr;
+}
+
 bool is_flat_pair(const Shape& A, const Shape& B) {
   const Skin* skin = find_flat(A);
   if (skin == nullptr || skin->pad_count() > kMostPads) return false;
@@ -219,18 +226,16 @@ bool is_flat_pair(const Shape& A, const Shape& B) {
          std::holds_alternative<Cylinder>(B.kind);
 }
 
-std::size_t count_pads(const Shape& A) {
-  const Skin* skin = find_flat(A);
-  return skin != nullptr ? skin->pad_count() : 0;
-}
-
 void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
                        std::span<Meeting> out) {
   const Skin& skin = *find_flat(A.shape);
+  const FlatSide side(A, skin);
+  std::optional<FlatSide> other;
+  if (const Skin* flat = find_flat(B.shape)) other.emplace(B, *flat);
   std::array<PadOpposite, kMostPads> all;
   const auto pads = std::span(all).first(out.size());
   for (std::size_t i = 0; i < pads.size(); ++i) {
-    pads[i] = meet_pad(A, skin, i, B, reach);
+    pads[i] = meet_pad(side, i, B, other, reach);
   }
   const double overhang = find_overhang(pads) / (kOverhang * find_width(skin));
   const double flat = std::clamp(2.0 - overhang, 0.0, 1.0);

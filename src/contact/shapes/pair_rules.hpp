@@ -57,13 +57,13 @@ void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
 [[nodiscard]] double find_skins_clearance(const PlacedShape& A,
                                           const PlacedShape& B);
 
+/// A surface with pads; null of all other shapes.
+[[nodiscard]] const Skin* find_flat(const Shape& shape);
 /// Most pads of a flat surface that touches others than half spaces.
 inline constexpr std::size_t kMostPads = 25;
 /// Whether A is a flat surface with so many pads at most, and B a box, a
 /// cylinder or such a surface that is not smaller.
 [[nodiscard]] bool is_flat_pair(const Shape& A, const Shape& B);
-/// Pads of a shape; 0 of all that is no flat surface.
-[[nodiscard]] std::size_t count_pads(const Shape& A);
 /// Of A's pads with the face, or the end, that B turns to them.
 ///
 /// Equation   depth = -height of the pad over B's surface along B's normal;

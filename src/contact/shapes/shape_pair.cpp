@@ -11,6 +11,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/contact/shapes/pair_rules.hpp"
 #include "limber/contact/shapes/shape_skin.hpp"
+#include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {
 namespace {
@@ -55,7 +56,8 @@ ShapePair::ShapePair(const Shape& A, const Shape& B, bool with_pads)
     is_swapped_ = is_a<HalfSpace>(B_);
     most_points_ = count_half_space_features(is_swapped_ ? A_ : B_);
     is_loose_ = has_loose_features_on_plane(is_swapped_ ? A_ : B_);
-    pad_count_ = count_pads(is_swapped_ ? A_ : B_);
+    const Skin* flat = find_flat(is_swapped_ ? A_ : B_);
+    pad_count_ = flat != nullptr ? flat->pad_count() : 0;
     has_pads_on_A_ = is_swapped_;
   } else if (is_a<Capsule>(A_) && is_a<Capsule>(B_)) {
     rule_ = Rule::kCapsules;
@@ -71,7 +73,7 @@ ShapePair::ShapePair(const Shape& A, const Shape& B, bool with_pads)
       rule_ = Rule::kFlat;
       is_swapped_ = !is_flat_pair(A_, B_);
       has_pads_on_A_ = !is_swapped_;
-      pad_count_ = count_pads(is_swapped_ ? B_ : A_);
+      pad_count_ = find_flat(is_swapped_ ? B_ : A_)->pad_count();
     }
     most_points_ = pad_count_ + unordered_count_;
   } else {

@@ -5,7 +5,6 @@
 #include <random>
 #include <string>
 
-#include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
