@@ -40,7 +40,7 @@ set(public_headers
   contact/law/impact_estimate.hpp
   contact/law/materials.hpp
   contact/law/torsional_friction.hpp
-  contact/shapes/shape_pair.hpp
+  contact/narrow_phase/shape_pair.hpp
   contact/shapes/skin.hpp
   dynamics/analysis/balanced_truncation.hpp
   dynamics/analysis/equilibrium.hpp

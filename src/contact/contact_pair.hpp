@@ -6,9 +6,9 @@
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/materials.hpp"
 #include "limber/contact/law/point_law.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/pad_contact.hpp"
 #include "limber/contact/point_twist.hpp"
-#include "limber/contact/shapes/shape_pair.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 #include "limber/joints/pairs/touching.hpp"
 

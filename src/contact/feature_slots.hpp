@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "limber/contact/shapes/meeting.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
 
 namespace limber::contact {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "limber/contact/law/point_memory.hpp"
-#include "limber/contact/shapes/meeting.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
 
 /// Keeps the order of features that have no fixed one
 /// (ShapePair::has_loose_features), such as the nodes of a skin that touch.

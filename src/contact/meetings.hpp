@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/shapes/meeting.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
 
 namespace limber::contact {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {

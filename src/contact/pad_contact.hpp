@@ -9,8 +9,8 @@
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/materials.hpp"
 #include "limber/contact/law/pad_law.hpp"
-#include "limber/contact/shapes/meeting.hpp"
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 

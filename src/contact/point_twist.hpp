@@ -7,7 +7,7 @@
 #include "limber/contact/law/materials.hpp"
 #include "limber/contact/law/point_memory.hpp"
 #include "limber/contact/law/torsional_friction.hpp"
-#include "limber/contact/shapes/meeting.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {

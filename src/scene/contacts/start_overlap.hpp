@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 

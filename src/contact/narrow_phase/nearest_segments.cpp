@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/nearest_segments.hpp"
+#include "limber/contact/narrow_phase/nearest_segments.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {

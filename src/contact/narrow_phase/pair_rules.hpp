@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "limber/contact/shapes/meeting.hpp"
-#include "limber/contact/shapes/placed_shape.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
+#include "limber/contact/narrow_phase/placed_shape.hpp"
 
 /// The rules of ShapePair, with A the sphere, half space or capsule; of boxes,
 /// cylinders and capsules either.

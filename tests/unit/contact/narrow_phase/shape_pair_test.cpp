@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/convex_face.hpp"
+#include "limber/contact/narrow_phase/convex_face.hpp"
 
 #include <cmath>
 #include <numbers>

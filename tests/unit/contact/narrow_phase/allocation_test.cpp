@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "limber/contact/contact_pair.hpp"
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "support/allocation_count.hpp"
 #include "unit/contact/shapes/surfaces.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "limber/common/overloaded.hpp"
-#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {

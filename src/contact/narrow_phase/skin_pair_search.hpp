@@ -6,7 +6,7 @@
 #include <span>
 
 #include "limber/common/pose.hpp"
-#include "limber/contact/shapes/face_pair.hpp"
+#include "limber/contact/narrow_phase/face_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {

@@ -11,8 +11,8 @@
 
 #include "limber/common/overloaded.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/shapes/nearest_point.hpp"
-#include "limber/contact/shapes/shape_pair.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
 namespace limber::contact {

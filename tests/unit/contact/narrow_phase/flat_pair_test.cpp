@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "limber/contact/shapes/pair_rules.hpp"
-#include "limber/contact/shapes/skin_pair_search.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
+#include "limber/contact/narrow_phase/skin_pair_search.hpp"
 
 namespace limber::contact {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "limber/contact/shapes/convex_face.hpp"
+#include "limber/contact/narrow_phase/convex_face.hpp"
 
 namespace limber::contact {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
-#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
 #include "limber/contact/shapes/shape_skin.hpp"
 #include "limber/contact/shapes/skin.hpp"
 

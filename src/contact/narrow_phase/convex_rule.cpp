@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "limber/contact/shapes/convex_face.hpp"
-#include "limber/contact/shapes/convex_separation.hpp"
-#include "limber/contact/shapes/face_overlap.hpp"
-#include "limber/contact/shapes/nearest_segments.hpp"
-#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/narrow_phase/convex_face.hpp"
+#include "limber/contact/narrow_phase/convex_separation.hpp"
+#include "limber/contact/narrow_phase/face_overlap.hpp"
+#include "limber/contact/narrow_phase/nearest_segments.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
 
 namespace limber::contact {
 namespace {

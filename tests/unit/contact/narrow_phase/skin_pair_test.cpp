@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/shapes/shape_skin.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/pair_rules.hpp"
+#include "limber/contact/narrow_phase/pair_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "limber/contact/narrow_phase/nearest_segments.hpp"
 #include "limber/contact/shapes/nearest_point.hpp"
-#include "limber/contact/shapes/nearest_segments.hpp"
 #include "limber/contact/shapes/skin.hpp"
 
 namespace limber::contact {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/nearest_cores.hpp"
+#include "limber/contact/narrow_phase/nearest_cores.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "limber/common/types.hpp"
-#include "limber/contact/shapes/placed_shape.hpp"
+#include "limber/contact/narrow_phase/placed_shape.hpp"
 
 namespace limber::contact {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "limber/contact/shapes/meeting.hpp"
-#include "limber/contact/shapes/placed_shape.hpp"
+#include "limber/contact/narrow_phase/meeting.hpp"
+#include "limber/contact/narrow_phase/placed_shape.hpp"
 #include "limber/contact/shapes/shape.hpp"
 #include "limber/contact/shapes/shape_properties.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/contact/shapes/convex_core.hpp"
+#include "limber/contact/narrow_phase/convex_core.hpp"
 
 namespace limber::contact {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/convex_separation.hpp"
+#include "limber/contact/narrow_phase/convex_separation.hpp"
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "limber/contact/shapes/nearest_cores.hpp"
+#include "limber/contact/narrow_phase/nearest_cores.hpp"
 
 namespace limber::contact {
 namespace {

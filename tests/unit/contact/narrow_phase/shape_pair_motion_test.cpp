@@ -5,7 +5,7 @@
 #include <random>
 
 #include "limber/common/rotation.hpp"
-#include "limber/contact/shapes/shape_pair.hpp"
+#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 

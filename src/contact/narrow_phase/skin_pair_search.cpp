@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/skin_pair_search.hpp"
+#include "limber/contact/narrow_phase/skin_pair_search.hpp"
 
 #include <algorithm>
 #include <cmath>

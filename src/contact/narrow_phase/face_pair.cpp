@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/contact/shapes/face_pair.hpp"
+#include "limber/contact/narrow_phase/face_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
