@@ -13,13 +13,26 @@
 namespace limber::contact {
 namespace {
 
-// Cosines of the angles between two faces up to which pads count in full, and
-// from which on they do not count: 30 and 45 degrees [-].
-constexpr double kFlat = 0.5 * std::numbers::sqrt3;
-constexpr double kTilted = 0.5 * std::numbers::sqrt2;
-// Part of the face's width by which the plane of B's face may go deeper than B
-// itself for pads to count in full; at twice as much they do not count [-].
-constexpr double kOverhang = 0.01;
+// Angles between two faces up to which pads count in full, and from which on
+// they do not count, by their cosines [-].
+struct TiltRange {
+  double all;
+  double none;
+
+  [[nodiscard]] double find_share(double cosine) const {
+    return std::clamp((cosine - none) / (all - none), 0.0, 1.0);
+  }
+};
+// 30 and 45 degrees: of pads that are all over the other face.
+constexpr TiltRange kCoveredTilt{0.5 * std::numbers::sqrt3,
+                                 0.5 * std::numbers::sqrt2};
+// 0.5 and 1 degree where the other face's rim is over pads: of a linear body,
+// whose face is pressed in by a hundredth of its width at most, only corners
+// and edges of faces that are tilted more touch.
+constexpr TiltRange kRimTilt{0.99996192, 0.99984770};
+// Least cover of all pads from which on they begin to count as all over the
+// other face [-].
+constexpr double kWithin = 0.9;
 // Shares up to this are round-off.
 constexpr double kNoShare = 1e-9;
 // A place between pads counts as far as it is deeper than the deepest pad, in
@@ -105,10 +118,6 @@ double find_cover(double beyond, double radius) {
   return std::clamp(1.0 - beyond / radius, 0.0, 1.0);
 }
 
-double find_share_of_tilt(double cosine) {
-  return std::clamp((cosine - kTilted) / (kFlat - kTilted), 0.0, 1.0);
-}
-
 // The pads that are over the other side.
 class CoveredPads {
  public:
@@ -158,56 +167,35 @@ class CoveredPads {
   double deepest_ = 0.0;  // [m]
 };
 
-// A pad of A and what is opposite to it on B, in its plane or at its rim.
-struct PadOpposite {
-  Meeting meeting;
-  double radius = 0.0;  // of the pad [m]
-  double cover = 0.0;   // of the pad by B [-]
-  double sine = 0.0;    // of the angle between both faces [-]
-};
-
+// A pad of A and what is opposite to it on B. Of a pad whose node is beyond B's
+// rim the part that is over B counts: there the rim is on A's plane.
+//
 // @param other B if it is a flat surface, too
-PadOpposite meet_pad(const FlatSide& A, std::size_t i, const PlacedShape& B,
-                     const std::optional<FlatSide>& other, double reach) {
+Meeting meet_pad(const FlatSide& A, std::size_t i, const PlacedShape& B,
+                 const std::optional<FlatSide>& other, double reach) {
   const Skin::PadHit hit = A.skin.find_pad(i, A.eta);
   const Vector3 p_W = A.shape.X_WB * hit.x;
   const double radius =
       find_radius(A.skin.surface().pads, static_cast<Eigen::Index>(i));
   const auto found = other ? find_opposite(*other, p_W, reach + radius)
                            : find_opposite(B, p_W, A.normal_W);
-  PadOpposite out{.meeting = {}, .radius = radius};
-  if (!found) return out;
+  if (!found) return {};
   const Vector3 arm = p_W - found->p_W;
   const double height = found->normal_W.dot(arm);
   const double deepest = std::min(found->thickness, find_width(A.skin));
-  const double tilt = find_share_of_tilt(-A.normal_W.dot(found->normal_W));
-  if (!(tilt > 0.0) || height > reach || -height > deepest) return out;
   const double beyond = (arm - height * found->normal_W).norm();
-  out.sine = A.normal_W.cross(found->normal_W).norm();
-  out.cover = find_cover(beyond, radius);
-  out.meeting.share = out.cover * tilt;
-  out.meeting.depth = -height;
-  out.meeting.normal_W = -found->normal_W;
-  out.meeting.p_W = 0.5 * (p_W + found->p_W);
-  out.meeting.on_A = hit.place;
-  out.meeting.on_B = found->place;
-  return out;
-}
-
-// How far the plane of B's face goes deeper into A beyond its rim than B itself
-// does, where B's rim is pressed into A [m].
-double find_overhang(std::span<const PadOpposite> pads) {
-  double of_plane = -std::numeric_limits<double>::infinity();
-  double of_face = of_plane;
-  for (const PadOpposite& pad : pads) {
-    const double depth = pad.meeting.depth;
-    if (depth == Meeting{}.depth) continue;
-    of_plane = std::max(of_plane, depth);
-    if (!(pad.cover > 0.0)) continue;
-    const double beyond = (1.0 - pad.cover) * pad.radius;
-    of_face = std::max(of_face, depth - beyond * pad.sine);
-  }
-  return of_plane - of_face;
+  const double cover = find_cover(beyond, radius);
+  if (!(cover > kNoShare) || height > reach || -height > deepest) return {};
+  // Of the node over B's plane, and of B's rim over A's.
+  const Vector3 normal = (1.0 - cover) * A.normal_W - cover * found->normal_W;
+  const double depth = (1.0 - cover) * A.normal_W.dot(arm) - cover * height;
+  const Vector3 middle = found->p_W + 0.5 * depth * normal;
+  return {.depth = depth,
+          .normal_W = normal.normalized(),
+          .p_W = middle,
+          .on_A = hit.place,
+          .on_B = found->place,
+          .share = cover};
 }
 
 }  // namespace
@@ -232,17 +220,22 @@ void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
   const FlatSide side(A, skin);
   std::optional<FlatSide> other;
   if (const Skin* flat = find_flat(B.shape)) other.emplace(B, *flat);
-  std::array<PadOpposite, kMostPads> all;
-  const auto pads = std::span(all).first(out.size());
-  for (std::size_t i = 0; i < pads.size(); ++i) {
-    pads[i] = meet_pad(side, i, B, other, reach);
+  double least_cover = 1.0;  // of all
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = meet_pad(side, i, B, other, reach);
+    const bool is_over = out[i].depth > Meeting{}.depth;
+    least_cover = std::min(least_cover, is_over ? out[i].share : 0.0);
   }
-  const double overhang = find_overhang(pads) / (kOverhang * find_width(skin));
-  const double flat = std::clamp(2.0 - overhang, 0.0, 1.0);
-  for (std::size_t i = 0; i < pads.size(); ++i) {
-    out[i] = pads[i].meeting;
-    out[i].share *= flat;
-    if (!(out[i].share > kNoShare)) out[i] = {};
+  const double cosine = -side.normal_W.dot(
+      other ? other->normal_W
+            : find_opposite(B, B.X_WS.p, side.normal_W)->normal_W);
+  const double within =
+      std::clamp((least_cover - kWithin) / (1.0 - kWithin), 0.0, 1.0);
+  const double share = within * kCoveredTilt.find_share(cosine) +
+                       (1.0 - within) * kRimTilt.find_share(cosine);
+  for (Meeting& pad : out) {
+    pad.share *= share;
+    if (!(pad.share > kNoShare)) pad = {};
   }
 }
 

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr FacePlace kMiddle{1.0 / 3.0, 1.0 / 3.0};
-constexpr std::array<FacePlace, 3> kCorners = {
-    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
 // Cosine between sides that are turned to each other, at most [-].
 constexpr double kFacing = -0.05;
 // The same of sides in parallel, and the bulge of flat ones, of an edge [-].
@@ -201,12 +199,18 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
   const FacePatch::Range on_B = B.find_range(normal);
   if (on_B.low - on_A.high > limit()) return;
   if (!is_in_range(face_A, face_B, on_A.low - on_B.high)) return;
-  if (cosine < kParallel && is_flat(A, edge_) && is_flat(B, edge_)) {
-    look_at_corners(face_A, A, face_B, B, normal);
-    look_at_edges(face_A, A, face_B, B, normal);
-    // Of flat faces there is nothing else.
-    if (is_flat(A, kExactlyFlat * edge_) && is_flat(B, kExactlyFlat * edge_)) {
-      return;
+  if (is_flat(A, edge_) && is_flat(B, edge_)) {
+    const FacePair faces{face_A, A, face_B, B};
+    if (cosine < kParallel) {
+      look_at_corners(faces, normal);
+      look_at_edges(faces, normal);
+      // Of flat faces there is nothing else.
+      if (is_flat(A, kExactlyFlat * edge_) &&
+          is_flat(B, kExactlyFlat * edge_)) {
+        return;
+      }
+    } else {
+      look_at_ridges(faces, normal);
     }
   }
   const auto at = find_opposite(
@@ -214,9 +218,10 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
       A_.skin.measures(face_A).is_inner && B_.skin.measures(face_B).is_inner);
   if (!at || !is_in_range(face_A, face_B, at->depth)) return;
   if (-at->depth > limit()) return;
-  const Feature feature = make_feature(face_A, A, face_B, B, *at);
+  Feature feature = make_feature(face_A, A, face_B, B, *at);
+  feature.is_outer = !is_along_ridge(face_A, face_B, *at);
   if (at->depth > deepest_.at.depth && is_genuine(feature)) deepest_ = feature;
-  if (is_summit(face_A, face_B, *at)) add(feature);
+  if (is_summit(face_A, face_B, *at, kRises)) add(feature);
 }
 
 // Sides that are turned away from each other beyond a thin part are none that
@@ -231,103 +236,47 @@ double SkinPairSearch::find_height(const DeformedSkin& over,
                                    const Vector3& p) const {
   const Vector3 at = &over == &A_ ? p : X_AB_.inverse() * p;
   const auto hit = over.skin.find_nearest(at, over.eta, kInfinity, kInfinity);
-  return hit ? hit->nearest.distance : kInfinity;
+  if (!hit) return kInfinity;
+  if (over.skin.is_closed()) return hit->nearest.distance;
+  // Beyond a border the face's plane goes on.
+  const SurfacePlace& place = hit->place;
+  const Vector3 normal = over.skin.make_patch(place.face, over.eta, Pose{})
+                             .find_normal({place.u, place.v});
+  return normal.normalized().dot(at - hit->nearest.point);
 }
 
 bool SkinPairSearch::is_genuine(const Feature& feature) const {
   constexpr double kLeast = 0.3;  // of the depth [-]
+  constexpr double kLeastCosine = 0.05;
   const double depth = feature.at.depth;
   if (!(depth > kNoDepth * edge_)) return true;
+  if (feature.kind != Feature::Kind::kOpposite) {
+    return is_genuine_of_flat(feature);
+  }
   const Vector3 half = 0.5 * depth * feature.at.normal;
   const Vector3 a = feature.middle + half;
-  if (!feature.inward.isZero(0.0)) {
-    const Vector3 probe = a + 0.5 * depth * feature.inward;
-    return find_height(B_, probe) <= -kLeast * depth &&
-           std::abs(find_height(A_, probe)) <= kLeast * depth;
-  }
-  return find_height(B_, a) <= -kLeast * depth ||
-         find_height(A_, feature.middle - half) <= -kLeast * depth;
+  // Above an edge or a corner their own sides are nearer than the depth.
+  const auto find_least = [&](const DeformedSkin& in, const SurfacePlace& at,
+                              const Vector3& out) {
+    const double cosine = in.skin.find_least_cosine(at, in.eta, out);
+    return kLeast * std::max(cosine, kLeastCosine) * depth;
+  };
+  const auto& [on_A, on_B, normal, unused] = feature.at;
+  return find_height(B_, a) <=
+             -find_least(B_, {.face = feature.face_B, .u = on_B.u, .v = on_B.v},
+                         -(X_AB_.R.transpose() * normal)) ||
+         find_height(A_, feature.middle - half) <=
+             -find_least(A_, {.face = feature.face_A, .u = on_A.u, .v = on_A.v},
+                         normal);
 }
 
-bool SkinPairSearch::is_summit(int face_A, int face_B,
-                               const FacePairPlace& at) const {
+bool SkinPairSearch::is_summit(int face_A, int face_B, const FacePairPlace& at,
+                               double tolerance) const {
   const SurfacePlace on_A{.face = face_A, .u = at.on_A.u, .v = at.on_A.v};
   const SurfacePlace on_B{.face = face_B, .u = at.on_B.u, .v = at.on_B.v};
-  return A_.skin.is_summit(on_A, A_.eta, at.normal, kRises) &&
+  return A_.skin.is_summit(on_A, A_.eta, at.normal, tolerance) &&
          B_.skin.is_summit(on_B, B_.eta, -(X_AB_.R.transpose() * at.normal),
-                           kRises);
-}
-
-void SkinPairSearch::look_at_corners(int face_A, const FacePatch& A, int face_B,
-                                     const FacePatch& B,
-                                     const Vector3& normal) {
-  // Of `corner` of a face above the other one; `sign` 1: of A.
-  const auto look = [&](const FacePatch& from, const FacePatch& to,
-                        const FacePlace& corner, double sign, bool is_outer) {
-    const Vector3 p = from.find_point(corner);
-    const FacePlace at = to.find_nearest(p, to.find_nearest_of_flat(p).at);
-    const Vector3 out = to.find_normal(at).normalized();
-    const Vector3 arm = p - to.find_point(at);
-    const double height = out.dot(arm);
-    if ((arm - height * out).norm() > kSamePlace * edge_) return;
-    if (out.dot(-sign * normal) < 0.5) return;
-    FacePairPlace pair{.on_A = sign > 0.0 ? corner : at,
-                       .on_B = sign > 0.0 ? at : corner,
-                       .normal = -sign * out,
-                       .depth = -height};
-    if (-pair.depth > limit() || !is_in_range(face_A, face_B, pair.depth)) {
-      return;
-    }
-    Feature feature = make_feature(face_A, A, face_B, B, pair);
-    feature.is_outer = is_outer;
-    add(feature);
-  };
-  for (std::size_t i = 0; i < 3; ++i) {
-    look(A, B, kCorners[i], 1.0, A_.skin.measures(face_A).is_corner[i]);
-    look(B, A, kCorners[i], -1.0, B_.skin.measures(face_B).is_corner[i]);
-  }
-}
-
-void SkinPairSearch::look_at_edges(int face_A, const FacePatch& A, int face_B,
-                                   const FacePatch& B, const Vector3& normal) {
-  const auto& sharp_A = A_.skin.measures(face_A).is_sharp;
-  const auto& sharp_B = B_.skin.measures(face_B).is_sharp;
-  const auto find_between = [](std::size_t edge, double s) {
-    const FacePlace& from = kCorners[edge];
-    const FacePlace& to = kCorners[(edge + 1) % 3];
-    return FacePlace{from.u + s * (to.u - from.u),
-                     from.v + s * (to.v - from.v)};
-  };
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const bool are_sharp = sharp_A[i] && sharp_B[j];
-      const auto at = find_crossing(
-          A.find_point(kCorners[i]), A.find_point(kCorners[(i + 1) % 3]),
-          B.find_point(kCorners[j]), B.find_point(kCorners[(j + 1) % 3]),
-          normal);
-      if (!at) continue;
-      FacePairPlace pair{.on_A = find_between(i, at->s),
-                         .on_B = find_between(j, at->t),
-                         .normal = normal};
-      pair.depth =
-          normal.dot(A.find_point(pair.on_A) - B.find_point(pair.on_B));
-      if (-pair.depth > limit() || !is_in_range(face_A, face_B, pair.depth)) {
-        continue;
-      }
-      if (!are_sharp && !is_summit(face_A, face_B, pair)) continue;
-      Feature feature = make_feature(face_A, A, face_B, B, pair);
-      const auto find_inward = [&normal](const FacePatch& face,
-                                         std::size_t edge) -> Vector3 {
-        const Vector3 from = face.find_point(kCorners[edge]);
-        const Vector3 along = face.find_point(kCorners[(edge + 1) % 3]) - from;
-        const Vector3 across = normal.cross(along).normalized();
-        const Vector3 far = face.find_point(kCorners[(edge + 2) % 3]) - from;
-        return across.dot(far) > 0.0 ? across : Vector3(-across);
-      };
-      feature.inward = (find_inward(A, i) + find_inward(B, j)).normalized();
-      add(feature);
-    }
-  }
+                           tolerance);
 }
 
 SkinPairSearch::Feature SkinPairSearch::make_feature(
@@ -335,11 +284,31 @@ SkinPairSearch::Feature SkinPairSearch::make_feature(
     const FacePairPlace& at) const {
   const double curvature =
       A.find_mean_curvature(at.on_A) + B.find_mean_curvature(at.on_B);
-  return {.face_A = face_A,
+  return {.kind = Feature::Kind::kOpposite,
+          .face_A = face_A,
           .face_B = face_B,
           .at = at,
           .middle = 0.5 * (A.find_point(at.on_A) + B.find_point(at.on_B)),
           .curvature = std::max(0.0, curvature)};
+}
+
+// What differs by round-off must not tell: a corner on a rim, or a place on an
+// edge of the mesh, would change its normal at every look.
+SkinPairSearch::Feature SkinPairSearch::choose(const Feature& a,
+                                               const Feature& b) const {
+  const double deeper = b.at.depth - a.at.depth;
+  const bool are_same =
+      std::abs(deeper) <= kSamePlace * std::abs(a.at.depth) + kNoDepth * edge_;
+  const auto order = [](const Feature& feature) {
+    return std::pair(feature.face_A, feature.face_B);
+  };
+  const bool is_b_first = a.kind != b.kind ? b.kind > a.kind
+                          : are_same       ? order(b) < order(a)
+                                           : deeper > 0.0;
+  const Feature& first = is_b_first ? b : a;
+  Feature chosen = is_genuine(first) ? first : is_b_first ? a : b;
+  chosen.is_outer = a.is_outer || b.is_outer;
+  return chosen;
 }
 
 void SkinPairSearch::add(const Feature& feature) {
@@ -354,7 +323,7 @@ void SkinPairSearch::add(const Feature& feature) {
   for (std::size_t i = 0; i < count_; ++i) {
     const double far = (features_[i].middle - feature.middle).norm();
     if (far < kSamePlace * edge_) {
-      if (feature.at.depth > features_[i].at.depth) features_[i] = feature;
+      features_[i] = choose(features_[i], feature);
       return;
     }
     if (is_less(features_[i], features_[least])) least = i;
@@ -378,6 +347,29 @@ double SkinPairSearch::find_radius(const Feature& feature) const {
   return std::max(kLarger * std::sqrt(2.0 * depth / curvature), kLeast * edge_);
 }
 
+// Of a node within a flat part, or a place along an edge, that is no deeper
+// than the corners of these: none. It counts as far as it is deeper.
+double SkinPairSearch::find_share(const Feature& feature) const {
+  constexpr double kSameSide = 0.94;  // cosine of 20 degrees
+  // Of the depth: from which on it counts, and in full.
+  constexpr double kDeeper = 0.3;
+  constexpr double kMuchDeeper = 0.6;
+  if (feature.is_outer) return 1.0;
+  const double depth = feature.at.depth;
+  double outer = -kInfinity;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (features_[i].is_outer &&
+        features_[i].at.normal.dot(feature.at.normal) > kSameSide) {
+      outer = std::max(outer, features_[i].at.depth);
+    }
+  }
+  const double deeper = depth - outer - kNoDepth * edge_;
+  if (!(deeper > 0.0)) return 0.0;
+  if (!(depth > 0.0)) return 1.0;
+  return std::clamp((deeper / depth - kDeeper) / (kMuchDeeper - kDeeper), 0.0,
+                    1.0);
+}
+
 std::size_t SkinPairSearch::select(std::span<Feature> out) const {
   constexpr double kWider = 1.5;
   constexpr double kNoShare = 1e-6;
@@ -393,10 +385,8 @@ std::size_t SkinPairSearch::select(std::span<Feature> out) const {
   std::array<double, kMostFeatures> shares;
   std::array<double, kMostFeatures> room;  // from those taken, of the extent
   std::array<bool, kMostFeatures> is_left;
-  bool has_outer = false;
   for (std::size_t i = 0; i < count_; ++i) {
-    shares[i] = 1.0;
-    has_outer = has_outer || features_[i].is_outer;
+    shares[i] = find_share(features_[i]);
     room[i] = (features_[i].middle - centre).norm() / extent;
     is_left[i] = true;
   }
@@ -406,7 +396,6 @@ std::size_t SkinPairSearch::select(std::span<Feature> out) const {
     double highest = -kInfinity;
     for (std::size_t i = 0; i < count_; ++i) {
       if (!is_left[i] || shares[i] < kNoShare) continue;
-      if (has_outer && !features_[i].is_outer) continue;
       const double depth = features_[i].at.depth;
       const double score = depth + kOuter * std::abs(depth) * room[i];
       if (!(score > highest)) continue;
@@ -419,14 +408,16 @@ std::size_t SkinPairSearch::select(std::span<Feature> out) const {
       continue;
     }
     out[taken] = features_[best];
-    out[taken].share = shares[best];
+    const double share = out[taken].share = shares[best];
     ++taken;
     is_left[best] = false;
     const double radius = find_radius(features_[best]);
     for (std::size_t i = 0; i < count_; ++i) {
       const double far = (features_[i].middle - features_[best].middle).norm();
       room[i] = taken == 1 ? far / extent : std::min(room[i], far / extent);
-      shares[i] *= std::clamp((far / radius - 1.0) / (kWider - 1.0), 0.0, 1.0);
+      const double free =
+          std::clamp((far / radius - 1.0) / (kWider - 1.0), 0.0, 1.0);
+      shares[i] *= 1.0 - share * (1.0 - free);
     }
   }
   if (taken == 0 && deepest() > -kInfinity && !out.empty()) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "limber/common/pose.hpp"
@@ -28,6 +29,9 @@ struct DeformedSkin {
 class SkinPairSearch {
  public:
   struct Feature {
+    /// How it was found; of several at one place the later kind counts.
+    enum class Kind { kOpposite, kCrossing, kCornerOfB, kCornerOfA };
+    Kind kind = Kind::kOpposite;
     int face_A = -1;
     int face_B = -1;
     FacePairPlace at;
@@ -35,8 +39,6 @@ class SkinPairSearch {
     double curvature = 0.0;            ///< of both, >= 0 [1/m]
     double share = 1.0;                ///< [-]
     bool is_outer = true;  ///< false: a node of a flat part that is no corner
-    /// Of edges that cross: into both faces, unit; otherwise 0 [-].
-    Vector3 inward = Vector3::Zero();
   };
 
   /// @param X_AB pose of B's body in A's
@@ -70,16 +72,36 @@ class SkinPairSearch {
   void look_at_leaves(const Entry& entry);
   void look_at(int face_A, const FacePatch& A, int face_B, const FacePatch& B,
                bool do_boxes_meet);
-  void look_at_corners(int face_A, const FacePatch& A, int face_B,
-                       const FacePatch& B, const Vector3& normal);
-  void look_at_edges(int face_A, const FacePatch& A, int face_B,
-                     const FacePatch& B, const Vector3& normal);
-  [[nodiscard]] bool is_summit(int face_A, int face_B,
-                               const FacePairPlace& at) const;
+  // Between flat faces.
+  struct FacePair {
+    int face_A;
+    const FacePatch& A;
+    int face_B;
+    const FacePatch& B;
+  };
+  [[nodiscard]] std::optional<FacePairPlace> find_under_corner(
+      const FacePair& faces, std::size_t corner, bool is_of_A,
+      const Vector3& normal) const;
+  [[nodiscard]] static std::optional<FacePairPlace> find_edges_crossing(
+      const FacePair& faces, std::size_t edge_A, std::size_t edge_B,
+      const Vector3& normal);
+  void add_flat(const FacePair& faces, Feature::Kind kind,
+                const FacePairPlace& pair, bool is_outer);
+  void look_at_corners(const FacePair& faces, const Vector3& normal);
+  void look_at_edges(const FacePair& faces, const Vector3& normal);
+  void look_at_ridges(const FacePair& faces, const Vector3& normal);
+  // Whether it is any place of an edge that lies along a plane.
+  [[nodiscard]] bool is_along_ridge(int face_A, int face_B,
+                                    const FacePairPlace& at) const;
+  [[nodiscard]] bool is_summit(int face_A, int face_B, const FacePairPlace& at,
+                               double tolerance) const;
   void add(const Feature& feature);
+  // Of two features at one place.
+  [[nodiscard]] Feature choose(const Feature& a, const Feature& b) const;
   // Whether nothing of either surface is much nearer than the opposite place:
   // sides that pass each other beside the contact are no overlap.
   [[nodiscard]] bool is_genuine(const Feature& feature) const;
+  [[nodiscard]] bool is_genuine_of_flat(const Feature& feature) const;
   [[nodiscard]] double find_height(const DeformedSkin& over,
                                    const Vector3& p) const;
   [[nodiscard]] bool is_in_range(int face_A, int face_B, double depth) const;
@@ -90,6 +112,7 @@ class SkinPairSearch {
   [[nodiscard]] double limit() const;
   [[nodiscard]] double find_radius(const Feature& feature) const;
   [[nodiscard]] bool must_look_deeper() const;
+  [[nodiscard]] double find_share(const Feature& feature) const;
 
   static constexpr std::size_t kMostFeatures = 96;
   // Pairs of faces after which it looks for no deeper overlaps.

@@ -138,10 +138,20 @@ class Skin {
     /// Whether the surface is convex there by more than 20 degrees, at the
     /// edges 01, 12, 20.
     std::array<bool, 3> is_sharp = {};
-    /// Whether such edges or borders end or turn in its corners.
+    /// Which edges are such or borders: the rim of the surface, or of a part.
+    std::array<bool, 3> is_rim = {};
+    /// Which parts of the rim go on straight to a corner, or on.
+    std::array<bool, 3> is_ridge = {};
+    /// Which corners are on a rim, also of another face; there it goes on
+    /// straight, or turns by more than 5 degrees or ends.
+    std::array<bool, 3> is_on_rim = {};
+    std::array<bool, 3> is_on_ridge = {};
     std::array<bool, 3> is_corner = {};
     /// Whether neither such an edge nor a border meets the face.
     bool is_inner = true;
+    /// Whether it is plane, and so is the surface beyond its edges that are not
+    /// sharp.
+    bool is_plane = true;
   };
   [[nodiscard]] const FaceMeasures& measures(int f) const {
     return measures_[index(f)];
@@ -163,6 +173,12 @@ class Skin {
   /// @param way unit, body frame
   [[nodiscard]] bool is_summit(const SurfacePlace& place, const ModalView& eta,
                                const Vector3& way, double tolerance) const;
+  /// The least of the cosines between a direction and the normals of the
+  /// deformed faces that meet at a place.
+  /// @param way unit, body frame
+  [[nodiscard]] double find_least_cosine(const SurfacePlace& place,
+                                         const ModalView& eta,
+                                         const Vector3& way) const;
 
   /// The place on a face with its undeformed position.
   [[nodiscard]] SurfacePlace make_place(int f, const FacePlace& at) const;

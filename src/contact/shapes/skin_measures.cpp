@@ -101,6 +101,7 @@ Vector3 Skin::find_mean_normal(const ModalView& eta) const {
 
 void Skin::measure() {
   constexpr double kSharpCosine = 0.94;  // of 20 degrees
+  constexpr double kSameNormal = 1e-6;   // sine, and bulge of an edge
   constexpr double kMiddle = 1.0 / 3.0;
   constexpr double kNearCorner = 0.1;
   const auto at = [this](int node) -> Vector3 {
@@ -109,6 +110,13 @@ void Skin::measure() {
   const auto find_normal = [&](int f) -> Vector3 {
     const Face& n = face(f);
     return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).normalized();
+  };
+  const auto find_bulge = [&](int f) {
+    const Face& n = face(f);
+    return n[3] < 0 ? 0.0
+                    : FacePatch({at(n[0]), at(n[1]), at(n[2]), at(n[3]),
+                                 at(n[4]), at(n[5])})
+                          .find_bulge();
   };
   measures_.resize(face_count());
   double sum = 0.0;
@@ -127,9 +135,13 @@ void Skin::measure() {
         if (beyond[i] != a && beyond[i] != b) far = at(beyond[i]);
       }
       const Vector3 normal = find_normal(f);
-      of.is_sharp[index(edge)] = normal.dot(far - at(a)) < 0.0 &&
-                                 normal.dot(find_normal(other)) < kSharpCosine;
+      const Vector3 beside = find_normal(other);
+      of.is_sharp[index(edge)] =
+          normal.dot(far - at(a)) < 0.0 && normal.dot(beside) < kSharpCosine;
+      of.is_plane = of.is_plane && (of.is_sharp[index(edge)] ||
+                                    normal.cross(beside).norm() < kSameNormal);
     }
+    of.is_plane = of.is_plane && find_bulge(f) < kSameNormal * of.edge;
     for (const FacePlace& place :
          {FacePlace{kMiddle, kMiddle}, FacePlace{kNearCorner, kNearCorner},
           FacePlace{1.0 - 2.0 * kNearCorner, kNearCorner},
@@ -146,7 +158,8 @@ void Skin::measure() {
 // A node where sharp edges or borders meet is on an edge; unless these are two
 // that go on straight, it is a corner.
 void Skin::mark_inner() {
-  constexpr double kStraight = 0.996;  // cosine of 5 degrees
+  constexpr double kStraight = 0.996;    // cosine of 5 degrees
+  constexpr double kNoTurn = 0.9999995;  // of 1e-3 rad
   const std::size_t n = node_count();
   std::vector<int> counts(n, 0);
   std::vector<Vector3> sums(n, Vector3::Zero());
@@ -167,13 +180,32 @@ void Skin::mark_inner() {
   // Inner edges count twice. Of two ways |sum|^2 = 2 + 2 cos, from both faces 4
   // times that.
   const double straight = 8.0 * (1.0 - kStraight);
+  const auto is_corner = [&](std::size_t node) {
+    return counts[node] > 4 || sums[node].squaredNorm() > straight;
+  };
+  const auto goes_on = [&](std::size_t node) {
+    return !is_corner(node) && sums[node].squaredNorm() < 8.0 * (1.0 - kNoTurn);
+  };
   for (std::size_t f = 0; f < face_count(); ++f) {
+    FaceMeasures& of = measures_[f];
+    const auto node_of = [&](std::size_t corner) {
+      return index(surface_.faces[f][corner]);
+    };
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t node = index(surface_.faces[f][i]);
+      const std::size_t node = node_of(i);
       if (counts[node] == 0) continue;
-      measures_[f].is_inner = false;
-      measures_[f].is_corner[i] =
-          counts[node] > 4 || sums[node].squaredNorm() > straight;
+      of.is_inner = false;
+      of.is_on_rim[i] = true;
+      of.is_on_ridge[i] = goes_on(node);
+      of.is_corner[i] = is_corner(node);
+    }
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const std::size_t a = edge;
+      const std::size_t b = (edge + 1) % 3;
+      of.is_rim[edge] = of.is_sharp[edge] || is_border_[f][edge];
+      of.is_ridge[edge] = of.is_rim[edge] &&
+                          (of.is_corner[a] || of.is_on_ridge[a]) &&
+                          (of.is_corner[b] || of.is_on_ridge[b]);
     }
   }
 }
@@ -207,6 +239,27 @@ double Skin::find_thickness(int f, const FacePlace& from) const {
       if (!(normal.dot(way) > 0.0)) continue;
       const double far = find_way_to(at(n[0]), at(n[1]), at(n[2]), p, way);
       if (far > 0.0) least = std::min(least, far);
+    }
+  }
+  return least;
+}
+
+double Skin::find_least_cosine(const SurfacePlace& place, const ModalView& eta,
+                               const Vector3& way) const {
+  constexpr FacePlace kWithin{1.0 / 3.0, 1.0 / 3.0};
+  double least = 1.0;
+  const auto take = [&](int f, const FacePlace& at) {
+    const Vector3 normal = deform_face(f, eta).find_normal(at).normalized();
+    least = std::min(least, way.dot(normal));
+  };
+  take(place.face, {place.u, place.v});
+  const auto weights = FacePlace{place.u, place.v}.weights();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (weights[i] >= 1.0 - kOnEdge) {
+      for (const int f : find_faces_of(face(place.face)[i])) take(f, kWithin);
+    } else if (weights[(i + 2) % 3] <= kOnEdge) {
+      const int beyond = find_neighbour(place.face, static_cast<int>(i));
+      if (beyond >= 0) take(beyond, kWithin);
     }
   }
   return least;

@@ -40,35 +40,80 @@ void approach(testing::RodScene& scene) {
   }
 }
 
-Strike draw_strike(unsigned seed) {
-  std::mt19937_64 random(seed);
-  const auto between = [&random](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double in_decades(double low, double high) {
+    return std::pow(10.0, between(low, high));
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+Strike make_strike(unsigned seed, Draw& draw) {
   const Target target = seed % 2 == 0 ? Target::box : Target::rod;
   const ContactParameters parameters{
-      .friction = {.sliding = seed % 3 == 0 ? 0.0 : between(0.0, 1.0)},
-      .restitution = seed % 5 == 0 ? between(0.2, 1.0) : 1.0};
+      .friction = {.sliding = seed % 3 == 0 ? 0.0 : draw.between(0.0, 1.0)},
+      .restitution = seed % 5 == 0 ? draw.between(0.2, 1.0) : 1.0};
   Strike strike{testing::make_rod_scene(5, target, parameters), {}};
-  auto& bodies = strike.scene.state.bodies;
-  // The faces are 10 mm wide, the box is 100 x 80 mm.
-  const bool is_box = target == Target::box;
-  const double y = between(-0.006, 0.006) + (is_box ? 0.05 : 0.0);
-  const double z = between(-0.006, 0.006);
-  const double tilt = std::pow(10.0, between(-4.0, -0.7));
-  const double about = between(0.0, 2.0 * std::numbers::pi);
-  const Vector3 turn(between(-1.0, 1.0), tilt * std::cos(about),
+  strike.scene.state.bodies[0].v_WB_W.y() = draw.between(-0.5, 0.5);
+  strike.words =
+      fmt::format("seed {}: {}, friction {:.2g}, restitution {:.2g}", seed,
+                  target == Target::box ? "box" : "rod",
+                  parameters.friction.sliding, parameters.restitution);
+  return strike;
+}
+
+// About in parallel; faces of 10 mm on one of 100 x 80 mm or as large.
+Strike draw_flat_strike(unsigned seed) {
+  Draw draw(seed);
+  Strike strike = make_strike(seed, draw);
+  dynamics::BodyState& other = strike.scene.state.bodies[1];
+  const bool is_box = seed % 2 == 0;
+  const double y = draw.between(-0.006, 0.006) + (is_box ? 0.05 : 0.0);
+  const double z = draw.between(-0.006, 0.006);
+  const double tilt = draw.in_decades(-4.0, -0.7);
+  const double about = draw.between(0.0, 2.0 * std::numbers::pi);
+  const Vector3 turn(draw.between(-1.0, 1.0), tilt * std::cos(about),
                      tilt * std::sin(about));
-  bodies[1].quat_WB = Quaternion(exp_rotation(turn)) * bodies[1].quat_WB;
+  other.quat_WB = Quaternion(exp_rotation(turn)) * other.quat_WB;
   const Vector3 face(is_box ? 0.1 : -0.5 * testing::kLength, 0.0, 0.0);
-  bodies[1].p_WB = Vector3(-0.05, y, z) - bodies[1].quat_WB * face;
+  other.p_WB = Vector3(-0.05, y, z) - other.quat_WB * face;
   approach(strike.scene);
-  bodies[0].v_WB_W.y() = between(-0.5, 0.5);
-  strike.words = fmt::format(
-      "seed {}: {}, tilt {:.3g}, off by {:.3g} {:.3g} mm, friction {:.2g}, "
-      "restitution {:.2g}",
-      seed, is_box ? "box" : "rod", tilt, 1e3 * y, 1e3 * z,
-      parameters.friction.sliding, parameters.restitution);
+  strike.words += fmt::format(", tilt {:.3g}, off by {:.3g} {:.3g} mm", tilt,
+                              1e3 * y, 1e3 * z);
+  return strike;
+}
+
+// An edge along a face, inclined to it a little, or not so little.
+Strike draw_edge_strike(unsigned seed) {
+  Draw draw(seed);
+  Strike strike = make_strike(seed, draw);
+  dynamics::BodyState& other = strike.scene.state.bodies[1];
+  const bool is_box = seed % 2 == 0;
+  const double tilt = draw.in_decades(-1.5, -0.1);
+  const double slope = draw.in_decades(-5.0, -0.5);
+  const double roll = draw.between(-std::numbers::pi, std::numbers::pi);
+  const Matrix3 R = exp_rotation(roll * Vector3::UnitX()) *
+                    exp_rotation(tilt * Vector3::UnitY()) *
+                    exp_rotation(slope * Vector3::UnitZ());
+  other.quat_WB = Quaternion(R) * other.quat_WB;
+  const Vector3 half = is_box ? Vector3(0.1, 0.05, 0.04)
+                              : Vector3(-0.5 * testing::kLength, 0.005, 0.005);
+  // The edge that is pressed in, at a place of it.
+  const Vector3 way = other.quat_WB.conjugate() * Vector3::UnitX();
+  Vector3 place = half;
+  place.z() *= way.z() > 0.0 ? 1.0 : -1.0;
+  place.y() *= draw.between(-1.0, 1.0);
+  const Vector3 off(-0.05, draw.between(-0.004, 0.004),
+                    draw.between(-0.004, 0.004));
+  other.p_WB = off - other.quat_WB * place;
+  approach(strike.scene);
+  strike.words += fmt::format(", tilt {:.3g}, slope {:.3g}", tilt, slope);
   return strike;
 }
 
@@ -80,10 +125,7 @@ Vector3 calc_momentum(const testing::RodScene& scene) {
   return sum;
 }
 
-class FlatStrike : public ::testing::TestWithParam<unsigned> {};
-
-TEST_P(FlatStrike, GainsNoEnergyAndKeepsMomentum) {
-  Strike strike = draw_strike(GetParam());
+void expect_no_gain_and_momentum(Strike strike) {
   SCOPED_TRACE(strike.words);
   testing::RodScene& scene = strike.scene;
   const double before = calc_energy(scene.model, scene.state).total();
@@ -99,7 +141,21 @@ TEST_P(FlatStrike, GainsNoEnergyAndKeepsMomentum) {
   EXPECT_LT((calc_momentum(scene) - p).norm(), 1e-9 * p.norm());
 }
 
+class FlatStrike : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(FlatStrike, GainsNoEnergyAndKeepsMomentum) {
+  expect_no_gain_and_momentum(draw_flat_strike(GetParam()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Draws, FlatStrike, ::testing::Range(0U, 60U));
+
+class EdgeStrike : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(EdgeStrike, GainsNoEnergyAndKeepsMomentum) {
+  expect_no_gain_and_momentum(draw_edge_strike(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Draws, EdgeStrike, ::testing::Range(0U, 60U));
 
 }  // namespace
 }  // namespace limber::contact

@@ -62,7 +62,7 @@ TEST(FlatPair, MeetsAFaceWithItsPadsAsItsPlane) {
   const Pose down{exp_rotation(Vector3(std::numbers::pi, 0.0, 0.0)),
                   {0.0, 0.0, -0.02}};
   const ShapePair on_plane(make_sheet(), Shape{HalfSpace{}, down});
-  const Placed above{exp_rotation(Vector3(0.03, -0.02, 0.4)),
+  const Placed above{exp_rotation(Vector3(0.003, -0.002, 0.4)),
                      {0.002, 0.001, 0.0199}};
   const auto box = meet(on_box, above);
   const auto plane = meet(on_plane, above);
@@ -80,7 +80,7 @@ TEST(FlatPair, MeetsAFaceWithItsPadsAsItsPlane) {
 }
 
 TEST(FlatPair, IsTheSameInBothOrders) {
-  const Placed above{exp_rotation(Vector3(0.03, -0.02, 0.4)),
+  const Placed above{exp_rotation(Vector3(0.003, -0.002, 0.4)),
                      {0.002, 0.001, 0.0199}};
   const auto forward = meet(ShapePair(make_sheet(), kBox), above);
   const ShapePair swapped(kBox, make_sheet());
@@ -112,56 +112,67 @@ TEST(FlatPair, CountsPadsByWhatIsBeyondTheRim) {
   }
 }
 
-TEST(FlatPair, LeavesTiltedFacesToEdgesAndCorners) {
-  const ShapePair pair(make_sheet(), kBox);
-  for (const double degrees : {0.0, 29.0, 38.0, 44.9}) {
-    const double tilt = degrees * std::numbers::pi / 180.0;
-    // The middle of the box's lower face is that of the sheet.
-    const Matrix3 R = exp_rotation(Vector3(tilt, 0.0, 0.0));
-    const auto meetings = meet(pair, {R, R * Vector3(0.0, 0.0, 0.02)});
+// The box's lower face is on the sheet's middle, where one of the pads is.
+void expect_shares(double half_width, double all, double none,
+                   std::initializer_list<double> parts) {
+  const Shape box{Box{{half_width, half_width, 0.02}}, {}};
+  const ShapePair pair(make_sheet(), box);
+  const auto cosine = [](double degrees) {
+    return std::cos(degrees * std::numbers::pi / 180.0);
+  };
+  for (const double part : parts) {
+    const double degrees = part * none;
+    const Matrix3 R =
+        exp_rotation(Vector3(degrees * std::numbers::pi / 180.0, 0.0, 0.0));
     const double share =
-        (std::cos(tilt) - std::sqrt(0.5)) / (std::sqrt(0.75) - std::sqrt(0.5));
+        (cosine(degrees) - cosine(none)) / (cosine(all) - cosine(none));
     bool is_there = false;
-    for (std::size_t i = 0; i < 9; ++i) {
-      if (meetings[i].depth == Meeting{}.depth ||
-          meetings[i].on_A.x_B.norm() > 1e-12) {
+    for (const Meeting& meeting : meet(pair, {R, 0.02 * R.col(2)})) {
+      if (meeting.depth == Meeting{}.depth || meeting.on_A.x_B.norm() > 1e-12) {
         continue;
       }
-      EXPECT_NEAR(meetings[i].share, std::min(share, 1.0), 1e-9);
+      EXPECT_NEAR(meeting.share, std::min(share, 1.0), 1e-4) << degrees;
       is_there = true;
     }
     EXPECT_TRUE(is_there);
   }
 }
 
-// A wedge whose edge is pressed into the middle of the sheet.
-TEST(FlatPair, LeavesARimThatIsPressedInToEdges) {
+TEST(FlatPair, LeavesTiltedFacesToEdgesAndCorners) {
+  expect_shares(0.03, 30.0, 45.0, {0.0, 0.65, 0.85, 0.999});
+}
+
+TEST(FlatPair, LeavesFacesWithARimOverThePadsToTheseSooner) {
+  expect_shares(0.008, 0.5, 1.0, {0.0, 0.45, 0.7, 0.99});
+}
+
+// A wedge whose edge is 1 um deep at y = 1 mm, beside the pad in the middle. As
+// far as the pad is covered its node on the wedge's plane counts, else the edge
+// on the pad's.
+TEST(FlatPair, PressesAPadBeyondTheRimByBoth) {
   const ShapePair pair(make_sheet(), kBox);
-  const double width = 2.0 * kHalf;
-  for (const double degrees : {0.1, 0.8, 1.4, 5.0}) {
+  const double beyond = 1e-3;
+  const double cover = 1.0 - beyond * std::sqrt(std::numbers::pi) / kHalf;
+  for (const double degrees : {0.01, 0.1, 0.4}) {
     const double tilt = degrees * std::numbers::pi / 180.0;
     const Matrix3 R = exp_rotation(Vector3(tilt, 0.0, 0.0));
-    // The lower edge at y < 0 is 1 um deep at y = 0.
-    const auto meetings = meet(
-        pair, {R, Vector3(0.0, 0.0, -1e-6) - R * Vector3(0.0, -0.03, -0.02)});
-    // The plane goes on to y = -10 mm.
-    const double overhang = kHalf * std::sin(tilt) / (0.01 * width);
-    const double share = std::clamp(2.0 - overhang, 0.0, 1.0);
-    double found = 0.0;
-    double deepest_other = 0.0;
-    for (std::size_t i = 0; i < meetings.size(); ++i) {
-      const Meeting& meeting = meetings[i];
-      if (meeting.depth == Meeting{}.depth) continue;
-      if (i >= 9) {
-        deepest_other = std::max(deepest_other, meeting.depth);
-      } else if (meeting.on_A.x_B.norm() < 1e-12) {
-        found = meeting.share;
+    const Vector3 rim(0.0, beyond, -1e-6);
+    bool is_there = false;
+    for (const Meeting& meeting :
+         meet(pair, {R, rim - R * Vector3(0.0, -0.03, -0.02)})) {
+      if (meeting.depth == Meeting{}.depth || meeting.on_A.x_B.norm() > 1e-12) {
+        continue;
       }
+      EXPECT_NEAR(meeting.share, cover, 1e-5);
+      const double of_node = 1e-6 * std::cos(tilt) + beyond * std::sin(tilt);
+      EXPECT_NEAR(meeting.depth, cover * of_node + (1.0 - cover) * 1e-6,
+                  1e-4 * of_node);
+      const Vector3 normal =
+          cover * R.col(2) + (1.0 - cover) * Vector3::UnitZ();
+      EXPECT_LT((meeting.normal_W - normal.normalized()).norm(), 1e-6);
+      is_there = true;
     }
-    EXPECT_NEAR(found, share, 1e-3);
-    if (share == 0.0) {
-      EXPECT_NEAR(deepest_other, 1e-6, 1e-9);
-    }
+    EXPECT_TRUE(is_there);
   }
 }
 
