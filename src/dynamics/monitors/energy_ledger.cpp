@@ -182,12 +182,7 @@ void EnergyLedger::start(const SystemState& state, const SystemTerms& terms,
   include_energies(sums, state.t);
 }
 
-bool EnergyLedger::is_remarkable(const SystemState& state,
-                                 const SystemTerms& terms,
-                                 const StepResult& totals) {
-  const Sums sums = evaluate(state, terms);
-  const double drift =
-      sums.total() + totals.dissipated - totals.load_work - initial_;
+bool EnergyLedger::is_remarkable(const Sums& sums, double drift) const {
   const auto grows = [](double now, const Extreme& before) {
     return now > kGrowth * std::abs(before.value);
   };
@@ -206,9 +201,29 @@ void EnergyLedger::restart(const SystemState& state, const SystemTerms& terms) {
   time_ = state.t;
 }
 
+double EnergyLedger::find_drift(const Sums& sums,
+                                const StepResult& totals) const {
+  return sums.total() + totals.dissipated - totals.load_work - initial_;
+}
+
 void EnergyLedger::add(const SystemState& state, const SystemTerms& terms,
                        const StepResult& totals) {
   const Sums sums = evaluate(state, terms);
+  include(sums, find_drift(sums, totals), state, terms, totals);
+}
+
+bool EnergyLedger::try_add(const SystemState& state, const SystemTerms& terms,
+                           const StepResult& totals) {
+  const Sums sums = evaluate(state, terms);
+  const double drift = find_drift(sums, totals);
+  if (is_remarkable(sums, drift)) return false;
+  include(sums, drift, state, terms, totals);
+  return true;
+}
+
+void EnergyLedger::include(const Sums& sums, double drift,
+                           const SystemState& state, const SystemTerms& terms,
+                           const StepResult& totals) {
   const double half = 0.5 * (state.t - time_);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
@@ -225,8 +240,7 @@ void EnergyLedger::add(const SystemState& state, const SystemTerms& terms,
   include_energies(sums, state.t);
   record_.throughput = std::max({record_.throughput, std::abs(totals.load_work),
                                  std::abs(totals.dissipated)});
-  note_drift(sums.total() + totals.dissipated - totals.load_work - initial_,
-             state.t);
+  note_drift(drift, state.t);
 }
 
 void EnergyLedger::note_drift(double drift, double t) {

@@ -35,12 +35,11 @@ class EnergyLedger {
   /// The end of a step. @param totals work and dissipation since the start
   void add(const SystemState& state, const SystemTerms& terms,
            const StepResult& totals);
-  /// Whether approximate `terms` would give a new extreme, which must then be
-  /// evaluated with exact terms of the state: stiff couplers amplify the
-  /// remaining error of Newton's method. Arguments as add().
-  [[nodiscard]] bool is_remarkable(const SystemState& state,
-                                   const SystemTerms& terms,
-                                   const StepResult& totals);
+  /// The same with approximate terms: of stiff couplers and contacts they keep
+  /// the remaining error of Newton's method. @returns false, without effect,
+  /// where they would give a new extreme: exact ones must tell it
+  [[nodiscard]] bool try_add(const SystemState& state, const SystemTerms& terms,
+                             const StepResult& totals);
   /// Forces jump at `state`: the next step begins with new ones.
   void restart(const SystemState& state, const SystemTerms& terms);
 
@@ -68,6 +67,12 @@ class EnergyLedger {
                      const SystemTerms& terms, Sums& sums);
   void evaluate_full(std::size_t b, const SystemState& state,
                      const SystemTerms& terms, Sums& sums);
+  [[nodiscard]] double find_drift(const Sums& sums,
+                                  const StepResult& totals) const;
+  [[nodiscard]] bool is_remarkable(const Sums& sums, double drift) const;
+  // Of sums and parts that were evaluated.
+  void include(const Sums& sums, double drift, const SystemState& state,
+               const SystemTerms& terms, const StepResult& totals);
   void include_energies(const Sums& sums, double t);
   void note_drift(double drift, double t);
   [[nodiscard]] double find_noise(const SystemTerms& terms) const;

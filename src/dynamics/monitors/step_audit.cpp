@@ -49,14 +49,17 @@ void StepAudit::include(const SystemState& state, const SystemTerms* terms,
   ++steps_;
   const bool has_event = terms == nullptr;
   if (!has_event && !is_last && steps_ % stride_ != 0) return;
-  const SystemTerms& now = has_event || stride_ > 1 ? evaluate(state) : *terms;
+  const SystemTerms* now = terms;
   if (has_event && !is_last) {
-    ledger_.restart(state, now);
-  } else {
-    ledger_.add(state, now, totals);
+    now = &evaluate(state);
+    ledger_.restart(state, *now);
+  } else if (has_event || stride_ > 1 ||
+             !ledger_.try_add(state, *terms, totals)) {
+    now = &evaluate(state);
+    ledger_.add(state, *now, totals);
   }
-  holds_.include(now, state.t);
-  limits_.include(state, now, events);
+  holds_.include(*now, state.t);
+  limits_.include(state, *now, events);
 }
 
 void StepAudit::add_warnings(std::vector<std::string>& warnings) const {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/simulation/event_stepper.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 
 namespace limber::dynamics {
@@ -17,6 +21,9 @@ constexpr double kSame = 1e-9;
 // least reduction of its length from one to the next [-].
 constexpr int kMostRepeats = 12;
 constexpr double kLeastReduction = 0.999;
+// Most that a step may gain in an impact that it does not resolve, of the
+// energy before it [-].
+constexpr double kMostGain = 1e-3;
 
 }  // namespace
 
@@ -69,7 +76,7 @@ void EventStepper::add_last() {
 }
 
 // An impact that the step does not resolve is damped, or it would gain energy;
-// what that loses is dissipated.
+// what that loses is dissipated. Where it gains nevertheless, the step fails.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   if (!integrator_->damp(touches_.is_coarse(h, state.t))) {
     return integrator_->step(state, h, end);
@@ -78,6 +85,13 @@ StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   StepResult result = integrator_->step(state, h, end);
   const double after = calc_energy(model_, state, terms_).total();
   const double lost = before + result.load_work - result.dissipated - after;
+  if (-lost > kMostGain * (before + std::abs(result.load_work))) {
+    take_back(state);
+    throw NumericalError(fmt::format(
+        "a step of {:.3g} s at t = {:.9g} s, too long for the impact in it, "
+        "gains {:.3g} J",
+        h, state.t, -lost));
+  }
   result.dissipated += std::max(lost, 0.0);
   return result;
 }
