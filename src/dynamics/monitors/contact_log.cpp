@@ -146,18 +146,32 @@ void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
 }
 
 void ContactLog::add_deep(const std::vector<ContactRecord>& records,
-                          std::vector<std::string>& warnings) {
+                          std::vector<std::string>& warnings) const {
   std::set<std::string> said;
   for (const ContactRecord& record : records) {
-    if (record.peak_depth_over_radius <= kDeepest) continue;
+    const double over_extent = record.peak_depth / find_extent(record.pair);
+    const double over_radius = record.peak_depth_over_radius;
+    const bool is_round = over_radius > kDeepest;
+    if (!is_round && !(over_extent > kDeepest)) continue;
     if (!said.insert(record.pair).second) continue;
     warnings.push_back(fmt::format(
         "contact '{}': the impact at t = {:.6g} s is {:.3g} m deep, {:.2g} of "
-        "the radius of curvature; Hertz's law is that of small deformation: "
-        "beyond {:g} do not trust its force and energy",
+        "the {}; Hertz's law is that of small deformation: beyond {:g} do not "
+        "trust its force and energy",
         record.pair, record.time, record.peak_depth,
-        record.peak_depth_over_radius, kDeepest));
+        is_round ? over_radius : over_extent,
+        is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
   }
+}
+
+// Of the smaller body of a pair, from its origin [m].
+double ContactLog::find_extent(const std::string& pair) const {
+  const auto found =
+      std::find_if(model_.pairs.begin(), model_.pairs.end(),
+                   [&pair](const Pair& other) { return other.name == pair; });
+  const joints::Touching& touching = *found->law->touching();
+  return std::min(touching.find_reach_A().extent,
+                  touching.find_reach_B().extent);
 }
 
 void ContactLog::add_stable_step(std::vector<std::string>& warnings) const {

@@ -47,9 +47,10 @@ class ContactLog {
   /// small for them (ImpactSpectrum), on contacts deeper than kDeepest, and on
   /// the stable step of an explicit scheme where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
-  /// Depth over the radius of curvature beyond which to warn: the area's radius
-  /// is then 0.3 of it, where Hertz's paraboloid on a half space takes it to be
-  /// small [@johnson1985] [-].
+  /// Depth over the radius of curvature, or over the smaller body's extent
+  /// (corners of a mesh share a contact, whose areas tell of no radius), beyond
+  /// which to warn: the area's radius is then 0.3 of it, where Hertz's
+  /// paraboloid on a half space takes it to be small [@johnson1985] [-].
   static constexpr double kDeepest = 0.1;
 
   /// Saves or restores its state for checkpoints.
@@ -65,8 +66,9 @@ class ContactLog {
 
   void keep_stiffest(const SystemState& state, const ContactRecord& record);
   void add_stable_step(std::vector<std::string>& warnings) const;
-  static void add_deep(const std::vector<ContactRecord>& records,
-                       std::vector<std::string>& warnings);
+  void add_deep(const std::vector<ContactRecord>& records,
+                std::vector<std::string>& warnings) const;
+  [[nodiscard]] double find_extent(const std::string& pair) const;
 
   const SystemModel& model_;
   IntegratorKind scheme_;

@@ -151,6 +151,31 @@ TEST(ContactPair, DeeperThanATenthOfTheRadiusIsWarnedOf) {
   }
 }
 
+// With a radius of curvature given as a hundred times that of the ball, as of
+// the flat faces of a mesh.
+TEST(ContactPair, DeeperThanATenthOfTheBodyIsWarnedOf) {
+  const double flat = 100.0 * kRadius;
+  const ClosedForm unit = find_closed_form(kMass, flat, 1.0);
+  const double k = unit.force / std::pow(unit.depth, 1.5);
+  for (const double share : {0.9, 1.1}) {
+    const double v =
+        share * std::sqrt(0.8 * k * std::pow(0.1 * kRadius, 2.5) / kMass);
+    const ClosedForm exact = find_closed_form(kMass, flat, v);
+    Scene scene = make_ball_and_floor({.radius = flat}, 1e-4, {0.0, 0.0, -v});
+    SimulationStatistics statistics;
+    run(scene,
+        {.end_time = 2.0 * exact.duration + 1e-4 / v,
+         .step = exact.duration / 100.0},
+        &statistics);
+    const auto is_deep = [](const std::string& text) {
+      return text.find("of the smaller body's extent") != std::string::npos;
+    };
+    EXPECT_EQ(std::any_of(statistics.warnings.begin(),
+                          statistics.warnings.end(), is_deep),
+              share > 1.0);
+  }
+}
+
 TEST(ContactPair, ThatBeginsWhereAStepEndsTouchesOnce) {
   for (const double gap : {1e-6, 5e-7, 2e-6}) {
     Scene scene =
