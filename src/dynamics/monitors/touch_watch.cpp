@@ -23,6 +23,10 @@ constexpr double kNoWay = 1e-4;
 constexpr double kLeastWay = 1e-12;  // [m]
 // Fraction of a step between looks at two that part [-].
 constexpr double kLeastAdvance = 1.0 / 64.0;
+// Number of looks after which conservative advancement goes on by parts, and
+// these of the smaller body's size, at most [-].
+constexpr int kPatience = 100;
+constexpr double kPartOfSize = 0.05;
 
 // Touches that last longer, in T_c, are no impacts [-].
 constexpr double kRest = 8.0;
@@ -89,7 +93,8 @@ joints::TouchReading TouchWatch::read(std::size_t index,
                            memory_of(pair, state), watched.scratch);
 }
 
-// By conservative advancement.
+// By conservative advancement; where that crawls, as of bodies that pass each
+// other closely, by parts of the way in which neither passes through the other.
 std::optional<double> TouchWatch::find_touch_share(Watched& watched,
                                                    const SystemState& before,
                                                    const SystemState& after) {
@@ -107,10 +112,24 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
       clearance <= none &&
       (watched.since == before.t || find_touch(watched, before).rate <= 0);
   double least = parts ? kLeastAdvance : 0.0;
+  const double part =
+      std::min(kLeastAdvance, kPartOfSize * watched.law->find_size() / reach);
   double share = 0.0;
   for (int i = 0; i < kMostLooks && (clearance > none || least > 0.0); ++i) {
-    share += std::max(clearance / reach, least);
-    if (share >= 1.0) return std::nullopt;
+    const double sure = std::max(clearance / reach, least);
+    if (share + sure >= 1.0) return std::nullopt;
+    if (i >= kPatience && sure < part) {
+      const double next = std::min(share + part, 1.0);
+      interpolate(model_, before, after, next, within_);
+      clearance = find_clearance(watched, within_);
+      if (clearance <= 0.0) {
+        return find_enter_share(watched, before, after, {share, next});
+      }
+      if (next == 1.0) return std::nullopt;
+      share = next;
+      continue;
+    }
+    share += sure;
     interpolate(model_, before, after, share, within_);
     clearance = find_clearance(watched, within_);
     // Two that have just left each other are still close.
@@ -119,6 +138,20 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
     if (clearance > none || overlaps) least = 0.0;
   }
   return share;
+}
+
+// By bisection: the pair is apart at the first share, and overlaps at the
+// second.
+double TouchWatch::find_enter_share(Watched& watched, const SystemState& before,
+                                    const SystemState& after,
+                                    std::pair<double, double> shares) {
+  auto [low, high] = shares;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    interpolate(model_, before, after, middle, within_);
+    (find_clearance(watched, within_) > 0.0 ? low : high) = middle;
+  }
+  return high;
 }
 
 // A pair that has just touched may still be apart by round-off of the place

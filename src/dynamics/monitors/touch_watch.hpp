@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
@@ -126,6 +127,9 @@ class TouchWatch {
   [[nodiscard]] std::optional<double> find_touch_share(
       Watched& watched, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);
+  double find_enter_share(Watched& watched, const SystemState& before,
+                          const SystemState& after,
+                          std::pair<double, double> shares);
   [[nodiscard]] double find_leave_share(Watched& watched,
                                         const SystemState& before,
                                         const SystemState& after);
