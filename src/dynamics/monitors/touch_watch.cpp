@@ -224,13 +224,13 @@ void TouchWatch::mark_apart(SystemState& state) const {
   }
 }
 
-bool TouchWatch::is_coarse(double h, double t) const {
+bool TouchWatch::is_coarse(double h, double t, double steps) const {
   return std::any_of(pairs_.begin(), pairs_.end(), [&](const Watched& watched) {
     const double lasts = kRest * watched.impact_duration;
     const bool is_impact =
         t - watched.since <= lasts || watched.steps < kStepsOfCoarseImpact;
     return watched.is_touching && is_impact &&
-           h * kFewestSteps > watched.impact_duration;
+           h * steps > watched.impact_duration;
   });
 }
 

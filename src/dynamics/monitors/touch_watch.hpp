@@ -35,6 +35,8 @@ class TouchWatch {
   static constexpr double kStepsOfImpact = 16.0;
   /// Fewest steps per T_c that tell its restitution [-].
   static constexpr double kFewestSteps = 4.0;
+  /// Fewer of them may gain energy in one step, which is looked at.
+  static constexpr double kSureSteps = 8.0;
 
   explicit TouchWatch(const SystemModel& model);
 
@@ -90,9 +92,10 @@ class TouchWatch {
   /// Longest step that resolves the impacts that go on; infinite if none does.
   /// What still touches after eight times the expected duration rests [s].
   [[nodiscard]] double find_longest_step(double t) const;
-  /// Whether an impact goes on that steps of h [s] do not resolve: from a touch
-  /// on for three steps, or eight times the expected duration.
-  [[nodiscard]] bool is_coarse(double h, double t) const;
+  /// Whether an impact goes on to which steps of h [s] give fewer than `steps`:
+  /// from a touch on for three steps, or eight times the expected duration.
+  [[nodiscard]] bool is_coarse(double h, double t,
+                               double steps = kFewestSteps) const;
   /// As it is at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);

@@ -76,9 +76,11 @@ void EventStepper::add_last() {
 }
 
 // An impact that the step does not resolve is damped, or it would gain energy;
-// what that loses is dissipated. Where it gains nevertheless, the step fails.
+// what that loses is dissipated. Where it gains nevertheless, or one that is
+// resolved badly does, the step fails.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
-  if (!integrator_->damp(touches_.is_coarse(h, state.t))) {
+  const bool damps = integrator_->damp(touches_.is_coarse(h, state.t));
+  if (!damps && !touches_.is_coarse(h, state.t, TouchWatch::kSureSteps)) {
     return integrator_->step(state, h, end);
   }
   const double before = calc_energy(model_, state, terms_).total();
@@ -92,7 +94,7 @@ StepResult EventStepper::take_step(SystemState& state, double h, double end) {
         "gains {:.3g} J",
         h, state.t, -lost));
   }
-  result.dissipated += std::max(lost, 0.0);
+  if (damps) result.dissipated += std::max(lost, 0.0);
   return result;
 }
 
