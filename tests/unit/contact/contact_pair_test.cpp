@@ -176,6 +176,21 @@ TEST(ContactPair, DeeperThanATenthOfTheBodyIsWarnedOf) {
   }
 }
 
+// Few steps an impact, which are not damped; at any phase of the touch.
+TEST(ContactPair, GainsNoEnergyInStepsThatResolveItBadly) {
+  const double lasts = find_closed_form(kMass, kRadius, 1.0).duration;
+  for (const double steps : {4.1, 4.6, 5.3, 6.1, 7.0, 7.9, 9.0}) {
+    for (const double gap : {1e-6, 1.7e-6, 3.1e-6}) {
+      Scene scene =
+          make_ball_and_floor({.restitution = 1.0}, gap, {0.0, 0.0, -1.0});
+      const RunRecord record =
+          run(scene, {.end_time = 2.0 * lasts, .step = lasts / steps});
+      ASSERT_EQ(record.contacts.size(), 1U);
+      EXPECT_LT(record.energy.stored.value, 1.005 * 0.5 * kMass) << steps;
+    }
+  }
+}
+
 TEST(ContactPair, ThatBeginsWhereAStepEndsTouchesOnce) {
   for (const double gap : {1e-6, 5e-7, 2e-6}) {
     Scene scene =
