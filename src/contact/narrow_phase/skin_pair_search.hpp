@@ -24,7 +24,8 @@ struct DeformedSkin {
 ///            reach whose sides are turned to each other find_opposite, which
 ///            counts where neither surface rises beyond the edges that it is
 ///            held by. Of flat faces in parallel the corners of their common
-///            area: corners of either above the other, and crossing sharp edges
+///            area: corners of either above the other, and crossing sharp
+///            edges; of an edge along a flat part both ends of that line
 /// Limits     overlaps up to half of the sum of both thicknesses there
 class SkinPairSearch {
  public:
@@ -38,7 +39,10 @@ class SkinPairSearch {
     Vector3 middle = Vector3::Zero();  ///< between both points, in A [m]
     double curvature = 0.0;            ///< of both, >= 0 [1/m]
     double share = 1.0;                ///< [-]
-    bool is_outer = true;  ///< false: a node of a flat part that is no corner
+    /// False: a node of a flat part that is no corner, or a place of a line
+    /// that is no end. It counts as far as it is much deeper than corners and
+    /// ends.
+    bool is_outer = true;
   };
 
   /// @param X_AB pose of B's body in A's
