@@ -42,17 +42,23 @@ std::string make_cube(std::size_t faces = 6, double shift = 0.0,
   return text;
 }
 
+std::string make_link(const std::string& name, const std::string& mass,
+                      const std::string& inertia, const std::string& geometry,
+                      const std::string& modulus) {
+  return "<robot name='r'><link name='" + name + "'><inertial><mass value='" +
+         mass + "'/><inertia ixx='" + inertia + "' iyy='" + inertia +
+         "' izz='" + inertia +
+         "' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry>" +
+         geometry + "</geometry></collision></link><contact link='" + name +
+         "' youngs_modulus='" + modulus + "' poisson_ratio='0.3'/></robot>";
+}
+
 /// A cube above a table, whose top is at z = -0.05 - gap.
 CommandResult run_cube(const Workspace& place, const std::string& mesh,
                        double gap) {
   place.write("cube.obj", mesh);
-  place.write("cube.urdf",
-              "<robot name='r'><link name='cube'><inertial><mass value='2'/>"
-              "<inertia ixx='0.0033' iyy='0.0033' izz='0.0033' ixy='0' "
-              "ixz='0' iyz='0'/></inertial><collision><geometry><mesh "
-              "filename='cube.obj'/></geometry></collision></link><contact "
-              "link='cube' youngs_modulus='1e10' poisson_ratio='0.3'/>"
-              "</robot>");
+  place.write("cube.urdf", make_link("cube", "2", "0.0033",
+                                     "<mesh filename='cube.obj'/>", "1e10"));
   place.write("scene.toml",
               "robot = 'cube.urdf'\n[output]\npictures = false\n"
               "[[probe]]\nname = 'p'\nlink = 'cube'\nquantity = 'position'\n"
@@ -98,17 +104,6 @@ TEST(MeshOnABox, IsRefusedWhereItOverlapsDeeply) {
   const CommandResult result = run_cube(place, make_cube(), -0.02);
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("both overlap by 0.02 m at the start"));
-}
-
-std::string make_link(const std::string& name, const std::string& mass,
-                      const std::string& inertia, const std::string& geometry,
-                      const std::string& modulus) {
-  return "<robot name='r'><link name='" + name + "'><inertial><mass value='" +
-         mass + "'/><inertia ixx='" + inertia + "' iyy='" + inertia +
-         "' izz='" + inertia +
-         "' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry>" +
-         geometry + "</geometry></collision></link><contact link='" + name +
-         "' youngs_modulus='" + modulus + "' poisson_ratio='0.3'/></robot>";
 }
 
 // Of the audit, too: the last iteration before a state had 3.6 % more, in a

@@ -17,7 +17,6 @@ using Vector2 = Eigen::Vector2d;
 
 // A corner's weight up to which a place is on the opposite edge [-].
 constexpr double kOnEdge = 1e-12;
-constexpr FacePlace kMiddle{1.0 / 3.0, 1.0 / 3.0};
 
 Matrix32 find_tangents(const FacePatch& face, const FacePlace& at) {
   Matrix32 tangents;
@@ -325,7 +324,7 @@ std::optional<FacePairPlace> find_held(const FacePatch& A, const FacePatch& B,
                                        const Vector3& normal, double offset) {
   constexpr int kMostTurns = 8;
   constexpr double kSmallTurn = 1e-2;
-  FacePairPlace out{.on_A = kMiddle, .on_B = kMiddle, .normal = normal};
+  FacePairPlace out{.on_A = kFaceMiddle, .on_B = kFaceMiddle, .normal = normal};
   double turn = 1.0;
   for (int i = 0; i < kMostTurns && turn > kSmallTurn; ++i) {
     const OffsetDistance distance(A, B, offset * out.normal);
@@ -357,14 +356,15 @@ std::optional<FacePairPlace> find_opposite(const FacePatch& A,
   constexpr double kOffset = 0.1;  // of an edge [-]
   constexpr double kFar = 0.5;     // weight
   using End = Stationary::End;
-  const double edge = std::min(A.find_tangent_u(kMiddle).norm(),
-                               B.find_tangent_u(kMiddle).norm());
+  const double edge = std::min(A.find_tangent_u(kFaceMiddle).norm(),
+                               B.find_tangent_u(kFaceMiddle).norm());
   const double offset = kOffset * edge + 2.0 * most_depth;
   std::optional<FacePairPlace> out;
   bool must_hold = true;
   if (!A.is_straight() || !B.is_straight()) {
     const Ways free;
-    FacePairPlace direct{.on_A = kMiddle, .on_B = kMiddle, .normal = normal};
+    FacePairPlace direct{
+        .on_A = kFaceMiddle, .on_B = kFaceMiddle, .normal = normal};
     const End end = Stationary(A, B, free, free).solve(direct, kFar);
     if (is_inner && (end == End::kFar || end == End::kSingular)) {
       return std::nullopt;

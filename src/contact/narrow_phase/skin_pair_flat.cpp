@@ -12,14 +12,9 @@
 namespace limber::contact {
 namespace {
 
-constexpr std::array<FacePlace, 3> kCorners = {
-    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
-constexpr FacePlace kMiddle{1.0 / 3.0, 1.0 / 3.0};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSamePlace = 1e-6;  // of an edge [-]
-// Slope beyond a corner or an edge that is round-off, and up to which an end of
-// a line counts that is not its deepest [-].
-constexpr double kRises = 1e-7;
+// Slope beyond a corner or an edge up to which an end of a line counts that is
+// not its deepest [-].
 constexpr double kLeans = 0.3;
 // Least cosine between what is across two edges and the mean of both faces'
 // normals, about, and of faces in parallel [-].
@@ -27,14 +22,14 @@ constexpr double kAbout = 0.5;
 constexpr double kAlmost = 0.98;
 
 FacePlace find_between(std::size_t edge, double s) {
-  const FacePlace& from = kCorners[edge];
-  const FacePlace& to = kCorners[(edge + 1) % 3];
+  const FacePlace& from = kFaceCorners[edge];
+  const FacePlace& to = kFaceCorners[(edge + 1) % 3];
   return {from.u + s * (to.u - from.u), from.v + s * (to.v - from.v)};
 }
 
 Vector3 find_way(const FacePatch& face, std::size_t edge) {
-  return face.find_point(kCorners[(edge + 1) % 3]) -
-         face.find_point(kCorners[edge]);
+  return face.find_point(kFaceCorners[(edge + 1) % 3]) -
+         face.find_point(kFaceCorners[edge]);
 }
 
 // Across two edges, unit; none where they are about parallel.
@@ -58,15 +53,15 @@ std::optional<FacePairPlace> SkinPairSearch::find_under_corner(
   const FacePatch& from = is_of_A ? faces.A : faces.B;
   const FacePatch& to = is_of_A ? faces.B : faces.A;
   const double sign = is_of_A ? 1.0 : -1.0;
-  const Vector3 p = from.find_point(kCorners[corner]);
+  const Vector3 p = from.find_point(kFaceCorners[corner]);
   const FacePlace at = to.find_nearest(p, to.find_nearest_of_flat(p).at);
   const Vector3 out = to.find_normal(at).normalized();
   const Vector3 arm = p - to.find_point(at);
   const double height = out.dot(arm);
   if ((arm - height * out).norm() > kSamePlace * edge_) return std::nullopt;
   if (out.dot(-sign * normal) < 0.5) return std::nullopt;
-  return FacePairPlace{.on_A = is_of_A ? kCorners[corner] : at,
-                       .on_B = is_of_A ? at : kCorners[corner],
+  return FacePairPlace{.on_A = is_of_A ? kFaceCorners[corner] : at,
+                       .on_B = is_of_A ? at : kFaceCorners[corner],
                        .normal = -sign * out,
                        .depth = -height};
 }
@@ -75,10 +70,10 @@ std::optional<FacePairPlace> SkinPairSearch::find_edges_crossing(
     const FacePair& faces, std::size_t edge_A, std::size_t edge_B,
     const Vector3& normal) {
   const auto at =
-      find_crossing(faces.A.find_point(kCorners[edge_A]),
-                    faces.A.find_point(kCorners[(edge_A + 1) % 3]),
-                    faces.B.find_point(kCorners[edge_B]),
-                    faces.B.find_point(kCorners[(edge_B + 1) % 3]), normal);
+      find_crossing(faces.A.find_point(kFaceCorners[edge_A]),
+                    faces.A.find_point(kFaceCorners[(edge_A + 1) % 3]),
+                    faces.B.find_point(kFaceCorners[edge_B]),
+                    faces.B.find_point(kFaceCorners[(edge_B + 1) % 3]), normal);
   if (!at) return std::nullopt;
   FacePairPlace pair{.on_A = find_between(edge_A, at->s),
                      .on_B = find_between(edge_B, at->t),
@@ -177,9 +172,10 @@ bool SkinPairSearch::is_genuine_of_flat(const Feature& feature) const {
                                             -2.0, 3.0, -3.0, 4.0};
   constexpr double kTurn = 0.25 * std::numbers::pi;
   const Vector3 middle =
-      0.5 *
-      (A_.skin.make_patch(feature.face_A, A_.eta, Pose{}).find_point(kMiddle) +
-       B_.skin.make_patch(feature.face_B, B_.eta, X_AB_).find_point(kMiddle));
+      0.5 * (A_.skin.make_patch(feature.face_A, A_.eta, Pose{})
+                 .find_point(kFaceMiddle) +
+             B_.skin.make_patch(feature.face_B, B_.eta, X_AB_)
+                 .find_point(kFaceMiddle));
   const Vector3 first = (middle - p - n.dot(middle - p) * n).normalized();
   const Vector3 second = n.cross(first);
   return std::any_of(kTurns.begin(), kTurns.end(), [&](double turns) {

@@ -10,21 +10,17 @@ namespace limber::contact {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr FacePlace kMiddle{1.0 / 3.0, 1.0 / 3.0};
 // Cosine between sides that are turned to each other, at most [-].
 constexpr double kFacing = -0.05;
 // The same of sides in parallel, and the bulge of flat ones, of an edge [-].
 constexpr double kParallel = -0.995;
 constexpr double kFlatBulge = 0.01;
 constexpr double kExactlyFlat = 1e-6;
-// Slope beyond an edge that is round-off [-].
-constexpr double kRises = 1e-7;
 // First overlap that is looked for, of an edge, and its growth [-].
 constexpr double kFirstSlack = 0.1;
 constexpr double kMoreSlack = 4.0;
-constexpr double kSamePlace = 1e-6;  // of an edge [-]
-constexpr double kShallow = 0.02;    // of an edge [-]
-constexpr double kNoDepth = 1e-7;    // up to which round-off tells, likewise
+constexpr double kShallow = 0.02;  // of an edge [-]
+constexpr double kNoDepth = 1e-7;  // up to which round-off tells, likewise
 
 double find_gap(const SkinTree::Box& a, const SkinTree::Box& b) {
   return ((a.centre - b.centre).cwiseAbs() - a.half - b.half)
@@ -187,14 +183,14 @@ void SkinPairSearch::look_at_leaves(const Entry& entry) {
 void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
                              const FacePatch& B, bool do_boxes_meet) {
   ++looked_;
-  const Vector3 normal_A = A.find_normal(kMiddle).normalized();
-  const Vector3 normal_B = B.find_normal(kMiddle).normalized();
+  const Vector3 normal_A = A.find_normal(kFaceMiddle).normalized();
+  const Vector3 normal_B = B.find_normal(kFaceMiddle).normalized();
   const double cosine = normal_A.dot(normal_B);
   if (!(cosine < kFacing)) return;
   has_overlap_ = has_overlap_ || do_boxes_meet;
   const Vector3 normal = (normal_A - normal_B).normalized();
-  nearest_ = std::min(nearest_,
-                      (A.find_point(kMiddle) - B.find_point(kMiddle)).norm());
+  nearest_ = std::min(
+      nearest_, (A.find_point(kFaceMiddle) - B.find_point(kFaceMiddle)).norm());
   const FacePatch::Range on_A = A.find_range(normal);
   const FacePatch::Range on_B = B.find_range(normal);
   if (on_B.low - on_A.high > limit()) return;

@@ -119,6 +119,9 @@ class SkinPairSearch {
   [[nodiscard]] double find_share(const Feature& feature) const;
 
   static constexpr std::size_t kMostFeatures = 96;
+  static constexpr double kSamePlace = 1e-6;  // of an edge [-]
+  // Slope beyond an edge or a corner that is round-off [-].
+  static constexpr double kRises = 1e-7;
   // Pairs of faces after which it looks for no deeper overlaps.
   static constexpr int kMostLooks = 60000;
 

@@ -81,8 +81,7 @@ Meeting find_enclosed_corner(const PlacedShape& A, const PlacedShape& B) {
     const Pose X = in.X_WB.inverse() * from.X_WB;
     for (int f = 0; f < static_cast<int>(inner.skin.face_count()); ++f) {
       const FacePatch patch = inner.skin.make_patch(f, inner.eta, X);
-      for (const FacePlace& corner :
-           {FacePlace{0.0, 0.0}, FacePlace{1.0, 0.0}, FacePlace{0.0, 1.0}}) {
+      for (const FacePlace& corner : kFaceCorners) {
         const Vector3 p = patch.find_point(corner);
         const auto hit = outer.skin.find_nearest(p, outer.eta, 0.0, 0.0);
         if (!hit || !(-hit->nearest.distance > deepest.depth)) continue;

@@ -18,6 +18,11 @@ struct FacePlace {
   }
 };
 
+/// The corners 0, 1, 2 of a face, and its middle.
+inline constexpr std::array<FacePlace, 3> kFaceCorners = {
+    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
+inline constexpr FacePlace kFaceMiddle{1.0 / 3.0, 1.0 / 3.0};
+
 /// The surface of a straight or quadratic triangle.
 ///
 /// Equation   x(u,v) = sum_i N_i(u,v) X_i, with the shape functions of the

@@ -239,7 +239,7 @@ class Skin {
   [[nodiscard]] double sum_weights(int node) const;
   void measure();
   void measure_flat_area();
-  void mark_inner();
+  void mark_rims();
   void connect();
   void mark_border();
   void set_bounds();

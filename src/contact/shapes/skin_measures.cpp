@@ -8,9 +8,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr std::array<FacePlace, 3> kCorners = {
-    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
-
 // Whether a ray from `from` may meet a box, within `most`.
 bool may_meet(const SkinTree::Box& box, const Vector3& from, const Vector3& way,
               double most) {
@@ -152,12 +149,12 @@ void Skin::measure() {
     sum += of.edge;
   }
   mean_edge_ = sum / static_cast<double>(face_count());
-  mark_inner();
+  mark_rims();
 }
 
 // A node where sharp edges or borders meet is on an edge; unless these are two
 // that go on straight, it is a corner.
-void Skin::mark_inner() {
+void Skin::mark_rims() {
   constexpr double kStraight = 0.996;    // cosine of 5 degrees
   constexpr double kNoTurn = 0.9999995;  // of 1e-3 rad
   const std::size_t n = node_count();
@@ -188,11 +185,8 @@ void Skin::mark_inner() {
   };
   for (std::size_t f = 0; f < face_count(); ++f) {
     FaceMeasures& of = measures_[f];
-    const auto node_of = [&](std::size_t corner) {
-      return index(surface_.faces[f][corner]);
-    };
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t node = node_of(i);
+      const std::size_t node = index(surface_.faces[f][i]);
       if (counts[node] == 0) continue;
       of.is_inner = false;
       of.is_on_rim[i] = true;
@@ -246,7 +240,6 @@ double Skin::find_thickness(int f, const FacePlace& from) const {
 
 double Skin::find_least_cosine(const SurfacePlace& place, const ModalView& eta,
                                const Vector3& way) const {
-  constexpr FacePlace kWithin{1.0 / 3.0, 1.0 / 3.0};
   double least = 1.0;
   const auto take = [&](int f, const FacePlace& at) {
     const Vector3 normal = deform_face(f, eta).find_normal(at).normalized();
@@ -256,10 +249,11 @@ double Skin::find_least_cosine(const SurfacePlace& place, const ModalView& eta,
   const auto weights = FacePlace{place.u, place.v}.weights();
   for (std::size_t i = 0; i < 3; ++i) {
     if (weights[i] >= 1.0 - kOnEdge) {
-      for (const int f : find_faces_of(face(place.face)[i])) take(f, kWithin);
+      for (const int f : find_faces_of(face(place.face)[i]))
+        take(f, kFaceMiddle);
     } else if (weights[(i + 2) % 3] <= kOnEdge) {
       const int beyond = find_neighbour(place.face, static_cast<int>(i));
-      if (beyond >= 0) take(beyond, kWithin);
+      if (beyond >= 0) take(beyond, kFaceMiddle);
     }
   }
   return least;
@@ -280,7 +274,7 @@ bool Skin::is_summit(const SurfacePlace& place, const ModalView& eta,
                              : corners[1] == nodes[i] ? 1
                                                       : 2;
       const FacePatch patch = deform_face(f, eta);
-      const FacePlace& at = kCorners[me];
+      const FacePlace& at = kFaceCorners[me];
       const Vector3 x_u = patch.find_tangent_u(at);
       const Vector3 x_v = patch.find_tangent_v(at);
       const std::array<Vector3, 2> ways =
@@ -308,8 +302,8 @@ bool Skin::is_summit(const SurfacePlace& place, const ModalView& eta,
       const FacePatch patch = deform_face(f, eta);
       const FacePlace at{there[1], there[2]};
       // Towards the corner that the edge has not.
-      if (rises(patch.find_tangent_u(at) * (kCorners[far].u - at.u) +
-                patch.find_tangent_v(at) * (kCorners[far].v - at.v))) {
+      if (rises(patch.find_tangent_u(at) * (kFaceCorners[far].u - at.u) +
+                patch.find_tangent_v(at) * (kFaceCorners[far].v - at.v))) {
         return false;
       }
     }

@@ -7,12 +7,9 @@
 namespace limber::contact {
 namespace {
 
-constexpr std::array<FacePlace, 3> kCorners = {
-    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
-
 // Between the two edges of a face that start at one of its corners [rad].
 double find_angle(const FacePatch& patch, int corner) {
-  const FacePlace& at = kCorners[index(corner)];
+  const FacePlace& at = kFaceCorners[index(corner)];
   const Vector3 x_u = patch.find_tangent_u(at);
   const Vector3 x_v = patch.find_tangent_v(at);
   Vector3 a = x_u;
@@ -84,7 +81,7 @@ Vector3 Skin::sum_corner_normals(int node, const ModalView& eta) const {
     const int corner = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
     const FacePatch patch = deform_face(f, eta);
     sum += find_angle(patch, corner) *
-           patch.find_normal(kCorners[index(corner)]).normalized();
+           patch.find_normal(kFaceCorners[index(corner)]).normalized();
   }
   return sum;
 }

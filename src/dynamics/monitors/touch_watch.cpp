@@ -93,6 +93,17 @@ joints::TouchReading TouchWatch::read(std::size_t index,
                            memory_of(pair, state), watched.scratch);
 }
 
+template <typename Predicate>
+double TouchWatch::bisect(const SystemState& before, const SystemState& after,
+                          double low, double high, const Predicate& is_early) {
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    interpolate(model_, before, after, middle, within_);
+    (is_early() ? low : high) = middle;
+  }
+  return high;
+}
+
 // By conservative advancement; where that crawls, as of bodies that pass each
 // other closely, by parts of the way in which neither passes through the other.
 std::optional<double> TouchWatch::find_touch_share(Watched& watched,
@@ -123,7 +134,8 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
       interpolate(model_, before, after, next, within_);
       clearance = find_clearance(watched, within_);
       if (clearance <= 0.0) {
-        return find_enter_share(watched, before, after, {share, next});
+        return bisect(before, after, share, next,
+                      [&] { return find_clearance(watched, within_) > 0.0; });
       }
       if (next == 1.0) return std::nullopt;
       share = next;
@@ -140,20 +152,6 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   return share;
 }
 
-// By bisection: the pair is apart at the first share, and overlaps at the
-// second.
-double TouchWatch::find_enter_share(Watched& watched, const SystemState& before,
-                                    const SystemState& after,
-                                    std::pair<double, double> shares) {
-  auto [low, high] = shares;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    interpolate(model_, before, after, middle, within_);
-    (find_clearance(watched, within_) > 0.0 ? low : high) = middle;
-  }
-  return high;
-}
-
 // A pair that has just touched may still be apart by round-off of the place
 // where it did, but goes on to approach.
 bool TouchWatch::has_left(Watched& watched, const SystemState& after) {
@@ -161,18 +159,11 @@ bool TouchWatch::has_left(Watched& watched, const SystemState& after) {
   return !(touch.depth > 0.0) && touch.rate <= 0.0;
 }
 
-// By bisection: the pair touches before and is apart after.
+// The pair touches before and is apart after.
 double TouchWatch::find_leave_share(Watched& watched, const SystemState& before,
                                     const SystemState& after) {
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    interpolate(model_, before, after, middle, within_);
-    const bool touches = find_touch(watched, within_).depth > 0.0;
-    (touches ? low : high) = middle;
-  }
-  return high;
+  return bisect(before, after, 0.0, 1.0,
+                [&] { return find_touch(watched, within_).depth > 0.0; });
 }
 
 std::optional<TouchWatch::Crossing> TouchWatch::find_first(
@@ -224,14 +215,16 @@ void TouchWatch::mark_apart(SystemState& state) const {
   }
 }
 
-bool TouchWatch::is_coarse(double h, double t, double steps) const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Watched& watched) {
+double TouchWatch::find_steps_of_impact(double h, double t) const {
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const Watched& watched : pairs_) {
     const double lasts = kRest * watched.impact_duration;
     const bool is_impact =
         t - watched.since <= lasts || watched.steps < kStepsOfCoarseImpact;
-    return watched.is_touching && is_impact &&
-           h * steps > watched.impact_duration;
-  });
+    if (!watched.is_touching || !is_impact) continue;
+    fewest = std::min(fewest, watched.impact_duration / h);
+  }
+  return fewest;
 }
 
 void TouchWatch::check_step(double h, double t) const {

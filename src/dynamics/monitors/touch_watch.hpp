@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
@@ -92,10 +91,9 @@ class TouchWatch {
   /// Longest step that resolves the impacts that go on; infinite if none does.
   /// What still touches after eight times the expected duration rests [s].
   [[nodiscard]] double find_longest_step(double t) const;
-  /// Whether an impact goes on to which steps of h [s] give fewer than `steps`:
-  /// from a touch on for three steps, or eight times the expected duration.
-  [[nodiscard]] bool is_coarse(double h, double t,
-                               double steps = kFewestSteps) const;
+  /// Of the impacts that go on, T_c over h of the shortest; infinite if none
+  /// does. One goes on from a touch for three steps, or eight times T_c [-].
+  [[nodiscard]] double find_steps_of_impact(double h, double t) const;
   /// As it is at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);
@@ -130,9 +128,10 @@ class TouchWatch {
   [[nodiscard]] std::optional<double> find_touch_share(
       Watched& watched, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);
-  double find_enter_share(Watched& watched, const SystemState& before,
-                          const SystemState& after,
-                          std::pair<double, double> shares);
+  // @param is_early whether `within_` is before what is looked for
+  template <typename Predicate>
+  double bisect(const SystemState& before, const SystemState& after, double low,
+                double high, const Predicate& is_early);
   [[nodiscard]] double find_leave_share(Watched& watched,
                                         const SystemState& before,
                                         const SystemState& after);

@@ -79,8 +79,9 @@ void EventStepper::add_last() {
 // what that loses is dissipated. Where it gains nevertheless, or one that is
 // resolved badly does, the step fails.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
-  const bool damps = integrator_->damp(touches_.is_coarse(h, state.t));
-  if (!damps && !touches_.is_coarse(h, state.t, TouchWatch::kSureSteps)) {
+  const double steps = touches_.find_steps_of_impact(h, state.t);
+  const bool damps = integrator_->damp(steps < TouchWatch::kFewestSteps);
+  if (!damps && !(steps < TouchWatch::kSureSteps)) {
     return integrator_->step(state, h, end);
   }
   const double before = calc_energy(model_, state, terms_).total();

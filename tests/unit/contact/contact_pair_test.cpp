@@ -127,23 +127,25 @@ TEST(ContactPair, OfABallAndAHalfSpaceIsHertzsImpact) {
   EXPECT_NEAR(*contact.restitution(), 1.0, 1e-3);
 }
 
-// A tenth of the radius at the speed at which the energy is enough for it.
-TEST(ContactPair, DeeperThanATenthOfTheRadiusIsWarnedOf) {
-  const double k = find_closed_form(kMass, kRadius, 1.0).force /
-                   std::pow(find_closed_form(kMass, kRadius, 1.0).depth, 1.5);
+// Below and above the speed at which the energy is enough for a tenth of the
+// ball's radius. @param radius of curvature
+void expect_warning_of_depth(const ContactParameters& parameters, double radius,
+                             const std::string& words) {
+  const ClosedForm unit = find_closed_form(kMass, radius, 1.0);
+  const double k = unit.force / std::pow(unit.depth, 1.5);
   const double speed =
       std::sqrt(0.8 * k * std::pow(0.1 * kRadius, 2.5) / kMass);
   for (const double share : {0.9, 1.1}) {
     const double v = share * speed;
-    const ClosedForm exact = find_closed_form(kMass, kRadius, v);
-    Scene scene = make_ball_and_floor({}, 1e-4, {0.0, 0.0, -v});
+    const ClosedForm exact = find_closed_form(kMass, radius, v);
+    Scene scene = make_ball_and_floor(parameters, 1e-4, {0.0, 0.0, -v});
     SimulationStatistics statistics;
     run(scene,
         {.end_time = 2.0 * exact.duration + 1e-4 / v,
          .step = exact.duration / 100.0},
         &statistics);
-    const auto is_deep = [](const std::string& text) {
-      return text.find("of the radius of curvature") != std::string::npos;
+    const auto is_deep = [&words](const std::string& text) {
+      return text.find(words) != std::string::npos;
     };
     EXPECT_EQ(std::any_of(statistics.warnings.begin(),
                           statistics.warnings.end(), is_deep),
@@ -151,29 +153,16 @@ TEST(ContactPair, DeeperThanATenthOfTheRadiusIsWarnedOf) {
   }
 }
 
+TEST(ContactPair, DeeperThanATenthOfTheRadiusIsWarnedOf) {
+  expect_warning_of_depth({}, kRadius, "of the radius of curvature");
+}
+
 // With a radius of curvature given as a hundred times that of the ball, as of
 // the flat faces of a mesh.
 TEST(ContactPair, DeeperThanATenthOfTheBodyIsWarnedOf) {
   const double flat = 100.0 * kRadius;
-  const ClosedForm unit = find_closed_form(kMass, flat, 1.0);
-  const double k = unit.force / std::pow(unit.depth, 1.5);
-  for (const double share : {0.9, 1.1}) {
-    const double v =
-        share * std::sqrt(0.8 * k * std::pow(0.1 * kRadius, 2.5) / kMass);
-    const ClosedForm exact = find_closed_form(kMass, flat, v);
-    Scene scene = make_ball_and_floor({.radius = flat}, 1e-4, {0.0, 0.0, -v});
-    SimulationStatistics statistics;
-    run(scene,
-        {.end_time = 2.0 * exact.duration + 1e-4 / v,
-         .step = exact.duration / 100.0},
-        &statistics);
-    const auto is_deep = [](const std::string& text) {
-      return text.find("of the smaller body's extent") != std::string::npos;
-    };
-    EXPECT_EQ(std::any_of(statistics.warnings.begin(),
-                          statistics.warnings.end(), is_deep),
-              share > 1.0);
-  }
+  expect_warning_of_depth({.radius = flat}, flat,
+                          "of the smaller body's extent");
 }
 
 // Few steps an impact, which are not damped; at any phase of the touch.

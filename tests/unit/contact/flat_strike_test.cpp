@@ -2,19 +2,20 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
+#include "unit/contact/draw.hpp"
 #include "unit/contact/flat_rod.hpp"
 
 /// Flat ends that strike tilted, off the middle and sliding.
 namespace limber::contact {
 namespace {
 
+using testing::Draw;
 using testing::Target;
 
 struct Strike {
@@ -39,20 +40,6 @@ void approach(testing::RodScene& scene) {
     scene.state.bodies[1].p_WB.x() += gap - 1e-6;
   }
 }
-
-class Draw {
- public:
-  explicit Draw(unsigned seed) : random_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  double in_decades(double low, double high) {
-    return std::pow(10.0, between(low, high));
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 Strike make_strike(unsigned seed, Draw& draw) {
   const Target target = seed % 2 == 0 ? Target::box : Target::rod;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <random>
 #include <string>
 
 #include "limber/common/errors.hpp"
@@ -15,6 +14,7 @@
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "unit/contact/draw.hpp"
 
 /// Impacts of random shapes, sizes, masses, speeds and steps.
 namespace limber::contact {
@@ -23,23 +23,7 @@ namespace {
 using dynamics::SystemBuilder;
 using dynamics::SystemModel;
 using dynamics::SystemState;
-
-class Draw {
- public:
-  explicit Draw(unsigned seed) : generator_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  double log_between(double low, double high) {
-    return std::exp(between(std::log(low), std::log(high)));
-  }
-  Vector3 vector() {
-    return {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)};
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
+using testing::Draw;
 
 struct Impact {
   SystemModel model;
