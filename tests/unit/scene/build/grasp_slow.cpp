@@ -44,9 +44,11 @@ std::string make_box() {
          "</collision></link>\n";
 }
 
+// With steps that resolve the impacts: longer ones are halved where they gain
+// energy.
 std::string make_scenario() {
   std::string text =
-      time_table(11.0, 1e-3) +
+      time_table(11.0, 2.5e-4) +
       "output_interval = 1.0\n[[robot]]\nname = 'hand'\nfile = 'hand.urdf'\n"
       "[[robot]]\nname = 'target'\nfile = 'box.urdf'\norientation_rpy = [0.1, "
       "0.05, 0.2]\nvelocity = [0.01, 0.01, 0.0]\nangular_velocity = [0.2, 0.3, "
