@@ -27,8 +27,9 @@ struct FacePairPlace {
 ///            is found, to round-off in depth.
 /// @param normal towards B, about that of both faces, unit [-]
 /// @param most_depth of overlap that is looked for [m]
-/// @param is_inner whether other faces go on smoothly beyond all edges of both:
-/// a place far outside of its face is then another's, and is none here
+/// @param is_inner whether other faces go on smoothly beyond all edges of both
+/// (Skin::FaceMeasures::overshoot): a place far outside of its face is then
+/// another's, and is none here
 /// @returns none if the faces turn away from each other there
 [[nodiscard]] std::optional<FacePairPlace> find_opposite(const FacePatch& A,
                                                          const FacePatch& B,

@@ -19,6 +19,9 @@ constexpr double kExactlyFlat = 1e-6;
 // First overlap that is looked for, of an edge, and its growth [-].
 constexpr double kFirstSlack = 0.1;
 constexpr double kMoreSlack = 4.0;
+// How far beyond their edges places of two faces may be nevertheless, of the
+// shorter edge [-].
+constexpr double kNearby = 0.2;
 constexpr double kShallow = 0.02;  // of an edge [-]
 constexpr double kNoDepth = 1e-7;  // up to which round-off tells, likewise
 
@@ -209,9 +212,8 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
       look_at_ridges(faces, normal);
     }
   }
-  const auto at = find_opposite(
-      A, B, normal, slack_,
-      A_.skin.measures(face_A).is_inner && B_.skin.measures(face_B).is_inner);
+  const auto at =
+      find_opposite(A, B, normal, slack_, are_inner(face_A, face_B));
   if (!at || !is_in_range(face_A, face_B, at->depth)) return;
   if (-at->depth > limit()) return;
   Feature feature = make_feature(face_A, A, face_B, B, *at);
@@ -225,6 +227,12 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
 bool SkinPairSearch::is_in_range(int face_A, int face_B, double depth) const {
   return depth <= slack_ && depth <= 0.5 * (A_.skin.measures(face_A).thickness +
                                             B_.skin.measures(face_B).thickness);
+}
+
+bool SkinPairSearch::are_inner(int face_A, int face_B) const {
+  const Skin::FaceMeasures& A = A_.skin.measures(face_A);
+  const Skin::FaceMeasures& B = B_.skin.measures(face_B);
+  return A.overshoot + B.overshoot <= kNearby * std::min(A.edge, B.edge);
 }
 
 // Of a point in A's frame above a surface, < 0 inside.

@@ -108,6 +108,8 @@ class SkinPairSearch {
   [[nodiscard]] bool is_genuine_of_flat(const Feature& feature) const;
   [[nodiscard]] double find_height(const DeformedSkin& over,
                                    const Vector3& p) const;
+  // Whether other faces go on smoothly beyond both.
+  [[nodiscard]] bool are_inner(int face_A, int face_B) const;
   [[nodiscard]] bool is_in_range(int face_A, int face_B, double depth) const;
   [[nodiscard]] Feature make_feature(int face_A, const FacePatch& A, int face_B,
                                      const FacePatch& B,

@@ -147,8 +147,10 @@ class Skin {
     std::array<bool, 3> is_on_rim = {};
     std::array<bool, 3> is_on_ridge = {};
     std::array<bool, 3> is_corner = {};
-    /// Whether neither such an edge nor a border meets the face.
-    bool is_inner = true;
+    /// How far beyond its edges a place of the face's surface may be whose
+    /// normal is between those of the face and of one next to it: 0 where they
+    /// go on smoothly; infinite where a rim meets the face [m].
+    double overshoot = 0.0;
     /// Whether it is plane, and so is the surface beyond its edges that are not
     /// sharp.
     bool is_plane = true;
@@ -202,6 +204,8 @@ class Skin {
   // place counts as on the other corner or on the edge.
   static constexpr double kOnEdge = 1e-9;
 
+  [[nodiscard]] FacePatch make_undeformed_patch(int f) const;
+  [[nodiscard]] double find_overshoot(int f, int edge, int other) const;
   [[nodiscard]] const Face& face(int f) const {
     return surface_.faces[index(f)];
   }

@@ -8,6 +8,8 @@
 namespace limber::contact {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 // Whether a ray from `from` may meet a box, within `most`.
 bool may_meet(const SkinTree::Box& box, const Vector3& from, const Vector3& way,
               double most) {
@@ -31,17 +33,16 @@ bool may_meet(const SkinTree::Box& box, const Vector3& from, const Vector3& way,
 // How far along a ray a flat triangle is; infinite: it misses [@moller1997].
 double find_way_to(const Vector3& a, const Vector3& b, const Vector3& c,
                    const Vector3& from, const Vector3& way) {
-  constexpr double kMissed = std::numeric_limits<double>::infinity();
   const Vector3 ab = b - a;
   const Vector3 ac = c - a;
   const Vector3 h = way.cross(ac);
   const double determinant = ab.dot(h);
-  if (determinant == 0.0) return kMissed;
+  if (determinant == 0.0) return kInfinity;
   const Vector3 s = from - a;
   const Vector3 q = s.cross(ab);
   const double u = s.dot(h) / determinant;
   const double v = way.dot(q) / determinant;
-  if (u < 0.0 || v < 0.0 || u + v > 1.0) return kMissed;
+  if (u < 0.0 || v < 0.0 || u + v > 1.0) return kInfinity;
   return ac.dot(q) / determinant;
 }
 
@@ -57,6 +58,15 @@ FacePatch Skin::make_patch(int f, const ModalView& eta, const Pose& X) const {
   std::array<Vector3, 6> x;
   for (std::size_t i = 0; i < 6; ++i) x[i] = X * deform(nodes[i], eta);
   return FacePatch(x);
+}
+
+FacePatch Skin::make_undeformed_patch(int f) const {
+  const Face& nodes = face(f);
+  std::array<Vector3, 6> x;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (nodes[i] >= 0) x[i] = surface_.x_B.col(nodes[i]);
+  }
+  return nodes[3] < 0 ? FacePatch(std::array{x[0], x[1], x[2]}) : FacePatch(x);
 }
 
 int Skin::find_neighbour(int f, int edge) const {
@@ -108,13 +118,6 @@ void Skin::measure() {
     const Face& n = face(f);
     return (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).normalized();
   };
-  const auto find_bulge = [&](int f) {
-    const Face& n = face(f);
-    return n[3] < 0 ? 0.0
-                    : FacePatch({at(n[0]), at(n[1]), at(n[2]), at(n[3]),
-                                 at(n[4]), at(n[5])})
-                          .find_bulge();
-  };
   measures_.resize(face_count());
   double sum = 0.0;
   for (int f = 0; f < static_cast<int>(face_count()); ++f) {
@@ -137,8 +140,10 @@ void Skin::measure() {
           normal.dot(far - at(a)) < 0.0 && normal.dot(beside) < kSharpCosine;
       of.is_plane = of.is_plane && (of.is_sharp[index(edge)] ||
                                     normal.cross(beside).norm() < kSameNormal);
+      of.overshoot = std::max(of.overshoot, find_overshoot(f, edge, other));
     }
-    of.is_plane = of.is_plane && find_bulge(f) < kSameNormal * of.edge;
+    of.is_plane = of.is_plane &&
+                  make_undeformed_patch(f).find_bulge() < kSameNormal * of.edge;
     for (const FacePlace& place :
          {FacePlace{kMiddle, kMiddle}, FacePlace{kNearCorner, kNearCorner},
           FacePlace{1.0 - 2.0 * kNearCorner, kNearCorner},
@@ -150,6 +155,41 @@ void Skin::measure() {
   }
   mean_edge_ = sum / static_cast<double>(face_count());
   mark_rims();
+}
+
+// Both meet at an angle there, and the face turns by as much only so far
+// beyond: that angle over the curvature across the edge.
+double Skin::find_overshoot(int f, int edge, int other) const {
+  constexpr double kSmooth = 1e-6;  // sine
+  const FacePatch patch = make_undeformed_patch(f);
+  const FacePatch beyond = make_undeformed_patch(other);
+  const auto find_corner = [&](int node) {
+    const Face& corners = face(other);
+    return kFaceCorners[corners[0] == node ? 0 : corners[1] == node ? 1 : 2];
+  };
+  const auto first = static_cast<std::size_t>(edge);
+  const std::size_t second = (first + 1) % 3;
+  const FacePlace& far = kFaceCorners[(first + 2) % 3];
+  const FacePlace first_beyond = find_corner(face(f)[first]);
+  const FacePlace second_beyond = find_corner(face(f)[second]);
+  const auto find_way = [](const FacePlace& a, const FacePlace& b, double s) {
+    return FacePlace{a.u + s * (b.u - a.u), a.v + s * (b.v - a.v)};
+  };
+  double longest = 0.0;
+  for (const double s : {0.0, 0.5, 1.0}) {
+    const FacePlace at = find_way(kFaceCorners[first], kFaceCorners[second], s);
+    const Vector3 normal = patch.find_normal(at).normalized();
+    const Vector3 beside =
+        beyond.find_normal(find_way(first_beyond, second_beyond, s))
+            .normalized();
+    const double angle = normal.cross(beside).norm();
+    if (angle < kSmooth) continue;
+    const double turn =
+        normal.cross(patch.find_normal(far).normalized()).norm();
+    const double way = (patch.find_point(far) - patch.find_point(at)).norm();
+    longest = std::max(longest, turn > 0.0 ? angle / turn * way : kInfinity);
+  }
+  return longest;
 }
 
 // A node where sharp edges or borders meet is on an edge; unless these are two
@@ -188,7 +228,7 @@ void Skin::mark_rims() {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t node = index(surface_.faces[f][i]);
       if (counts[node] == 0) continue;
-      of.is_inner = false;
+      of.overshoot = kInfinity;
       of.is_on_rim[i] = true;
       of.is_on_ridge[i] = goes_on(node);
       of.is_corner[i] = is_corner(node);
@@ -213,7 +253,7 @@ double Skin::find_thickness(int f, const FacePlace& from) const {
   const Vector3 ac = at(start[2]) - at(start[0]);
   const Vector3 p = at(start[0]) + from.u * ab + from.v * ac;
   const Vector3 way = -ab.cross(ac).normalized();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   std::array<int, SkinTree::kMostLevels> stack{};
   std::size_t size = 1;
   while (size > 0) {

@@ -46,7 +46,8 @@ void ContactLog::begin(std::size_t i, const SystemState& state,
   ContactRecord& record = pair.record;
   pair.is_touching = true;
   const double lasted = pair.left - record.time;
-  if (record.touches > 0 && state.t - pair.left <= lasted) {
+  const bool is_met = std::isfinite(touches.impact_duration(i));
+  if (is_met && record.touches > 0 && state.t - pair.left <= lasted) {
     ++record.touches;
     return;
   }
@@ -142,6 +143,7 @@ void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
     if (!spectrum.is_enough()) warnings.push_back(describe(spectrum));
   }
   add_deep(records, warnings);
+  add_unmet(records, warnings);
   add_stable_step(warnings);
 }
 
@@ -161,6 +163,21 @@ void ContactLog::add_deep(const std::vector<ContactRecord>& records,
         record.pair, record.time, record.peak_depth,
         is_round ? over_radius : over_extent,
         is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
+  }
+}
+
+// Once a pair, of touches without a common normal (Touching::begin_touch).
+void ContactLog::add_unmet(const std::vector<ContactRecord>& records,
+                           std::vector<std::string>& warnings) const {
+  std::set<std::string> said;
+  for (const ContactRecord& record : records) {
+    if (!std::isinf(record.impact_duration)) continue;
+    if (!said.insert(record.pair).second) continue;
+    warnings.push_back(fmt::format(
+        "contact '{}': at t = {:.6g} s surfaces meet that do not face each "
+        "other, as where an open one is met from behind: there is no force, "
+        "and both may pass through each other",
+        record.pair, record.time));
   }
 }
 

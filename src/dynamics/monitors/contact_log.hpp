@@ -44,8 +44,9 @@ class ContactLog {
   /// state.
   [[nodiscard]] std::vector<ContactRecord> find_records() const;
   /// On steps too long for the impacts that they went through, on bases too
-  /// small for them (ImpactSpectrum), on contacts deeper than kDeepest, and on
-  /// the stable step of an explicit scheme where the force was largest.
+  /// small for them (ImpactSpectrum), on contacts deeper than kDeepest, on
+  /// touches of surfaces that do not face each other, and on the stable step of
+  /// an explicit scheme where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
   /// Depth over the radius of curvature, or over the smaller body's extent
   /// (corners of a mesh share a contact, whose areas tell of no radius), beyond
@@ -68,6 +69,8 @@ class ContactLog {
   void add_stable_step(std::vector<std::string>& warnings) const;
   void add_deep(const std::vector<ContactRecord>& records,
                 std::vector<std::string>& warnings) const;
+  void add_unmet(const std::vector<ContactRecord>& records,
+                 std::vector<std::string>& warnings) const;
   [[nodiscard]] double find_extent(const std::string& pair) const;
 
   const SystemModel& model_;

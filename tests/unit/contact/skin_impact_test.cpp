@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -60,9 +61,10 @@ struct Pair {
     state.bodies[1].v_WB_W = -speed * way.normalized();
   }
 
+  dynamics::SimulationStatistics statistics = {};
+
   RunRecord run(double time, double step) {
     RunRecord record;
-    dynamics::SimulationStatistics statistics;
     simulate(model, state, {.end_time = time, .step = step}, {}, {}, statistics,
              {}, {}, record);
     return record;
@@ -119,6 +121,28 @@ TEST(SkinImpact, OfAMeshedBallIsThatOfASphere) {
   EXPECT_NEAR(meshed.impulse / exact.impulse, 1.0, 2e-3);
   EXPECT_NEAR(meshed.duration / exact.duration, 1.0, 5e-3);
   EXPECT_NEAR(*meshed.restitution(), *exact.restitution(), 5e-3);
+}
+
+// Without a word it would be a contact that is missed.
+TEST(SkinImpact, OfAnOpenSurfaceFromBehindIsTold) {
+  const Shape sheet{
+      std::make_shared<const Skin>(testing::make_sheet_surface(
+          3.0 * kRadius, 4, false, [](double, double) { return 0.0; })),
+      {}};
+  const auto strike = [&](double side, double step) {
+    Pair pair(sheet, make_ball(), {}, Vector3(0.0, 0.0, 1.05 * side * kRadius),
+              1.0);
+    const RunRecord record = pair.run(2e-3, step);
+    EXPECT_FALSE(record.contacts.empty()) << side;
+    EXPECT_EQ(record.contacts.at(0).peak_force > 0.0, side > 0.0);
+    const auto& warnings = pair.statistics.warnings;
+    return std::count_if(
+        warnings.begin(), warnings.end(), [](const std::string& warning) {
+          return warning.find("do not face each other") != std::string::npos;
+        });
+  };
+  EXPECT_EQ(strike(1.0, 1e-6), 0);
+  EXPECT_EQ(strike(-1.0, 5e-4), 1);
 }
 
 // Corners, edges and faces, with friction.

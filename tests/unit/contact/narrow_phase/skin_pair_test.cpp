@@ -230,6 +230,38 @@ TEST(SkinPair, OfACapsuleLeavesItByLittle) {
   }
 }
 
+// A large round body's normal hardly changes over a facet: it is between those
+// of the facets at a corner, or at an edge, and of none of them.
+TEST(SkinPair, OfFacetsOnALargeRoundBodyIsAtTheirCornersAndEdges) {
+  const auto surface = testing::make_ball_surface(1.0, 2, false);
+  const Shape facets = make_shape(surface);
+  std::mt19937 random(9);
+  for (const double radius : {1.0, 10.0, 100.0}) {
+    const double mesh = 3e-5 * radius;
+    const ShapePair pair(facets, make_skin({Capsule{radius, radius}, {}}));
+    for (int trial = 0; trial < 20; ++trial) {
+      const auto& face = surface.faces[random() % surface.faces.size()];
+      const Vector3 corner = surface.x_B.col(face[0]);
+      const Vector3 place =
+          trial % 2 == 0 ? corner
+                         : 0.5 * (corner + Vector3(surface.x_B.col(face[1])));
+      const Vector3 way = place.normalized();
+      Matrix3 R;  // the capsule's axis across
+      R.col(2) = way.unitOrthogonal();
+      R.col(0) = way;
+      R.col(1) = R.col(2).cross(way);
+      for (const double depth : {-0.02, 0.02}) {
+        const PairBody A;
+        const PairBody B{.R_WB = R, .p_WB = place + (radius - depth) * way};
+        const auto all = meet(pair, A, B, kFar);
+        ASSERT_FALSE(all.empty()) << radius << ' ' << trial;
+        EXPECT_NEAR(find_deepest(all), depth, mesh) << radius << ' ' << trial;
+        EXPECT_LT((all[0].normal_W - way).norm(), 0.01);
+      }
+    }
+  }
+}
+
 TEST(SkinPair, OfAPlateIsNotThatOfItsFarSide) {
   const Shape plate =
       make_shape(testing::make_box_surface({1, 1, 0.001}, 8, false));
