@@ -185,6 +185,25 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   touches_.accept(before_, state);
 }
 
+// A place of contact that appears deep between two that were apart, as at edges
+// that lie along each other, would bring energy with it.
+void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
+  if (touches_.is_touching(index)) return;
+  const joints::TouchReading touch = touches_.read(index, state);
+  const double stored = calc_energy(model_, state, terms_).total();
+  if (!(touch.energy > kMostGain * (stored + std::abs(totals_.load_work)))) {
+    return;
+  }
+  const double t = state.t;
+  take_back(state);
+  throw NumericalError(fmt::format(
+      "contact '{}' at t = {:.9g} s: both are {:.3g} m deep in each other "
+      "where "
+      "their surfaces first face each other, which would add {:.3g} J",
+      model_.pairs[touches_.pair_of(index)].name, t, touch.depth,
+      touch.energy));
+}
+
 // A step that ends deep in a contact, or after it, tells its beginning badly:
 // shorter ones tell better, until one ends there. One that ends before it is
 // taken as it is; the next goes on.
@@ -199,10 +218,11 @@ void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
     if (!earlier) break;
     share *= std::min(earlier->share, kLeastReduction);
   }
-  add_last();
   const double excess = touches_.find_excess(crossing.index, state);
   const double tolerance =
       touches_.find_tolerance(crossing.index, state, nominal_h);
+  if (excess > tolerance) check_deep_touch(crossing.index, state);
+  add_last();
   if (excess >= -tolerance) touches_.pass(crossing.index, state, events_);
   watch_.accept(state);
   touches_.accept(before_, state);
