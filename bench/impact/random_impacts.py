@@ -285,13 +285,18 @@ def examine(limber, seed, cache, keep):
         folder = pathlib.Path(keep or temporary) / str(seed)
         folder.mkdir(parents=True, exist_ok=True)
         end = 1.5 * impact.distance / impact.speed
-        impact.write(folder, f"[time]\nduration = {end:.9g}\nstep = {end / 20:.9g}\n")
+        long_step = end / 20
+        impact.write(
+            folder, f"[time]\nduration = {end:.9g}\nstep = {long_step:.9g}\n"
+        )
         verdict, summary = judge(run(limber, folder, cache))
         verdicts = [("long steps", verdict)]
         touch = min((c["time"] for c in summary.get("contacts", [])), default=None)
         if touch is not None:
             begin = max(touch - 5 * impact.step, 0.1 * touch)
-            end = touch + 10 * impact.step + 10 * impact.duration
+            # A touch is told up to 1e-4 of a step's way before it.
+            late = 2e-4 * long_step
+            end = touch + late + 10 * impact.step + 10 * impact.duration
             count = min(max(round((end - begin) / impact.step), 1), 20000)
             impact.write(
                 folder,

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/collision_link.hpp"
 #include "cli/command.hpp"
 
 namespace limber::test {
@@ -40,17 +41,6 @@ std::string make_cube(std::size_t faces = 6, double shift = 0.0,
                         s + before);
   }
   return text;
-}
-
-std::string make_link(const std::string& name, const std::string& mass,
-                      const std::string& inertia, const std::string& geometry,
-                      const std::string& modulus) {
-  return "<robot name='r'><link name='" + name + "'><inertial><mass value='" +
-         mass + "'/><inertia ixx='" + inertia + "' iyy='" + inertia +
-         "' izz='" + inertia +
-         "' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry>" +
-         geometry + "</geometry></collision></link><contact link='" + name +
-         "' youngs_modulus='" + modulus + "' poisson_ratio='0.3'/></robot>";
 }
 
 /// A cube above a table, whose top is at z = -0.05 - gap.

@@ -227,6 +227,15 @@ double TouchWatch::find_steps_of_impact(double h, double t) const {
   return fewest;
 }
 
+double TouchWatch::find_steps_of_touch(double h) const {
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const Watched& watched : pairs_) {
+    if (watched.is_touching)
+      fewest = std::min(fewest, watched.impact_duration / h);
+  }
+  return fewest;
+}
+
 void TouchWatch::check_step(double h, double t) const {
   for (const Watched& watched : pairs_) {
     if (!watched.is_touching) continue;

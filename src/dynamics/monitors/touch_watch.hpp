@@ -94,6 +94,8 @@ class TouchWatch {
   /// Of the impacts that go on, T_c over h of the shortest; infinite if none
   /// does. One goes on from a touch for three steps, or eight times T_c [-].
   [[nodiscard]] double find_steps_of_impact(double h, double t) const;
+  /// Likewise of all that touch, impacts or not [-].
+  [[nodiscard]] double find_steps_of_touch(double h) const;
   /// As it is at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);

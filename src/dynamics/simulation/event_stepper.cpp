@@ -21,9 +21,10 @@ constexpr double kSame = 1e-9;
 // least reduction of its length from one to the next [-].
 constexpr int kMostRepeats = 12;
 constexpr double kLeastReduction = 0.999;
-// Most that a step may gain in an impact that it does not resolve, of the
-// energy before it [-].
+// Most that a step may gain in an impact that it does not resolve, and in a
+// touch that goes on, of the energy before it [-].
 constexpr double kMostGain = 1e-3;
+constexpr double kMostGainInTouch = 1e-2;
 
 }  // namespace
 
@@ -77,21 +78,24 @@ void EventStepper::add_last() {
 
 // An impact that the step does not resolve is damped, or it would gain energy;
 // what that loses is dissipated. Where it gains nevertheless, or one that is
-// resolved badly does, the step fails.
+// resolved badly does, the step fails; so does one that is longer than an
+// impact where two touch on.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   const double steps = touches_.find_steps_of_impact(h, state.t);
   const bool damps = integrator_->damp(steps < TouchWatch::kFewestSteps);
-  if (!damps && !(steps < TouchWatch::kSureSteps)) {
+  const bool is_impact = steps < TouchWatch::kSureSteps;
+  if (!is_impact && !(touches_.find_steps_of_touch(h) < 1.0)) {
     return integrator_->step(state, h, end);
   }
   const double before = calc_energy(model_, state, terms_).total();
   StepResult result = integrator_->step(state, h, end);
   const double after = calc_energy(model_, state, terms_).total();
   const double lost = before + result.load_work - result.dissipated - after;
-  if (-lost > kMostGain * (before + std::abs(result.load_work))) {
+  const double most = is_impact ? kMostGain : kMostGainInTouch;
+  if (-lost > most * (before + std::abs(result.load_work))) {
     take_back(state);
     throw NumericalError(fmt::format(
-        "a step of {:.3g} s at t = {:.9g} s, too long for the impact in it, "
+        "a step of {:.3g} s at t = {:.9g} s, too long for the contact in it, "
         "gains {:.3g} J",
         h, state.t, -lost));
   }
