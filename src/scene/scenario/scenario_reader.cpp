@@ -303,7 +303,7 @@ void read_root(TomlTable& root, Scenario& scenario) {
   read_robots(root, scenario);
   if (!root.has("time")) root.fail("needs [time] with 'duration' and 'step'");
   read_section(root, "time", [&](TomlTable& t) {
-    scenario.settings = read_time_settings(t);
+    scenario.settings = read_time_settings(t, scenario.warnings);
   });
   read_section(root, "fidelity",
                [&](TomlTable& t) { read_fidelity(t, scenario); });

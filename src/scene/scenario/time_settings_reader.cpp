@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 
 namespace limber::scene {
 namespace {
@@ -59,14 +60,29 @@ double count_steps(const dynamics::SimulationSettings& settings) {
   return count + (settings.end_time - from) / step;
 }
 
+// A step ends at every output.
+void check_steps(double interval, const dynamics::SimulationSettings& settings,
+                 std::vector<std::string>& warnings) {
+  constexpr double kSame = 1e-9;
+  if (settings.tolerance > 0.0) return;
+  const double longest = dynamics::find_longest_step(settings);
+  if (!(longest > interval * (1.0 + kSame))) return;
+  warnings.push_back(fmt::format(
+      "[time] a step of {:g} s is longer than output_interval, {:g} s: steps "
+      "end at every output, and are no longer than that",
+      longest, interval));
+}
+
 std::vector<double> read_output_times(
-    TomlTable& table, const dynamics::SimulationSettings& settings) {
+    TomlTable& table, const dynamics::SimulationSettings& settings,
+    std::vector<std::string>& warnings) {
   const double end = settings.end_time;
   const auto times = table.numbers("output_times", {0.0, end, false, false});
   const auto interval = table.number("output_interval", kPositive);
   if (times && interval) {
     table.fail("has both 'output_times' and 'output_interval'; keep one");
   }
+  if (interval) check_steps(*interval, settings, warnings);
   if (!times && !interval && settings.tolerance > 0.0) {
     return even_times(end, end / kOutputsOfTolerance);
   }
@@ -132,7 +148,8 @@ void read_steps(TomlTable& table, dynamics::SimulationSettings& settings) {
 
 }  // namespace
 
-dynamics::SimulationSettings read_time_settings(TomlTable& table) {
+dynamics::SimulationSettings read_time_settings(
+    TomlTable& table, std::vector<std::string>& warnings) {
   dynamics::SimulationSettings settings;
   settings.end_time = table.required_number("duration", kPositive);
   read_steps(table, settings);
@@ -149,7 +166,7 @@ dynamics::SimulationSettings read_time_settings(TomlTable& table) {
                             .value_or(settings.most_steps);
   settings.exact_modes =
       table.boolean("exact_modes").value_or(settings.exact_modes);
-  settings.output_times = read_output_times(table, settings);
+  settings.output_times = read_output_times(table, settings, warnings);
   return settings;
 }
 

@@ -49,6 +49,23 @@ TEST(ScenarioReader, ReadsHowManyStepsAToleranceMayTake) {
   EXPECT_EQ(scenario.settings.most_steps, 5000);
 }
 
+TEST(ScenarioReader, TellsWhereStepsAreLongerThanTheOutputInterval) {
+  const auto warnings = [](const std::string& time) {
+    return read("robot='r.urdf'\n[time]\nduration=1.0\n" + time).warnings;
+  };
+  EXPECT_THAT(warnings("step=0.1\noutput_interval=0.05\n"),
+              testing::ElementsAre(HasSubstr("no longer than that")));
+  EXPECT_THAT(warnings("steps={from=[0,0.5],size=[0.01,0.1]}\n"
+                       "output_interval=0.05\n"),
+              testing::SizeIs(1));
+  EXPECT_THAT(warnings("step=0.1\noutput_interval=0.1\n"),
+              testing::IsEmpty());
+  EXPECT_THAT(warnings("step=0.1\noutput_times=[0.05]\n"),
+              testing::IsEmpty());
+  EXPECT_THAT(warnings("tolerance=1e-3\nstep=0.1\noutput_interval=0.05\n"),
+              testing::IsEmpty());
+}
+
 TEST(ScenarioReader, ReadsLoadsAndProbes) {
   const Scenario scenario =
       read(kStart +
