@@ -308,6 +308,16 @@ def examine(limber, seed, cache, keep):
     return seed, impact.describe(), verdicts
 
 
+def include(seed, words, verdicts, tally, refusals):
+    for steps, verdict in verdicts:
+        kind = verdict.split(":")[0]
+        tally[kind if kind in KNOWN else "failed"] += 1
+        if verdict.startswith("refused: "):
+            refusals[f"{words.split(',')[0]}: {verdict[9:160]}"] += 1
+        elif kind not in KNOWN:
+            print(f"seed {seed}, {steps}: {verdict}; {words}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description="Random impacts: how they end")
     parser.add_argument("--limber", required=True, type=pathlib.Path)
@@ -329,15 +339,12 @@ def main():
                 pool.submit(examine, options.limber.resolve(), s, cache, options.keep)
                 for s in seeds
             ]
-            for job in jobs:
-                seed, words, verdicts = job.result()
-                for steps, verdict in verdicts:
-                    kind = verdict.split(":")[0]
-                    tally[kind if kind in KNOWN else "failed"] += 1
-                    if verdict.startswith("refused: "):
-                        refusals[f"{words.split(',')[0]}: {verdict[9:160]}"] += 1
-                    elif kind not in KNOWN:
-                        print(f"seed {seed}, {steps}: {verdict}; {words}", flush=True)
+            try:
+                for job in jobs:
+                    include(*job.result(), tally, refusals)
+            except KeyboardInterrupt:
+                pool.shutdown(wait=False, cancel_futures=True)
+                print("stopped; of the seeds before:")
     for text, count in refusals.most_common():
         print(f"{count:4} refused, {text}")
     print(", ".join(f"{n} {kind}" for kind, n in sorted(tally.items())))
