@@ -58,10 +58,8 @@ TEST(ScenarioReader, TellsWhereStepsAreLongerThanTheOutputInterval) {
   EXPECT_THAT(warnings("steps={from=[0,0.5],size=[0.01,0.1]}\n"
                        "output_interval=0.05\n"),
               testing::SizeIs(1));
-  EXPECT_THAT(warnings("step=0.1\noutput_interval=0.1\n"),
-              testing::IsEmpty());
-  EXPECT_THAT(warnings("step=0.1\noutput_times=[0.05]\n"),
-              testing::IsEmpty());
+  EXPECT_THAT(warnings("step=0.1\noutput_interval=0.1\n"), testing::IsEmpty());
+  EXPECT_THAT(warnings("step=0.1\noutput_times=[0.05]\n"), testing::IsEmpty());
   EXPECT_THAT(warnings("tolerance=1e-3\nstep=0.1\noutput_interval=0.05\n"),
               testing::IsEmpty());
 }
