@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/reports/probe_pictures.hpp"
@@ -44,15 +47,17 @@ bool has_pictures(const Run& run) {
 void draw_run(const Run& run, const std::filesystem::path& folder) {
   const std::string& name = run.scene.scenario.name;
   const std::string level(to_string(run.scene.scenario.fidelity));
-  std::vector<results::Picture> pictures =
-      list_probe_pictures({{level, &run.history, &run.record.peaks}}, folder);
+  // The one that takes longest first.
+  std::vector<results::Picture> pictures = {[&] {
+    return results::draw_scene(folder / "scene.png", name, run.built.model,
+                               run.history, run.scenery);
+  }};
+  std::ranges::move(
+      list_probe_pictures({{level, &run.history, &run.record.peaks}}, folder),
+      std::back_inserter(pictures));
   pictures.emplace_back([&] {
     return results::draw_energy(folder / "energy.png",
                                 name + describe_open(run), run.history);
-  });
-  pictures.emplace_back([&] {
-    return results::draw_scene(folder / "scene.png", name, run.built.model,
-                               run.history, run.scenery);
   });
   print_warnings(results::draw_all(pictures));
 }
