@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "limber/dynamics/equations/node_motion.hpp"
@@ -186,21 +187,65 @@ std::size_t count_triangles(const std::vector<Shot>& shots) {
   return count;
 }
 
-// A block of the polygons of one shot.
+std::array<Vector3, 3> find_corners(const Surface& surface, std::size_t t) {
+  const auto& [a, b, c] = surface.triangles[t];
+  const auto at = [&](std::size_t corner) -> Vector3 {
+    return surface.points.col(static_cast<Eigen::Index>(corner));
+  };
+  return {at(a), at(b), at(c)};
+}
+
+Vector3 find_area(const std::array<Vector3, 3>& corners) {
+  return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+}
+
+// Whether the surface has an inside, and its triangles are seen from outside.
+bool is_closed(const Surface& surface) {
+  constexpr double kNone = 1e-6;  // of its area [-]
+  Vector3 sum = Vector3::Zero();
+  double area = 0.0;
+  double volume = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto corners = find_corners(surface, t);
+    const Vector3 of = find_area(corners);
+    sum += of;
+    area += of.norm();
+    volume += of.dot(corners[0]) / 3.0;
+  }
+  return sum.norm() < kNone * area && volume > 0.0;
+}
+
+// A block of the polygons of one shot, without those that are turned away from
+// the eye and hidden by others.
 void add_block(GnuplotScript& script, const std::string& block,
-               const Shot& shot, std::size_t stride, Bounds& bounds) {
+               const Shot& shot, std::size_t stride, const Vector3& eye) {
   script.add(fmt::format("${} << EOD", block));
   for (const Surface& surface : shot.surfaces) {
+    const bool hides = is_closed(surface);
     for (std::size_t t = 0; t < surface.triangles.size(); t += stride) {
-      for (const std::size_t corner : surface.triangles[t]) {
-        const Vector3 p = surface.points.col(static_cast<Eigen::Index>(corner));
-        bounds.include(p);
-        script.add(fmt::format("{:.6g} {:.6g} {:.6g}", p[0], p[1], p[2]));
+      const auto corners = find_corners(surface, t);
+      if (hides && find_area(corners).dot(eye) < 0.0) continue;
+      std::string lines;
+      for (const Vector3& p : corners) {
+        fmt::format_to(std::back_inserter(lines), "{:.6g} {:.6g} {:.6g}\n",
+                       p[0], p[1], p[2]);
       }
-      script.add("");
+      script.add(lines);
     }
   }
   script.add("EOD");
+}
+
+Bounds find_bounds(const std::vector<Shot>& shots) {
+  Bounds bounds;
+  for (const Shot& shot : shots) {
+    for (const Surface& surface : shot.surfaces) {
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        for (const Vector3& p : find_corners(surface, t)) bounds.include(p);
+      }
+    }
+  }
+  return bounds;
 }
 
 void set_view(GnuplotScript& script, const Bounds& bounds,
@@ -237,12 +282,13 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
   const std::size_t total = count_triangles(shots);
   const std::size_t stride =
       std::max<std::size_t>(1, (total + kMostTriangles - 1) / kMostTriangles);
-  Bounds bounds;
+  const ViewAngles view = find_view(samples);
+  const Vector3 eye = find_eye(view);
   std::string plot = "splot ";
   for (std::size_t s = 0; s < shots.size(); ++s) {
     const std::string block = fmt::format("s{}", s);
     const char* colour = kColours[s % kColours.size()];
-    add_block(script, block, shots[s], stride, bounds);
+    add_block(script, block, shots[s], stride, eye);
     plot += fmt::format(
         "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle, "
         "NaN with lines lw 6 lc rgb '{}' title {}",
@@ -250,7 +296,7 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
         quote(shots[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
-  set_view(script, bounds, find_view(samples));
+  set_view(script, find_bounds(shots), view);
   script.add(plot);
   return script.run();
 }

@@ -13,6 +13,7 @@
 namespace limber::results {
 namespace {
 
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kSearched = 64;
 
 std::set<std::size_t> list_candidates(const History& history) {
@@ -80,6 +81,12 @@ double find_magnification(double deformation, double size) {
   return factor >= 2.0 * power ? 2.0 * power : power;
 }
 
+Vector3 find_eye(const ViewAngles& view) {
+  const double x = view.rot_x / kDegrees;
+  const double z = view.rot_z / kDegrees;
+  return {std::sin(x) * std::sin(z), -std::sin(x) * std::cos(z), std::cos(x)};
+}
+
 ViewAngles find_view(const std::vector<Matrix3X>& shots) {
   Matrix3 motion = Matrix3::Zero();
   Matrix3 extent = Matrix3::Zero();
@@ -95,8 +102,6 @@ ViewAngles find_view(const std::vector<Matrix3X>& shots) {
       Eigen::SelfAdjointEigenSolver<Matrix3>(seen).eigenvectors().col(0);
   const bool is_level = std::abs(eye.z()) < 1e-3;
   if (is_level ? eye.y() > 0.0 : eye.z() < 0.0) eye = -eye;
-  // gnuplot looks from (sin x sin z, -sin x cos z, cos x).
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   constexpr double kTurn = 15.0;
   const double rot_x = kDegrees * std::acos(std::clamp(eye.z(), -1.0, 1.0));
   double rot_z = kTurn;

@@ -35,6 +35,11 @@ struct ViewAngles {
   double rot_z = 30.0;
 };
 
+/// The unit vector from the scene to the eye at these angles.
+///
+/// Equation   (sin x sin z, -sin x cos z, cos x), which gnuplot looks from
+[[nodiscard]] Vector3 find_eye(const ViewAngles& view);
+
 /// From the side of a motion: nearly along the direction in which points move
 /// and extend least; from above rather than from below, and never along an axis
 /// of the picture, so that depth can be seen.

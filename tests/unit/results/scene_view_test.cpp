@@ -30,12 +30,17 @@ TEST(Magnification, MakesSmallDeformationsVisible) {
   }
 }
 
-/// Towards the eye, as gnuplot turns: first about z, then about the picture's
-/// x.
-Vector3 find_eye(const ViewAngles& view) {
-  const double x = view.rot_x * std::numbers::pi / 180.0;
-  const double z = view.rot_z * std::numbers::pi / 180.0;
-  return {std::sin(x) * std::sin(z), -std::sin(x) * std::cos(z), std::cos(x)};
+// gnuplot turns first about z, then about the picture's x.
+TEST(View, IsSeenAlongTheDirectionThatTurnsTowardsTheEye) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  for (const double x : {20.0, 60.0, 75.0}) {
+    for (const double z : {0.0, 30.0, 200.0, 340.0}) {
+      const Vector3 eye =
+          Eigen::AngleAxisd(z * kDegree, Vector3::UnitZ()) *
+          (Eigen::AngleAxisd(x * kDegree, Vector3::UnitX()) * Vector3::UnitZ());
+      EXPECT_LT((find_eye({x, z}) - eye).norm(), 1e-12);
+    }
+  }
 }
 
 /// Points of a bar along `along`, at rest and moved to its side.
