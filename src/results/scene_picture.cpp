@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "limber/dynamics/equations/node_motion.hpp"
@@ -248,6 +250,17 @@ Bounds find_bounds(const std::vector<Shot>& shots) {
   return bounds;
 }
 
+// Of gnuplot's cube, so that it and its labels fit into the picture's height.
+double find_scale(const ViewAngles& view) {
+  constexpr double kFits = 1.6;
+  const Vector3 eye = find_eye(view);
+  const double level = std::hypot(eye.x(), eye.y());
+  const double wide = level > 0.0
+                          ? (std::abs(eye.x()) + std::abs(eye.y())) / level
+                          : std::numbers::sqrt2;
+  return kFits / (eye.z() * wide + level);
+}
+
 void set_view(GnuplotScript& script, const Bounds& bounds,
               const ViewAngles& view) {
   const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
@@ -262,8 +275,8 @@ void set_view(GnuplotScript& script, const Bounds& bounds,
   script.add("set pm3d border lc rgb '#404040' lw 0.05");
   script.add("set pm3d depthorder");
   script.add("set view equal xyz");
-  script.add(
-      fmt::format("set view {:.4g}, {:.4g}, 1.25", view.rot_x, view.rot_z));
+  script.add(fmt::format("set view {:.4g}, {:.4g}, {:.3g}", view.rot_x,
+                         view.rot_z, find_scale(view)));
   script.add("set xyplane at " + fmt::format("{:g}", center[2] - half));
   script.add("set border 4095 lc rgb '#cccccc' lw 0.6");
   script.add("set ticslevel 0");
