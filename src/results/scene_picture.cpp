@@ -251,9 +251,8 @@ Bounds find_bounds(const std::vector<Shot>& shots) {
 }
 
 // Of gnuplot's cube, so that it and its labels fit into the picture's height.
-double find_scale(const ViewAngles& view) {
+double find_scale(const Vector3& eye) {
   constexpr double kFits = 1.6;
-  const Vector3 eye = find_eye(view);
   const double level = std::hypot(eye.x(), eye.y());
   const double wide = level > 0.0
                           ? (std::abs(eye.x()) + std::abs(eye.y())) / level
@@ -262,7 +261,7 @@ double find_scale(const ViewAngles& view) {
 }
 
 void set_view(GnuplotScript& script, const Bounds& bounds,
-              const ViewAngles& view) {
+              const ViewAngles& view, const Vector3& eye) {
   const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
   const double half =
       std::max(0.55 * (bounds.upper - bounds.lower).maxCoeff(), 1e-6);
@@ -276,7 +275,7 @@ void set_view(GnuplotScript& script, const Bounds& bounds,
   script.add("set pm3d depthorder");
   script.add("set view equal xyz");
   script.add(fmt::format("set view {:.4g}, {:.4g}, {:.3g}", view.rot_x,
-                         view.rot_z, find_scale(view)));
+                         view.rot_z, find_scale(eye)));
   script.add("set xyplane at " + fmt::format("{:g}", center[2] - half));
   script.add("set border 4095 lc rgb '#cccccc' lw 0.6");
   script.add("set ticslevel 0");
@@ -309,7 +308,7 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
         quote(shots[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
-  set_view(script, find_bounds(shots), view);
+  set_view(script, find_bounds(shots), view, eye);
   script.add(plot);
   return script.run();
 }

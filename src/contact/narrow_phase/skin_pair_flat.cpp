@@ -21,12 +21,6 @@ constexpr double kLeans = 0.3;
 constexpr double kAbout = 0.5;
 constexpr double kAlmost = 0.98;
 
-FacePlace find_between(std::size_t edge, double s) {
-  const FacePlace& from = kFaceCorners[edge];
-  const FacePlace& to = kFaceCorners[(edge + 1) % 3];
-  return {from.u + s * (to.u - from.u), from.v + s * (to.v - from.v)};
-}
-
 Vector3 find_way(const FacePatch& face, std::size_t edge) {
   return face.find_point(kFaceCorners[(edge + 1) % 3]) -
          face.find_point(kFaceCorners[edge]);

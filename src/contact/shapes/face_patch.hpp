@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "limber/common/types.hpp"
 
@@ -22,6 +23,16 @@ struct FacePlace {
 inline constexpr std::array<FacePlace, 3> kFaceCorners = {
     {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
 inline constexpr FacePlace kFaceMiddle{1.0 / 3.0, 1.0 / 3.0};
+
+/// Part s of the way from one place to another.
+[[nodiscard]] constexpr FacePlace find_between(const FacePlace& from,
+                                               const FacePlace& to, double s) {
+  return {from.u + s * (to.u - from.u), from.v + s * (to.v - from.v)};
+}
+/// On an edge: 01, 12 or 20.
+[[nodiscard]] constexpr FacePlace find_between(std::size_t edge, double s) {
+  return find_between(kFaceCorners[edge], kFaceCorners[(edge + 1) % 3], s);
+}
 
 /// The surface of a straight or quadratic triangle.
 ///

@@ -205,6 +205,8 @@ class Skin {
   static constexpr double kOnEdge = 1e-9;
 
   [[nodiscard]] FacePatch make_undeformed_patch(int f) const;
+  // Which corner of a face one of its nodes is.
+  [[nodiscard]] std::size_t find_corner(int f, int node) const;
   [[nodiscard]] double find_overshoot(int f, int edge, int other) const;
   [[nodiscard]] const Face& face(int f) const {
     return surface_.faces[index(f)];

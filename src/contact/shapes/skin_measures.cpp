@@ -157,30 +157,31 @@ void Skin::measure() {
   mark_rims();
 }
 
+std::size_t Skin::find_corner(int f, int node) const {
+  const Face& corners = face(f);
+  return corners[0] == node ? 0 : corners[1] == node ? 1 : 2;
+}
+
 // Both meet at an angle there, and the face turns by as much only so far
 // beyond: that angle over the curvature across the edge.
 double Skin::find_overshoot(int f, int edge, int other) const {
   constexpr double kSmooth = 1e-6;  // sine
   const FacePatch patch = make_undeformed_patch(f);
   const FacePatch beyond = make_undeformed_patch(other);
-  const auto find_corner = [&](int node) {
-    const Face& corners = face(other);
-    return kFaceCorners[corners[0] == node ? 0 : corners[1] == node ? 1 : 2];
-  };
   const auto first = static_cast<std::size_t>(edge);
   const std::size_t second = (first + 1) % 3;
   const FacePlace& far = kFaceCorners[(first + 2) % 3];
-  const FacePlace first_beyond = find_corner(face(f)[first]);
-  const FacePlace second_beyond = find_corner(face(f)[second]);
-  const auto find_way = [](const FacePlace& a, const FacePlace& b, double s) {
-    return FacePlace{a.u + s * (b.u - a.u), a.v + s * (b.v - a.v)};
+  const auto find_beyond = [&](std::size_t corner) {
+    return kFaceCorners[find_corner(other, face(f)[corner])];
   };
+  const FacePlace& first_beyond = find_beyond(first);
+  const FacePlace& second_beyond = find_beyond(second);
   double longest = 0.0;
   for (const double s : {0.0, 0.5, 1.0}) {
-    const FacePlace at = find_way(kFaceCorners[first], kFaceCorners[second], s);
+    const FacePlace at = find_between(first, s);
     const Vector3 normal = patch.find_normal(at).normalized();
     const Vector3 beside =
-        beyond.find_normal(find_way(first_beyond, second_beyond, s))
+        beyond.find_normal(find_between(first_beyond, second_beyond, s))
             .normalized();
     const double angle = normal.cross(beside).norm();
     if (angle < kSmooth) continue;
@@ -309,10 +310,7 @@ bool Skin::is_summit(const SurfacePlace& place, const ModalView& eta,
   for (std::size_t i = 0; i < 3; ++i) {
     if (weights[i] < 1.0 - kOnEdge) continue;
     for (const int f : find_faces_of(nodes[i])) {
-      const Face& corners = face(f);
-      const std::size_t me = corners[0] == nodes[i]   ? 0
-                             : corners[1] == nodes[i] ? 1
-                                                      : 2;
+      const std::size_t me = find_corner(f, nodes[i]);
       const FacePatch patch = deform_face(f, eta);
       const FacePlace& at = kFaceCorners[me];
       const Vector3 x_u = patch.find_tangent_u(at);

@@ -215,25 +215,31 @@ void TouchWatch::mark_apart(SystemState& state) const {
   }
 }
 
-double TouchWatch::find_steps_of_impact(double h, double t) const {
-  double fewest = std::numeric_limits<double>::infinity();
+// T_c of the shortest touch that counts [s].
+template <typename Predicate>
+double TouchWatch::find_shortest(const Predicate& counts) const {
+  double shortest = std::numeric_limits<double>::infinity();
   for (const Watched& watched : pairs_) {
-    const double lasts = kRest * watched.impact_duration;
-    const bool is_impact =
-        t - watched.since <= lasts || watched.steps < kStepsOfCoarseImpact;
-    if (!watched.is_touching || !is_impact) continue;
-    fewest = std::min(fewest, watched.impact_duration / h);
+    if (!watched.is_touching || !counts(watched)) continue;
+    shortest = std::min(shortest, watched.impact_duration);
   }
-  return fewest;
+  return shortest;
+}
+
+bool TouchWatch::has_rested(const Watched& watched, double t) {
+  return t - watched.since > kRest * watched.impact_duration;
+}
+
+double TouchWatch::find_steps_of_impact(double h, double t) const {
+  return find_shortest([&](const Watched& watched) {
+           return !has_rested(watched, t) ||
+                  watched.steps < kStepsOfCoarseImpact;
+         }) /
+         h;
 }
 
 double TouchWatch::find_steps_of_touch(double h) const {
-  double fewest = std::numeric_limits<double>::infinity();
-  for (const Watched& watched : pairs_) {
-    if (watched.is_touching)
-      fewest = std::min(fewest, watched.impact_duration / h);
-  }
-  return fewest;
+  return find_shortest([](const Watched&) { return true; }) / h;
 }
 
 void TouchWatch::check_step(double h, double t) const {
@@ -291,13 +297,9 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
 }
 
 double TouchWatch::find_longest_step(double t) const {
-  double longest = std::numeric_limits<double>::infinity();
-  for (const Watched& watched : pairs_) {
-    const double lasts = kRest * watched.impact_duration;
-    if (!watched.is_touching || t - watched.since > lasts) continue;
-    longest = std::min(longest, watched.impact_duration / kStepsOfImpact);
-  }
-  return longest;
+  return find_shortest(
+             [&](const Watched& watched) { return !has_rested(watched, t); }) /
+         kStepsOfImpact;
 }
 
 void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {

@@ -130,6 +130,10 @@ class TouchWatch {
   [[nodiscard]] std::optional<double> find_touch_share(
       Watched& watched, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);
+  template <typename Predicate>
+  [[nodiscard]] double find_shortest(const Predicate& counts) const;
+  // What touches is no impact any more.
+  [[nodiscard]] static bool has_rested(const Watched& watched, double t);
   // @param is_early whether `within_` is before what is looked for
   template <typename Predicate>
   double bisect(const SystemState& before, const SystemState& after, double low,

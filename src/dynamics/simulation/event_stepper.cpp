@@ -202,8 +202,7 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
   take_back(state);
   throw NumericalError(fmt::format(
       "contact '{}' at t = {:.9g} s: both are {:.3g} m deep in each other "
-      "where "
-      "their surfaces first face each other, which would add {:.3g} J",
+      "where their surfaces first face each other, which would add {:.3g} J",
       model_.pairs[touches_.pair_of(index)].name, t, touch.depth,
       touch.energy));
 }
