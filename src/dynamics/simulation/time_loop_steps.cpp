@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each step of the time loop: planned or as long as the tolerance allows,
+// halved where it fails.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "limber/common/errors.hpp"
+#include "limber/dynamics/simulation/failure_diagnosis.hpp"
+#include "limber/dynamics/simulation/time_loop.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr int kMostHalvings = 10;
+constexpr double kSame = 1e-9;  // fraction of a step that counts as its end [-]
+constexpr double kFewestStepsToAMark = 4.0;  // with a tolerance
+// Shortest step to a tolerance, relative to the whole time [-].
+constexpr double kShortest = 1e-12;
+
+}  // namespace
+
+void TimeLoop::halve(const SystemState& state, double h,
+                     const std::string& why) {
+  ++statistics_.halved_steps;
+  if (++depth_ <= kMostHalvings) return;
+  fail(state, h,
+       fmt::format("{}; at t = {:.9g} s a step of {:.3g} s, halved {} times, "
+                   "did not help",
+                   why, state.t, h, kMostHalvings));
+}
+
+// Why steps failed: the last failure, or the location of the energy.
+std::string TimeLoop::describe_failure(const SystemState& state) const {
+  if (!failure_.empty()) return "the last that failed: " + failure_;
+  return "most energy is in " + find_most_energy(model_, state);
+}
+
+void TimeLoop::check_budget(const SystemState& state, double h) const {
+  const long steps = statistics_.steps + statistics_.rejected_steps;
+  if (budget_.allows_solves(statistics_.linear_solves, steps)) return;
+  fail(state, h,
+       fmt::format("at t = {:.9g} s: {} steps have taken {} linear solves, "
+                   "where 2 or 3 each are usual, and {} halvings; ask for "
+                   "shorter steps; {}",
+                   state.t, steps, statistics_.linear_solves,
+                   statistics_.halved_steps, describe_failure(state)));
+}
+
+// Performs a step; if it fails, steps are halved.
+template <typename Work>
+bool TimeLoop::goes_through(const SystemState& state, double h,
+                            const Work& work) {
+  check_budget(state, h);
+  bool fails = false;
+  try {
+    work();
+  } catch (const NumericalError& error) {
+    fails = true;
+    failure_ = error.what();
+  }
+  statistics_.linear_solves += stepper_.take_solves();
+  if (fails) halve(state, h, failure_);
+  return !fails;
+}
+
+// Without a budget, repeated halving could make a run a thousand times longer.
+void TimeLoop::count_share(const SystemState& state) {
+  if (budget_.allows_shares(++shares_, statistics_.steps)) return;
+  fail(state, std::ldexp(h_, -depth_),
+       fmt::format("at t = {:.9g} s: steps of {:.3g} s go through only when "
+                   "they are halved again and again, {} times by now; ask for "
+                   "shorter steps or for a tolerance; {}",
+                   state.t, h_, statistics_.halved_steps,
+                   describe_failure(state)));
+}
+
+// One of equal steps, in parts if it is cut by events or halved.
+void TimeLoop::take_planned_step(SystemState& state) {
+  // Times are computed from the breakpoint, not as a sum of steps.
+  const double end = part_ + 1 == parts_
+                         ? breakpoints_[next_].time
+                         : origin_ + static_cast<double>(part_ + 1) * h_;
+  const StepResult before = stepper_.totals();
+  bool is_whole = true;
+  while (end - state.t > kSame * h_) {
+    const double left = is_whole ? h_ : end - state.t;
+    const double h = std::min(left, std::ldexp(h_, -depth_));
+    const bool is_last = h >= left * (1.0 - kSame);
+    const std::size_t events = statistics_.events.size();
+    const bool has_moved = goes_through(state, h, [&] {
+      stepper_.attempt(state, is_last ? left : h, is_last ? end : state.t + h);
+      stepper_.settle(state, h_);
+    });
+    is_whole = is_whole && !has_moved;
+    if (has_moved) watch_step(state, events);
+    if (has_moved && !is_last) count_share(state);
+  }
+  state.t = end;
+  if (depth_ > 0) --depth_;
+  count_step(before);
+  if (part_ + 1 == parts_ && breakpoints_[next_].is_sample) take_samples(state);
+  ++part_;
+}
+
+// A step as long as the tolerance allows. @returns whether it is accepted
+bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
+  if (statistics_.steps + statistics_.rejected_steps >= settings_.most_steps) {
+    fail(
+        state, h_,
+        fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
+                    "steps than most_steps allows, {:.3g} s long by now; ask "
+                    "for a larger tolerance, a shorter time or more steps; {}",
+                    state.t, settings_.tolerance, h_, describe_failure(state)));
+  }
+  const double mark = breakpoints_[next_].time;
+  const StepResult before = stepper_.totals();
+  const Losses losses_before = losses();
+  const double left = mark - state.t;
+  // Loads that are zero at both ends of a step are not missed.
+  const double most = refinement_ * (mark - origin_) / kFewestStepsToAMark;
+  h_ = std::min({control_.propose(state, left), std::max(most, 0.0),
+                 refinement_ * stepper_.touches().find_longest_step(state.t)});
+  if (left - h_ < kSame * h_) h_ = left;
+  if (!(h_ > kShortest * (settings_.end_time - start_))) {
+    fail(state, h_,
+         fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
+                     "step may have asks for steps below {:.3g} s",
+                     model_.bodies[stepper_.last().error_body].name, state.t,
+                     settings_.tolerance, h_));
+  }
+  bool counts = false;
+  const std::size_t events = statistics_.events.size();
+  const bool has_moved = goes_through(state, h_, [&] {
+    stepper_.attempt(state, h_, h_ == left ? mark : state.t + h_);
+    counts = control_.accepts(h_, stepper_.last().error);
+    counts ? stepper_.settle(state, h_) : stepper_.take_back(state);
+  });
+  if (!has_moved) {
+    control_.halve();
+    return false;
+  }
+  depth_ = 0;
+  if (!counts) {
+    ++statistics_.rejected_steps;
+    statistics_.newton_iterations += stepper_.last().iterations;
+    statistics_.factorizations += stepper_.last().factorizations;
+    return false;
+  }
+  count_step(before);
+  watch_step(state, events);
+  // An output there shows what was written.
+  if (breakpoints_[next_].is_sample && mark - state.t <= kSame * h_) {
+    state.t = mark;
+    take_samples(state);
+  }
+  visit_within(stepper_.before(), state, losses_before, visit);
+  if (mark - state.t <= kSame * h_) {
+    state.t = mark;
+    part_ = parts_;
+  }
+  return true;
+}
+
+}  // namespace limber::dynamics
