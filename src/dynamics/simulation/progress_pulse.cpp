@@ -1,40 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/simulation/progress_pulse.hpp"
 
-#include <algorithm>
-
 #include "limber/dynamics/simulation/interrupted.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-constexpr long kMostStepsBetween = 64;
-constexpr std::chrono::milliseconds kShortSilence(2);
-constexpr std::chrono::milliseconds kLongSilence(20);
-constexpr std::chrono::seconds kLongestWait(1);  // after the request
+constexpr std::chrono::milliseconds kSilence(1);
+// After the request, until the next step ends the run and until a part of a
+// step does.
+constexpr std::chrono::seconds kLongestWait(1);
+constexpr std::chrono::seconds kLongestWaitInStep(3);
 
 }  // namespace
 
-void ProgressPulse::report(long steps, double fraction,
-                           const Progress& progress) {
-  const auto now = Clock::now();
-  if (now - last_ < kShortSilence) {
-    stride_ = std::min(2 * stride_, kMostStepsBetween);
-  } else if (now - last_ > kLongSilence) {
-    stride_ = std::max(stride_ / 2, 1L);
-  }
-  last_ = now;
-  step_ = steps;
+bool ProgressPulse::is_due() const {
+  return !last_ || Clock::now() - *last_ > kSilence;
+}
+
+void ProgressPulse::report(double fraction, const Progress& progress) {
+  last_ = Clock::now();
   try {
     limber::report(progress, "simulating", fraction);
   } catch (const Interrupted& asked) {
-    if (!asked_) asked_ = now;
+    if (!asked_) asked_ = last_;
     words_ = asked.what();
   }
 }
 
 bool ProgressPulse::ends_here(bool is_even) const {
-  return asked_ && (is_even || Clock::now() - *asked_ > kLongestWait);
+  return asked_ && (is_even || waits_longer_than(kLongestWait));
+}
+
+bool ProgressPulse::ends_within_step() const {
+  return asked_ && waits_longer_than(kLongestWaitInStep);
+}
+
+bool ProgressPulse::waits_longer_than(std::chrono::seconds time) const {
+  return Clock::now() - *asked_ > time;
 }
 
 }  // namespace limber::dynamics

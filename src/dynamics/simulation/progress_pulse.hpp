@@ -9,30 +9,30 @@
 
 namespace limber::dynamics {
 
-/// Reports the progress of a run every few milliseconds, independently of the
-/// cost of its steps, and stores a request of the receiver to end the run.
+/// Reports the progress of a run at most every millisecond, and stores a
+/// request of the receiver to end the run.
 class ProgressPulse {
  public:
-  /// @param steps number so far
-  [[nodiscard]] bool is_due(long steps) const {
-    return steps - step_ >= stride_;
-  }
-  /// @param steps number so far
+  /// At the first call, and a millisecond after each report.
+  [[nodiscard]] bool is_due() const;
   /// @param fraction of the run that is done [-]
-  void report(long steps, double fraction, const Progress& progress);
+  void report(double fraction, const Progress& progress);
 
   /// Whether a requested end takes place now: at a step after which checkpoints
   /// may be saved (`is_even`), or a second after the request.
   [[nodiscard]] bool ends_here(bool is_even) const;
+  /// Whether it takes place within a step, of which there is no checkpoint:
+  /// three seconds after the request.
+  [[nodiscard]] bool ends_within_step() const;
   /// Message of the request to end.
   [[nodiscard]] const std::string& words() const { return words_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point last_ = Clock::now();
-  long step_ = 0;    // number at the last report
-  long stride_ = 1;  // number of steps to the next
+  [[nodiscard]] bool waits_longer_than(std::chrono::seconds time) const;
+
+  std::optional<Clock::time_point> last_;
   std::optional<Clock::time_point> asked_;
   std::string words_;
 };

@@ -278,9 +278,9 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
                          const CheckpointKeeper& keeper) {
   if (parts_ == 0) enter_breakpoint(state);
   if (!is_adaptive()) {
-    take_planned_step(state);
+    take_planned_step(state, progress);
   } else if (!take_free_step(state, visit)) {
-    return;
+    return heed_within_step(state, progress);
   }
   const long steps = ++statistics_.steps;
   if (steps <= kStepsBetweenLooks || steps % kStepsBetweenLooks == 0 ||
@@ -288,16 +288,27 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
     inspect(state);
   }
   if (part_ == parts_) leave_breakpoint(state, visit);
-  if (pulse_.is_due(steps)) {
-    pulse_.report(steps, find_share(state.t), progress);
-  }
+  tell_progress(state, progress);
   const bool is_even = steps % kStepsBetweenCheckpoints == 0;
   const bool is_last = next_ < breakpoints_.size() && pulse_.ends_here(is_even);
   if (is_even || is_last) keep_checkpoint(state, keeper, is_last);
-  if (is_last) {
-    throw Interrupted(
-        fmt::format("{} at t = {:.9g} s", pulse_.words(), state.t));
-  }
+  if (is_last) end_here(state);
+}
+
+void TimeLoop::tell_progress(const SystemState& state,
+                             const Progress& progress) {
+  if (pulse_.is_due()) pulse_.report(find_share(state.t), progress);
+}
+
+// After a part of a step, or an attempt that must be repeated.
+void TimeLoop::heed_within_step(const SystemState& state,
+                                const Progress& progress) {
+  tell_progress(state, progress);
+  if (pulse_.ends_within_step()) end_here(state);
+}
+
+void TimeLoop::end_here(const SystemState& state) const {
+  throw Interrupted(fmt::format("{} at t = {:.9g} s", pulse_.words(), state.t));
 }
 
 }  // namespace limber::dynamics

@@ -88,7 +88,10 @@ class TimeLoop {
   void begin(SystemState& state);
   void take_samples(SystemState& state);
   void leave_breakpoint(const SystemState& state, const Visit& visit);
-  void take_planned_step(SystemState& state);
+  void take_planned_step(SystemState& state, const Progress& progress);
+  void tell_progress(const SystemState& state, const Progress& progress);
+  void heed_within_step(const SystemState& state, const Progress& progress);
+  [[noreturn]] void end_here(const SystemState& state) const;
   bool take_free_step(SystemState& state, const Visit& visit);
   template <typename Work>
   bool goes_through(const SystemState& state, double h, const Work& work);

@@ -77,7 +77,7 @@ void TimeLoop::count_share(const SystemState& state) {
 }
 
 // One of equal steps, in parts if it is cut by events or halved.
-void TimeLoop::take_planned_step(SystemState& state) {
+void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
   // Times are computed from the breakpoint, not as a sum of steps.
   const double end = part_ + 1 == parts_
                          ? breakpoints_[next_].time
@@ -96,6 +96,7 @@ void TimeLoop::take_planned_step(SystemState& state) {
     is_whole = is_whole && !has_moved;
     if (has_moved) watch_step(state, events);
     if (has_moved && !is_last) count_share(state);
+    if (end - state.t > kSame * h_) heed_within_step(state, progress);
   }
   state.t = end;
   if (depth_ > 0) --depth_;

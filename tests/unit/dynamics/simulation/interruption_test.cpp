@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that are interrupted.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
+#include "support/sliding_masses.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -125,6 +127,40 @@ TEST(Interruption, WaitsNoLongerThanASecondForABetterMoment) {
   EXPECT_TRUE(kept.has_value());
   EXPECT_LT(stopped.statistics.steps, 64);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+// Masses that reach soft stops one after the other, 20 in one step.
+Scene make_crowded_step() {
+  SystemBuilder builder;
+  for (int i = 0; i < 20; ++i) {
+    const testing::Mass mass =
+        testing::add_mass(builder, fmt::format("mass_{}", i), 1.0);
+    const joints::EndStop stop({.upper = 0.02 * (i + 1), .stiffness = 1.0});
+    testing::add_rail(builder, mass, fmt::format("rail_{}", i), {{0, stop}});
+  }
+  Scene out{builder.build(), {}};
+  out.state = make_state(out.model);
+  for (BodyState& body : out.state.bodies) body.v_WB_W.x() = 1.0;
+  return out;
+}
+
+TEST(Interruption, EndsWithinAStepOfManyEvents) {
+  int calls = 0;
+  const Progress slow = [&](std::string_view, double) {
+    ++calls;
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    throw Interrupted("asked to end");
+  };
+  SimulationSettings settings;
+  settings.end_time = settings.step = 0.5;
+  settings.output_times = {0.0, 0.5};
+  const End stopped = run(make_crowded_step(), settings, {}, slow);
+  EXPECT_THAT(stopped.words, HasSubstr("asked to end at t = "));
+  EXPECT_GT(calls, 2);
+  EXPECT_LT(calls, 15);
+  EXPECT_GT(stopped.state.t, 0.0);
+  EXPECT_LT(stopped.state.t, 0.4);
+  EXPECT_EQ(stopped.outputs, 1U);
 }
 
 TEST(Interruption, AfterTheLastStepIsNone) {
