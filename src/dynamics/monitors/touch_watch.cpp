@@ -21,8 +21,10 @@ constexpr double kSpeedMargin = 1.5;
 // Way in a step, relative to that at the present rate, that counts as none [-].
 constexpr double kNoWay = 1e-4;
 constexpr double kLeastWay = 1e-12;  // [m]
-// Fraction of a step between looks at two that part [-].
+// Fraction of a step between looks at two that part, and, at most, at two whose
+// boxes meet but whose surfaces face each other nowhere [-].
 constexpr double kLeastAdvance = 1.0 / 64.0;
+constexpr double kMostAdvance = 1.0 / 4.0;
 // Number of looks after which conservative advancement goes on by parts, and
 // these of the smaller body's size, at most [-].
 constexpr int kPatience = 100;
@@ -34,6 +36,12 @@ constexpr double kRest = 8.0;
 constexpr int kStepsOfCoarseImpact = 3;
 // Way in one step relative to the bodies' size there, at most [-].
 constexpr double kMostWay = 0.25;
+// Depth from which two cannot have parted within a step, likewise [-].
+constexpr double kInseparable = 2.0 * kMostWay;
+
+bool has_place(const joints::PairTouch& touch) {
+  return !touch.normal_W.isZero(0.0);
+}
 
 }  // namespace
 
@@ -104,6 +112,21 @@ double TouchWatch::bisect(const SystemState& before, const SystemState& after,
   return high;
 }
 
+// Fraction of a step between looks at two that are close; 0: to be found by
+// conservative advancement.
+double TouchWatch::find_least_advance(Watched& watched,
+                                      const SystemState& before,
+                                      double part_of_size) {
+  const joints::PairTouch touch = find_touch(watched, before);
+  if (!has_place(touch)) {
+    return std::clamp(part_of_size, kLeastAdvance, kMostAdvance);
+  }
+  // The rate where two have just left each other may be that of a feature that
+  // is no longer the nearest.
+  const bool parts = watched.since == before.t || touch.rate <= 0.0;
+  return parts ? kLeastAdvance : 0.0;
+}
+
 // By conservative advancement; where that crawls, as of bodies that pass each
 // other closely, by parts of the way in which neither passes through the other.
 std::optional<double> TouchWatch::find_touch_share(Watched& watched,
@@ -117,14 +140,11 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   double clearance = find_clearance(watched, before);
   if (clearance > reach) return std::nullopt;
   const double none = kNoWay * reach + kLeastWay;
-  // The rate where two have just left each other may be that of a feature that
-  // is no longer the nearest.
-  const bool parts =
-      clearance <= none &&
-      (watched.since == before.t || find_touch(watched, before).rate <= 0);
-  double least = parts ? kLeastAdvance : 0.0;
-  const double part =
-      std::min(kLeastAdvance, kPartOfSize * watched.law->find_size() / reach);
+  const double part_of_size = kPartOfSize * watched.law->find_size() / reach;
+  const double part = std::min(kLeastAdvance, part_of_size);
+  double least = clearance <= none
+                     ? find_least_advance(watched, before, part_of_size)
+                     : 0.0;
   double share = 0.0;
   for (int i = 0; i < kMostLooks && (clearance > none || least > 0.0); ++i) {
     const double sure = std::max(clearance / reach, least);
@@ -254,6 +274,23 @@ void TouchWatch::check_step(double h, double t) const {
         model_.pairs[watched.pair].name, t, way, h,
         watched.impact_duration / kStepsOfImpact));
   }
+}
+
+void TouchWatch::check_leave(std::size_t index, const SystemState& before,
+                             const SystemState& after) {
+  Watched& watched = pairs_[index];
+  if (!watched.is_touching || has_place(find_touch(watched, after)) ||
+      find_clearance(watched, after) > 0.0) {
+    return;
+  }
+  const double depth = find_touch(watched, before).depth;
+  if (depth <= kInseparable * watched.law->find_size()) return;
+  throw NumericalError(fmt::format(
+      "contact '{}' at t = {:.9g} s: both were {:.3g} m deep in each other, "
+      "and "
+      "their surfaces no longer face each other anywhere; a stiffer contact or "
+      "a lower speed would keep them apart",
+      model_.pairs[watched.pair].name, after.t, depth));
 }
 
 void TouchWatch::accept(const SystemState& before, const SystemState& state) {

@@ -60,6 +60,11 @@ class TouchWatch {
   /// touch could pass through each other.
   /// @throws NumericalError naming the pair.
   void check_step(double h, double t) const;
+  /// Refuses that a pair leaves each other in a step in which it was deep,
+  /// where no place of contact is left.
+  /// @throws NumericalError naming the pair.
+  void check_leave(std::size_t index, const SystemState& before,
+                   const SystemState& after);
   /// A step from `before` to `state` is taken; the next goes on from there.
   void accept(const SystemState& before, const SystemState& state);
 
@@ -127,6 +132,9 @@ class TouchWatch {
                                         const SystemState& state) const;
   [[nodiscard]] double find_clearance(Watched& watched,
                                       const SystemState& state) const;
+  [[nodiscard]] double find_least_advance(Watched& watched,
+                                          const SystemState& before,
+                                          double part_of_size);
   [[nodiscard]] std::optional<double> find_touch_share(
       Watched& watched, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);

@@ -207,6 +207,15 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
       touch.energy));
 }
 
+void EventStepper::check_leave(std::size_t index, SystemState& state) {
+  try {
+    touches_.check_leave(index, before_, state);
+  } catch (const NumericalError&) {
+    take_back(state);
+    throw;
+  }
+}
+
 // A step that ends deep in a contact, or after it, tells its beginning badly:
 // shorter ones tell better, until one ends there. One that ends before it is
 // taken as it is; the next goes on.
@@ -225,6 +234,7 @@ void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
   const double tolerance =
       touches_.find_tolerance(crossing.index, state, nominal_h);
   if (excess > tolerance) check_deep_touch(crossing.index, state);
+  check_leave(crossing.index, state);
   add_last();
   if (excess >= -tolerance) touches_.pass(crossing.index, state, events_);
   watch_.accept(state);

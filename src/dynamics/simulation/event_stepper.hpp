@@ -87,6 +87,7 @@ class EventStepper {
   void pass_all_at_end(SystemState& state, double h);
   // @throws NumericalError if a touch brings energy; the step is taken back.
   void check_deep_touch(std::size_t index, SystemState& state);
+  void check_leave(std::size_t index, SystemState& state);
   void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
                     double nominal_h);
   bool advance_to(double share, SystemState& state);
