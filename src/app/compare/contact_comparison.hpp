@@ -18,7 +18,7 @@ struct PairContact {
   double impulse = 0.0;     ///< of the normal force, sum [N s]
   double peak_force = 0.0;  ///< the largest [N]
   double duration = 0.0;    ///< sum [s]
-  /// Of the impact with the largest impulse; none while it lasts.
+  /// Of the impact with the largest impulse; none while it lasts [-].
   std::optional<double> restitution;
 };
 

@@ -17,9 +17,10 @@ namespace limber::app {
 /// Limits     exact of independent samples (the mean's of normal ones or many);
 ///            a Latin hypercube and Sobol's sequence are usually closer
 struct Distribution {
-  std::vector<double> values;  ///< of the runs that have it, ascending
-  double mean = 0.0;
-  double mean_error = 0.0;  ///< half the width of its interval
+  /// Of the runs that have it, ascending [the response's unit].
+  std::vector<double> values;
+  double mean = 0.0;        ///< [the response's unit]
+  double mean_error = 0.0;  ///< half the width of its interval [the same]
   double band = 0.0;        ///< the same of the distribution function [-]
 
   /// The value that a share p in (0, 1) of the samples does not exceed.

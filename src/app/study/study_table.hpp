@@ -17,9 +17,9 @@ namespace limber::app {
 /// Least, mean and largest of one response over the runs that have it.
 struct ResponseRange {
   std::size_t count = 0;
-  double least = 0.0;
-  double mean = 0.0;
-  double largest = 0.0;
+  double least = 0.0;    ///< [the response's unit]
+  double mean = 0.0;     ///< [the response's unit]
+  double largest = 0.0;  ///< [the response's unit]
 };
 [[nodiscard]] ResponseRange find_range(const std::vector<StudyRow>& rows,
                                        std::size_t response);
@@ -28,8 +28,8 @@ struct ResponseRange {
 /// variance; by factor, then response. None where a run is missing, or where
 /// the response does not vary.
 struct Effect {
-  double main = 0.0;
-  double total = 0.0;
+  double main = 0.0;   ///< [-]
+  double total = 0.0;  ///< [-]
 };
 using Effects = std::vector<std::vector<std::optional<Effect>>>;
 /// Of a complete `sobol` or `grid` design; empty for others.

@@ -12,7 +12,8 @@ namespace limber::results {
 /// One factor or response, a value a run.
 struct StudyColumn {
   std::string name;
-  std::vector<double> values;  ///< NaN: none; of texts their number from 0
+  /// NaN: none; of texts their number from 0 [its unit].
+  std::vector<double> values;
   std::vector<std::string> texts = {};  ///< empty: they are numbers
   bool is_logarithmic = false;
 };
@@ -36,10 +37,10 @@ struct StudyColumn {
 /// How one response is distributed.
 struct DistributionCurve {
   std::string response;
-  std::vector<double> values;  ///< of the samples, ascending
-  double mean = 0.0;
-  double mean_error = 0.0;  ///< half the width of its interval
-  double band = 0.0;        ///< the same of the distribution function [-]
+  std::vector<double> values;  ///< of the samples, ascending [its unit]
+  double mean = 0.0;           ///< [its unit]
+  double mean_error = 0.0;     ///< half the width of its interval [its unit]
+  double band = 0.0;           ///< the same of the distribution function [-]
 };
 /// The share of samples below each value with its band, and the mean with its
 /// interval; a panel each.
