@@ -94,16 +94,18 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();
   keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
   add_tables(meshed.interfaces, modes, Phi, body);
-  MatrixX Theta(Phi.rows(), 0);
+  fem::PairedFields second{{}, MatrixX(Phi.rows(), 0)};
   if (recipe.manifold) {
-    Theta = add_manifold(meshed, recipe, Phi, progress, body);
+    second.Theta = add_manifold(meshed, recipe, Phi, progress, body);
+    second.paired = body.manifold->paired;
   }
   if (recipe.stress) {
     report(progress, "stress modes", 0.0);
-    body.stress = make_stress_modes(mesh, recipe, meshed.interfaces, Phi);
+    body.stress =
+        make_stress_modes(mesh, recipe, meshed.interfaces, Phi, second);
   }
   body.contact_surfaces = make_contact_surfaces(
-      meshed, recipe, basis, join(Phi, Theta), inertia.center, progress);
+      meshed, recipe, basis, join(Phi, second.Theta), inertia.center, progress);
   report(progress, "reduced", 1.0);
   return body;
 }

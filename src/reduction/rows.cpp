@@ -7,7 +7,6 @@
 #include <set>
 
 #include "limber/common/errors.hpp"
-#include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/reduction/support.hpp"
 
 namespace limber::flexbody {
@@ -92,9 +91,11 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
 
 StressModes make_stress_modes(const fem::Mesh& mesh, const Recipe& recipe,
                               const std::vector<Interface>& interfaces,
-                              const MatrixX& Phi) {
+                              const MatrixX& Phi,
+                              const fem::PairedFields& second) {
   const fem::NodalStress nodal =
-      fem::recover_stress(mesh, find_materials(mesh, recipe), Phi);
+      fem::recover_stress(mesh, find_materials(mesh, recipe), Phi, second);
+  const Eigen::Index columns = nodal.stress.rows() / 6;
   const std::vector<int> kept = choose_rows(mesh, recipe, interfaces);
   std::vector<std::size_t> points;  // of the kept nodes
   StressModes modes;
@@ -110,12 +111,11 @@ StressModes make_stress_modes(const fem::Mesh& mesh, const Recipe& recipe,
                                    ? 1
                                    : 0);
   }
-  modes.Sigma_B.resize(6 * static_cast<Eigen::Index>(points.size()),
-                       Phi.cols());
+  modes.Sigma_B.resize(6 * std::ssize(points), columns);
   for (std::size_t i = 0; i < points.size(); ++i) {
     modes.Sigma_B.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
         nodal.stress.col(static_cast<Eigen::Index>(points[i]))
-            .reshaped(6, Phi.cols());
+            .reshaped(6, columns);
   }
   modes.averaging = nodal.averaging;
   modes.constants.resize(2, static_cast<Eigen::Index>(nodal.constants.size()));

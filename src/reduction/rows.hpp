@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/flexbody/modal/reduced_basis.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/reduction/interfaces.hpp"
@@ -28,9 +29,11 @@ void keep_rows(const fem::Mesh& mesh, const Recipe& recipe,
 
 /// Stress modes at the rows that keep_rows() stores.
 /// @param Phi 3N x m, all rows [kg^-1/2]
+/// @param second of level `nonlinear`, or none [kg^-1 m^-1]
 [[nodiscard]] StressModes make_stress_modes(
     const fem::Mesh& mesh, const Recipe& recipe,
-    const std::vector<Interface>& interfaces, const MatrixX& Phi);
+    const std::vector<Interface>& interfaces, const MatrixX& Phi,
+    const fem::PairedFields& second);
 
 /// @throws InputError for fields whose number of rows is not that of the body's
 /// free degrees of freedom, or with values that are not finite.

@@ -4,14 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
 #include "limber/dynamics/equations/node_motion.hpp"
-#include "limber/results/full_stress_field.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "limber/results/motion_shapes.hpp"
 #include "limber/results/path_step.hpp"
 #include "limber/results/scenery_marks.hpp"
+#include "limber/results/stress_field.hpp"
 #include "limber/version.hpp"
 
 namespace limber::results {
@@ -126,7 +128,7 @@ class SurfaceWriter {
     write_surface(out_, "scene/surfaces/" + name + "/", *body.reduced, surface,
                   take_nodes(body.reduced->rows.Phi_B.leftCols(body.modes),
                              surface.rows));
-    if (body.reduced->stress && body.modes > 0) {
+    if (has_modal_stress(body)) {
       out_.write_single(
           "scene/surfaces/" + name + "/Sigma_B",
           take_stress(*body.reduced->stress, surface.rows, body.modes),
@@ -159,7 +161,9 @@ class SurfaceWriter {
     error(0, 0) = motion.error;
     out_.write(at + "truncation", error, "m",
                "largest displacement that the shapes leave out");
-    if (wants_stress(body.name)) write_stress(b, at, surface);
+    if (has_modal_stress(body) || wants_stress(body.name)) {
+      write_stress(b, at, surface);
+    }
     return name;
   }
 
@@ -168,15 +172,36 @@ class SurfaceWriter {
     return std::find(stressed.begin(), stressed.end(), name) != stressed.end();
   }
 
-  /// At level `full`: stress is not linear in the coordinates of the shapes,
-  /// and has shapes of its own.
+  /// At levels `full` and `nonlinear` stress is not linear in the coordinates
+  /// of the shapes, and has shapes of its own.
   void write_stress(std::size_t b, const std::string& at,
                     const SurfaceRows& surface) {
+    const BodyModel& body = model_.bodies[b];
+    if (body.full < 0) {
+      const int columns = count_coordinates(body);
+      const MatrixX Sigma_B =
+          take_stress(*body.reduced->stress, surface.rows, columns);
+      VectorX coordinates;
+      write_stress(at, [&](const dynamics::SystemState& state) -> VectorX {
+        calc_coordinates(body, state, coordinates);
+        return Sigma_B * coordinates;
+      });
+      return;
+    }
     const std::vector<int> nodes(surface.rows.begin(), surface.rows.end());
     const auto field = FullStressField::make(
         model_, static_cast<dynamics::BodyIndex>(b), nodes);
     if (field == nullptr) return;
-    const MotionShapes stress = find_stress_shapes(*field, history_);
+    write_stress(at, [&](const dynamics::SystemState& state) -> VectorX {
+      return field->calc_in_body(state).reshaped();
+    });
+  }
+
+  /// @param stress_of 6 rows of each node of the surface
+  void write_stress(
+      const std::string& at,
+      const std::function<VectorX(const dynamics::SystemState&)>& stress_of) {
+    const MotionShapes stress = find_stress_shapes(stress_of, history_);
     out_.write_single(at + "Sigma_B", stress.shapes, "1",
                       "shapes of the stress at the nodes of the surface, "
                       "6n x r: xx, yy, zz, xy, yz, xz");

@@ -13,8 +13,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
-#include "limber/results/full_stress_field.hpp"
-#include "limber/results/scenery_marks.hpp"
+#include "limber/results/stress_field.hpp"
 #include "limber/results/xdmf_file.hpp"
 
 namespace limber::results {
@@ -37,8 +36,8 @@ class Surfaces {
       }
       bodies_.push_back(b);
       full_.push_back(make_full(b));
-      has_stress_ =
-          has_stress_ || has_stress(model.bodies[b]) || full_.back() != nullptr;
+      has_stress_ = has_stress_ || has_modal_stress(model.bodies[b]) ||
+                    full_.back() != nullptr;
     }
   }
 
@@ -88,10 +87,6 @@ class Surfaces {
   }
 
  private:
-  static bool has_stress(const BodyModel& body) {
-    return body.reduced->stress && body.modes > 0 && moves_linearly(body);
-  }
-
   [[nodiscard]] Eigen::Index count_rows(std::size_t b) const {
     return model_.bodies[b].reduced->rows.x_B.cols();
   }
@@ -119,10 +114,12 @@ class Surfaces {
     const BodyModel& body = model_.bodies[b];
     Matrix6X stress_B = Matrix6X::Constant(
         6, count_rows(b), std::numeric_limits<double>::quiet_NaN());
-    if (!has_stress(body)) return stress_B;
+    if (!has_modal_stress(body)) return stress_B;
     const flexbody::StressModes& modes = *body.reduced->stress;
-    const VectorX at_points = modes.Sigma_B.leftCols(body.modes) *
-                              state.eta.segment(body.offset, body.modes);
+    VectorX coordinates;
+    calc_coordinates(body, state, coordinates);
+    const VectorX at_points =
+        modes.Sigma_B.leftCols(coordinates.size()) * coordinates;
     for (std::size_t i = modes.rows.size(); i-- > 0;) {
       stress_B.col(static_cast<Eigen::Index>(modes.rows[i])) =
           at_points.segment<6>(6 * static_cast<Eigen::Index>(i));

@@ -41,7 +41,8 @@ struct Body {
                             ///< [kg^1/2 m/s]
   int surface = -1;         ///< index into Recording::surfaces; -1: rigid
   double truncation = 0.0;  ///< of shapes of level `full` [m]
-  /// Stress of a body at level `full`, not linear in eta; or none.
+  /// Stress of a body at level `full` or `nonlinear`, not linear in eta; or
+  /// none.
   MatrixX Sigma_B;                 ///< 6n x r shapes at the surface's nodes [-]
   MatrixX zeta;                    ///< T x r, their coordinates [Pa]
   double stress_truncation = 0.0;  ///< von Mises stress left out [Pa]
@@ -73,7 +74,7 @@ struct Load {
   bool in_world = false;
   Vector3 force = Vector3::Zero();   ///< [N]
   Vector3 moment = Vector3::Zero();  ///< [N m]
-  MatrixX course;                    ///< k x 2: time [s], factor
+  MatrixX course;                    ///< k x 2: time [s], factor [-]
   Anchor where;
 };
 
@@ -91,7 +92,7 @@ struct Event {
 struct Probe {
   std::string name;
   std::string unit;
-  VectorX values;  ///< T
+  VectorX values;  ///< T [`unit`]
 };
 
 struct Recording {

@@ -150,15 +150,14 @@ TEST(LinkInPieces, RefusesNumbersThatItsMeshDoesNotHave) {
   EXPECT_THAT(errors("30"), HasSubstr("20 elements do not give 30 pieces"));
 }
 
-TEST(LinkInPieces, RefusesWhatIsOfTheWholeMesh) {
+TEST(LinkInPieces, RefusesAProbeOfTheLargestStressOfAll) {
   const Workspace place;
   write_bar(place, 1.0,
-            "[[probe]]\nname = 's'\nlink = 'bar'\ngroup = 'root'\n"
-            "quantity = 'von_mises'\n");
+            "[[probe]]\nname = 's'\nlink = 'bar'\nquantity = 'von_mises'\n");
   const CommandResult r = place.limber(
       "run s.toml --out o --cache c --fidelity coupled --set basis.pieces=2");
   EXPECT_EQ(r.status, kBadInput);
-  EXPECT_THAT(r.errors, HasSubstr("stress of a link in pieces"));
+  EXPECT_THAT(r.errors, HasSubstr("cut into 2 pieces, which are a body each"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "limber/app/console/percent.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/scene/probes/followed_probes.hpp"
 
@@ -69,10 +70,13 @@ std::optional<double> find_correction(const scene::BuiltScene& built,
   const auto eta = state.eta.segment(body.offset, body.modes);
   const Eigen::Index corrections =
       std::max<Eigen::Index>(0, body.modes - probe.eigenmodes);
-  const double whole = flexbody::calc_von_mises(modes * eta);
+  VectorX all;
+  calc_coordinates(body, state, all);
+  const double whole = flexbody::calc_von_mises(modes * all);
   if (!(whole > 0.0)) return std::nullopt;
-  return flexbody::calc_von_mises(modes.rightCols(corrections) *
-                                  eta.tail(corrections)) /
+  return flexbody::calc_von_mises(
+             modes.middleCols(body.modes - corrections, corrections) *
+             eta.tail(corrections)) /
          whole;
 }
 

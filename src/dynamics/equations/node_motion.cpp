@@ -27,6 +27,13 @@ const BodyModel& find_body(const SystemModel& model, BodyIndex body,
   return found;
 }
 
+void set_coordinates(const BodyModel& body, const SystemState& state,
+                     double* out) {
+  const double* eta = state.eta.data() + body.offset;
+  std::copy(eta, eta + body.modes, out);
+  flexbody::set_products(paired_of(body), eta, out + body.modes);
+}
+
 // Modes, and at level nonlinear the columns of their products.
 MatrixX join_modes(const BodyModel& body) {
   const auto& rows = body.reduced->rows;
@@ -50,10 +57,7 @@ void multiply(const BodyModel& body, const MatrixX& basis,
     const Eigen::Index count = std::min(kBlock, out.cols() - first);
     for (Eigen::Index j = 0; j < count; ++j) {
       const SystemState& state = states[static_cast<std::size_t>(first + j)];
-      coordinates.col(j).head(body.modes) =
-          state.eta.segment(body.offset, body.modes);
-      flexbody::set_products(paired_of(body), state.eta.data() + body.offset,
-                             coordinates.col(j).data() + body.modes);
+      set_coordinates(body, state, coordinates.col(j).data());
     }
     out.middleCols(first, count).noalias() =
         basis * coordinates.leftCols(count);
@@ -93,6 +97,12 @@ void place_full(const SystemModel& model, const BodyModel& body,
 }
 
 }  // namespace
+
+void calc_coordinates(const BodyModel& body, const SystemState& state,
+                      VectorX& out) {
+  out.resize(count_coordinates(body));
+  set_coordinates(body, state, out.data());
+}
 
 void calc_node_deformations(const SystemModel& model, BodyIndex body,
                             std::span<const SystemState> states,

@@ -10,6 +10,12 @@
 /// row 3 i + c to component c of node i of ReducedBody::rows.
 namespace limber::dynamics {
 
+/// Modal coordinates of a reduced body [kg^1/2 m], then, at level `nonlinear`,
+/// their products [kg m^2]: in these its points and its stress are linear.
+/// @param out count_coordinates(body)
+void calc_coordinates(const BodyModel& body, const SystemState& state,
+                      VectorX& out);
+
 /// Deformations in the body frame, 3n x K [m].
 ///
 /// Equation   u_B = Phi_B eta

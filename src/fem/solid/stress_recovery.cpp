@@ -63,31 +63,54 @@ struct Fits {
   MatrixX curved;
 };
 
-// Stress of all fields at an element's quadrature points.
+// Stress of fields at an element's quadrature points.
 struct ElementStress {
-  MatrixX at;       // 6k x points
+  MatrixX at;       // 6 x points of each field
   VectorX measure;  // a point [m^3]
   bool is_straight = false;
 };
 
+// Hooke's law for the strain sym(h).
+Vector6 calc_stress(const LameConstants<double>& lame, const Matrix3& h) {
+  const double volumetric = lame.lambda * h.trace();
+  Vector6 stress;
+  stress << volumetric + 2.0 * lame.mu * h(0, 0),
+      volumetric + 2.0 * lame.mu * h(1, 1),
+      volumetric + 2.0 * lame.mu * h(2, 2), lame.mu * (h(0, 1) + h(1, 0)),
+      lame.mu * (h(1, 2) + h(2, 1)), lame.mu * (h(0, 2) + h(2, 0));
+  return stress;
+}
+
+// Adds to the gradients of pairs the products of their fields', whose symmetric
+// part is the rest of Green's strain. @param H 3 rows a field, then a pair
+void add_products(const std::vector<int>& paired, Eigen::Index fields,
+                  MatrixX& H) {
+  Eigen::Index row = 3 * fields;
+  for (std::size_t i = 0; i < paired.size(); ++i) {
+    const Matrix3 H_i = H.middleRows<3>(3 * Eigen::Index{paired[i]});
+    for (std::size_t j = i; j < paired.size(); ++j, row += 3) {
+      H.middleRows<3>(row) +=
+          H_i.transpose() * H.middleRows<3>(3 * Eigen::Index{paired[j]});
+    }
+  }
+}
+
+// @param own 3 rows of each of `fields` fields, then of each pair x nodes
 ElementStress calc_element_stress(const ReferenceElement& element,
                                   const Matrix3X& x, const MatrixX& own,
+                                  Eigen::Index fields,
+                                  const std::vector<int>& paired,
                                   const LameConstants<double>& lame) {
   const ElementGradients gradients = calc_gradients(element, x);
-  const Eigen::Index fields = own.rows() / 3;
-  ElementStress stress{MatrixX(6 * fields, gradients.measure.size()),
+  const Eigen::Index all = own.rows() / 3;
+  ElementStress stress{MatrixX(6 * all, gradients.measure.size()),
                        gradients.measure, is_parallel_sided(element, x)};
   for (Eigen::Index q = 0; q < stress.at.cols(); ++q) {
-    const MatrixX H =
-        own * gradients.at[static_cast<std::size_t>(q)].transpose();
-    for (Eigen::Index k = 0; k < fields; ++k) {
-      const Matrix3 h = H.middleRows<3>(3 * k);
-      const double volumetric = lame.lambda * h.trace();
-      stress.at.col(q).segment<6>(6 * k)
-          << volumetric + 2.0 * lame.mu * h(0, 0),
-          volumetric + 2.0 * lame.mu * h(1, 1),
-          volumetric + 2.0 * lame.mu * h(2, 2), lame.mu * (h(0, 1) + h(1, 0)),
-          lame.mu * (h(1, 2) + h(2, 1)), lame.mu * (h(0, 2) + h(2, 0));
+    MatrixX H = own * gradients.at[static_cast<std::size_t>(q)].transpose();
+    add_products(paired, fields, H);
+    for (Eigen::Index k = 0; k < all; ++k) {
+      stress.at.col(q).segment<6>(6 * k) =
+          calc_stress(lame, H.middleRows<3>(3 * k));
     }
   }
   return stress;
@@ -118,8 +141,8 @@ void add_energy(const MatrixX& difference, const VectorX& measure,
 class Recovery {
  public:
   Recovery(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-           const MatrixX& Phi)
-      : mesh_(mesh), materials_(materials), Phi_(Phi) {
+           const MatrixX& Phi, const PairedFields& second)
+      : mesh_(mesh), materials_(materials), Phi_(Phi), second_(second) {
     IndexedMaterials indexed = index_materials(materials);
     material_of_region_ = std::move(indexed.of_region);
     result_.constants = std::move(indexed.constants);
@@ -185,26 +208,34 @@ class Recovery {
     return points;
   }
 
-  [[nodiscard]] ElementStress stress_of(std::size_t b, std::size_t e) const {
-    const std::vector<int> nodes = nodes_of(b, e);
-    MatrixX own(3 * Phi_.cols(), static_cast<Eigen::Index>(nodes.size()));
-    for (Eigen::Index k = 0; k < Phi_.cols(); ++k) {
+  // Rows of the fields at an element's nodes.
+  static void take_nodes(const MatrixX& fields, const std::vector<int>& nodes,
+                         Eigen::Index first, MatrixX& own) {
+    for (Eigen::Index k = 0; k < fields.cols(); ++k) {
       for (Eigen::Index a = 0; a < own.cols(); ++a) {
-        own.block<3, 1>(3 * k, a) = Phi_.block<3, 1>(
+        own.block<3, 1>(3 * (first + k), a) = fields.block<3, 1>(
             3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]}, k);
       }
     }
+  }
+
+  [[nodiscard]] ElementStress stress_of(std::size_t b, std::size_t e,
+                                        const PairedFields& second) const {
+    const std::vector<int> nodes = nodes_of(b, e);
+    MatrixX own(3 * (Phi_.cols() + second.Theta.cols()), std::ssize(nodes));
+    take_nodes(Phi_, nodes, 0, own);
+    take_nodes(second.Theta, nodes, Phi_.cols(), own);
     return calc_element_stress(
-        *mesh_.blocks[b].element, mesh_.x(Eigen::all, nodes), own,
-        find_lame_constants(materials_[region_of(b, e)]));
+        *mesh_.blocks[b].element, mesh_.x(Eigen::all, nodes), own, Phi_.cols(),
+        second.paired, find_lame_constants(materials_[region_of(b, e)]));
   }
 
   void average() {
     const auto count = static_cast<Eigen::Index>(result_.nodes.size());
-    result_.stress.setZero(6 * Phi_.cols(), count);
+    result_.stress.setZero(6 * (Phi_.cols() + second_.Theta.cols()), count);
     VectorX elements = VectorX::Zero(count);
     for_each_element([&](std::size_t b, std::size_t e) {
-      const ElementStress own = stress_of(b, e);
+      const ElementStress own = stress_of(b, e, second_);
       const MatrixX& fit =
           own.is_straight ? fits_[b].straight : fits_[b].curved;
       const MatrixX nodal = own.at * fit.transpose();
@@ -223,11 +254,13 @@ class Recovery {
   void measure_averaging() {
     result_.averaging.setZero(Phi_.cols(), Phi_.cols());
     for_each_element([&](std::size_t b, std::size_t e) {
-      ElementStress own = stress_of(b, e);
+      ElementStress own = stress_of(b, e, {});
       const ReferenceElement& element = *mesh_.blocks[b].element;
       const Quadrature& rule =
           own.is_straight ? element.stiffness : element.curved;
-      own.at -= result_.stress(Eigen::all, points_of(b, e)) * rule.shape;
+      own.at -=
+          result_.stress.topRows(own.at.rows())(Eigen::all, points_of(b, e)) *
+          rule.shape;
       add_energy(own.at, own.measure, materials_[region_of(b, e)],
                  result_.averaging);
     });
@@ -238,6 +271,7 @@ class Recovery {
   const Mesh& mesh_;
   const std::vector<ElasticMaterial>& materials_;
   const MatrixX& Phi_;
+  const PairedFields& second_;
   std::vector<int> material_of_region_;
   std::vector<Fits> fits_;          // one per block
   std::vector<int> first_of_node_;  // its first point
@@ -276,10 +310,13 @@ IndexedMaterials index_materials(
 
 NodalStress recover_stress(const Mesh& mesh,
                            const std::vector<ElasticMaterial>& materials,
-                           const MatrixX& Phi) {
+                           const MatrixX& Phi, const PairedFields& second) {
+  const auto paired = std::ssize(second.paired);
   LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
+  LIMBER_EXPECT(second.Theta.cols() == paired * (paired + 1) / 2);
+  LIMBER_EXPECT(paired == 0 || second.Theta.rows() == Phi.rows());
   LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
-  return Recovery(mesh, materials, Phi).run();
+  return Recovery(mesh, materials, Phi, second).run();
 }
 
 }  // namespace limber::fem

@@ -30,12 +30,19 @@ struct IndexedMaterials {
 [[nodiscard]] IndexedMaterials index_materials(
     const std::vector<ElasticMaterial>& materials);
 
+/// Second-order fields of pairs i <= j of some fields of Phi, in the order 11,
+/// 12, .., 1P, 22, ...
+struct PairedFields {
+  std::vector<int> paired;  ///< columns of Phi, increasing
+  MatrixX Theta;            ///< 3N x pairs
+};
+
 /// Stress of k fields at nodes, a point for each material that a node is of.
 struct NodalStress {
   std::vector<int> nodes;      ///< p, increasing
   std::vector<int> materials;  ///< p: index into `constants`
-  /// 6k x p: components (xx, yy, zz, xy, yz, xz) of the first field, then of
-  /// the second, .. [Pa per unit of the field]
+  /// 6 (k + pairs) x p: components (xx, yy, zz, xy, yz, xz) of the first field,
+  /// then of the second, .., then of the pairs [Pa per unit of the field]
   MatrixX stress;
   /// k x k: int (s* - s) C^-1 (s* - s) dV, s* interpolated from the nodes, s
   /// the element's own [J per unit of the fields].
@@ -46,12 +53,15 @@ struct NodalStress {
 /// Stress at nodes: Hooke's law at the quadrature points of the stiffness,
 /// fitted over each element, mean of the elements of one material at a node.
 ///
-/// Equation   sigma = lambda tr(e) I + 2 mu e, e = sym(grad u)
+/// Equation   sigma = lambda tr(e) I + 2 mu e, e = sym(grad u); of a pair
+///            e = sym(grad theta_ij) + sym(grad phi_i' grad phi_j): Green's
+///            strain of Phi q + 1/2 Theta q q to second order, so that sigma is
+///            the second Piola-Kirchhoff stress
 /// Source     [@hinton1974]; averaging's error: [@zienkiewicz1987]
 /// @param materials one per region of the mesh
 /// @param Phi 3N x k displacement fields
 [[nodiscard]] NodalStress recover_stress(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-    const MatrixX& Phi);
+    const MatrixX& Phi, const PairedFields& second = {});
 
 }  // namespace limber::fem

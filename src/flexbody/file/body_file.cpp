@@ -253,7 +253,9 @@ void read_tables(const Reader& reader, ReducedBody& body) {
     body.contact_surfaces = read_contact_surfaces(reader, m, products);
   }
   if (has.manifold) read_manifold(reader, body);
-  if (version == kStressBodyFileVersion) read_stress_modes(reader, body);
+  if (version == kStressBodyFileVersion) {
+    read_stress_modes(reader, products, body);
+  }
 }
 
 // Before HDF5 opens the file, since it may crash on damaged structures. Another

@@ -83,7 +83,8 @@ void write_stress_modes(Hdf5File& out, const ReducedBody& body) {
   out.write("stress/on_surface", to_integers(modes.on_surface), "1",
             "1 for points on the body's boundary");
   out.write("stress/Sigma_B", modes.Sigma_B, "kg^1/2 m^-2 s^-2",
-            "stress per modal coordinate, 6p x m: xx, yy, zz, xy, yz, xz");
+            "stress per modal coordinate, then per product of paired ones, "
+            "6 rows a point: xx, yy, zz, xy, yz, xz");
   out.write("stress/averaging", modes.averaging, "rad^2/s^2",
             "compliance of (averaged - element's stress), m x m");
   out.write("stress/constants", modes.constants, "Pa, 1",
@@ -99,7 +100,8 @@ OtherTables read_other_tables(const BodyFileReader& reader) {
   return {flags[0] != 0, flags[1] != 0};
 }
 
-void read_stress_modes(const BodyFileReader& reader, ReducedBody& body) {
+void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
+                       ReducedBody& body) {
   const Eigen::Index m = body.lambda.size();
   StressModes modes;
   modes.rows = read_points(reader, body.rows.tags.size());
@@ -110,8 +112,13 @@ void read_stress_modes(const BodyFileReader& reader, ReducedBody& body) {
   modes.materials =
       read_choices(reader, "stress/materials", points, modes.constants.cols());
   modes.on_surface = read_choices(reader, "stress/on_surface", points, 2);
+  const Eigen::Index columns = reader.in().read_matrix("stress/Sigma_B").cols();
+  if (columns != m && columns != m + products) {
+    reader.fail(fmt::format("'stress/Sigma_B' has {} columns; expected {}",
+                            columns, m + products));
+  }
   modes.Sigma_B =
-      reader.matrix("stress/Sigma_B", 6 * static_cast<Eigen::Index>(points), m);
+      reader.matrix("stress/Sigma_B", 6 * std::ssize(modes.rows), columns);
   modes.averaging = reader.matrix("stress/averaging", m, m);
   for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
     modes.interface_rows.push_back(

@@ -19,6 +19,8 @@ struct OtherTables {
 [[nodiscard]] OtherTables read_other_tables(const BodyFileReader& reader);
 
 /// Reads the stress modes of a body whose rows and interfaces are read.
-void read_stress_modes(const BodyFileReader& reader, ReducedBody& body);
+/// @param products of paired modes, number
+void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
+                       ReducedBody& body);
 
 }  // namespace limber::flexbody

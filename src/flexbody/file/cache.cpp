@@ -23,7 +23,7 @@ constexpr int kReductionVersion = 4;
 // The same of contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 2;
 // The same of second-order kinematics.
-constexpr int kManifoldVersion = 2;
+constexpr int kManifoldVersion = 3;
 // The same of stress modes.
 constexpr int kStressVersion = 1;
 // The same of the cuts of meshes.
@@ -113,6 +113,7 @@ void add_request(const Recipe& recipe, Digest& digest) {
   if (recipe.stress) {
     digest.add(std::string("stress"));
     digest.add(kStressVersion);
+    if (recipe.manifold) digest.add(std::string("of products"));
   }
   if (recipe.contact_groups.empty()) return;
   digest.add(kContactVersion);

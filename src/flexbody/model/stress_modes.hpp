@@ -11,7 +11,9 @@ namespace limber::flexbody {
 /// Stress of a reduced body at its rows, for linear isotropic materials.
 ///
 /// Equation   sigma = Sigma_B eta, components (xx, yy, zz, xy, yz, xz), frame
-/// B;
+///            B; at level `nonlinear` Sigma_B [eta; p], p the products of
+///            paired modes (mode_products.hpp): second Piola-Kirchhoff stress,
+///            of Green's strain to second order;
 ///            Hooke's law at quadrature points, fitted over each element and
 ///            averaged at nodes over the elements of one material
 /// Source     [@hinton1974]; docs/theory/stress.md
@@ -22,7 +24,9 @@ struct StressModes {
   std::vector<std::size_t> rows;
   std::vector<int> materials;   ///< p: column of `constants`
   std::vector<int> on_surface;  ///< p: 1 on the body's boundary, else 0
-  MatrixX Sigma_B;              ///< 6p x m [kg^1/2 m^-2 s^-2]
+  /// 6p x m [kg^1/2 m^-2 s^-2], then as many columns as there are products
+  /// [m^-3 s^-2], or none.
+  MatrixX Sigma_B;
   /// m x m: integral of (averaged - element's stress) C^-1 (the same), whose
   /// share of lambda is the square of the averaging's error in the energy norm
   /// [@zienkiewicz1987] [rad^2/s^2].

@@ -205,24 +205,32 @@ std::vector<Probe> Assembly::make_probes(
   return probes;
 }
 
-StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec) const {
+// @param piece of the link, or that which has the place
+StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec,
+                                        std::optional<int> piece) const {
   const int link = find_link(scene_.robot, spec.where.link);
   const dynamics::Fidelity level = scene_.scenario.level_of(spec.where.link);
-  if (!has_stress(level)) throw InputError(explain_no_stress(level));
-  if (sites_.pieces_of(link).size() > 1) {
-    throw InputError(
-        "stress of a link in pieces is not recorded yet; leave it in one piece "
-        "to see its stress");
-  }
-  const BodyPlan& plan = sites_.plan_of(link);
+  if (!has_stress(level)) throw InputError(explain_no_stress());
   const StressPlace place = {find_place_interface(spec.where),
                              spec.where.nodes};
+  const std::span<const BodyPlan> pieces = sites_.pieces_of(link);
+  if (pieces.size() > 1 && place.interface.empty() && !piece) {
+    throw InputError(fmt::format(
+        "it is cut into {} pieces, which are a body each; say where, or ask "
+        "for '[output] stress = true', which tells the largest of each",
+        pieces.size()));
+  }
+  const int at = piece               ? *piece
+                 : pieces.size() > 1 ? find_piece(pieces, spec.where)
+                                     : 0;
+  const BodyPlan& plan = sites_.plan_of(link, at);
+  const Pose X_BL = sites_.X_BL(link, at);
   StressProbe probe =
       plan.full ? make_full_stress_probe(spec.quantity, *plan.reduced,
-                                         *plan.full, place, sites_.X_BL(link))
-                : scene::make_stress_probe(spec.quantity, *plan.reduced, place,
-                                           sites_.X_BL(link));
-  probe.body = sites_.body_of(link);
+                                         *plan.full, place, X_BL)
+                : scene::make_stress_probe(spec.quantity, *plan.reduced, level,
+                                           place, X_BL);
+  probe.body = sites_.body_of(link, at);
   const FlexibleLink& flexible = *scene_.robot.links[index(link)].flexible;
   if (flexible.reduced_file.empty() && !flexible.basis.automatic) {
     probe.eigenmodes = flexible.basis.eigenmodes;
@@ -235,8 +243,8 @@ void Assembly::add_stress_of_links(std::vector<Probe>& probes) const {
     const std::string& link =
         scene_.robot.links[index(plan.links.front())].name;
     if (!plan.reduced || !wants_stress(scene_.scenario, link)) continue;
-    const std::string name = link + ".surface";
-    with_context("[output] stress: link '" + link + "'", [&] {
+    const std::string name = plan.name + ".surface";
+    with_context("[output] stress: link '" + plan.name + "'", [&] {
       const auto is_taken = [&](const Probe& probe) {
         return probe.name == name;
       };
@@ -246,7 +254,7 @@ void Assembly::add_stress_of_links(std::vector<Probe>& probes) const {
       }
       StressProbeSpec everywhere;
       everywhere.where.link = link;
-      StressProbe probe = make_stress_probe(everywhere);
+      StressProbe probe = make_stress_probe(everywhere, plan.piece);
       probe.is_of_link = true;
       probes.push_back({name, std::move(probe)});
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,8 @@ class Assembly {
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
   PointProbe make_point_probe(const PointProbeSpec& spec) const;
-  StressProbe make_stress_probe(const StressProbeSpec& spec) const;
+  StressProbe make_stress_probe(const StressProbeSpec& spec,
+                                std::optional<int> piece = {}) const;
   void add_stress_of_links(std::vector<Probe>& probes) const;
   PointProbe make_followed_point(const Place& where, bool turns) const;
   ContactProbe make_contact_probe(const ContactProbeSpec& spec,

@@ -71,8 +71,8 @@ void check_stress(const Overrides& overrides, Scene& scene) {
     if (stress == nullptr) return false;
     const dynamics::Fidelity level = scenario.level_of(stress->where.link);
     if (has_stress(level)) return false;
-    const std::string why = fmt::format("link '{}': {}", stress->where.link,
-                                        explain_no_stress(level));
+    const std::string why =
+        fmt::format("link '{}': {}", stress->where.link, explain_no_stress());
     if (overrides.fidelity) {
       scenario.warnings.push_back(
           fmt::format("probe '{}' of stress is left out: {}", probe.name, why));

@@ -131,7 +131,9 @@ class Reduction {
           "level nonlinear needs second-order tables, which its saved body "
           "does not have; make that anew by 'limber reduce --second-order'");
     }
-    if (needs_stress_modes(scene_.scenario, link.name)) require_stress(*body);
+    if (needs_stress_modes(scene_.scenario, link.name)) {
+      require_stress(*body, scene_.scenario.level_of(link.name));
+    }
     if (const LinkStart* start = find_start(scene_.scenario, link.name)) {
       check_saved_fields(*start, *body);
     }

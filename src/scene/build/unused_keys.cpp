@@ -128,8 +128,7 @@ class Finder {
     for (const Link& link : links_) {
       const Fidelity level = scenario_.level_of(link.name);
       if (!link.flexible || has_stress(level)) continue;
-      tell("[output] stress of link '" + link.name + "'",
-           explain_no_stress(level));
+      tell("[output] stress of link '" + link.name + "'", explain_no_stress());
     }
   }
 

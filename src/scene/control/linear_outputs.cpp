@@ -6,6 +6,8 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/overloaded.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "limber/flexbody/model/mode_products.hpp"
 #include "limber/scene/control/coupler_rows.hpp"
 #include "limber/scene/control/vector_rows.hpp"
 
@@ -138,7 +140,22 @@ class Outputs {
       return;
     }
     const dynamics::BodyModel& body = observed_.model.bodies[index(probe.body)];
-    take(probe.Sigma_L * system_.modes.middleRows(body.offset, body.modes));
+    take(find_slopes(probe, body) *
+         system_.modes.middleRows(body.offset, body.modes));
+  }
+
+  // Of the stress by the modes, at this state.
+  [[nodiscard]] MatrixX find_slopes(const StressProbe& probe,
+                                    const dynamics::BodyModel& body) const {
+    MatrixX slopes = probe.Sigma_L.leftCols(body.modes);
+    const double* eta = state_.eta.data() + body.offset;
+    const auto add_product = [&](Index pair, int i, int j, bool is_square) {
+      const auto column = probe.Sigma_L.col(body.modes + pair);
+      slopes.col(i) += eta[j] * column;
+      if (!is_square) slopes.col(j) += eta[i] * column;
+    };
+    flexbody::for_each_product(dynamics::paired_of(body), add_product);
+    return slopes;
   }
 
   void add(const ControllerProbe& probe) {

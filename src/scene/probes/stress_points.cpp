@@ -99,6 +99,15 @@ std::set<std::size_t> find_full_rows(const ReducedBody& body,
   return rows;
 }
 
+// Of the body's coordinates at a level.
+Eigen::Index count_columns(const ReducedBody& body, Fidelity level) {
+  Eigen::Index products = 0;
+  if (level == Fidelity::nonlinear && body.manifold) {
+    products = flexbody::count_pairs(std::ssize(body.manifold->paired));
+  }
+  return body.mode_count() + products;
+}
+
 Eigen::Index find_row_of(const flexbody::StressModes& modes,
                          Eigen::Index point) {
   return static_cast<Eigen::Index>(modes.rows[static_cast<std::size_t>(point)]);
@@ -106,28 +115,15 @@ Eigen::Index find_row_of(const flexbody::StressModes& modes,
 
 }  // namespace
 
-bool has_linear_stress(Fidelity level) {
-  return level == Fidelity::uncoupled || level == Fidelity::one_way ||
-         level == Fidelity::coupled;
-}
+bool has_stress(Fidelity level) { return level != Fidelity::rigid; }
 
-bool has_stress(Fidelity level) {
-  return has_linear_stress(level) || level == Fidelity::full;
-}
-
-std::string explain_no_stress(Fidelity level) {
-  if (level == Fidelity::rigid) {
-    return "it is rigid in this run, and a rigid link has no stress; take "
-           "level uncoupled, one-way, coupled or full";
-  }
-  return fmt::format(
-      "stress is that of small strain, linear in the modal coordinates, which "
-      "level {} is not; take level uncoupled, one-way, coupled or full",
-      to_string(level));
+std::string explain_no_stress() {
+  return "it is rigid in this run, and a rigid link has no stress; take "
+         "another level";
 }
 
 bool needs_stress_modes(const Scenario& scenario, const std::string& link) {
-  return has_linear_stress(scenario.level_of(link)) &&
+  return scenario.level_of(link) != Fidelity::full &&
          wants_stress(scenario, link);
 }
 
@@ -149,16 +145,23 @@ bool leave_out_stress(Scenario& scenario) {
   return is_of_links || count > 0;
 }
 
-void require_stress(const ReducedBody& body) {
-  if (body.stress) return;
+void require_stress(const ReducedBody& body, Fidelity level) {
+  if (!body.stress) {
+    throw InputError(
+        "stress is asked for, but its saved body has no stress modes; make "
+        "that anew by 'limber reduce --stress'");
+  }
+  if (body.stress->Sigma_B.cols() >= count_columns(body, level)) return;
   throw InputError(
-      "stress is asked for, but its saved body has no stress modes; make that "
-      "anew by 'limber reduce --stress'");
+      "stress is asked for at level nonlinear, but its saved body has only "
+      "that of linear modes; make that anew by 'limber reduce --second-order "
+      "--stress'");
 }
 
 StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
-                              const StressPlace& place, const Pose& X_BL) {
-  require_stress(body);
+                              Fidelity level, const StressPlace& place,
+                              const Pose& X_BL) {
+  require_stress(body, level);
   const std::set<std::size_t> rows = find_rows(body, place);
   const flexbody::StressModes& modes = *body.stress;
   std::vector<Eigen::Index> points;
@@ -170,12 +173,12 @@ StressProbe make_stress_probe(StressQuantity quantity, const ReducedBody& body,
   const auto count = static_cast<Eigen::Index>(points.size());
   const Pose X_LB = X_BL.inverse();
   Matrix3X p_L(3, count);
-  MatrixX Sigma_L(6 * count, body.mode_count());
+  MatrixX Sigma_L(6 * count, count_columns(body, level));
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index point = points[static_cast<std::size_t>(i)];
     const Eigen::Index row = find_row_of(modes, point);
     p_L.col(i) = X_LB * Vector3(body.rows.x_B.col(row));
-    for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    for (Eigen::Index k = 0; k < Sigma_L.cols(); ++k) {
       Sigma_L.block<6, 1>(6 * i, k) = flexbody::turn_stress(
           modes.Sigma_B.block<6, 1>(6 * point, k), X_BL.R);
     }

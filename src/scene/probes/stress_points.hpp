@@ -15,15 +15,11 @@
 /// Which links have stress, and at which of their nodes it is wanted.
 namespace limber::scene {
 
-/// Whether stress follows from the modal coordinates alone: at levels
-/// uncoupled, one-way and coupled.
-[[nodiscard]] bool has_linear_stress(dynamics::Fidelity level);
-
-/// Whether there is stress at all: also at level full.
+/// Whether there is stress: at every level but rigid.
 [[nodiscard]] bool has_stress(dynamics::Fidelity level);
 
-/// Why there is no stress at another level, and what to do: for messages.
-[[nodiscard]] std::string explain_no_stress(dynamics::Fidelity level);
+/// Why there is none at level rigid, and what to do: for messages.
+[[nodiscard]] std::string explain_no_stress();
 
 /// Whether a probe or [output] wants the stress of this flexible link, at a
 /// level that has one.
@@ -38,8 +34,10 @@ namespace limber::scene {
 /// @returns whether there was any
 bool leave_out_stress(Scenario& scenario);
 
-/// @throws InputError saying how to make stress modes for a body without them
-void require_stress(const flexbody::ReducedBody& body);
+/// @throws InputError saying how to make stress modes for a body without them,
+/// or, at level nonlinear, without those of products
+void require_stress(const flexbody::ReducedBody& body,
+                    dynamics::Fidelity level);
 
 /// Where a stress is wanted.
 struct StressPlace {
@@ -48,11 +46,13 @@ struct StressPlace {
 };
 
 /// Without a place, on the whole surface.
+/// @param level nonlinear, or one with linear stress
 /// @param X_BL link frame in the body's
 /// @throws InputError for a body without stress modes, an unknown place, and
 /// rows that leave out part of the surface.
 [[nodiscard]] StressProbe make_stress_probe(StressQuantity quantity,
                                             const flexbody::ReducedBody& body,
+                                            dynamics::Fidelity level,
                                             const StressPlace& place,
                                             const Pose& X_BL);
 

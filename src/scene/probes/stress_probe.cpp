@@ -7,6 +7,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 
 namespace limber::scene {
@@ -101,13 +102,14 @@ void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
     calc_full(probe, model, body, state);
     if (!is_principal) append_largest(probe, find_largest(probe), values);
   } else {
-    LIMBER_EXPECT(body.modes == probe.Sigma_L.cols());
-    const auto eta = state.eta.segment(body.offset, body.modes);
+    VectorX& at = probe.scratch.coordinates;
+    calc_coordinates(body, state, at);
+    LIMBER_EXPECT(at.size() == probe.Sigma_L.cols());
     if (is_principal) {
       all.resize(probe.Sigma_L.rows());
-      all.noalias() = probe.Sigma_L * eta;
+      all.noalias() = probe.Sigma_L * at;
     } else {
-      append_largest(probe, probe.clusters.find(probe.Sigma_L, eta), values);
+      append_largest(probe, probe.clusters.find(probe.Sigma_L, at), values);
     }
   }
   if (is_principal) append_principal(probe, all, values);

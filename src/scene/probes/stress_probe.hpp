@@ -17,25 +17,30 @@ namespace limber::scene {
 
 /// A probe of stress at a link's nodes, of the largest if there are several.
 ///
-/// Equation   sigma = Sigma_L eta, at level `full` Cauchy's stress in the axes
-///            of the link as it has moved; of several points the one with the
-///            largest von Mises stress, or the largest principal stress
+/// Equation   sigma = Sigma_L eta, at level `nonlinear` Sigma_L [eta;
+/// products],
+///            the second Piola-Kirchhoff stress; at level `full` Cauchy's
+///            stress in the axes of the link as it has moved; of several points
+///            the one with the largest von Mises stress, or the largest
+///            principal stress
 /// Source     flexbody/model/stress_modes.hpp, full_stress.hpp
 /// Limits     small strain but at level `full`. Not to be evaluated by two
 ///            threads at once: copy it
 struct StressProbe {
   /// For evaluations.
   struct Scratch {
-    VectorX stress;  ///< 6p [Pa]
-    Matrix6X whole;  ///< 6 x p, at level `full` [Pa]
-    int place = -1;  ///< index of the point of the last value
+    VectorX stress;       ///< 6p [Pa]
+    Matrix6X whole;       ///< 6 x p, at level `full` [Pa]
+    VectorX coordinates;  ///< columns of Sigma_L
+    int place = -1;       ///< index of the point of the last value
   };
   StressQuantity quantity = StressQuantity::von_mises;
   dynamics::BodyIndex body;
   bool is_of_link = false;        ///< asked for by [output], not by a probe
   std::vector<std::size_t> tags;  ///< p: Gmsh node tags of the points
   Matrix3X p_L;                   ///< 3 x p: places, undeformed [m]
-  MatrixX Sigma_L;          ///< 6p x m, axes of the link [kg^1/2 m^-2 s^-2]
+  MatrixX Sigma_L;          ///< 6p rows as StressModes::Sigma_B, axes of the
+                            ///< link, columns of the body's coordinates
   StressClusters clusters;  ///< of the points, which are in its order
   /// The first modes, eigenmodes; the others correct for those left out, by
   /// static deformation. -1: not known, as of saved bodies.

@@ -113,6 +113,40 @@ TEST_P(StressOf, RigidMotionIsZero) {
   EXPECT_LT(stress.stress.cwiseAbs().maxCoeff(), 1e-11 * kSteel.youngs_modulus);
 }
 
+// Green's strain is quadratic in a displacement: with the products of all
+// fields and without theta the stress is that of St. Venant-Kirchhoff's law.
+TEST_P(StressOf, ProductsOfLinearFieldsAreTheRestOfGreensStrain) {
+  Matrix3 H;
+  H << 1.0, -0.4, 0.3, 0.7, -0.2, 0.5, 0.1, 0.6, 0.9;
+  const Matrix3 gradients[] = {H, H.transpose() * H, H - 2.0 * H.transpose()};
+  const Matrix3 T = 0.5 * H * H - H.transpose();
+  warp();
+  MatrixX Phi(3 * mesh_.x.cols(), 3);
+  for (int k = 0; k < 3; ++k) {
+    Phi.col(k) = sample(
+        mesh_, [&](const Vector3& x) -> Vector3 { return gradients[k] * x; });
+  }
+  PairedFields second{{0, 2}, MatrixX::Zero(Phi.rows(), 3)};
+  second.Theta.col(1) =
+      sample(mesh_, [&](const Vector3& x) -> Vector3 { return T * x; });
+  const NodalStress stress = recover_stress(mesh_, {kSteel}, Phi, second);
+  ASSERT_EQ(stress.stress.rows(), 6 * 6);
+  EXPECT_EQ(stress.averaging.rows(), 3);
+  const double q[] = {0.3, -0.2, 0.5};
+  const double p[] = {0.5 * q[0] * q[0], q[0] * q[2], 0.5 * q[2] * q[2]};
+  MatrixX sum = MatrixX::Zero(6, stress.stress.cols());
+  for (int k = 0; k < 3; ++k) {
+    sum += q[k] * stress.stress.middleRows<6>(6 * k) +
+           p[k] * stress.stress.middleRows<6>(18 + 6 * k);
+  }
+  const Matrix3 paired = q[0] * gradients[0] + q[2] * gradients[2];
+  const Vector6 expected =
+      hooke(kSteel, paired + q[1] * gradients[1] + p[1] * T +
+                        0.5 * paired.transpose() * paired);
+  EXPECT_LT((sum.colwise() - expected).cwiseAbs().maxCoeff(),
+            1e-10 * expected.norm());
+}
+
 // The nodes' stress of a field of second degree is linear, which elements of
 // second order on affine meshes have exactly, each for itself.
 TEST_P(StressOf, AFieldOfSecondDegreeIsExactInAffineElementsOfSecondOrder) {

@@ -6,11 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <tuple>
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/steady_linearisation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/system/body_model.hpp"
+#include "support/elastic_kinds.hpp"
 #include "support/linked_bodies.hpp"
 
 namespace limber::scene {
@@ -93,8 +97,8 @@ std::vector<Probe> make_point_probes(const SystemModel& model,
   stress.body = dynamics::BodyIndex(2);
   stress.tags = {1};
   stress.p_L = Matrix3X::Zero(3, 1);
-  const int modes = model.bodies[2].modes;
-  stress.Sigma_L = MatrixX::NullaryExpr(6, modes, [](Index i, Index j) {
+  const int columns = count_coordinates(model.bodies[2]);
+  stress.Sigma_L = MatrixX::NullaryExpr(6, columns, [](Index i, Index j) {
     return std::sin(4.0 + 2.0 * double(i) + 3.0 * double(j));
   });
   stress.clusters = StressClusters(stress.p_L, stress.Sigma_L);
@@ -130,11 +134,23 @@ std::vector<Probe> make_coupler_probes(const SystemModel& model) {
   return probes;
 }
 
-class OfLinkedBodies : public ::testing::TestWithParam<std::size_t> {
+// By the kind of link and whether the bodies are at level nonlinear.
+class OfLinkedBodies
+    : public ::testing::TestWithParam<std::tuple<std::size_t, bool>> {
  protected:
   OfLinkedBodies()
-      : linked_(make_linked_bodies(testing::make_all_links(2.0)[GetParam()],
-                                   {true, false, true}, 5, 1.0)) {}
+      : linked_(make_linked_bodies(
+            testing::make_all_links(2.0)[std::get<0>(GetParam())],
+            {true, false, true}, 5, 1.0)) {
+    if (!std::get<1>(GetParam())) return;
+    testing::bend(linked_.model, 0.2);
+    // Products of modes, of which stress has a part.
+    flexbody::ReducedBody reduced;
+    reduced.manifold.emplace();
+    reduced.manifold->paired = {0, 1};
+    linked_.model.bodies[2].reduced =
+        std::make_shared<const flexbody::ReducedBody>(reduced);
+  }
   testing::LinkedBodies linked_;
 };
 
@@ -170,15 +186,17 @@ TEST_P(OfLinkedBodies, OutputsAreDifferencesOfTheProbes) {
     const double slope = (plus[i] - minus[i]) / (2.0 * kStep);
     EXPECT_NEAR(outputs[i].by_state.dot(z), slope,
                 kSame * (1.0 + std::abs(slope)))
-        << i << " " << outputs[i].signal.name << " of " << GetParam();
+        << i << " " << outputs[i].signal.name;
     largest = std::max(largest, std::abs(slope));
   }
   EXPECT_GT(largest, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, OfLinkedBodies,
-                         ::testing::Range(std::size_t{0},
-                                          testing::make_all_links(2.0).size()));
+INSTANTIATE_TEST_SUITE_P(
+    EveryKind, OfLinkedBodies,
+    ::testing::Combine(::testing::Range(std::size_t{0},
+                                        testing::make_all_links(2.0).size()),
+                       ::testing::Bool()));
 
 }  // namespace
 }  // namespace limber::scene

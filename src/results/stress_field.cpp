@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/results/full_stress_field.hpp"
+#include "limber/results/stress_field.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/results/xdmf_file.hpp"
 
@@ -69,12 +70,17 @@ Matrix6X FullStressField::calc_in_body(
   return turn_to_world(calc_at_home(state), frame.R_HB.transpose());
 }
 
-MotionShapes find_stress_shapes(const FullStressField& field,
-                                const History& history) {
+bool has_modal_stress(const dynamics::BodyModel& body) {
+  return body.full < 0 && body.reduced && body.reduced->stress &&
+         body.modes > 0 &&
+         body.reduced->stress->Sigma_B.cols() >= count_coordinates(body);
+}
+
+MotionShapes find_stress_shapes(
+    const std::function<VectorX(const dynamics::SystemState&)>& stress_of,
+    const History& history) {
   return find_motion_shapes(
-      [&](std::size_t i) {
-        return VectorX(field.calc_in_body(history.states[i]).reshaped());
-      },
+      [&](std::size_t i) { return stress_of(history.states[i]); },
       history.states.size(), find_largest_von_mises);
 }
 

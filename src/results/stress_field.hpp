@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -42,9 +43,15 @@ class FullStressField {
   std::vector<Eigen::Index> first_points_;  // of each node
 };
 
+/// Whether a reduced body has the stress of its coordinates, those of its
+/// level.
+[[nodiscard]] bool has_modal_stress(const dynamics::BodyModel& body);
+
 /// Stress in body axes at all output times as a few shapes, 6n rows [1], times
 /// coordinates [Pa]; the error is the largest von Mises stress left out [Pa].
-[[nodiscard]] MotionShapes find_stress_shapes(const FullStressField& field,
-                                              const History& history);
+/// @param stress_of 6n, components (xx, yy, zz, xy, yz, xz) of each node [Pa]
+[[nodiscard]] MotionShapes find_stress_shapes(
+    const std::function<VectorX(const dynamics::SystemState&)>& stress_of,
+    const History& history);
 
 }  // namespace limber::results
