@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -58,6 +60,81 @@ MatrixX make_strains(const fem::SecondOrderTerms& terms,
   return Q;
 }
 
+// Self-strains count from this share of the linear energy of their modes on,
+// where these rotate or strain as much at most, root-mean-square. Bending
+// beyond that strain gains energy of fourth degree by itself, which
+// displacements of third degree take away: without them a slender bar would
+// lock.
+constexpr double kLeastSelfEnergy = 0.02;
+constexpr double kReferenceRotation = 0.1;  // [rad]
+constexpr double kReferenceStrain = 0.001;  // [-]
+
+// The factors that make energies of pairs shares of the linear energy.
+VectorX find_pair_scales(const fem::MeanDeformation& mean,
+                         const VectorX& lambda) {
+  const auto find_scale = [&](Eigen::Index k) {
+    return std::sqrt(std::min(kReferenceRotation / mean.rotation[k],
+                              kReferenceStrain / mean.strain[k])) /
+           std::sqrt(std::sqrt(lambda[k]));
+  };
+  VectorX scale(count_pairs(lambda.size()));
+  Eigen::Index pair = 0;
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) {
+    for (Eigen::Index j = i; j < lambda.size(); ++j, ++pair) {
+      scale[pair] = (i == j ? 0.5 : 1.0) * find_scale(i) * find_scale(j);
+    }
+  }
+  return scale;
+}
+
+// The energy of the pairs' strains that modal strains leave out, as squares of
+// the self-strains that count. Of slender bars none does.
+MatrixX make_self_strains(const MeshedBody& body, const Recipe& recipe,
+                          const MatrixX& Phi_P, const MatrixX& Theta,
+                          const VectorX& lambda_P, const MatrixX& Q) {
+  const auto materials = find_materials(body.mesh, recipe);
+  const VectorX scale =
+      find_pair_scales(fem::find_mean_deformation(body.mesh, Phi_P), lambda_P);
+  // Q and self-strains are of q_i q_j, energies of p_ij = c_ij q_i q_j.
+  VectorX c = VectorX::Ones(scale.size());
+  for (Eigen::Index i = 0, pair = 0; i < lambda_P.size(); ++i) {
+    c[pair] = 0.5;
+    pair += lambda_P.size() - i;
+  }
+  const MatrixX modal = Q * c.cwiseInverse().asDiagonal();
+  const VectorX energies =
+      fem::calc_pair_energies(body.mesh, materials, Phi_P, Theta) -
+      modal.colwise().squaredNorm().transpose();
+  std::vector<int> of;
+  for (int pair = 0; pair < energies.size(); ++pair) {
+    if (energies[pair] * scale[pair] * scale[pair] > kLeastSelfEnergy) {
+      of.push_back(pair);
+    }
+  }
+  if (of.empty()) return MatrixX(0, scale.size());
+  const MatrixX own = modal(Eigen::all, of);
+  const MatrixX W =
+      fem::calc_pair_energy(body.mesh, materials, Phi_P, Theta, of) -
+      own.transpose() * own;
+  const VectorX D = scale(of);
+  const Eigen::SelfAdjointEigenSolver<MatrixX> shapes(D.asDiagonal() * W *
+                                                      D.asDiagonal());
+  const VectorX& shares = shapes.eigenvalues();  // increasing
+  const Eigen::Index count =
+      std::min<Eigen::Index>((shares.array() > kLeastSelfEnergy).count(),
+                             QuadraticStrain::kMostPaired - lambda_P.size());
+  MatrixX self = MatrixX::Zero(count, scale.size());
+  for (Eigen::Index s = 0; s < count; ++s) {
+    const Eigen::Index k = shares.size() - 1 - s;
+    const VectorX row =
+        std::sqrt(shares[k]) * shapes.eigenvectors().col(k).cwiseQuotient(D);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      self(s, of[i]) = c[of[i]] * row[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return self;
+}
+
 // sym(int x theta' dm) of every pair.
 Matrix6X make_integrals(const fem::SparseMatrix& M_s, const Matrix3X& x_B,
                         const MatrixX& Theta) {
@@ -101,6 +178,8 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
       body.mesh, find_materials(body.mesh, recipe), Phi_P);
   made.Theta = solve_fields(body, Phi_P, terms.loads);
   made.tables.Q = make_strains(terms, lambda_P);
+  made.tables.self = make_self_strains(body, recipe, Phi_P, made.Theta,
+                                       lambda_P, made.tables.Q);
   made.tables.S2 =
       make_integrals(body.M_s, body.mesh.x.colwise() - center, made.Theta);
   return made;

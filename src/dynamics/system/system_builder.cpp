@@ -96,7 +96,8 @@ BodyIndex SystemBuilder::add_flexible_body(
     if (fidelity == Fidelity::nonlinear) {
       check_manifold(what, *reduced, elasticity.has_value());
       body.elasticity = flexbody::QuadraticStrain(
-          {reduced->lambda, reduced->manifold->paired, reduced->manifold->Q});
+          {reduced->lambda, reduced->manifold->paired, reduced->manifold->Q,
+           reduced->manifold->self});
     } else {
       body.elasticity = elasticity.value_or(flexbody::DiagonalStiffness(
           flexbody::DiagonalStiffness::Parameters{reduced->lambda}));

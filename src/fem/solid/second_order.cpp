@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/solid/second_order.hpp"
 
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "limber/common/errors.hpp"
@@ -20,6 +22,15 @@ void for_each_element(const Mesh& mesh, const Visit& visit) {
             calc_gradients(*block.element, mesh.x(Eigen::all, nodes)));
     }
   }
+}
+
+// i <= j of p fields in the order 11, 12, .., 1p, 22, ..
+std::vector<std::pair<int, int>> list_pairs(Eigen::Index p) {
+  std::vector<std::pair<int, int>> pairs;
+  for (int i = 0; i < p; ++i) {
+    for (int j = i; j < p; ++j) pairs.emplace_back(i, j);
+  }
+  return pairs;
 }
 
 // The fields at an element's nodes: 3k x nodes, field by field.
@@ -77,12 +88,57 @@ void add_point(const Point& point, const LameConstants<double>& lame,
   }
 }
 
+// Calls visit(strains, weights) of every element: the strains of pairs at its
+// points, six components and the trace, pairs x 7 points, and the factors of
+// their squares in 2 (energy).
+template <typename Visit>
+void for_each_strain(const Mesh& mesh,
+                     const std::vector<ElasticMaterial>& materials,
+                     const MatrixX& Phi, const MatrixX& Theta,
+                     const std::vector<int>& of, const Visit& visit) {
+  constexpr Eigen::Index kTerms = 7;
+  const std::vector<std::pair<int, int>> pairs = list_pairs(Phi.cols());
+  const MatrixX theta = Theta(Eigen::all, of);
+  MatrixX strains;
+  VectorX weights;
+  for_each_element(mesh, [&](const ElementBlock& block, std::size_t e,
+                             const std::vector<int>& nodes,
+                             const ElementGradients& gradients) {
+    const LameConstants<double> lame = find_lame_constants(
+        materials[static_cast<std::size_t>(block.regions[e])]);
+    const MatrixX own = gather(Phi, nodes);
+    const MatrixX second = gather(theta, nodes);
+    const Eigen::Index points = gradients.measure.size();
+    strains.resize(std::ssize(of), kTerms * points);
+    weights.resize(kTerms * points);
+    for (Eigen::Index q = 0; q < points; ++q) {
+      const Matrix3X& at = gradients.at[static_cast<std::size_t>(q)];
+      const MatrixX H = own * at.transpose();
+      const MatrixX H2 = second * at.transpose();
+      for (Eigen::Index k = 0; k < strains.rows(); ++k) {
+        const auto [i, j] =
+            pairs[static_cast<std::size_t>(of[static_cast<std::size_t>(k)])];
+        const Matrix3 E = symmetric_part(H2.middleRows<3>(3 * k) +
+                                         H.middleRows<3>(3 * i).transpose() *
+                                             H.middleRows<3>(3 * j));
+        strains.row(k).segment<kTerms>(kTerms * q) << E(0, 0), E(1, 1), E(2, 2),
+            E(0, 1), E(1, 2), E(0, 2), E.trace();
+      }
+      const double twice = 2.0 * lame.mu * gradients.measure[q];
+      weights.segment<kTerms>(kTerms * q) << twice, twice, twice, 2.0 * twice,
+          2.0 * twice, 2.0 * twice, lame.lambda * gradients.measure[q];
+    }
+    visit(strains, weights);
+  });
+}
+
 }  // namespace
 
-VectorX find_rotation_ratios(const Mesh& mesh, const MatrixX& Phi) {
+MeanDeformation find_mean_deformation(const Mesh& mesh, const MatrixX& Phi) {
   LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
   VectorX rotation = VectorX::Zero(Phi.cols());
   VectorX strain = VectorX::Zero(Phi.cols());
+  double volume = 0.0;
   for_each_element(mesh, [&](const ElementBlock& /*block*/, std::size_t /*e*/,
                              const std::vector<int>& nodes,
                              const ElementGradients& gradients) {
@@ -92,12 +148,18 @@ VectorX find_rotation_ratios(const Mesh& mesh, const MatrixX& Phi) {
       const double measure = gradients.measure[static_cast<Eigen::Index>(q)];
       for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
         const Matrix3 H = all.middleRows<3>(3 * k);
-        rotation[k] += 0.25 * measure * (H - H.transpose()).squaredNorm();
+        rotation[k] += 0.125 * measure * (H - H.transpose()).squaredNorm();
         strain[k] += 0.25 * measure * (H + H.transpose()).squaredNorm();
       }
+      volume += measure;
     }
   });
-  return rotation.cwiseQuotient(strain).cwiseSqrt();
+  return {(rotation / volume).cwiseSqrt(), (strain / volume).cwiseSqrt()};
+}
+
+VectorX find_rotation_ratios(const Mesh& mesh, const MatrixX& Phi) {
+  const MeanDeformation mean = find_mean_deformation(mesh, Phi);
+  return std::sqrt(2.0) * mean.rotation.cwiseQuotient(mean.strain);
 }
 
 SecondOrderTerms calc_second_order(
@@ -133,6 +195,32 @@ SecondOrderTerms calc_second_order(
     }
   });
   return terms;
+}
+
+MatrixX calc_pair_energy(const Mesh& mesh,
+                         const std::vector<ElasticMaterial>& materials,
+                         const MatrixX& Phi, const MatrixX& Theta,
+                         const std::vector<int>& of) {
+  MatrixX W = MatrixX::Zero(std::ssize(of), std::ssize(of));
+  for_each_strain(mesh, materials, Phi, Theta, of,
+                  [&](const MatrixX& strains, const VectorX& weights) {
+                    W.noalias() +=
+                        strains * weights.asDiagonal() * strains.transpose();
+                  });
+  return 0.5 * (W + W.transpose());
+}
+
+VectorX calc_pair_energies(const Mesh& mesh,
+                           const std::vector<ElasticMaterial>& materials,
+                           const MatrixX& Phi, const MatrixX& Theta) {
+  std::vector<int> all(static_cast<std::size_t>(Theta.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  VectorX diagonal = VectorX::Zero(Theta.cols());
+  for_each_strain(mesh, materials, Phi, Theta, all,
+                  [&](const MatrixX& strains, const VectorX& weights) {
+                    diagonal.noalias() += strains.cwiseAbs2() * weights;
+                  });
+  return diagonal;
 }
 
 }  // namespace limber::fem

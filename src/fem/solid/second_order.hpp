@@ -37,4 +37,31 @@ struct SecondOrderTerms {
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
     const MatrixX& Phi);
 
+/// Root-mean-square rotation and strain of nodal fields.
+///
+/// Equation   sqrt(int |skew H|^2 / 2 dV / V), sqrt(int |sym H|^2 dV / V)
+struct MeanDeformation {
+  VectorX rotation;  ///< k [rad per unit of the field]
+  VectorX strain;    ///< k [per unit of the field]
+};
+[[nodiscard]] MeanDeformation find_mean_deformation(const Mesh& mesh,
+                                                    const MatrixX& Phi);
+
+/// Energies of the second-order strains E_ij = sym(grad theta_ij) + sym(H_i'
+/// H_j) of pairs: what Green's strain of a body on the manifold has beside that
+/// of its modes.
+///
+/// Equation   W_kl = int E_k : C : E_l dV
+/// @param Phi 3N x p; @param Theta 3N x p (p + 1) / 2, pairs as above
+/// @param of places of pairs, increasing
+/// @returns rows and columns those of `of` [J for fields in m]
+[[nodiscard]] MatrixX calc_pair_energy(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const MatrixX& Phi, const MatrixX& Theta, const std::vector<int>& of);
+
+/// The diagonal of the same of all pairs, at a cost that grows as their number.
+[[nodiscard]] VectorX calc_pair_energies(
+    const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+    const MatrixX& Phi, const MatrixX& Theta);
+
 }  // namespace limber::fem

@@ -68,14 +68,28 @@ QuadraticStrain::QuadraticStrain(Parameters parameters)
   const MatrixX& Q = parameters_.Q;
   check_shape("the table of quadratic strains", Q, n, n * (n + 1) / 2);
   check_finite("the table of quadratic strains", Q);
+  MatrixX& self = parameters_.self;
+  if (self.size() == 0) self.resize(0, Q.cols());
+  if (self.rows() > kMostPaired - n) {
+    throw InputError(fmt::format("{} self-strains; expected at most {}",
+                                 self.rows(), kMostPaired - n));
+  }
+  check_shape("the table of self-strains", self, self.rows(), Q.cols());
+  check_finite("the table of self-strains", self);
   blocks_ = find_blocks();
   for (const Block& block : blocks_) {
-    for (const int r : block.rows) linear_[mode(r)] = 0.0;
+    for (std::size_t r = 0; r < block.rows.size(); ++r) {
+      if (block.roots[static_cast<Eigen::Index>(r)] > 0.0) {
+        linear_[mode(block.rows[r])] = 0.0;
+      }
+    }
   }
 }
 
 std::vector<QuadraticStrain::Block> QuadraticStrain::find_blocks() const {
-  const MatrixX& Q = parameters_.Q;
+  const Eigen::Index paired = parameters_.Q.rows();
+  MatrixX Q(paired + parameters_.self.rows(), parameters_.Q.cols());
+  Q << parameters_.Q, parameters_.self;
   const auto rows = static_cast<std::size_t>(Q.rows());
   Connected sets(rows + static_cast<std::size_t>(Q.cols()));
   for (Eigen::Index k = 0; k < Q.cols(); ++k) {
@@ -92,8 +106,8 @@ std::vector<QuadraticStrain::Block> QuadraticStrain::find_blocks() const {
   }
   std::map<std::size_t, std::vector<Eigen::Index>> columns;
   Eigen::Index pair = 0;
-  for (int i = 0; i < static_cast<int>(rows); ++i) {
-    for (int j = i; j < static_cast<int>(rows); ++j, ++pair) {
+  for (int i = 0; i < static_cast<int>(paired); ++i) {
+    for (int j = i; j < static_cast<int>(paired); ++j, ++pair) {
       if (Q.col(pair).isZero(0.0)) continue;
       const std::size_t set = sets.find(rows + static_cast<std::size_t>(pair));
       found[set].i.push_back(i);
@@ -106,8 +120,10 @@ std::vector<QuadraticStrain::Block> QuadraticStrain::find_blocks() const {
     block.Q = Q(block.rows, columns[set]).transpose();
     block.roots.resize(block.Q.cols());
     for (Eigen::Index r = 0; r < block.roots.size(); ++r) {
-      block.roots[r] = std::sqrt(
-          parameters_.lambda[mode(block.rows[static_cast<std::size_t>(r)])]);
+      int& row = block.rows[static_cast<std::size_t>(r)];
+      const bool is_self = row >= paired;
+      if (is_self) row = 0;
+      block.roots[r] = is_self ? 0.0 : std::sqrt(parameters_.lambda[mode(row)]);
     }
     blocks.push_back(std::move(block));
   }

@@ -13,15 +13,16 @@ namespace limber::flexbody {
 ///
 /// Equation   V = sum_r e_r^2 / 2,  e_r = sqrt(lambda_r) q_r +
 ///            sum_{i <= j} Q_r,ij q_i q_j for r, i, j in P, and without the sum
-///            for the other r. With D = de/dq: force D' e, tangent D' D +
-///            sum_r e_r d^2e_r/dq^2. Over a step D(q_0/2 + q_1/2)' (e_0 +
-///            e_1) / 2: e is quadratic, so that D at the middle times the
-///            increment is e_1 - e_0 exactly.
+///            for the other r; self-strains s, which are of no mode, add
+///            (sum_{i <= j} self_s,ij q_i q_j)^2 / 2. With D = de/dq: force D'
+///            e, tangent D' D + sum_r e_r d^2e_r/dq^2. Over a step D(q_0/2 +
+///            q_1/2)' (e_0 + e_1) / 2: e is quadratic, so that D at the middle
+///            times the increment is e_1 - e_0 exactly.
 /// Source     of the potential: modal strains of a body whose strains are of
 ///            second degree in its displacements (Green-Lagrange); of the force
 ///            over a step: [@simo1992], mean stress on the middle's strain
-/// Limits     kMostPaired modes in P. Costs as many products as Q has entries
-/// in
+/// Limits     kMostPaired modes in P and self-strains together. Costs as many
+/// products as Q has entries in
 ///            connected rows and pairs, twice a force
 class QuadraticStrain {
  public:
@@ -32,6 +33,7 @@ class QuadraticStrain {
     /// |P| x |P| (|P| + 1) / 2: row r, a column for each pair i <= j of P in
     /// the order 11, 12, .., 1P, 22, .. [kg^-1/2 m^-1 rad/s]
     MatrixX Q;
+    MatrixX self = {};  ///< s x the same columns, or none [the same]
   };
 
   /// @throws InputError for values out of range or a table of wrong size.
@@ -62,11 +64,12 @@ class QuadraticStrain {
  private:
   using Paired = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPaired, 1>;
   /// Rows and pairs that Q connects: those of a symmetric body fall apart into
-  /// the classes of its symmetry. All i, j and rows are places in P.
+  /// the classes of its symmetry. All i, j and rows are places in P; of a
+  /// self-strain, whose root is zero, the row is any.
   struct Block {
     std::vector<int> rows;
     std::vector<int> i, j;  // of each pair
-    VectorX roots;          // sqrt(lambda) of each row
+    VectorX roots;          // sqrt(lambda) of each row, or zero
     MatrixX Q;              // pairs x rows: e_r = root q_r + Q_r' (q_i q_j)
   };
   [[nodiscard]] std::vector<Block> find_blocks() const;
@@ -91,7 +94,8 @@ class QuadraticStrain {
 
 constexpr auto fields_of(const QuadraticStrain::Parameters*) {
   return list_fields("quadratic strain", "eigenvalues [rad^2/s^2]",
-                     "paired modes", "Q [kg^-1/2 m^-1 rad/s]");
+                     "paired modes", "Q [kg^-1/2 m^-1 rad/s]",
+                     "self-strains [kg^-1/2 m^-1 rad/s]");
 }
 
 }  // namespace limber::flexbody

@@ -45,6 +45,10 @@ void write_manifold(Hdf5File& out, const ReducedBody& body) {
             "1", "1 if there are contact surfaces");
   out.write("manifold/Q", manifold.Q, "rad kg^-1/2 m^-1 s^-1",
             "quadratic modal strains, a column a pair 11, 12, .., 22, ..");
+  if (manifold.self.rows() > 0) {
+    out.write("manifold/self", manifold.self, "rad kg^-1/2 m^-1 s^-1",
+              "self-strains, which are of no mode, a column a pair");
+  }
   out.write("manifold/S2", MatrixX(manifold.S2), "1",
             "sym(int x theta' dm): xx, yy, zz, xy, xz, yz, a column a pair");
   out.write("manifold/Theta_B", manifold.Theta_B, "kg^-1 m^-1",
@@ -72,6 +76,14 @@ void read_manifold(const BodyFileReader& reader, ReducedBody& body) {
   const auto p = static_cast<Eigen::Index>(manifold.paired.size());
   const Eigen::Index pairs = count_pairs(p);
   manifold.Q = reader.matrix("manifold/Q", p, pairs);
+  manifold.self.resize(0, pairs);
+  if (reader.in().has("manifold/self")) {
+    const Eigen::Index rows = reader.in().read_matrix("manifold/self").rows();
+    if (rows > QuadraticStrain::kMostPaired - p) {
+      reader.fail(fmt::format("'manifold/self' has {} rows", rows));
+    }
+    manifold.self = reader.matrix("manifold/self", rows, pairs);
+  }
   manifold.S2 = reader.matrix("manifold/S2", 6, pairs);
   manifold.Theta_B =
       reader.matrix("manifold/Theta_B", body.rows.Phi_B.rows(), pairs);

@@ -30,7 +30,8 @@ constexpr auto fields_of(const InterfaceTable*) {
 }
 
 constexpr auto fields_of(const QuadraticManifold*) {
-  return list_fields("manifold", "paired modes", "Q [kg^-1/2 m^-1 rad/s]", "S2",
+  return list_fields("manifold", "paired modes", "Q [kg^-1/2 m^-1 rad/s]",
+                     "self-strains [kg^-1/2 m^-1 rad/s]", "S2",
                      "Theta_B [kg^-1 m^-1]");
 }
 

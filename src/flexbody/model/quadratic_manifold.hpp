@@ -24,6 +24,9 @@ struct QuadraticManifold {
   /// |P| x pairs: quadratic part of the modal strains, row r
   /// (flexbody/elasticity/quadratic_strain.hpp) [kg^-1/2 m^-1 rad/s].
   MatrixX Q;
+  /// s x pairs: self-strains, in-plane stretch of plates and closed frames that
+  /// bend, which no displacement takes away [the same]. None of slender bars.
+  MatrixX self;
   /// 6 x pairs: sym(int x theta_ij' dm), components (xx, yy, zz, xy, xz, yz),
   /// which the shape integral S2 lacks [-].
   Matrix6X S2;

@@ -9,6 +9,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/fem/solid/nonlinear_solid.hpp"
 #include "limber/fem/solid/second_order.hpp"
+#include "limber/flexbody/elasticity/quadratic_strain.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"
@@ -244,6 +245,48 @@ TEST(Manifold, CubicEnergyIsThatOfTheMesh) {
   EXPECT_NEAR(third, cubic, 1e-3 * std::abs(cubic) + 1e-12 * scale);
 }
 
+TEST(Manifold, ASlenderBarHasNoSelfStrains) {
+  const Bar bar{.size = Vector3(1.0, 0.02, 0.01),
+                .cells = 24,
+                .material = {200e9, 0.3, 8000.0}};
+  EXPECT_EQ(Manifold(bar).body.manifold->self.rows(), 0);
+}
+
+// A plate that twists is stretched in its plane, at three thicknesses with two
+// thirds of the energy of its bending.
+TEST(Manifold, APlateThatTwistsHasTheFourthOrderEnergyOfTheMesh) {
+  const Bar plate{.size = Vector3(1.0, 1.0, 0.01),
+                  .cells = 4,
+                  .material = {200e9, 0.3, 8000.0}};
+  const Manifold made(plate);
+  const fem::NonlinearSolid solid(made.meshed.mesh,
+                                  find_materials(made.meshed.mesh, made.recipe),
+                                  fem::Elasticity::st_venant_kirchhoff);
+  auto workspace = solid.make_workspace();
+  const QuadraticManifold& tables = *made.body.manifold;
+  const QuadraticStrain elasticity(
+      {made.body.lambda, tables.paired, tables.Q, tables.self});
+  const QuadraticStrain without({made.body.lambda, tables.paired, tables.Q});
+  ASSERT_EQ(made.paired[0], 0);
+  VectorX q = VectorX::Zero(made.body.lambda.size());
+  q[0] = 0.03 / made.Phi().col(0).cwiseAbs().maxCoeff();
+  const auto even = [&](const VectorX& at) {
+    double sum = 0.0;
+    for (const double sign : {1.0, -1.0}) {
+      Matrix3X f(3, made.body.rows.x_B.cols());
+      sum +=
+          0.5 * solid.calc_force(made.displace(sign * at).reshaped(3, f.cols()),
+                                 f, workspace);
+    }
+    return sum;
+  };
+  const double linear = 0.5 * made.body.lambda[0] * q[0] * q[0];
+  const double truth = even(q) - linear;
+  EXPECT_GT(truth, 0.5 * linear);
+  EXPECT_NEAR(elasticity.energy(q) - linear, truth, 0.02 * truth);
+  EXPECT_LT(without.energy(q) - linear, 0.1 * truth);
+}
+
 TEST(Manifold, IsLeftOutUnlessAskedFor) {
   Recipe recipe = make_recipe(kBar);
   const ReducedBody without = reduce(recipe);
@@ -267,6 +310,7 @@ TEST(Manifold, SurvivesABodyFile) {
   ASSERT_TRUE(read.manifold.has_value());
   EXPECT_EQ(read.manifold->paired, made.body.manifold->paired);
   EXPECT_EQ(read.manifold->Q, made.body.manifold->Q);
+  EXPECT_EQ(read.manifold->self, made.body.manifold->self);
   EXPECT_EQ(read.manifold->S2, made.body.manifold->S2);
   EXPECT_EQ(read.manifold->Theta_B, made.body.manifold->Theta_B);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "limber/fem/solid/nonlinear_solid.hpp"
 #include "unit/fem/meshes.hpp"
@@ -110,6 +111,60 @@ TEST_P(SecondOrder, RotationRatiosAreThoseOfShearStretchAndTurn) {
   EXPECT_LT(ratios[1], 1e-7);
   EXPECT_GT(ratios[2], 1e7);
   EXPECT_NEAR(ratios[3], 4.0, 1e-11);  // 8 / 2, halves of sum and difference
+}
+
+// The energy of fourth degree of a body that moves along a field, its products
+// with a stretch, and that of the stretch itself.
+TEST_P(SecondOrder, PairEnergiesAreThoseOfGreensStrain) {
+  const MatrixX fields = Phi_.leftCols(2);
+  MatrixX Theta = MatrixX::Zero(Phi_.rows(), 3);
+  Theta.col(0) = Phi_.col(2);
+  Theta.col(2) = -2.0 * Phi_.col(2);
+  const std::vector<ElasticMaterial> materials = {kSteel};
+  const MatrixX W =
+      calc_pair_energy(mesh_, materials, fields, Theta, {0, 1, 2});
+  const auto even = [&](const VectorX& u) { return energy(u) + energy(-u); };
+  const auto fourth = [&](const VectorX& u) {
+    return (even(2.0 * u) - 4.0 * even(u)) / 24.0;
+  };
+  const VectorX stretch = Theta.col(0);
+  const double linear = 0.5 * even(stretch) - fourth(stretch);
+  const SecondOrderTerms terms = calc_second_order(mesh_, materials, Phi_);
+  const double c_00 = terms.strain(2, 0);  // pairs 00 01 02 11 12 22
+  const double c_01 = terms.strain(2, 1);
+  const double c_11 = terms.strain(2, 3);
+  const double all = std::abs(W.trace());
+  EXPECT_NEAR(W(0, 0), 8.0 * fourth(Phi_.col(0)) + 2.0 * c_00 + 2.0 * linear,
+              1e-9 * all);
+  EXPECT_NEAR(W(2, 2), 8.0 * fourth(Phi_.col(1)) - 4.0 * c_11 + 8.0 * linear,
+              1e-9 * all);
+  // Of q_0 = q_1: p = (1, 2, 1) / 2.
+  const double sum = W(0, 0) + W(2, 2) + 4.0 * W(1, 1) + 4.0 * W(0, 1) +
+                     4.0 * W(1, 2) + 2.0 * W(0, 2);
+  const VectorX both = Phi_.col(0) + Phi_.col(1);
+  EXPECT_NEAR(
+      sum, 8.0 * fourth(both) - 2.0 * (c_00 + 2.0 * c_01 + c_11) + 2.0 * linear,
+      1e-8 * all);
+  const MatrixX part = calc_pair_energy(mesh_, materials, fields,
+                                        Theta.middleCols(0, 3), {0, 2});
+  EXPECT_NEAR(part(0, 1), W(0, 2), 1e-12 * all);
+  EXPECT_LT((calc_pair_energies(mesh_, materials, fields, Theta) - W.diagonal())
+                .norm(),
+            1e-12 * all);
+}
+
+TEST_P(SecondOrder, DeformationsAreRootMeanSquaresOfAngleAndStrain) {
+  MatrixX fields = MatrixX::Zero(Phi_.rows(), 2);
+  for (Eigen::Index n = 0; n < mesh_.x.cols(); ++n) {
+    const Vector3 x = mesh_.x.col(n);
+    fields.block<3, 1>(3 * n, 0) = Vector3(0.1, 0.2, -0.2).cross(x);
+    fields(3 * n, 1) = 0.1 * x[0];
+  }
+  const MeanDeformation mean = find_mean_deformation(mesh_, fields);
+  EXPECT_NEAR(mean.rotation[0], 0.3, 1e-12);
+  EXPECT_NEAR(mean.strain[0], 0.0, 1e-8);
+  EXPECT_NEAR(mean.rotation[1], 0.0, 1e-8);
+  EXPECT_NEAR(mean.strain[1], 0.1, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, SecondOrder,

@@ -47,6 +47,9 @@ std::vector<Kind> make_kinds() {
   two_classes << 0.4, 0.0, 0.0, 0.0, 0.0, 0.7,  //
       -0.3, 0.0, 0.0, 0.5, 0.0, 0.0,            //
       0.0, 0.9, 0.0, 0.0, 0.0, 0.0;
+  MatrixX self(2, 6);
+  self << 0.2, 0.0, 0.0, 0.6, 0.0, -0.4,  //
+      0.0, 0.3, 0.0, 0.0, 0.8, 0.0;
   return {
       {"Diagonal", DiagonalStiffness({lambda})},
       {"Full", testing::turn_stiffness(lambda, testing::make_basis(kModes, 7))},
@@ -54,6 +57,10 @@ std::vector<Kind> make_kinds() {
       {"QuadraticStrainOfOneMode", QuadraticStrain({lambda, {1, 3}, one_row})},
       {"QuadraticStrainOfTwoClasses",
        QuadraticStrain({lambda, {0, 2, 3}, two_classes})},
+      {"QuadraticStrainWithSelfStrains",
+       QuadraticStrain({lambda, {0, 2, 3}, two_classes, self})},
+      {"QuadraticStrainOfSelfStrainsAlone",
+       QuadraticStrain({lambda, {0, 2, 3}, MatrixX::Zero(3, 6), self})},
       {"QuadraticStrainWithoutPairs", QuadraticStrain({lambda, {}, {}})},
   };
 }
@@ -208,6 +215,13 @@ TEST(QuadraticStrain, StoresTheSumOfSquaresOfItsStrains) {
     V += 0.5 * e * e;
   }
   EXPECT_NEAR(QuadraticStrain({lambda, paired, Q}).energy(q), V, 1e-14 * V);
+  // A self-strain is of no mode.
+  MatrixX self(1, 6);
+  self << 0.5, -0.1, 0.2, 0.7, 0.4, -0.3;
+  const double e = 0.5 * a * a - 0.1 * a * b + 0.2 * a * c + 0.7 * b * b +
+                   0.4 * b * c - 0.3 * c * c;
+  EXPECT_NEAR(QuadraticStrain({lambda, paired, Q, self}).energy(q),
+              V + 0.5 * e * e, 1e-14 * V);
 }
 
 // Of more pairs than are treated at once; those of a table with many zeros by
@@ -299,6 +313,18 @@ TEST(ElasticityParameters, WithoutMeaningAreRefused) {
         QuadraticStrain({lambda, {0, 1, 2}, Q});
       },
       "2 x 3; expected 3 x 6");
+  MatrixX self = MatrixX::Zero(1, 4);
+  expect_refused(
+      [&] {
+        QuadraticStrain({lambda, {0, 1}, Q, self});
+      },
+      "self-strains");
+  self.setZero(QuadraticStrain::kMostPaired, 3);
+  expect_refused(
+      [&] {
+        QuadraticStrain({lambda, {0, 1}, Q, self});
+      },
+      "256 self-strains; expected at most 254");
   Q(1, 2) = kNaN;
   expect_refused([&] { QuadraticStrain({lambda, {0, 1}, Q}); }, "entry 2, 3");
   expect_refused([&] { FullStiffness({MatrixX()}); }, "no rows");
