@@ -25,11 +25,6 @@
 namespace limber::flexbody {
 namespace {
 
-fem::Elasticity find_elasticity(MaterialLaw law) {
-  return law == MaterialLaw::neo_hookean ? fem::Elasticity::neo_hookean
-                                         : fem::Elasticity::st_venant_kirchhoff;
-}
-
 fem::SparseMatrix make_diagonal(const VectorX& mass) {
   fem::SparseMatrix M_s(mass.size(), mass.size());
   M_s.setIdentity();

@@ -174,8 +174,9 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
   }
   const MatrixX Phi_P = Phi(Eigen::all, paired);
   const VectorX lambda_P = lambda(paired);
-  const fem::SecondOrderTerms terms = fem::calc_second_order(
-      body.mesh, find_materials(body.mesh, recipe), Phi_P);
+  const fem::SecondOrderTerms terms =
+      fem::calc_second_order(body.mesh, find_materials(body.mesh, recipe),
+                             find_elasticity(recipe.law), Phi_P);
   made.Theta = solve_fields(body, Phi_P, terms.loads);
   made.tables.Q = make_strains(terms, lambda_P);
   made.tables.self = make_self_strains(body, recipe, Phi_P, made.Theta,

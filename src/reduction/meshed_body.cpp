@@ -17,6 +17,11 @@ fem::TracedMesh read_source(const MeshSource& source,
                                {source.size, source.order, source.unit});
 }
 
+fem::Elasticity find_elasticity(MaterialLaw law) {
+  return law == MaterialLaw::neo_hookean ? fem::Elasticity::neo_hookean
+                                         : fem::Elasticity::st_venant_kirchhoff;
+}
+
 std::vector<fem::ElasticMaterial> find_materials(const fem::Mesh& mesh,
                                                  const Recipe& recipe) {
   std::vector<fem::MaterialAssignment> assignments;

@@ -8,6 +8,7 @@
 #include "limber/fem/mesh/mesh.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/solid/elastic_inverse.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 #include "limber/fem/solid/material.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/reduction/interfaces.hpp"
@@ -18,6 +19,8 @@ namespace limber::flexbody {
 /// Makes the mesh. @throws InputError naming the file.
 [[nodiscard]] fem::TracedMesh read_source(const MeshSource& source,
                                           const Progress& progress);
+
+[[nodiscard]] fem::Elasticity find_elasticity(MaterialLaw law);
 
 /// One material a region of the mesh. @throws InputError naming the group.
 [[nodiscard]] std::vector<fem::ElasticMaterial> find_materials(

@@ -94,10 +94,11 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   body.mesh_boundary_nodes = mesh.boundary_nodes.size();
   keep_rows(mesh, recipe, meshed.interfaces, Phi, body);
   add_tables(meshed.interfaces, modes, Phi, body);
-  fem::PairedFields second{{}, MatrixX(Phi.rows(), 0)};
+  fem::PairedFields second{{}, MatrixX(Phi.rows(), 0), {}};
   if (recipe.manifold) {
     second.Theta = add_manifold(meshed, recipe, Phi, progress, body);
     second.paired = body.manifold->paired;
+    second.law = find_elasticity(recipe.law);
   }
   if (recipe.stress) {
     report(progress, "stress modes", 0.0);

@@ -9,4 +9,15 @@ LameConstants<double> find_lame_constants(const ElasticMaterial& material) {
   return {2.0 * mu * nu / (1.0 - 2.0 * nu), mu};
 }
 
+Matrix3 calc_stress_curvature(Elasticity law, const LameConstants<double>& lame,
+                              const Matrix3& A, const Matrix3& B) {
+  if (law == Elasticity::st_venant_kirchhoff) return Matrix3::Zero();
+  const Matrix3 a = 0.5 * (A + A.transpose());
+  const Matrix3 b = 0.5 * (B + B.transpose());
+  return -4.0 * lame.mu * (a * b + b * a) -
+         2.0 * lame.lambda *
+             (a.cwiseProduct(b).sum() * Matrix3::Identity() + a.trace() * b +
+              b.trace() * a);
+}
+
 }  // namespace limber::fem

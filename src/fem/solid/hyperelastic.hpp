@@ -32,6 +32,16 @@ struct LameConstants {
 [[nodiscard]] LameConstants<double> find_lame_constants(
     const ElasticMaterial& material);
 
+/// Second derivative of S by Green's strain at rest along the symmetric parts
+/// of A and B [Pa]; zero of St. Venant-Kirchhoff's law.
+///
+/// Equation   -4 mu (a b + b a) - 2 lambda (a : b I + tr(a) b + tr(b) a), a =
+///            sym A, b = sym B: of the neo-Hookean S = mu (I - C^-1) + lambda
+///            ln J C^-1 to second order in E
+[[nodiscard]] Matrix3 calc_stress_curvature(Elasticity law,
+                                            const LameConstants<double>& lame,
+                                            const Matrix3& A, const Matrix3& B);
+
 /// Second Piola-Kirchhoff stress [Pa] and energy density W [J/m^3].
 template <class T>
 struct Stress {

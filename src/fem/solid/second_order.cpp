@@ -45,6 +45,12 @@ MatrixX gather(const MatrixX& Phi, const std::vector<int>& nodes) {
   return own;
 }
 
+// Of a law.
+struct Solid {
+  LameConstants<double> lame;
+  Elasticity law;
+};
+
 Matrix3 calc_stress(const LameConstants<double>& lame, const Matrix3& strain) {
   return lame.lambda * strain.trace() * Matrix3::Identity() +
          2.0 * lame.mu * strain;
@@ -68,20 +74,24 @@ void fill(const MatrixX& own, const Matrix3X& gradients,
 }
 
 // Adds a point's c, and sets its stresses T of g, 3 pairs x 3.
-void add_point(const Point& point, const LameConstants<double>& lame,
-               double measure, MatrixX& T, SecondOrderTerms& terms) {
+void add_point(const Point& point, const Solid& solid, double measure,
+               MatrixX& T, SecondOrderTerms& terms) {
   const std::size_t p = point.H.size();
   Eigen::Index pair = 0;
   for (std::size_t i = 0; i < p; ++i) {
     for (std::size_t j = i; j < p; ++j, ++pair) {
       const Matrix3 E = symmetric_part(point.H[i].transpose() * point.H[j]);
+      const Matrix3 A =
+          calc_stress_curvature(solid.law, solid.lame, point.H[i], point.H[j]);
       T.middleRows<3>(3 * pair) =
-          measure * (calc_stress(lame, E) + point.H[i] * point.S[j] +
-                     point.H[j] * point.S[i]);
+          measure * (calc_stress(solid.lame, E) + point.H[i] * point.S[j] +
+                     point.H[j] * point.S[i] + A);
       const double size = measure * point.H[i].norm() * point.H[j].norm();
       for (std::size_t r = 0; r < p; ++r) {
         const auto row = static_cast<Eigen::Index>(r);
-        terms.strain(row, pair) += measure * point.S[r].cwiseProduct(E).sum();
+        terms.strain(row, pair) +=
+            measure * (point.S[r].cwiseProduct(E).sum() +
+                       point.H[r].cwiseProduct(A).sum() / 3.0);
         terms.scale(row, pair) += size * point.S[r].norm();
       }
     }
@@ -164,7 +174,7 @@ VectorX find_rotation_ratios(const Mesh& mesh, const MatrixX& Phi) {
 
 SecondOrderTerms calc_second_order(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-    const MatrixX& Phi) {
+    Elasticity law, const MatrixX& Phi) {
   LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
   LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
   const Eigen::Index p = Phi.cols();
@@ -184,8 +194,8 @@ SecondOrderTerms calc_second_order(
     forces.setZero(3 * pairs, own.cols());
     for (std::size_t q = 0; q < gradients.at.size(); ++q) {
       fill(own, gradients.at[q], lame, point);
-      add_point(point, lame, gradients.measure[static_cast<Eigen::Index>(q)], T,
-                terms);
+      add_point(point, {lame, law},
+                gradients.measure[static_cast<Eigen::Index>(q)], T, terms);
       forces.noalias() += T * gradients.at[q];
     }
     for (Eigen::Index a = 0; a < own.cols(); ++a) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 #include "limber/fem/solid/material.hpp"
 
 /// Terms of second order of a mesh in large displacement, for bases of modes.
@@ -20,12 +21,13 @@ namespace limber::fem {
 /// Second derivatives of the internal forces and of the strain energy at rest,
 /// for every pair i <= j of p fields in the order 11, 12, .., 1p, 22, ..
 ///
-/// Equation   g_ij = int (C : sym(H_i' H_j) + H_i S_j + H_j S_i) grad N dV,
-///            c_r,ij = int S_r : H_i' H_j dV, S_i = C : sym H_i
-/// Source     the internal force int F S(E) grad N of a St. Venant-Kirchhoff
-///            solid, E = sym H + H' H / 2, differentiated twice at u = 0
-/// Limits     isotropic; every law that is linear in Green's strain to first
-///            order has the same c, but not the same g
+/// Equation   g_ij = int (C : sym(H_i' H_j) + H_i S_j + H_j S_i + A_ij) grad N
+///            dV, c_r,ij = int (S_r : H_i' H_j + A_ij : sym H_r / 3) dV, S_i =
+///            C : sym H_i, A_ij of calc_stress_curvature()
+/// Source     the internal force int F S(E) grad N of a hyperelastic solid, E =
+///            sym H + H' H / 2, differentiated twice at u = 0; int A_ij : sym
+///            H_r is symmetric in i, j and r
+/// Limits     isotropic
 struct SecondOrderTerms {
   MatrixX loads;   ///< 3N x p (p + 1) / 2: g [N for fields in m]
   MatrixX strain;  ///< p x p (p + 1) / 2: c, row r [J for fields in m]
@@ -35,7 +37,7 @@ struct SecondOrderTerms {
 /// @param Phi 3N x p
 [[nodiscard]] SecondOrderTerms calc_second_order(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-    const MatrixX& Phi);
+    Elasticity law, const MatrixX& Phi);
 
 /// Root-mean-square rotation and strain of nodal fields.
 ///

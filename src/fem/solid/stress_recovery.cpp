@@ -70,6 +70,12 @@ struct ElementStress {
   bool is_straight = false;
 };
 
+Vector6 to_components(const Matrix3& s) {
+  Vector6 components;
+  components << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
+  return components;
+}
+
 // Hooke's law for the strain sym(h).
 Vector6 calc_stress(const LameConstants<double>& lame, const Matrix3& h) {
   const double volumetric = lame.lambda * h.trace();
@@ -95,11 +101,26 @@ void add_products(const std::vector<int>& paired, Eigen::Index fields,
   }
 }
 
+// Adds the law's own second order to the stress of pairs.
+void add_curvature(const PairedFields& second,
+                   const LameConstants<double>& lame, const MatrixX& H,
+                   Eigen::Index fields, Eigen::Ref<VectorX> stress) {
+  Eigen::Index row = 6 * fields;
+  for (std::size_t i = 0; i < second.paired.size(); ++i) {
+    const Matrix3 H_i = H.middleRows<3>(3 * Eigen::Index{second.paired[i]});
+    for (std::size_t j = i; j < second.paired.size(); ++j, row += 6) {
+      stress.segment<6>(row) += to_components(calc_stress_curvature(
+          second.law, lame, H_i,
+          H.middleRows<3>(3 * Eigen::Index{second.paired[j]})));
+    }
+  }
+}
+
 // @param own 3 rows of each of `fields` fields, then of each pair x nodes
 ElementStress calc_element_stress(const ReferenceElement& element,
                                   const Matrix3X& x, const MatrixX& own,
                                   Eigen::Index fields,
-                                  const std::vector<int>& paired,
+                                  const PairedFields& second,
                                   const LameConstants<double>& lame) {
   const ElementGradients gradients = calc_gradients(element, x);
   const Eigen::Index all = own.rows() / 3;
@@ -107,10 +128,13 @@ ElementStress calc_element_stress(const ReferenceElement& element,
                        gradients.measure, is_parallel_sided(element, x)};
   for (Eigen::Index q = 0; q < stress.at.cols(); ++q) {
     MatrixX H = own * gradients.at[static_cast<std::size_t>(q)].transpose();
-    add_products(paired, fields, H);
+    add_products(second.paired, fields, H);
     for (Eigen::Index k = 0; k < all; ++k) {
       stress.at.col(q).segment<6>(6 * k) =
           calc_stress(lame, H.middleRows<3>(3 * k));
+    }
+    if (second.law != Elasticity::st_venant_kirchhoff) {
+      add_curvature(second, lame, H, fields, stress.at.col(q));
     }
   }
   return stress;
@@ -227,7 +251,7 @@ class Recovery {
     take_nodes(second.Theta, nodes, Phi_.cols(), own);
     return calc_element_stress(
         *mesh_.blocks[b].element, mesh_.x(Eigen::all, nodes), own, Phi_.cols(),
-        second.paired, find_lame_constants(materials_[region_of(b, e)]));
+        second, find_lame_constants(materials_[region_of(b, e)]));
   }
 
   void average() {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
+#include "limber/fem/solid/hyperelastic.hpp"
 #include "limber/fem/solid/material.hpp"
 
 /// Nodal stress of displacement fields, linear isotropic elasticity.
@@ -34,7 +35,8 @@ struct IndexedMaterials {
 /// 12, .., 1P, 22, ...
 struct PairedFields {
   std::vector<int> paired;  ///< columns of Phi, increasing
-  MatrixX Theta;            ///< 3N x pairs
+  MatrixX Theta;            ///< 3N x pairs [the fields' unit squared / m]
+  Elasticity law = Elasticity::st_venant_kirchhoff;
 };
 
 /// Stress of k fields at nodes, a point for each material that a node is of.
@@ -55,8 +57,9 @@ struct NodalStress {
 ///
 /// Equation   sigma = lambda tr(e) I + 2 mu e, e = sym(grad u); of a pair
 ///            e = sym(grad theta_ij) + sym(grad phi_i' grad phi_j): Green's
-///            strain of Phi q + 1/2 Theta q q to second order, so that sigma is
-///            the second Piola-Kirchhoff stress
+///            strain of Phi q + 1/2 Theta q q to second order, and
+///            calc_stress_curvature() of phi_i and phi_j, so that sigma is the
+///            second Piola-Kirchhoff stress to second order
 /// Source     [@hinton1974]; averaging's error: [@zienkiewicz1987]
 /// @param materials one per region of the mesh
 /// @param Phi 3N x k displacement fields

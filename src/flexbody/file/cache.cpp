@@ -109,6 +109,9 @@ void add_request(const Recipe& recipe, Digest& digest) {
   if (recipe.manifold) {
     digest.add(std::string("manifold"));
     digest.add(kManifoldVersion);
+    if (recipe.law != MaterialLaw::st_venant_kirchhoff) {
+      digest.add(std::string(to_string(recipe.law)));
+    }
   }
   if (recipe.stress) {
     digest.add(std::string("stress"));

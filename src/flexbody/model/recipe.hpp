@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "limber/common/types.hpp"
+#include "limber/flexbody/model/full_body.hpp"
 #include "limber/flexbody/model/node_selection.hpp"
 
 /// Specification of one flexible body, before any mesh is read. Plain values,
@@ -150,7 +151,8 @@ struct Recipe {
   /// each becomes a ContactSurface.
   std::vector<std::string> contact_groups;
   bool manifold = false;  ///< with second-order kinematics, for level nonlinear
-  bool stress = false;    ///< with stress modes at the stored rows
+  MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of the manifold
+  bool stress = false;  ///< with stress modes at the stored rows
 };
 
 }  // namespace limber::flexbody

@@ -150,6 +150,7 @@ Recipe make_recipe(const Robot& robot, int index, const Scenario& scenario) {
   }
   recipe.manifold =
       scenario.level_of(link.name) == dynamics::Fidelity::nonlinear;
+  if (recipe.manifold) recipe.law = scenario.full.law;
   recipe.stress = needs_stress_modes(scenario, link.name);
   add_connections(recipe, robot, index);
   for (const LoadSpec& load : scenario.loads) {

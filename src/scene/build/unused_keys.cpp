@@ -93,7 +93,9 @@ class Finder {
     if (overrides_.fidelity) return;
     const std::string none = "no link is at level ";
     if (!is_any_at(Fidelity::full)) {
-      tell("full", "law", none + "full");
+      if (!is_any_at(Fidelity::nonlinear)) {
+        tell("full", "law", none + "full or nonlinear");
+      }
       tell("full", "mass", none + "full");
     }
     if (!is_any_at(Fidelity::uncoupled) &&

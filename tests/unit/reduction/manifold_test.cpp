@@ -73,7 +73,8 @@ TEST(Manifold, FieldsBalanceTheSecondOrderForcesOnWhatIsNotPaired) {
   const Manifold made(kBar);
   const MatrixX Phi_P = made.Phi()(Eigen::all, made.paired);
   const fem::SecondOrderTerms terms = fem::calc_second_order(
-      made.meshed.mesh, find_materials(made.meshed.mesh, made.recipe), Phi_P);
+      made.meshed.mesh, find_materials(made.meshed.mesh, made.recipe),
+      fem::Elasticity::st_venant_kirchhoff, Phi_P);
   const MatrixX K = testing::dense_stiffness(made.meshed);
   const MatrixX left = K * made.Theta() + terms.loads;
   // Elastic fields, in K orthogonal to paired modes.

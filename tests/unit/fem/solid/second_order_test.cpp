@@ -19,15 +19,16 @@ namespace {
 using testing::BoxKind;
 
 const ElasticMaterial kSteel{200e9, 0.3, 8000.0};
+constexpr Elasticity kLaw = Elasticity::st_venant_kirchhoff;
 
 class SecondOrder : public ::testing::TestWithParam<std::tuple<BoxKind, int>> {
  protected:
-  SecondOrder()
+  explicit SecondOrder(Elasticity law = Elasticity::st_venant_kirchhoff)
       : mesh_(read_mesh(testing::convert(
             testing::write_file("box.geo",
                                 testing::box_geo(std::get<0>(GetParam()))),
             "box.msh", {.order = std::get<1>(GetParam())}))),
-        solid_(mesh_, {kSteel}, Elasticity::st_venant_kirchhoff),
+        solid_(mesh_, {kSteel}, law),
         workspace_(solid_.make_workspace()),
         Phi_(3 * mesh_.x.cols(), 3) {
     // Smooth, so that no element turns inside out.
@@ -67,7 +68,7 @@ class SecondOrder : public ::testing::TestWithParam<std::tuple<BoxKind, int>> {
 };
 
 TEST_P(SecondOrder, LoadsAreSecondDerivativesOfTheForces) {
-  const SecondOrderTerms terms = calc_second_order(mesh_, {kSteel}, Phi_);
+  const SecondOrderTerms terms = calc_second_order(mesh_, {kSteel}, kLaw, Phi_);
   Eigen::Index pair = 0;
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = i; j < 3; ++j, ++pair) {
@@ -80,7 +81,7 @@ TEST_P(SecondOrder, LoadsAreSecondDerivativesOfTheForces) {
 }
 
 TEST_P(SecondOrder, StrainsAreThirdDerivativesOfTheEnergy) {
-  const SecondOrderTerms terms = calc_second_order(mesh_, {kSteel}, Phi_);
+  const SecondOrderTerms terms = calc_second_order(mesh_, {kSteel}, kLaw, Phi_);
   const auto& c = terms.strain;  // pairs 00 01 02 11 12 22
   const auto along = [&](double x, double y, double z) {
     return third(x * Phi_.col(0) + y * Phi_.col(1) + z * Phi_.col(2));
@@ -96,6 +97,54 @@ TEST_P(SecondOrder, StrainsAreThirdDerivativesOfTheEnergy) {
   EXPECT_NEAR((c(0, 4) + c(1, 2) + c(2, 1)) / abc, 1.0, 1e-7);
   EXPECT_TRUE((c.cwiseAbs().array() <= terms.scale.array()).all());
 }
+
+// Of a law whose stress is not linear in Green's strain: differences of small
+// displacements, whose error is of second order.
+class SecondOrderOfNeoHookean : public SecondOrder {
+ protected:
+  static constexpr double kSmall = 1e-3;
+  SecondOrderOfNeoHookean() : SecondOrder(Elasticity::neo_hookean) {}
+  MatrixX loads(Elasticity law) {
+    return calc_second_order(mesh_, {kSteel}, law, Phi_).loads;
+  }
+};
+
+TEST_P(SecondOrderOfNeoHookean, LoadsAreSecondDerivativesOfTheForces) {
+  const MatrixX own = loads(Elasticity::neo_hookean);
+  const MatrixX other = loads(kLaw);
+  Eigen::Index pair = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = i; j < 3; ++j, ++pair) {
+      const VectorX expected = 0.25 / (kSmall * kSmall) *
+                               (second(kSmall * (Phi_.col(i) + Phi_.col(j))) -
+                                second(kSmall * (Phi_.col(i) - Phi_.col(j))));
+      EXPECT_LT((own.col(pair) - expected).norm(), 1e-6 * expected.norm());
+      EXPECT_GT((other.col(pair) - expected).norm(), 0.1 * expected.norm());
+    }
+  }
+}
+
+TEST_P(SecondOrderOfNeoHookean, StrainsAreThirdDerivativesOfTheEnergy) {
+  const MatrixX c = calc_second_order(mesh_, {kSteel}, Elasticity::neo_hookean,
+                                      Phi_)
+                        .strain;  // pairs 00 01 02 11 12 22
+  const auto along = [&](double x, double y, double z) {
+    return third(kSmall *
+                 (x * Phi_.col(0) + y * Phi_.col(1) + z * Phi_.col(2))) /
+           (kSmall * kSmall * kSmall);
+  };
+  EXPECT_NEAR(3.0 * c(0, 0) / along(1, 0, 0), 1.0, 1e-4);
+  const double aab =
+      (along(1, 1, 0) - along(1, -1, 0) - 2.0 * along(0, 1, 0)) / 6.0;
+  EXPECT_NEAR((c(1, 0) + 2.0 * c(0, 1)) / aab, 1.0, 1e-4);
+  const double abc =
+      (along(1, 1, 1) - along(1, 1, -1) - along(1, -1, 1) - along(-1, 1, 1)) /
+      24.0;
+  EXPECT_NEAR((c(0, 4) + c(1, 2) + c(2, 1)) / abc, 1.0, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, SecondOrderOfNeoHookean,
+                         ::testing::Values(std::tuple(BoxKind::hexahedra, 2)));
 
 TEST_P(SecondOrder, RotationRatiosAreThoseOfShearStretchAndTurn) {
   MatrixX fields = MatrixX::Zero(Phi_.rows(), 4);
@@ -129,7 +178,8 @@ TEST_P(SecondOrder, PairEnergiesAreThoseOfGreensStrain) {
   };
   const VectorX stretch = Theta.col(0);
   const double linear = 0.5 * even(stretch) - fourth(stretch);
-  const SecondOrderTerms terms = calc_second_order(mesh_, materials, Phi_);
+  const SecondOrderTerms terms =
+      calc_second_order(mesh_, materials, kLaw, Phi_);
   const double c_00 = terms.strain(2, 0);  // pairs 00 01 02 11 12 22
   const double c_01 = terms.strain(2, 1);
   const double c_11 = terms.strain(2, 3);

@@ -126,7 +126,7 @@ TEST_P(StressOf, ProductsOfLinearFieldsAreTheRestOfGreensStrain) {
     Phi.col(k) = sample(
         mesh_, [&](const Vector3& x) -> Vector3 { return gradients[k] * x; });
   }
-  PairedFields second{{0, 2}, MatrixX::Zero(Phi.rows(), 3)};
+  PairedFields second{{0, 2}, MatrixX::Zero(Phi.rows(), 3), {}};
   second.Theta.col(1) =
       sample(mesh_, [&](const Vector3& x) -> Vector3 { return T * x; });
   const NodalStress stress = recover_stress(mesh_, {kSteel}, Phi, second);
@@ -145,6 +145,36 @@ TEST_P(StressOf, ProductsOfLinearFieldsAreTheRestOfGreensStrain) {
                         0.5 * paired.transpose() * paired);
   EXPECT_LT((sum.colwise() - expected).cwiseAbs().maxCoeff(),
             1e-10 * expected.norm());
+}
+
+// Of another law: second differences of its own stress.
+TEST_P(StressOf, ProductsHaveTheSecondOrderOfTheLaw) {
+  constexpr double kSmall = 1e-4;
+  Matrix3 H;
+  H << 0.3, -0.4, 0.3, 0.7, -0.2, 0.5, 0.1, 0.6, 0.5;
+  const PairedFields second{
+      {0}, MatrixX::Zero(3 * mesh_.x.cols(), 1), Elasticity::neo_hookean};
+  const NodalStress stress = recover_stress(
+      mesh_, {kSteel},
+      sample(mesh_, [&](const Vector3& x) -> Vector3 { return H * x; }),
+      second);
+  const auto evaluate = [&](double factor) {
+    Tensor<double> gradient;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) gradient[i][j] = factor * H(i, j);
+    }
+    const Tensor<double> S =
+        calc_stress(second.law, find_lame_constants(kSteel), gradient).S;
+    Vector6 s;
+    s << S[0][0], S[1][1], S[2][2], S[0][1], S[1][2], S[0][2];
+    return s;
+  };
+  const Vector6 expected =
+      (evaluate(kSmall) + evaluate(-kSmall)) / (kSmall * kSmall);
+  EXPECT_LT((stress.stress.bottomRows<6>().colwise() - expected)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-6 * expected.norm());
 }
 
 // The nodes' stress of a field of second degree is linear, which elements of
