@@ -69,7 +69,18 @@ constexpr double kLeastSelfEnergy = 0.02;
 constexpr double kReferenceRotation = 0.1;  // [rad]
 constexpr double kReferenceStrain = 0.001;  // [-]
 
-// The factors that make energies of pairs shares of the linear energy.
+// c_ij of the products p_ij = c_ij q_i q_j.
+VectorX find_pair_factors(Eigen::Index p) {
+  VectorX c = VectorX::Ones(count_pairs(p));
+  for (Eigen::Index i = 0, pair = 0; i < p; ++i) {
+    c[pair] = 0.5;
+    pair += p - i;
+  }
+  return c;
+}
+
+// Products where their modes are at the reference, over the root of the linear
+// energies there: energies of pairs times their squares are shares of these.
 VectorX find_pair_scales(const fem::MeanDeformation& mean,
                          const VectorX& lambda) {
   const auto find_scale = [&](Eigen::Index k) {
@@ -77,14 +88,35 @@ VectorX find_pair_scales(const fem::MeanDeformation& mean,
                               kReferenceStrain / mean.strain[k])) /
            std::sqrt(std::sqrt(lambda[k]));
   };
-  VectorX scale(count_pairs(lambda.size()));
+  VectorX scale = find_pair_factors(lambda.size());
   Eigen::Index pair = 0;
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {
     for (Eigen::Index j = i; j < lambda.size(); ++j, ++pair) {
-      scale[pair] = (i == j ? 0.5 : 1.0) * find_scale(i) * find_scale(j);
+      scale[pair] *= find_scale(i) * find_scale(j);
     }
   }
   return scale;
+}
+
+std::vector<int> choose_pairs(const VectorX& shares) {
+  std::vector<int> chosen;
+  for (int pair = 0; pair < shares.size(); ++pair) {
+    if (shares[pair] > kLeastSelfEnergy) chosen.push_back(pair);
+  }
+  return chosen;
+}
+
+// Rows whose squares add up to the energy W of products, without those that do
+// not count. @param scale of the products
+MatrixX take_roots(const MatrixX& W, const VectorX& scale, Eigen::Index most) {
+  const Eigen::SelfAdjointEigenSolver<MatrixX> shapes(scale.asDiagonal() * W *
+                                                      scale.asDiagonal());
+  const VectorX& shares = shapes.eigenvalues();  // increasing
+  const Eigen::Index count =
+      std::min<Eigen::Index>((shares.array() > kLeastSelfEnergy).count(), most);
+  return shares.tail(count).cwiseSqrt().asDiagonal() *
+         shapes.eigenvectors().rightCols(count).transpose() *
+         scale.cwiseInverse().asDiagonal();
 }
 
 // The energy of the pairs' strains that modal strains leave out, as squares of
@@ -93,45 +125,24 @@ MatrixX make_self_strains(const MeshedBody& body, const Recipe& recipe,
                           const MatrixX& Phi_P, const MatrixX& Theta,
                           const VectorX& lambda_P, const MatrixX& Q) {
   const auto materials = find_materials(body.mesh, recipe);
+  const VectorX c = find_pair_factors(lambda_P.size());
   const VectorX scale =
       find_pair_scales(fem::find_mean_deformation(body.mesh, Phi_P), lambda_P);
-  // Q and self-strains are of q_i q_j, energies of p_ij = c_ij q_i q_j.
-  VectorX c = VectorX::Ones(scale.size());
-  for (Eigen::Index i = 0, pair = 0; i < lambda_P.size(); ++i) {
-    c[pair] = 0.5;
-    pair += lambda_P.size() - i;
-  }
+  // Q and self-strains are of q_i q_j, energies of the products.
   const MatrixX modal = Q * c.cwiseInverse().asDiagonal();
-  const VectorX energies =
+  const VectorX left =
       fem::calc_pair_energies(body.mesh, materials, Phi_P, Theta) -
       modal.colwise().squaredNorm().transpose();
-  std::vector<int> of;
-  for (int pair = 0; pair < energies.size(); ++pair) {
-    if (energies[pair] * scale[pair] * scale[pair] > kLeastSelfEnergy) {
-      of.push_back(pair);
-    }
-  }
+  const std::vector<int> of =
+      choose_pairs(left.cwiseProduct(scale.cwiseAbs2()));
   if (of.empty()) return MatrixX(0, scale.size());
   const MatrixX own = modal(Eigen::all, of);
-  const MatrixX W =
-      fem::calc_pair_energy(body.mesh, materials, Phi_P, Theta, of) -
-      own.transpose() * own;
-  const VectorX D = scale(of);
-  const Eigen::SelfAdjointEigenSolver<MatrixX> shapes(D.asDiagonal() * W *
-                                                      D.asDiagonal());
-  const VectorX& shares = shapes.eigenvalues();  // increasing
-  const Eigen::Index count =
-      std::min<Eigen::Index>((shares.array() > kLeastSelfEnergy).count(),
-                             QuadraticStrain::kMostPaired - lambda_P.size());
-  MatrixX self = MatrixX::Zero(count, scale.size());
-  for (Eigen::Index s = 0; s < count; ++s) {
-    const Eigen::Index k = shares.size() - 1 - s;
-    const VectorX row =
-        std::sqrt(shares[k]) * shapes.eigenvectors().col(k).cwiseQuotient(D);
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      self(s, of[i]) = c[of[i]] * row[static_cast<Eigen::Index>(i)];
-    }
-  }
+  const MatrixX roots =
+      take_roots(fem::calc_pair_energy(body.mesh, materials, Phi_P, Theta, of) -
+                     own.transpose() * own,
+                 scale(of), QuadraticStrain::kMostPaired - lambda_P.size());
+  MatrixX self = MatrixX::Zero(roots.rows(), scale.size());
+  self(Eigen::all, of) = roots * c(of).asDiagonal();
   return self;
 }
 

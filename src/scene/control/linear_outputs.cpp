@@ -212,8 +212,8 @@ ObservedModel observe(const dynamics::SystemModel& model,
                       const std::vector<Probe>& probes) {
   ObservedModel observed{model, {}, {}};
   const auto add = [&](dynamics::Attachment frame) {
-    observed.frames.push_back(
-        AttachmentIndex(static_cast<int>(observed.model.attachments.size())));
+    observed.frames.emplace_back(
+        static_cast<int>(observed.model.attachments.size()));
     observed.model.attachments.push_back(std::move(frame));
   };
   for (const Probe& probe : probes) {
