@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/stress_answers.hpp"
 #include "limber/common/files/hdf5_file.hpp"
 #include "limber/common/types.hpp"
 
@@ -65,23 +66,6 @@ void write_bar(const Workspace& place, const BarText& text) {
                   "output_interval = {}\n[output]\npictures = false\n{}\n"
                   "[[load]]\nname = 'tip'\nlink = 'bar'\ngroup = 'tip'\n{}{}{}",
                   text.interval, text.output, text.load, text.time, text.more));
-}
-
-std::string probe_text(const std::string& name, const std::string& quantity,
-                       const std::string& where) {
-  return fmt::format(
-      "[[probe]]\nname = '{}'\nlink = 'bar'\nquantity = '{}'\n{}\n", name,
-      quantity, where);
-}
-
-json answer(const Workspace& place, const std::string& arguments) {
-  const CommandResult r = place.limber(arguments + " --json --cache c --out o");
-  EXPECT_EQ(r.status, 0) << r.errors;
-  return json::parse(r.out, nullptr, false);
-}
-
-double value(const json& summary, const std::string& column) {
-  return summary.at("probes").at(column).at("value").get<double>();
 }
 
 /// Beam theory at the upper side: the load bends towards +z.
@@ -393,67 +377,6 @@ TEST(Stress, IsComparedBetweenLevelsThatHaveIt) {
   ASSERT_EQ(rigid.status, 0) << rigid.errors;
   EXPECT_THAT(rigid.errors, HasSubstr("stress is not compared"));
   EXPECT_EQ(rigid.out.find("a.von_mises"), std::string::npos);
-}
-
-// A slender bar on a stiff joint, bent across by a fifth of its length. That it
-// keeps its length is in products of modes alone: without their stress there
-// would be gigapascals of stretch.
-void write_thin_bar(const Workspace& place) {
-  place.write("thin.geo",
-              "Point(1) = {0, -0.025, -0.01};\n"
-              "l[] = Extrude {0, 0.05, 0} { Point{1}; Layers{1}; };\n"
-              "s[] = Extrude {0, 0, 0.02} { Line{l[1]}; Layers{1}; "
-              "Recombine; };\n"
-              "v[] = Extrude {1, 0, 0} { Surface{s[1]}; Layers{20}; "
-              "Recombine; };\n"
-              "Physical Surface(\"root\") = {s[1]};\n"
-              "Physical Surface(\"tip\") = {v[0]};\n"
-              "Physical Volume(\"bar\") = {v[1]};\n"
-              "Mesh.ElementOrder = 2;\n");
-  place.write("thin.urdf",
-              "<robot name='thin'><link name='world'/><link name='bar'/>"
-              "<joint name='hold' type='fixed'><parent link='world'/>"
-              "<child link='bar'/></joint>"
-              "<coupler joint='hold' translational_stiffness='5e12' "
-              "rotational_stiffness='1e9'/>"
-              "<flexible link='bar'><mesh file='thin.geo'/>"
-              "<material youngs_modulus='2e11' poisson_ratio='0.0' "
-              "density='7800'/><basis eigenmodes='8'/>"
-              "<attach joint='hold' interface='root'/></flexible></robot>\n");
-  std::string text =
-      "robot = 'thin.urdf'\n[output]\npictures = false\nstress = true\n"
-      "[time]\nduration = 0.01\nstep = 1e-4\n[[load]]\nname = 'pull'\n"
-      "link = 'bar'\ngroup = 'tip'\nforce = [0.0, 0.0, 4000.0]\n"
-      "time = { kind = 'constant' }\n[[probe]]\nname = 'tip'\nlink = 'bar'\n"
-      "group = 'tip'\nquantity = 'displacement'\n";
-  for (const char* x : {"0.25", "0.45"}) {
-    text += probe_text("a" + std::string(x).substr(2), "von_mises",
-                       fmt::format("nearest = [{}, 0.0, 0.01]", x));
-  }
-  place.write("thin.toml", text);
-}
-
-TEST(Stress, OfABarThatBendsFarIsThatOfTheWholeMesh) {
-  const Workspace place;
-  write_thin_bar(place);
-  const auto solve = [&](const std::string& arguments) {
-    return answer(place, "static thin.toml --fidelity " + arguments);
-  };
-  const json full = solve("full");
-  EXPECT_GT(value(full, "tip.uz"), 0.19);
-  const json nonlinear = solve("nonlinear");
-  const json pieces = solve("nonlinear --set basis.pieces=2");
-  for (const char* probe : {"a25.von_mises", "a45.von_mises"}) {
-    const double truth = value(full, probe);
-    EXPECT_NEAR(value(nonlinear, probe), truth, 0.005 * truth) << probe;
-    EXPECT_NEAR(value(pieces, probe), truth, 0.005 * truth) << probe;
-  }
-  // At the root, where the section warps as it likes.
-  const double largest = full.at("stress").at(0).at("von_mises").get<double>();
-  EXPECT_NEAR(value(nonlinear, "bar.surface.von_mises"), largest,
-              0.05 * largest);
-  EXPECT_NEAR(value(pieces, "bar.1.surface.von_mises"), largest,
-              0.05 * largest);
 }
 
 }  // namespace

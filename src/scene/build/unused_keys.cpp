@@ -98,6 +98,7 @@ class Finder {
       }
       tell("full", "mass", none + "full");
     }
+    look_at_law();
     if (!is_any_at(Fidelity::uncoupled) &&
         dynamics::traits_of(scenario_.settings.integrator).takes_exact_modes) {
       tell("time", "exact_modes", none + "uncoupled");
@@ -122,6 +123,20 @@ class Finder {
     if (scenario_.output.stress) tell("output", "stress", why);
     for (const char* table : {"basis", "advice"}) {
       if (file_.contains(table)) tell(fmt::format("[{}]", table), why);
+    }
+  }
+
+  // Saved bodies have the second order of the default law.
+  void look_at_law() {
+    if (scenario_.full.law == flexbody::FullOptions{}.law) return;
+    for (const Link& link : links_) {
+      if (!link.flexible || link.flexible->reduced_file.empty() ||
+          scenario_.level_of(link.name) != Fidelity::nonlinear) {
+        continue;
+      }
+      tell("[full] law of link '" + link.name + "'",
+           fmt::format("its saved body has the second order of {}",
+                       to_string(flexbody::FullOptions{}.law)));
     }
   }
 
