@@ -276,21 +276,15 @@ void TouchWatch::check_step(double h, double t) const {
   }
 }
 
-void TouchWatch::check_leave(std::size_t index, const SystemState& before,
-                             const SystemState& after) {
+double TouchWatch::find_lost_depth(std::size_t index, const SystemState& before,
+                                   const SystemState& after) {
   Watched& watched = pairs_[index];
   if (!watched.is_touching || has_place(find_touch(watched, after)) ||
       find_clearance(watched, after) > 0.0) {
-    return;
+    return 0.0;
   }
   const double depth = find_touch(watched, before).depth;
-  if (depth <= kInseparable * watched.law->find_size()) return;
-  throw NumericalError(fmt::format(
-      "contact '{}' at t = {:.9g} s: both were {:.3g} m deep in each other, "
-      "and "
-      "their surfaces no longer face each other anywhere; a stiffer contact or "
-      "a lower speed would keep them apart",
-      model_.pairs[watched.pair].name, after.t, depth));
+  return depth > kInseparable * watched.law->find_size() ? depth : 0.0;
 }
 
 void TouchWatch::accept(const SystemState& before, const SystemState& state) {

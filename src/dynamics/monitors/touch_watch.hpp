@@ -60,11 +60,11 @@ class TouchWatch {
   /// touch could pass through each other.
   /// @throws NumericalError naming the pair.
   void check_step(double h, double t) const;
-  /// Refuses that a pair leaves each other in a step in which it was deep,
-  /// where no place of contact is left.
-  /// @throws NumericalError naming the pair.
-  void check_leave(std::size_t index, const SystemState& before,
-                   const SystemState& after);
+  /// How deep a pair was before a step that leaves it no place of contact,
+  /// where it cannot have parted; else 0 [m].
+  [[nodiscard]] double find_lost_depth(std::size_t index,
+                                       const SystemState& before,
+                                       const SystemState& after);
   /// A step from `before` to `state` is taken; the next goes on from there.
   void accept(const SystemState& before, const SystemState& state);
 

@@ -207,13 +207,17 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
       touch.energy));
 }
 
+// Two that are deep in each other cannot part in a step.
 void EventStepper::check_leave(std::size_t index, SystemState& state) {
-  try {
-    touches_.check_leave(index, before_, state);
-  } catch (const NumericalError&) {
-    take_back(state);
-    throw;
-  }
+  const double depth = touches_.find_lost_depth(index, before_, state);
+  if (!(depth > 0.0)) return;
+  const double t = state.t;
+  take_back(state);
+  throw NumericalError(fmt::format(
+      "contact '{}' at t = {:.9g} s: both were {:.3g} m deep in each other, "
+      "and their surfaces no longer face each other anywhere; a stiffer "
+      "contact or a lower speed would keep them apart",
+      model_.pairs[touches_.pair_of(index)].name, t, depth));
 }
 
 // A step that ends deep in a contact, or after it, tells its beginning badly:

@@ -85,7 +85,8 @@ class EventStepper {
   StepResult take_step(SystemState& state, double h, double end);
   void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
   void pass_all_at_end(SystemState& state, double h);
-  // @throws NumericalError if a touch brings energy; the step is taken back.
+  // @throws NumericalError if a touch brings energy, or a leave is none; the
+  // step is taken back.
   void check_deep_touch(std::size_t index, SystemState& state);
   void check_leave(std::size_t index, SystemState& state);
   void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,

@@ -24,6 +24,21 @@ void for_each_element(const Mesh& mesh, const Visit& visit) {
   }
 }
 
+// The same with the constants of its material: visit(lame, nodes, gradients).
+template <typename Visit>
+void for_each_element(const Mesh& mesh,
+                      const std::vector<ElasticMaterial>& materials,
+                      const Visit& visit) {
+  LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
+  for_each_element(mesh, [&](const ElementBlock& block, std::size_t e,
+                             const std::vector<int>& nodes,
+                             const ElementGradients& gradients) {
+    visit(find_lame_constants(
+              materials[static_cast<std::size_t>(block.regions[e])]),
+          nodes, gradients);
+  });
+}
+
 // i <= j of p fields in the order 11, 12, .., 1p, 22, ..
 std::vector<std::pair<int, int>> list_pairs(Eigen::Index p) {
   std::vector<std::pair<int, int>> pairs;
@@ -111,35 +126,35 @@ void for_each_strain(const Mesh& mesh,
   const MatrixX theta = Theta(Eigen::all, of);
   MatrixX strains;
   VectorX weights;
-  for_each_element(mesh, [&](const ElementBlock& block, std::size_t e,
-                             const std::vector<int>& nodes,
-                             const ElementGradients& gradients) {
-    const LameConstants<double> lame = find_lame_constants(
-        materials[static_cast<std::size_t>(block.regions[e])]);
-    const MatrixX own = gather(Phi, nodes);
-    const MatrixX second = gather(theta, nodes);
-    const Eigen::Index points = gradients.measure.size();
-    strains.resize(std::ssize(of), kTerms * points);
-    weights.resize(kTerms * points);
-    for (Eigen::Index q = 0; q < points; ++q) {
-      const Matrix3X& at = gradients.at[static_cast<std::size_t>(q)];
-      const MatrixX H = own * at.transpose();
-      const MatrixX H2 = second * at.transpose();
-      for (Eigen::Index k = 0; k < strains.rows(); ++k) {
-        const auto [i, j] =
-            pairs[static_cast<std::size_t>(of[static_cast<std::size_t>(k)])];
-        const Matrix3 E = symmetric_part(H2.middleRows<3>(3 * k) +
-                                         H.middleRows<3>(3 * i).transpose() *
-                                             H.middleRows<3>(3 * j));
-        strains.row(k).segment<kTerms>(kTerms * q) << E(0, 0), E(1, 1), E(2, 2),
-            E(0, 1), E(1, 2), E(0, 2), E.trace();
-      }
-      const double twice = 2.0 * lame.mu * gradients.measure[q];
-      weights.segment<kTerms>(kTerms * q) << twice, twice, twice, 2.0 * twice,
-          2.0 * twice, 2.0 * twice, lame.lambda * gradients.measure[q];
-    }
-    visit(strains, weights);
-  });
+  for_each_element(
+      mesh, materials,
+      [&](const LameConstants<double>& lame, const std::vector<int>& nodes,
+          const ElementGradients& gradients) {
+        const MatrixX own = gather(Phi, nodes);
+        const MatrixX second = gather(theta, nodes);
+        const Eigen::Index points = gradients.measure.size();
+        strains.resize(std::ssize(of), kTerms * points);
+        weights.resize(kTerms * points);
+        for (Eigen::Index q = 0; q < points; ++q) {
+          const Matrix3X& at = gradients.at[static_cast<std::size_t>(q)];
+          const MatrixX H = own * at.transpose();
+          const MatrixX H2 = second * at.transpose();
+          for (Eigen::Index k = 0; k < strains.rows(); ++k) {
+            const auto [i, j] = pairs[static_cast<std::size_t>(
+                of[static_cast<std::size_t>(k)])];
+            const Matrix3 E = symmetric_part(
+                H2.middleRows<3>(3 * k) +
+                H.middleRows<3>(3 * i).transpose() * H.middleRows<3>(3 * j));
+            strains.row(k).segment<kTerms>(kTerms * q) << E(0, 0), E(1, 1),
+                E(2, 2), E(0, 1), E(1, 2), E(0, 2), E.trace();
+          }
+          const double twice = 2.0 * lame.mu * gradients.measure[q];
+          weights.segment<kTerms>(kTerms * q) << twice, twice, twice,
+              2.0 * twice, 2.0 * twice, 2.0 * twice,
+              lame.lambda * gradients.measure[q];
+        }
+        visit(strains, weights);
+      });
 }
 
 }  // namespace
@@ -176,7 +191,6 @@ SecondOrderTerms calc_second_order(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
     Elasticity law, const MatrixX& Phi) {
   LIMBER_EXPECT(Phi.rows() == 3 * mesh.x.cols());
-  LIMBER_EXPECT(materials.size() == mesh.volume_groups.size());
   const Eigen::Index p = Phi.cols();
   const Eigen::Index pairs = p * (p + 1) / 2;
   SecondOrderTerms terms{MatrixX::Zero(Phi.rows(), pairs),
@@ -185,25 +199,24 @@ SecondOrderTerms calc_second_order(
   Point point{std::vector<Matrix3>(count), std::vector<Matrix3>(count)};
   MatrixX T(3 * pairs, 3);
   MatrixX forces;  // 3 pairs x nodes of an element
-  for_each_element(mesh, [&](const ElementBlock& block, std::size_t e,
-                             const std::vector<int>& nodes,
-                             const ElementGradients& gradients) {
-    const LameConstants<double> lame = find_lame_constants(
-        materials[static_cast<std::size_t>(block.regions[e])]);
-    const MatrixX own = gather(Phi, nodes);
-    forces.setZero(3 * pairs, own.cols());
-    for (std::size_t q = 0; q < gradients.at.size(); ++q) {
-      fill(own, gradients.at[q], lame, point);
-      add_point(point, {lame, law},
-                gradients.measure[static_cast<Eigen::Index>(q)], T, terms);
-      forces.noalias() += T * gradients.at[q];
-    }
-    for (Eigen::Index a = 0; a < own.cols(); ++a) {
-      const Eigen::Index row =
-          3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]};
-      terms.loads.middleRows<3>(row) += forces.col(a).reshaped(3, pairs);
-    }
-  });
+  for_each_element(
+      mesh, materials,
+      [&](const LameConstants<double>& lame, const std::vector<int>& nodes,
+          const ElementGradients& gradients) {
+        const MatrixX own = gather(Phi, nodes);
+        forces.setZero(3 * pairs, own.cols());
+        for (std::size_t q = 0; q < gradients.at.size(); ++q) {
+          fill(own, gradients.at[q], lame, point);
+          add_point(point, {lame, law},
+                    gradients.measure[static_cast<Eigen::Index>(q)], T, terms);
+          forces.noalias() += T * gradients.at[q];
+        }
+        for (Eigen::Index a = 0; a < own.cols(); ++a) {
+          const Eigen::Index row =
+              3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]};
+          terms.loads.middleRows<3>(row) += forces.col(a).reshaped(3, pairs);
+        }
+      });
   return terms;
 }
 

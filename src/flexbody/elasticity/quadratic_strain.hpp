@@ -22,8 +22,8 @@ namespace limber::flexbody {
 ///            second degree in its displacements (Green-Lagrange); of the force
 ///            over a step: [@simo1992], mean stress on the middle's strain
 /// Limits     kMostPaired modes in P and self-strains together. Costs as many
-/// products as Q has entries in
-///            connected rows and pairs, twice a force
+///            products as Q and self have entries in connected rows and pairs,
+///            twice a force
 class QuadraticStrain {
  public:
   static constexpr int kMostPaired = 256;

@@ -214,15 +214,16 @@ StressProbe Assembly::make_stress_probe(const StressProbeSpec& spec,
   const StressPlace place = {find_place_interface(spec.where),
                              spec.where.nodes};
   const std::span<const BodyPlan> pieces = sites_.pieces_of(link);
-  if (pieces.size() > 1 && place.interface.empty() && !piece) {
-    throw InputError(fmt::format(
-        "it is cut into {} pieces, which are a body each; say where, or ask "
-        "for '[output] stress = true', which tells the largest of each",
-        pieces.size()));
+  int at = piece.value_or(0);
+  if (!piece && pieces.size() > 1) {
+    if (place.interface.empty()) {
+      throw InputError(fmt::format(
+          "it is cut into {} pieces, which are a body each; say where, or ask "
+          "for '[output] stress = true', which tells the largest of each",
+          pieces.size()));
+    }
+    at = find_piece(pieces, spec.where);
   }
-  const int at = piece               ? *piece
-                 : pieces.size() > 1 ? find_piece(pieces, spec.where)
-                                     : 0;
   const BodyPlan& plan = sites_.plan_of(link, at);
   const Pose X_BL = sites_.X_BL(link, at);
   StressProbe probe =
