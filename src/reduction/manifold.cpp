@@ -34,6 +34,16 @@ Matrix3 invert_on(const Matrix3X& axes, const Matrix3& A) {
   return inverse;
 }
 
+// Modes with rotation above kPairedRotation.
+std::vector<int> find_paired(const fem::MeanDeformation& mean) {
+  const VectorX ratios = fem::find_rotation_ratios(mean);
+  std::vector<int> paired;
+  for (Eigen::Index k = 0; k < ratios.size(); ++k) {
+    if (ratios[k] > kPairedRotation) paired.push_back(static_cast<int>(k));
+  }
+  return paired;
+}
+
 // theta: without what the paired modes themselves span.
 MatrixX solve_fields(const MeshedBody& body, const MatrixX& Phi_P,
                      const MatrixX& loads) {
@@ -120,14 +130,14 @@ MatrixX take_roots(const MatrixX& W, const VectorX& scale, Eigen::Index most) {
 }
 
 // The energy of the pairs' strains that modal strains leave out, as squares of
-// the self-strains that count. Of slender bars none does.
+// the self-strains that count. Of slender bars none does. @param mean of Phi_P
 MatrixX make_self_strains(const MeshedBody& body, const Recipe& recipe,
+                          const fem::MeanDeformation& mean,
                           const MatrixX& Phi_P, const MatrixX& Theta,
                           const VectorX& lambda_P, const MatrixX& Q) {
   const auto materials = find_materials(body.mesh, recipe);
   const VectorX c = find_pair_factors(lambda_P.size());
-  const VectorX scale =
-      find_pair_scales(fem::find_mean_deformation(body.mesh, Phi_P), lambda_P);
+  const VectorX scale = find_pair_scales(mean, lambda_P);
   // Q and self-strains are of q_i q_j, energies of the products.
   const MatrixX modal = Q * c.cwiseInverse().asDiagonal();
   const VectorX left =
@@ -161,21 +171,13 @@ Matrix6X make_integrals(const fem::SparseMatrix& M_s, const Matrix3X& x_B,
 
 }  // namespace
 
-std::vector<int> find_paired(const fem::Mesh& mesh, const MatrixX& Phi) {
-  const VectorX ratios = fem::find_rotation_ratios(mesh, Phi);
-  std::vector<int> paired;
-  for (Eigen::Index k = 0; k < ratios.size(); ++k) {
-    if (ratios[k] > kPairedRotation) paired.push_back(static_cast<int>(k));
-  }
-  return paired;
-}
-
 ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
                              const MatrixX& Phi, const VectorX& lambda,
                              const Vector3& center, const Progress& progress) {
   report(progress, "second-order modes", 0.0);
   ManifoldFields made;
-  made.tables.paired = find_paired(body.mesh, Phi);
+  const fem::MeanDeformation mean = fem::find_mean_deformation(body.mesh, Phi);
+  made.tables.paired = find_paired(mean);
   const std::vector<int>& paired = made.tables.paired;
   if (paired.size() > QuadraticStrain::kMostPaired) {
     throw InputError(
@@ -190,8 +192,9 @@ ManifoldFields make_manifold(const MeshedBody& body, const Recipe& recipe,
                              find_elasticity(recipe.law), Phi_P);
   made.Theta = solve_fields(body, Phi_P, terms.loads);
   made.tables.Q = make_strains(terms, lambda_P);
-  made.tables.self = make_self_strains(body, recipe, Phi_P, made.Theta,
-                                       lambda_P, made.tables.Q);
+  made.tables.self = make_self_strains(
+      body, recipe, {mean.rotation(paired), mean.strain(paired)}, Phi_P,
+      made.Theta, lambda_P, made.tables.Q);
   made.tables.S2 =
       make_integrals(body.M_s, body.mesh.x.colwise() - center, made.Theta);
   return made;

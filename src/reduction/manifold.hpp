@@ -14,11 +14,6 @@ namespace limber::flexbody {
 /// to 2 is a plateau, below 1 axial modes join, 6 loses bending [-].
 inline constexpr double kPairedRotation = 1.5;
 
-/// Modes with rotation above kPairedRotation.
-/// @param Phi 3N x m, all nodes
-[[nodiscard]] std::vector<int> find_paired(const fem::Mesh& mesh,
-                                           const MatrixX& Phi);
-
 /// Second-order fields of all pairs of modes, 3N x pairs, and their Q and S2.
 ///
 /// Equation   theta_ij = -K^+ g_ij, less its components along modes of P in the

@@ -33,10 +33,7 @@ Vector6 calc_cauchy(Elasticity law, const LameConstants<double>& lame,
     }
   }
   const Matrix3 F = Matrix3::Identity() + H;
-  const Matrix3 s = F * S * F.transpose() / F.determinant();
-  Vector6 components;
-  components << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
-  return components;
+  return to_components(F * S * F.transpose() / F.determinant());
 }
 
 }  // namespace

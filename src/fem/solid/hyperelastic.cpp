@@ -9,6 +9,13 @@ LameConstants<double> find_lame_constants(const ElasticMaterial& material) {
   return {2.0 * mu * nu / (1.0 - 2.0 * nu), mu};
 }
 
+Vector6 to_components(const Matrix3& tensor) {
+  Vector6 components;
+  components << tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1),
+      tensor(1, 2), tensor(0, 2);
+  return components;
+}
+
 Matrix3 calc_stress_curvature(Elasticity law, const LameConstants<double>& lame,
                               const Matrix3& A, const Matrix3& B) {
   if (law == Elasticity::st_venant_kirchhoff) return Matrix3::Zero();

@@ -32,6 +32,9 @@ struct LameConstants {
 [[nodiscard]] LameConstants<double> find_lame_constants(
     const ElasticMaterial& material);
 
+/// Components xx, yy, zz, xy, yz, xz of a symmetric tensor.
+[[nodiscard]] Vector6 to_components(const Matrix3& tensor);
+
 /// Second derivative of S by Green's strain at rest along the symmetric parts
 /// of A and B [Pa]; zero of St. Venant-Kirchhoff's law.
 ///

@@ -77,6 +77,7 @@ Matrix3 symmetric_part(const Matrix3& H) { return 0.5 * (H + H.transpose()); }
 struct Point {
   std::vector<Matrix3> H;
   std::vector<Matrix3> S;
+  std::vector<double> norms;  // |H|
 };
 
 void fill(const MatrixX& own, const Matrix3X& gradients,
@@ -85,15 +86,62 @@ void fill(const MatrixX& own, const Matrix3X& gradients,
   for (std::size_t k = 0; k < point.H.size(); ++k) {
     point.H[k] = H.middleRows<3>(3 * static_cast<Eigen::Index>(k));
     point.S[k] = calc_stress(lame, symmetric_part(point.H[k]));
+    point.norms[k] = point.H[k].norm();
   }
 }
 
-// Adds a point's c, and sets its stresses T of g, 3 pairs x 3.
-void add_point(const Point& point, const Solid& solid, double measure,
-               MatrixX& T, SecondOrderTerms& terms) {
+// Factors of the products of components in a double contraction.
+const Vector6 kContraction{{1.0, 1.0, 1.0, 2.0, 2.0, 2.0}};
+
+// At the points of an element, six rows a point of tensors and one of norms;
+// fields' have the factors of the integral.
+class PointTensors {
+ public:
+  PointTensors(Eigen::Index points, Eigen::Index fields, Eigen::Index pairs)
+      : stress_(6 * points, fields),
+        strain_(6 * points, fields),
+        pair_strain_(6 * points, pairs),
+        curvature_(6 * points, pairs),
+        stress_norm_(points, fields),
+        pair_size_(points, pairs) {}
+
+  void set_field(Eigen::Index q, Eigen::Index k, const Matrix3& H,
+                 const Matrix3& S, double measure) {
+    stress_.col(k).segment<6>(6 * q) =
+        measure * kContraction.cwiseProduct(to_components(S));
+    strain_.col(k).segment<6>(6 * q) =
+        measure / 3.0 *
+        kContraction.cwiseProduct(to_components(symmetric_part(H)));
+    stress_norm_(q, k) = measure * S.norm();
+  }
+  void set_pair(Eigen::Index q, Eigen::Index pair, const Matrix3& E,
+                const Matrix3& A, double size) {
+    pair_strain_.col(pair).segment<6>(6 * q) = to_components(E);
+    curvature_.col(pair).segment<6>(6 * q) = to_components(A);
+    pair_size_(q, pair) = size;
+  }
+  void add_integrals(Elasticity law, SecondOrderTerms& terms) const {
+    terms.strain.noalias() += stress_.transpose() * pair_strain_;
+    if (law != Elasticity::st_venant_kirchhoff) {
+      terms.strain.noalias() += strain_.transpose() * curvature_;
+    }
+    terms.scale.noalias() += stress_norm_.transpose() * pair_size_;
+  }
+
+ private:
+  MatrixX stress_, strain_;
+  MatrixX pair_strain_, curvature_;
+  MatrixX stress_norm_, pair_size_;
+};
+
+// Sets point q's tensors and its stresses T of g, 3 pairs x 3.
+void set_point(const Point& point, const Solid& solid, double measure,
+               Eigen::Index q, PointTensors& tensors, MatrixX& T) {
   const std::size_t p = point.H.size();
   Eigen::Index pair = 0;
   for (std::size_t i = 0; i < p; ++i) {
+    tensors.set_field(q, static_cast<Eigen::Index>(i), point.H[i], point.S[i],
+                      measure);
     for (std::size_t j = i; j < p; ++j, ++pair) {
       const Matrix3 E = symmetric_part(point.H[i].transpose() * point.H[j]);
       const Matrix3 A =
@@ -101,14 +149,7 @@ void add_point(const Point& point, const Solid& solid, double measure,
       T.middleRows<3>(3 * pair) =
           measure * (calc_stress(solid.lame, E) + point.H[i] * point.S[j] +
                      point.H[j] * point.S[i] + A);
-      const double size = measure * point.H[i].norm() * point.H[j].norm();
-      for (std::size_t r = 0; r < p; ++r) {
-        const auto row = static_cast<Eigen::Index>(r);
-        terms.strain(row, pair) +=
-            measure * (point.S[r].cwiseProduct(E).sum() +
-                       point.H[r].cwiseProduct(A).sum() / 3.0);
-        terms.scale(row, pair) += size * point.S[r].norm();
-      }
+      tensors.set_pair(q, pair, E, A, point.norms[i] * point.norms[j]);
     }
   }
 }
@@ -182,8 +223,7 @@ MeanDeformation find_mean_deformation(const Mesh& mesh, const MatrixX& Phi) {
   return {(rotation / volume).cwiseSqrt(), (strain / volume).cwiseSqrt()};
 }
 
-VectorX find_rotation_ratios(const Mesh& mesh, const MatrixX& Phi) {
-  const MeanDeformation mean = find_mean_deformation(mesh, Phi);
+VectorX find_rotation_ratios(const MeanDeformation& mean) {
   return std::sqrt(2.0) * mean.rotation.cwiseQuotient(mean.strain);
 }
 
@@ -196,7 +236,8 @@ SecondOrderTerms calc_second_order(
   SecondOrderTerms terms{MatrixX::Zero(Phi.rows(), pairs),
                          MatrixX::Zero(p, pairs), MatrixX::Zero(p, pairs)};
   const auto count = static_cast<std::size_t>(p);
-  Point point{std::vector<Matrix3>(count), std::vector<Matrix3>(count)};
+  Point point{std::vector<Matrix3>(count), std::vector<Matrix3>(count),
+              std::vector<double>(count)};
   MatrixX T(3 * pairs, 3);
   MatrixX forces;  // 3 pairs x nodes of an element
   for_each_element(
@@ -205,12 +246,14 @@ SecondOrderTerms calc_second_order(
           const ElementGradients& gradients) {
         const MatrixX own = gather(Phi, nodes);
         forces.setZero(3 * pairs, own.cols());
-        for (std::size_t q = 0; q < gradients.at.size(); ++q) {
-          fill(own, gradients.at[q], lame, point);
-          add_point(point, {lame, law},
-                    gradients.measure[static_cast<Eigen::Index>(q)], T, terms);
-          forces.noalias() += T * gradients.at[q];
+        PointTensors tensors(gradients.measure.size(), p, pairs);
+        for (Eigen::Index q = 0; q < gradients.measure.size(); ++q) {
+          const Matrix3X& at = gradients.at[static_cast<std::size_t>(q)];
+          fill(own, at, lame, point);
+          set_point(point, {lame, law}, gradients.measure[q], q, tensors, T);
+          forces.noalias() += T * at;
         }
+        tensors.add_integrals(law, terms);
         for (Eigen::Index a = 0; a < own.cols(); ++a) {
           const Eigen::Index row =
               3 * Eigen::Index{nodes[static_cast<std::size_t>(a)]};

@@ -10,14 +10,6 @@
 /// Terms of second order of a mesh in large displacement, for bases of modes.
 namespace limber::fem {
 
-/// Root-mean-square rotation over root-mean-square strain of nodal fields.
-///
-/// Equation   sqrt(int |skew H|^2 dV / int |sym H|^2 dV), H = grad phi
-/// @param Phi 3N x k nodal fields [any unit]
-/// @returns k [-]; infinite for a rigid rotation, NaN for no motion at all
-[[nodiscard]] VectorX find_rotation_ratios(const Mesh& mesh,
-                                           const MatrixX& Phi);
-
 /// Second derivatives of the internal forces and of the strain energy at rest,
 /// for every pair i <= j of p fields in the order 11, 12, .., 1p, 22, ..
 ///
@@ -46,8 +38,15 @@ struct MeanDeformation {
   VectorX rotation;  ///< k [rad per unit of the field]
   VectorX strain;    ///< k [per unit of the field]
 };
+/// @param Phi 3N x k nodal fields [any unit]
 [[nodiscard]] MeanDeformation find_mean_deformation(const Mesh& mesh,
                                                     const MatrixX& Phi);
+
+/// Rotation over strain of each field.
+///
+/// Equation   sqrt(int |skew H|^2 dV / int |sym H|^2 dV), H = grad phi
+/// @returns k [-]; infinite for a rigid rotation, NaN for no motion at all
+[[nodiscard]] VectorX find_rotation_ratios(const MeanDeformation& mean);
 
 /// Energies of the second-order strains E_ij = sym(grad theta_ij) + sym(H_i'
 /// H_j) of pairs: what Green's strain of a body on the manifold has beside that

@@ -17,27 +17,58 @@ namespace limber::fem {
 namespace {
 
 using Real = long double;
-using Matrix43 = Eigen::Matrix<double, 4, 3>;
 using InverseMap =
     Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
-/// du_i/dxi_j of displacements relative to node 0.
-Matrix43 find_local_gradient(const MatrixX& gradients, const ElementField& d) {
-  Matrix43 local = Matrix43::Zero();
-  for (Eigen::Index a = 1; a < d.cols(); ++a)
-    for (Eigen::Index j = 0; j < 3; ++j)
-      local.col(j) += gradients(j, a) * d.col(a);
+// Of products of several columns at once, C at most.
+constexpr int kColumns = 8;
+template <int C>
+using Columns = Eigen::Array<double, C, 1>;
+template <int C>
+using Tensor3 = std::array<std::array<Columns<C>, 3>, 3>;
+
+// du_i/dxi_j of displacements relative to node 0.
+template <int C, typename NodalColumns>
+Tensor3<C> find_local_gradient(const MatrixX& gradients,
+                               const NodalColumns& d) {
+  Tensor3<C> local;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      Columns<C> sum = Columns<C>::Zero();
+      for (Eigen::Index a = 1; a < gradients.cols(); ++a) {
+        sum += gradients(static_cast<Eigen::Index>(j), a) *
+               d[static_cast<std::size_t>(a)][i];
+      }
+      local[i][j] = sum;
+    }
+  }
   return local;
 }
 
-/// w sigma J^-T: maps a local gradient of a shape function to a nodal force.
-Matrix43 find_local_stress(const Matrix3& H, const Matrix3& inverse,
-                           double measure, double lambda, double mu) {
-  Matrix3 sigma = mu * (H + H.transpose());
-  sigma.diagonal().array() += lambda * H.trace();
-  Matrix43 stress = Matrix43::Zero();
-  stress.topRows<3>() = measure * sigma * inverse.transpose();
-  return stress;
+// A B
+template <int C>
+Tensor3<C> multiply(const Tensor3<C>& A, const Matrix3& B) {
+  Tensor3<C> product;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      product[i][j] = A[i][0] * B(0, column) + A[i][1] * B(1, column) +
+                      A[i][2] * B(2, column);
+    }
+  }
+  return product;
+}
+
+// sigma of the strain sym H.
+template <int C>
+Tensor3<C> calc_stress(const Tensor3<C>& H, double lambda, double mu) {
+  Tensor3<C> sigma;
+  const Columns<C> volumetric = lambda * (H[0][0] + H[1][1] + H[2][2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) sigma[i][j] = mu * (H[i][j] + H[j][i]);
+    sigma[i][i] += volumetric;
+  }
+  return sigma;
 }
 
 }  // namespace
@@ -116,57 +147,114 @@ StiffnessProduct StiffnessProduct::restrict_to(
 // Displacements relative to node 0, without the rotation at the first point.
 // The rotation is subtracted in extended precision: the rest is as small as the
 // strain, so double precision suffices for it.
-ElementField StiffnessProduct::find_deformation(const Element& element,
-                                                const VectorX& u) const {
-  const auto at = [&](int a, int i) -> Real {
-    const int row = rows_[static_cast<std::size_t>(element.nodes[a])];
-    return row < 0 ? 0.0 : u[3 * row + i];
+template <int C>
+void StiffnessProduct::find_deformation(const Element& element,
+                                        const std::vector<double>& u,
+                                        NodalColumns<C>& d) const {
+  const auto at = [&](std::size_t a, std::size_t i, int c) -> Real {
+    const int row = rows_[index(element.nodes[a])];
+    return row < 0 ? 0.0 : u[(index(3 * row) + i) * C + index(c)];
   };
-  std::array<Real, std::size_t{3} * kMostElementNodes> edge{};
-  ElementField d = ElementField::Zero(4, element.node_count);
-  for (int a = 1; a < element.node_count; ++a)
-    for (int i = 0; i < 3; ++i) {
-      Real& component = edge[index(3 * a + i)];
-      component = at(a, i) - at(0, i);
-      d(i, a) = static_cast<double>(component);
-    }
-  const Matrix3 H =
-      find_local_gradient(element.rule->gradients[0], d).topRows<3>() *
-      InverseMap(elements_->points[element.first_point].inverse.data());
-  const Matrix3 turn = 0.5 * (H - H.transpose());
-  for (int a = 1; a < element.node_count; ++a) {
-    const Vector3 arm =
-        elements_->x.col(element.nodes[a]) - elements_->x.col(element.nodes[0]);
-    for (int i = 0; i < 3; ++i) {
-      Real rest = edge[index(3 * a + i)];
-      for (int j = 0; j < 3; ++j) rest -= Real{turn(i, j)} * arm[j];
-      d(i, a) = static_cast<double>(rest);
+  const auto nodes = index(element.node_count);
+  std::array<std::array<std::array<Real, C>, 3>, kMostElementNodes> edge;
+  for (std::size_t a = 1; a < nodes; ++a) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (int c = 0; c < C; ++c) {
+        Real& component = edge[a][i][index(c)];
+        component = at(a, i, c) - at(0, i, c);
+        d[a][i][c] = static_cast<double>(component);
+      }
     }
   }
-  return d;
+  const Tensor3<C> H = multiply<C>(
+      find_local_gradient<C>(element.rule->gradients[0], d),
+      InverseMap(elements_->points[element.first_point].inverse.data()));
+  Tensor3<C> turn;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      turn[i][j] = 0.5 * (H[i][j] - H[j][i]);
+    }
+  }
+  for (std::size_t a = 1; a < nodes; ++a) {
+    const Vector3 arm =
+        elements_->x.col(element.nodes[a]) - elements_->x.col(element.nodes[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (int c = 0; c < C; ++c) {
+        Real rest = edge[a][i][index(c)];
+        for (std::size_t j = 0; j < 3; ++j) {
+          rest -= Real{turn[i][j][c]} * arm[static_cast<Eigen::Index>(j)];
+        }
+        d[a][i][c] = static_cast<double>(rest);
+      }
+    }
+  }
 }
 
-void StiffnessProduct::add_forces(const Element& element, const VectorX& u,
+template <int C>
+void StiffnessProduct::add_forces(const Element& element,
+                                  const std::vector<double>& u,
                                   std::vector<Real>& forces) const {
-  const ElementField d = find_deformation(element, u);
-  ElementField f = ElementField::Zero(4, element.node_count);
+  NodalColumns<C> d;
+  find_deformation<C>(element, u, d);
+  const auto nodes = index(element.node_count);
+  NodalColumns<C> f;
+  for (std::size_t a = 0; a < nodes; ++a) f[a].fill(Columns<C>::Zero());
   const Quadrature& rule = *element.rule;
   for (std::size_t q = 0; q < rule.gradients.size(); ++q) {
     const Point& point = elements_->points[element.first_point + q];
     const MatrixX& gradients = rule.gradients[q];
     const Matrix3 inverse = InverseMap(point.inverse.data());
-    const Matrix3 H = find_local_gradient(gradients, d).topRows<3>() * inverse;
-    const Matrix43 stress = find_local_stress(H, inverse, point.measure,
-                                              element.lambda, element.mu);
-    for (Eigen::Index a = 1; a < f.cols(); ++a)
-      for (Eigen::Index j = 0; j < 3; ++j)
-        f.col(a) += gradients(j, a) * stress.col(j);
+    const Tensor3<C> H =
+        multiply<C>(find_local_gradient<C>(gradients, d), inverse);
+    // w sigma J^-T maps the local gradient of a shape function to its force.
+    const Tensor3<C> stress =
+        multiply<C>(calc_stress<C>(H, element.lambda, element.mu),
+                    point.measure * inverse.transpose());
+    for (std::size_t a = 1; a < nodes; ++a) {
+      const auto column = static_cast<Eigen::Index>(a);
+      for (std::size_t i = 0; i < 3; ++i) {
+        f[a][i] += gradients(0, column) * stress[i][0] +
+                   gradients(1, column) * stress[i][1] +
+                   gradients(2, column) * stress[i][2];
+      }
+    }
   }
-  f.col(0) = -f.rightCols(f.cols() - 1).rowwise().sum();
-  for (int a = 0; a < element.node_count; ++a) {
-    const int row = rows_[static_cast<std::size_t>(element.nodes[a])];
-    for (int i = 0; i < 3 && row >= 0; ++i)
-      forces[index(3 * row + i)] += f(i, a);
+  for (std::size_t a = 1; a < nodes; ++a) {
+    for (std::size_t i = 0; i < 3; ++i) f[0][i] -= f[a][i];
+  }
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const int row = rows_[index(element.nodes[a])];
+    if (row < 0) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (int c = 0; c < C; ++c) {
+        forces[(index(3 * row) + i) * C + index(c)] += f[a][i][c];
+      }
+    }
+  }
+}
+
+template <int C>
+void StiffnessProduct::subtract_columns(const MatrixX& F, const MatrixX& X,
+                                        Eigen::Index first,
+                                        MatrixX& rest) const {
+  const auto size = static_cast<std::size_t>(X.rows()) * C;
+  std::vector<double> u(size);
+  std::vector<Real> forces(size);
+  const auto place = [](Eigen::Index row, Eigen::Index column) {
+    return static_cast<std::size_t>(C * row + column);
+  };
+  for (Eigen::Index c = 0; c < C; ++c) {
+    for (Eigen::Index i = 0; i < X.rows(); ++i)
+      u[place(i, c)] = X(i, first + c);
+  }
+  for (const Element& element : elements_->list) {
+    add_forces<C>(element, u, forces);
+  }
+  for (Eigen::Index c = 0; c < C; ++c) {
+    for (Eigen::Index i = 0; i < X.rows(); ++i) {
+      rest(i, first + c) =
+          static_cast<double>(F(i, first + c) - forces[place(i, c)]);
+    }
   }
 }
 
@@ -175,20 +263,21 @@ MatrixX StiffnessProduct::subtract_from(const MatrixX& F,
   LIMBER_EXPECT(X.rows() == 3 * row_count_ && F.rows() == X.rows());
   LIMBER_EXPECT(F.cols() == X.cols());
   MatrixX rest(F.rows(), F.cols());
-  const auto columns = static_cast<std::size_t>(X.cols());
-  parallel_ranges(columns, [&](std::size_t begin, std::size_t end) {
-    std::vector<Real> forces(static_cast<std::size_t>(X.rows()));
-    for (std::size_t c = begin; c < end; ++c) {
-      const auto column = static_cast<Eigen::Index>(c);
-      std::fill(forces.begin(), forces.end(), Real{0});
-      const VectorX u = X.col(column);
-      for (const Element& element : elements_->list)
-        add_forces(element, u, forces);
-      for (Eigen::Index i = 0; i < X.rows(); ++i)
-        rest(i, column) = static_cast<double>(
-            F(i, column) - forces[static_cast<std::size_t>(i)]);
-    }
-  });
+  // Groups of columns, then those that are left, one by one.
+  const Eigen::Index groups = X.cols() / kColumns;
+  const Eigen::Index single = X.cols() % kColumns;
+  parallel_ranges(static_cast<std::size_t>(groups + single),
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t k = begin; k < end; ++k) {
+                      const auto part = static_cast<Eigen::Index>(k);
+                      if (part < groups) {
+                        subtract_columns<kColumns>(F, X, kColumns * part, rest);
+                      } else {
+                        subtract_columns<1>(
+                            F, X, kColumns * groups + part - groups, rest);
+                      }
+                    }
+                  });
   return rest;
 }
 

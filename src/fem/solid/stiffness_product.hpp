@@ -20,10 +20,7 @@ struct StiffnessSpread {
   double stiffest = 0.0;  ///< largest Young's modulus [Pa]
 };
 
-/// Vectors at an element's nodes. The fourth row is zero padding, for SIMD.
 inline constexpr int kMostElementNodes = 64;  ///< a hexahedron of order 3
-using ElementField =
-    Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, kMostElementNodes>;
 
 /// Matrix-free stiffness K of a mesh: products K u summed from the elements'
 /// strains. An element's rotation is subtracted from its displacements in
@@ -77,10 +74,20 @@ class StiffnessProduct {
                           const Matrix3X& x, const ElasticMaterial& material,
                           Elements& to);
   void find_spread(const std::vector<ElasticMaterial>& materials);
-  [[nodiscard]] ElementField find_deformation(const Element& element,
-                                              const VectorX& u) const;
-  void add_forces(const Element& element, const VectorX& u,
+  /// Vectors at an element's nodes, of C columns whose products are found at
+  /// once. Of `u` and `forces`, they are side by side.
+  template <int C>
+  using NodalColumns =
+      std::array<std::array<Eigen::Array<double, C, 1>, 3>, kMostElementNodes>;
+  template <int C>
+  void subtract_columns(const MatrixX& F, const MatrixX& X, Eigen::Index first,
+                        MatrixX& rest) const;
+  template <int C>
+  void add_forces(const Element& element, const std::vector<double>& u,
                   std::vector<long double>& forces) const;
+  template <int C>
+  void find_deformation(const Element& element, const std::vector<double>& u,
+                        NodalColumns<C>& d) const;
 
   std::shared_ptr<const Elements> elements_;
   std::vector<int> rows_;  ///< of each node; -1 if fixed

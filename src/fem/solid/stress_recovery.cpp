@@ -70,12 +70,6 @@ struct ElementStress {
   bool is_straight = false;
 };
 
-Vector6 to_components(const Matrix3& s) {
-  Vector6 components;
-  components << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
-  return components;
-}
-
 // Hooke's law for the strain sym(h).
 Vector6 calc_stress(const LameConstants<double>& lame, const Matrix3& h) {
   const double volumetric = lame.lambda * h.trace();
