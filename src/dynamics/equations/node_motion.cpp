@@ -34,43 +34,29 @@ void set_coordinates(const BodyModel& body, const SystemState& state,
   flexbody::set_products(paired_of(body), eta, out + body.modes);
 }
 
-// Modes, and at level nonlinear the columns of their products.
-MatrixX join_modes(const BodyModel& body) {
-  const auto& rows = body.reduced->rows;
-  if (body.fidelity != Fidelity::nonlinear) {
-    return rows.Phi_B.leftCols(body.modes);
-  }
-  const MatrixX& Theta_B = body.reduced->manifold->Theta_B;
-  MatrixX basis(rows.x_B.size(), body.modes + Theta_B.cols());
-  basis << rows.Phi_B.leftCols(body.modes), Theta_B;
-  return basis;
-}
-
-// basis times [eta; rest] block by block, and `finish(j)` on every column while
-// it is in cache.
+// Deformations of the nodes block by block, and `finish(j)` on every column
+// while it is in cache.
 template <typename Finish>
-void multiply(const BodyModel& body, const MatrixX& basis,
-              std::span<const SystemState> states, Eigen::Ref<MatrixX> out,
-              const Finish& finish) {
-  MatrixX coordinates = MatrixX::Ones(basis.cols(), kBlock);
-  for (Eigen::Index first = 0; first < out.cols(); first += kBlock) {
-    const Eigen::Index count = std::min(kBlock, out.cols() - first);
+void deform(const BodyModel& body, std::span<const SystemState> states,
+            Eigen::Ref<MatrixX> u_B, const Finish& finish) {
+  const auto& Phi_B = body.reduced->rows.Phi_B;
+  const bool is_nonlinear = body.fidelity == Fidelity::nonlinear;
+  MatrixX coordinates(count_coordinates(body), kBlock);
+  for (Eigen::Index first = 0; first < u_B.cols(); first += kBlock) {
+    const Eigen::Index count = std::min(kBlock, u_B.cols() - first);
     for (Eigen::Index j = 0; j < count; ++j) {
       const SystemState& state = states[static_cast<std::size_t>(first + j)];
       set_coordinates(body, state, coordinates.col(j).data());
     }
-    out.middleCols(first, count).noalias() =
-        basis * coordinates.leftCols(count);
+    const auto now = coordinates.leftCols(count);
+    auto u = u_B.middleCols(first, count);
+    u.noalias() = Phi_B.leftCols(body.modes) * now.topRows(body.modes);
+    if (is_nonlinear) {
+      const MatrixX& Theta_B = body.reduced->manifold->Theta_B;
+      u.noalias() += Theta_B * now.bottomRows(Theta_B.cols());
+    }
     for (Eigen::Index j = first; j < first + count; ++j) finish(j);
   }
-}
-
-// Modes and, as one more column with the coordinate 1, the undeformed shape.
-MatrixX join_shape(const BodyModel& body) {
-  const MatrixX modes = join_modes(body);
-  MatrixX basis(modes.rows(), modes.cols() + 1);
-  basis << modes, body.reduced->rows.x_B.reshaped();
-  return basis;
 }
 
 // column <- R column + p, 3 numbers at a time.
@@ -124,12 +110,7 @@ void calc_node_deformations(const SystemModel& model, BodyIndex body,
     u_B.setZero();
     return;
   }
-  const auto ignore = [](Eigen::Index) {};
-  if (b.fidelity == Fidelity::nonlinear) {
-    multiply(b, join_modes(b), states, u_B, ignore);
-  } else {
-    multiply(b, b.reduced->rows.Phi_B, states, u_B, ignore);
-  }
+  deform(b, states, u_B, [](Eigen::Index) {});
 }
 
 void calc_node_positions(const SystemModel& model, BodyIndex body,
@@ -143,7 +124,9 @@ void calc_node_positions(const SystemModel& model, BodyIndex body,
     return;
   }
   const auto at = static_cast<std::size_t>(body);
-  multiply(b, join_shape(b), states, p_WP, [&](Eigen::Index j) {
+  const auto x_B = b.reduced->rows.x_B.reshaped();
+  deform(b, states, p_WP, [&](Eigen::Index j) {
+    p_WP.col(j) += x_B;
     const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
     move_column(now.quat_WB.toRotationMatrix(), now.p_WB, p_WP.col(j).data(),
                 p_WP.rows() / 3);
@@ -161,7 +144,9 @@ void calc_node_displacements(const SystemModel& model, BodyIndex body,
     return;
   }
   const auto at = static_cast<std::size_t>(body);
-  multiply(b, join_shape(b), states, u_W, [&](Eigen::Index j) {
+  const auto x_B = b.reduced->rows.x_B.reshaped();
+  deform(b, states, u_W, [&](Eigen::Index j) {
+    u_W.col(j) += x_B;
     const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
     move_column(now.quat_WB.toRotationMatrix(), now.p_WB, u_W.col(j).data(),
                 u_W.rows() / 3);

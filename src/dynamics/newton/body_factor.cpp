@@ -32,7 +32,7 @@ BodyFactor::BodyFactor(const BodyModel& body)
     return;
   }
   coupled_modes_.emplace(body.modes);
-  answer_ = MatrixX::Zero(body.modes, 3);
+  answer_.setZero(body.modes, 3);
   diagonal_ = VectorX::Zero(body.modes);
 }
 

@@ -64,7 +64,8 @@ class BodyFactor {
   VectorX inverse_modes_;  // of a diagonal modal block, else none
   std::optional<CoupledModes> coupled_modes_;  // of a dense one
   VectorX diagonal_;                           // c + v zeta of that
-  MatrixX answer_;  // dense block^-1 (c H' T): m x 3, else none
+  /// Dense block^-1 (c H' T): m x 3, else none.
+  Eigen::Matrix<double, Eigen::Dynamic, 3> answer_;
 };
 
 }  // namespace limber::dynamics

@@ -11,7 +11,10 @@ namespace limber::dynamics {
 /// modes.
 ///
 /// Equation   A = c + v zeta + K, not symmetric where K is that of a step
-/// Limits     factoring allocates, once a factor (measured with 20 modes)
+/// Limits     factoring allocates, once a factor (measured with 20 modes).
+///            Factors that are kept are inverted after kSolvesByFactors
+///            solutions: a product costs less than half of a solution, an
+///            inverse some 20 of them
 class CoupledModes {
  public:
   explicit CoupledModes(Eigen::Index modes);
@@ -29,8 +32,12 @@ class CoupledModes {
   [[nodiscard]] const MatrixX& matrix() const { return A_; }
 
  private:
+  static constexpr int kSolvesByFactors = 16;
+
   MatrixX A_;
   Eigen::PartialPivLU<MatrixX> lu_;
+  MatrixX inverse_;
+  int solves_ = 0;  // since the factors were made
   VectorX scratch_;
 };
 

@@ -154,8 +154,10 @@ QuadraticStrain::Paired QuadraticStrain::find_strains(const Block& block,
     for (Eigen::Index k = 0; k < products.size(); ++k) {
       products[k] = p[i[k]] * p[j[k]];
     }
-    e.noalias() +=
-        block.Q.middleRows(first, products.size()).transpose() * products;
+    // Without the start of a general product, which costs more than this one.
+    e.noalias() += block.Q.middleRows(first, products.size())
+                       .transpose()
+                       .lazyProduct(products);
   }
   return e;
 }
