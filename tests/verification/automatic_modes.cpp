@@ -73,6 +73,16 @@ TEST(AutomaticModesByCompliance, StateTheErrorThatTheStaticAnswerHas) {
   }
 }
 
+TEST(AutomaticModesByCompliance, CountTheModesThatImpactsAdd) {
+  flexbody::Recipe recipe = recipe_of(test::shear_load(beam()), {0.5});
+  const std::size_t own = flexbody::reduce(recipe).selection->modes.size();
+  recipe.basis.automatic->impacts = {{0.1, 1e11, 1.0}};
+  const flexbody::ReducedBody body = flexbody::reduce(recipe);
+  EXPECT_GT(body.selection->modes.size(), own + 2);
+  const flexbody::SelectedCase& found = body.selection->cases[0];
+  EXPECT_NEAR(found.reached, 1.0 - std::pow(found.eigenmode_error, 2), 1e-9);
+}
+
 // A cantilever bends by modes that a pull along it does not move.
 TEST(AutomaticModesByCompliance, AreTheUnionOverLoadCases) {
   const MatrixX loads = shear_and_stretch();
