@@ -40,13 +40,13 @@ void replace(std::string& text, const std::string& old, const std::string& by) {
 
 /// Runs s.toml into out/ and kills it when its first checkpoint is there.
 void kill_run(const Workspace& place) {
-  const std::string line =
-      "cd '" + place.folder().string() +
-      "' && ('" LIMBER_COMMAND
+  const CommandResult result = run_shell(
+      place,
+      "'" LIMBER_COMMAND
       "' run s.toml --out out --checkpoint-interval 0 >run.txt 2>&1 & "
       "pid=$!; while kill -0 $pid 2>/dev/null && [ ! -e out/checkpoint.bin ];"
-      " do sleep 0.01; done; kill -9 $pid)";
-  ASSERT_EQ(std::system(line.c_str()), 0);
+      " do sleep 0.01; done; kill -9 $pid");
+  ASSERT_EQ(result.status, 0) << result.errors;
   ASSERT_TRUE(fs::exists(place.folder() / "out/checkpoint.bin"));
 }
 
