@@ -2,7 +2,9 @@
 // Energies and work of the exact modal response.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -112,6 +114,53 @@ TEST(ModalResponse, StepWorkCountsTheMotionThatSinusoidsCause) {
     EXPECT_NEAR(work(k, 0), power, 1e-12) << k;
   }
 }
+
+// Power of mode k, integrated between the breaks up to each of the times.
+VectorX integrate_power(const std::function<double(double)>& power,
+                        const std::vector<double>& times) {
+  const std::vector<double> breaks{0.25, 0.5, 0.53, 0.7, 1.9, 3.1, 4.0, 9.0};
+  VectorX sums = VectorX::Zero(std::ssize(times));
+  for (std::size_t j = 0; j < times.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      const double end = std::min(times[j], breaks[i + 1]);
+      if (end <= breaks[i]) break;
+      sums[static_cast<Eigen::Index>(j)] +=
+          integrate_gauss(power, breaks[i], end, 16);
+    }
+  }
+  return sums;
+}
+
+// Under loads: those of steps and sinusoids, steps alone, none.
+class ModalLossesUnder : public ::testing::TestWithParam<ModalLoads> {};
+
+TEST_P(ModalLossesUnder, AreTheIntegralsOfTheirPowers) {
+  const Modes modes;
+  const ModalLoads& loads = GetParam();
+  const ModalResponse response(modes.lambda, modes.damping, loads,
+                               make_state());
+  const std::vector<double> times{0.25, 0.51, 0.9, 2.0, 3.5, 5.5};
+  const ModalLosses losses = response.evaluate_losses(times);
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const auto find_rate = [&](double t) {
+      return response.evaluate({t}).etadot(k, 0);
+    };
+    const VectorX dissipated = integrate_power(
+        [&](double t) { return modes.damping[k] * std::pow(find_rate(t), 2); },
+        times);
+    const VectorX work = integrate_power(
+        [&](double t) { return find_load(loads, k, t) * find_rate(t); }, times);
+    EXPECT_LT((losses.dissipated.row(k) - dissipated.transpose()).norm(), 1e-9)
+        << k;
+    EXPECT_LT((losses.work.row(k) - work.transpose()).norm(), 1e-9) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Loads, ModalLossesUnder,
+    ::testing::Values(make_loads(), ModalLoads{make_steps(6), {}},
+                      ModalLoads{{}, {make_sinusoid(3.0, 0.7, 3.1)}},
+                      ModalLoads{}));
 
 // A difference of eta would leave no digit of this work.
 TEST(ModalResponse, WorkOfAShortIntervalKeepsItsDigits) {
