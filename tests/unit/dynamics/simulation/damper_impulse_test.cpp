@@ -131,6 +131,24 @@ TEST(DamperImpulse, BringsABodyToTheRateOfItsDrive) {
   EXPECT_NEAR(impulse->dissipated, kinetic, 1e-6 * kinetic);
 }
 
+TEST(DamperImpulse, NamesTheCouplerHoweverLittlePowerItTakes) {
+  SystemBuilder builder;
+  const testing::Mass a = testing::add_mass(builder, "a", kMassA);
+  const testing::Mass b = testing::add_mass(builder, "b", kMassB);
+  for (const double damping : {1.0, 1e8}) {
+    joints::Bushing::Parameters pad;
+    pad.translational_damping = damping * Matrix3::Identity();
+    builder.add_coupler(damping > 1.0 ? "firm" : "loose", joints::Bushing(pad),
+                        a.frame, b.frame);
+  }
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  state.bodies[1].v_WB_W = {1e-6, 0, 0};  // at most 0.1 mW
+  const auto impulse = apply_damper_impulse(model, 1e-3, state);
+  ASSERT_TRUE(impulse);
+  EXPECT_EQ(impulse->coupler, "firm");
+}
+
 TEST(DamperImpulse, KeepsMomentaOfAFreeChainThatBends) {
   const testing::PointMassBody body =
       testing::make_point_mass_body(24, 6, 4.0, 1.0, 60.0, 42);

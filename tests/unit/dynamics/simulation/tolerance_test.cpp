@@ -52,6 +52,27 @@ Oscillator make_oscillator() {
   return out;
 }
 
+// A constant force on a free mass: its power is linear in time, also within
+// steps.
+TEST(Tolerance, WorkAtOutputsWithinStepsIsThatOfAConstantForce) {
+  constexpr double kMass = 2.0;
+  constexpr double kForce = 3.0;
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", kMass);
+  builder.add_load("push", mass.frame, {kForce, 0, 0}, Vector3::Zero(),
+                   LoadFrame::world, Constant{});
+  const SystemModel model = builder.build();
+  const RunOutcome r =
+      run_from(model, make_state(model), to_tolerance(1e-2, 2.0, 1000));
+  EXPECT_LT(r.statistics.steps, 500);
+  ASSERT_EQ(r.energies.size(), 1001U);
+  for (std::size_t i = 0; i < r.energies.size(); ++i) {
+    const double impulse = kForce * r.states[i].t;
+    ASSERT_NEAR(r.energies[i].work, impulse * impulse / (2.0 * kMass), 1e-9)
+        << i;
+  }
+}
+
 class ToleranceOf : public ::testing::TestWithParam<double> {};
 
 TEST_P(ToleranceOf, HoldsAtEveryOutputOfAnOscillator) {
