@@ -69,6 +69,22 @@ TEST(FullEnergy, OfRigidMotionIsRigid) {
   EXPECT_EQ(energy.elastic, 0.0);
 }
 
+TEST(FullEnergy, OfABentBodyThatMovesAsOneIsRigid) {
+  const Lattice lattice;
+  const SystemModel model = lattice.builder.build();
+  SystemState state = stir(model);
+  const FullModel& full = model.full_bodies[0];
+  const Matrix3X p = full.mesh->x_B + nodes_of(full, state.u_H);
+  auto udot = nodes_of(full, state.udot_H);
+  for (Eigen::Index i = 0; i < p.cols(); ++i) {
+    udot.col(i) = Vector3(0.5, 0.2, -0.7) +
+                  Vector3(3.0, -1.0, 2.0).cross(Vector3(p.col(i)));
+  }
+  const EnergyBalance energy = calc_energy(model, state);
+  EXPECT_GT(energy.kinetic_rigid, 0.5);
+  EXPECT_NEAR(energy.kinetic_modal, 0.0, 1e-12 * energy.kinetic_rigid);
+}
+
 // --- Forces -----------------------------------------------------------------
 
 SystemTerms find_terms(const SystemModel& model, const SystemState& state) {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guesses and corrections of unreduced bodies that rotate.
+#include "limber/dynamics/integrators/full_turn.hpp"
+
+#include <gtest/gtest.h>
+
+#include "limber/common/rotation.hpp"
+#include "support/full_lattice.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+const Vector3 kSpin(30.0, -10.0, 20.0);  // rad/s
+
+// A lattice that is bent far and spins as a rigid body.
+class FullTurn : public ::testing::Test {
+ protected:
+  FullTurn() {
+    calc_mean_frame(model_, full(), state_, frame_);
+    auto udot = nodes_of(full(), state_.udot_H);
+    for (Eigen::Index i = 0; i < udot.cols(); ++i) {
+      udot.col(i) = Vector3(0.5, 0.2, -0.7) + kSpin.cross(find_arm(i));
+    }
+    calc_mean_frame(model_, full(), state_, frame_);
+  }
+
+  [[nodiscard]] const FullModel& full() const { return model_.full_bodies[0]; }
+  // From the frame's origin.
+  [[nodiscard]] Vector3 find_arm(Eigen::Index i) const {
+    return full().mesh->x_B.col(i) + nodes_of(full(), state_.u_H).col(i) -
+           frame_.p_HB;
+  }
+
+  testing::Lattice lattice_;
+  SystemModel model_ = lattice_.builder.build();
+  SystemState state_ = testing::stir(model_);
+  MeanFrame frame_;
+};
+
+TEST_F(FullTurn, GuessesTheStepOfABentBodyThatSpinsAndFalls) {
+  const NewmarkStep step{.h = 1e-2, .lag = 0.2, .beta = 0.3};
+  const Vector3 fall(1.0, -9.0, 4.0);
+  VectorX uddot = VectorX::Zero(state_.u_H.size());
+  auto acceleration = nodes_of(full(), uddot);
+  for (Eigen::Index i = 0; i < acceleration.cols(); ++i) {
+    acceleration.col(i) = fall + kSpin.cross(kSpin.cross(find_arm(i)));
+  }
+  const VectorX a = testing::make_field(uddot.size(), 5.0, 7);
+  VectorX a_next = VectorX::Zero(uddot.size());
+  ASSERT_TRUE(predict_turns(model_, state_, uddot, a, step, a_next));
+  const VectorX next = state_.u_H + step.h * state_.udot_H +
+                       step.h * step.h * (step.lag * a + step.beta * a_next);
+  const double s = step.lag + step.beta;
+  const Matrix3 change = exp_rotation(step.h * kSpin) - Matrix3::Identity();
+  for (Eigen::Index i = 0; i < acceleration.cols(); ++i) {
+    const Vector3 expected = nodes_of(full(), state_.u_H).col(i) +
+                             step.h * frame_.v_H + s * step.h * step.h * fall +
+                             change * find_arm(i);
+    EXPECT_LT((nodes_of(full(), next).col(i) - expected).norm(), 1e-12) << i;
+  }
+}
+
+TEST_F(FullTurn, DoesNotGuessForABodyThatHardlyRotates) {
+  state_.udot_H *= 1e-4;
+  const VectorX zero = VectorX::Zero(state_.u_H.size());
+  VectorX a_next = zero;
+  EXPECT_FALSE(
+      predict_turns(model_, state_, zero, zero, {1e-2, 0.2, 0.3}, a_next));
+}
+
+TEST_F(FullTurn, TurnsACorrectionWithoutStrain) {
+  // A linear rotation about the frame's origin, and a translation.
+  const Vector3 theta(0.2, 0.1, -0.3);
+  const Vector3 shift(0.01, 0.02, 0.03);
+  VectorX d = VectorX::Zero(state_.u_H.size());
+  auto correction = nodes_of(full(), d);
+  for (Eigen::Index i = 0; i < correction.cols(); ++i) {
+    correction.col(i) = shift + theta.cross(find_arm(i));
+  }
+  turn_corrections(model_, state_, d);
+  const Matrix3 change = exp_rotation(theta) - Matrix3::Identity();
+  for (Eigen::Index i = 0; i < correction.cols(); ++i) {
+    EXPECT_LT((correction.col(i) - shift - change * find_arm(i)).norm(), 1e-12)
+        << i;
+  }
+}
+
+}  // namespace
+}  // namespace limber::dynamics
