@@ -336,5 +336,26 @@ TEST(SmallMotion, IsThatOfDifferencesOfTheAccelerations) {
   }
 }
 
+TEST(SmallMotionAtAJump, HasTheLoadThatBeginsThenAlsoAfterHours) {
+  for (const double start : {0.0, 3.0, 1e4}) {
+    SystemBuilder builder;
+    const auto body = builder.add_rigid_body("b", {1.0, Matrix3::Identity()});
+    const auto centre = builder.attach_frame("centre", body, {});
+    builder.add_load("thrust", centre, {7.0, 0.0, 0.0}, Vector3::Zero(),
+                     LoadFrame::body, Constant{.from = start});
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    const auto find_rest = [&](double t) {
+      state.t = t;
+      return find_small_motion(model, state, {}).rest;
+    };
+    // It turns with the body: the force changes by theta x f.
+    MatrixX expected = MatrixX::Zero(6, 6);
+    expected.block<3, 3>(0, 3) = skew(Vector3(7.0, 0.0, 0.0));
+    EXPECT_LT((find_rest(start) - expected).norm(), 1e-12) << start;
+    EXPECT_LT(find_rest(start - 1.0).norm(), 1e-12) << start;
+  }
+}
+
 }  // namespace
 }  // namespace limber::dynamics
