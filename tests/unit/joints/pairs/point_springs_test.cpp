@@ -119,6 +119,15 @@ TEST_F(PointSpringsTest, AddUpAndLeaveOutSlackLines) {
   EXPECT_NEAR(dissipation, 2.0 * out_.dissipation, 1e-11);
 }
 
+TEST_F(PointSpringsTest, ActHoweverSoftTheyAre) {
+  const PairBody a = A_.at(0.0);
+  const PairBody b = B_.at(0.0);
+  const auto line = make_line({.stiffness = 1e-6, .damping = 1e-9});
+  PointSprings({line}).evaluate({a, b}, {0.0}, {}, out_);
+  ASSERT_EQ(out_.points().size(), 1);
+  EXPECT_GT(out_.points()[0].force_W.norm(), 1e-7);
+}
+
 // The force on B follows the motion of the points as its matrices tell.
 TEST_F(PointSpringsTest, MatricesAreDerivativesOfTheForce) {
   const auto line =
