@@ -138,20 +138,8 @@ void calc_node_displacements(const SystemModel& model, BodyIndex body,
                              const Pose& X_WB0, Eigen::Ref<MatrixX> u_W) {
   const BodyModel& b = find_body(model, body, states, u_W);
   const Matrix3X start = (X_WB0.R * b.reduced->rows.x_B).colwise() + X_WB0.p;
-  if (b.full >= 0) {
-    calc_node_positions(model, body, states, u_W);
-    u_W.colwise() -= start.reshaped();
-    return;
-  }
-  const auto at = static_cast<std::size_t>(body);
-  const auto x_B = b.reduced->rows.x_B.reshaped();
-  deform(b, states, u_W, [&](Eigen::Index j) {
-    u_W.col(j) += x_B;
-    const BodyState& now = states[static_cast<std::size_t>(j)].bodies[at];
-    move_column(now.quat_WB.toRotationMatrix(), now.p_WB, u_W.col(j).data(),
-                u_W.rows() / 3);
-    u_W.col(j) -= start.reshaped();
-  });
+  calc_node_positions(model, body, states, u_W);
+  u_W.colwise() -= start.reshaped();
 }
 
 }  // namespace limber::dynamics

@@ -186,12 +186,12 @@ void for_each_strain(const Mesh& mesh,
             const Matrix3 E = symmetric_part(
                 H2.middleRows<3>(3 * k) +
                 H.middleRows<3>(3 * i).transpose() * H.middleRows<3>(3 * j));
-            strains.row(k).segment<kTerms>(kTerms * q) << E(0, 0), E(1, 1),
-                E(2, 2), E(0, 1), E(1, 2), E(0, 2), E.trace();
+            strains.row(k).segment<kTerms>(kTerms * q)
+                << to_components(E).transpose(),
+                E.trace();
           }
           const double twice = 2.0 * lame.mu * gradients.measure[q];
-          weights.segment<kTerms>(kTerms * q) << twice, twice, twice,
-              2.0 * twice, 2.0 * twice, 2.0 * twice,
+          weights.segment<kTerms>(kTerms * q) << twice * kContraction,
               lame.lambda * gradients.measure[q];
         }
         visit(strains, weights);
