@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

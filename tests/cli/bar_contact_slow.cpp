@@ -8,6 +8,7 @@
 
 #include "cli/collision_link.hpp"
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

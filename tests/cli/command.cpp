@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "places.hpp"
+
 namespace limber::test {
 namespace {
 

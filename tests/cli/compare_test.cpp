@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/shell.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "cli/shell.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

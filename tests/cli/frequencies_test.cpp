@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 /// `limber frequencies`.
 namespace limber::test {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/impact_run.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/shell.hpp"
+#include "places.hpp"
 
 /// Level `full` from the command line: the report's beam of 579 nodes.
 namespace limber::test {

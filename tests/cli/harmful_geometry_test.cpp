@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 /// No command runs what a geometry orders, and none ends by it.
 namespace limber::test {

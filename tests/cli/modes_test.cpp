@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 /// `limber operate`: the report's beam, 40 000 kg, 5 m along z, nu = 0.
 namespace limber::test {

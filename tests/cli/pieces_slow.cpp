@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

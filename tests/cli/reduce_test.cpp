@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

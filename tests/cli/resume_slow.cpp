@@ -12,6 +12,7 @@
 
 #include "cli/command.hpp"
 #include "limber/common/files/hdf5_file.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

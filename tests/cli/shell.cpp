@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "places.hpp"
+
 namespace limber::test {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/shell.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

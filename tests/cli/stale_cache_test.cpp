@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 /// A geometry's second file changes between two runs, the first does not.
 namespace limber::test {

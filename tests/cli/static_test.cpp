@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 /// `limber static`, and runs that start from an equilibrium.
 namespace limber::test {

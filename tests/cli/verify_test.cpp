@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/shell.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

@@ -16,6 +16,7 @@
 #include "cli/command.hpp"
 #include "limber/common/files/hdf5_file.hpp"
 #include "limber/results/scenery.hpp"
+#include "places.hpp"
 
 namespace limber::test {
 namespace {

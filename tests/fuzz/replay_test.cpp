@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "fuzz/readers.hpp"
+#include "places.hpp"
 #include "unit/flexbody/files.hpp"
 
 namespace limber::fuzz {

@@ -8,6 +8,7 @@
 #include "limber/reference/verification.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
+#include "places.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 /// The shipped models, rigid, struck as in their examples, by Simbody and us.

@@ -11,6 +11,7 @@
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/build/scene.hpp"
+#include "places.hpp"
 
 /// The capture arm of examples/struck_finger.toml at a step of 1 ms, its joints
 /// from soft to stiffer than any material.

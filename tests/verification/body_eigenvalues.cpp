@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "limber/reduction/reduce.hpp"
+#include "places.hpp"
 #include "verification/body_reference.hpp"
 
 namespace limber {

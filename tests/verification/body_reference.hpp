@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/flexbody/model/recipe.hpp"
+#include "places.hpp"
 
 /// The reference beam (tests/data/beam) and its published figures.
 namespace limber::test {

@@ -13,6 +13,7 @@
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/results/energy_audit.hpp"
 #include "limber/scene/build/load_scene.hpp"
+#include "places.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 /// The energy of every scenario in examples/, each in full and at its own

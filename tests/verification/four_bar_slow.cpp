@@ -10,6 +10,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/run_scene.hpp"
 #include "limber/scene/build/load_scene.hpp"
+#include "places.hpp"
 #include "unit/results/temporary_folder.hpp"
 #include "verification/four_bar_closed_form.hpp"
 

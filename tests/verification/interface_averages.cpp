@@ -10,6 +10,7 @@
 #include "limber/reduction/full_body_maker.hpp"
 #include "limber/reduction/interfaces.hpp"
 #include "limber/reduction/reduce.hpp"
+#include "places.hpp"
 #include "verification/body_reference.hpp"
 
 /// The motion of an interface against the rigid motion that its nodes make.

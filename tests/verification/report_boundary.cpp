@@ -11,6 +11,7 @@
 #include "limber/fem/solid/eigenmodes.hpp"
 #include "limber/flexbody/modal/decision_boundary.hpp"
 #include "limber/reduction/reduce.hpp"
+#include "places.hpp"
 #include "support/draw_vector.hpp"
 #include "verification/body_reference.hpp"
 

@@ -12,6 +12,7 @@
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
+#include "places.hpp"
 #include "unit/results/temporary_folder.hpp"
 
 /// examples/slew.toml: the hub is driven through half a turn by a trapezoidal

@@ -13,6 +13,7 @@
 #include "limber/reduction/contact_radii.hpp"
 #include "limber/reduction/contact_residual.hpp"
 #include "limber/reduction/reduce.hpp"
+#include "places.hpp"
 #include "unit/reduction/bar.hpp"
 
 /// Contact surfaces of a bar of 200 x 20 x 10 mm.

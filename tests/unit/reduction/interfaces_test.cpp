@@ -6,6 +6,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
+#include "places.hpp"
 
 /// Node selections on the beam of 1 x 1 x 5 m: root at z = 0, tip at z = 5.
 namespace limber::flexbody {

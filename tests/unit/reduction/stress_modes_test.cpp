@@ -14,6 +14,7 @@
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/reduction/reduce.hpp"
+#include "places.hpp"
 #include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {

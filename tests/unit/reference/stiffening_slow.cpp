@@ -8,6 +8,7 @@
 
 #include "limber/reference/stiffening.hpp"
 #include "limber/reference/verification.hpp"
+#include "places.hpp"
 #include "unit/reference/scene_folder.hpp"
 
 /// As stiffness grows, joints converge to Simbody's mobilizers at first order.

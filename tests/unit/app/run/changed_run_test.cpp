@@ -10,6 +10,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/run_manifest.hpp"
 #include "limber/common/errors.hpp"
+#include "places.hpp"
 #include "unit/app/run/changed_run_scene.hpp"
 #include "unit/scene/scene_folder.hpp"
 

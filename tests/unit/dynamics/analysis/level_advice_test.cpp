@@ -152,6 +152,34 @@ TEST(LevelSurvey, FindsInertialDisplacementInTheSquareOfTheSpeed) {
   EXPECT_NEAR(slow.total.value, 2.0 * slow.inertial.value, kRoundoff);
 }
 
+// A load that rises to its end is largest in the limit from the left there.
+TEST(LevelSurvey, SeesALoadThatEndsAtAJumpBeforeTheJump) {
+  auto chain = limber::testing::make_chain(
+      {.bodies = 1, .fidelity = Fidelity::uncoupled});
+  const Vector3 force_B(3.0, -2.0, 7.0);
+  chain.builder.add_load("push", chain.last_interfaces[0], force_B,
+                         Vector3::Zero(), LoadFrame::body,
+                         Table{.times = {0.0, 1.0}, .values = {0.0, 1.0}});
+  const SystemModel model = chain.builder.build();
+  SystemModel rigid = model;
+  rigid.bodies[0].modes = 0;
+  LevelSurvey survey(model);
+  SystemState state = make_state(model);
+  for (const double t : {0.0, 1.0, 2.0}) {
+    state.t = t;
+    survey.include(rigid, state);
+  }
+  const BodyModel& body = model.bodies[0];
+  const Attachment& tip = model.attachments[index(chain.last_interfaces[0])];
+  const VectorX eta =
+      (tip.Phi_B.transpose() * force_B)
+          .cwiseQuotient(flexbody::rest_stiffness(body.elasticity));
+  const double u = DisplacementMeasure(body).calc_displacement(eta);
+  const Peak loads = survey.find_peaks().front().loads;
+  EXPECT_NEAR(loads.value, u, kRoundoff * u);
+  EXPECT_EQ(loads.time, 1.0);
+}
+
 TEST(LevelAdvice, RisesWithTheSpeed) {
   const SystemModel model = make_chain_model(1);
   const LevelLimits limits{1e-6, 1.0, std::nullopt};

@@ -10,6 +10,7 @@
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/eigenmodes.hpp"
+#include "places.hpp"
 
 namespace limber::fem {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/build/scene.hpp"
+#include "places.hpp"
 #include "unit/scene/temporary_file.hpp"
 
 namespace limber::scene {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "places.hpp"
 #include "unit/scene/robot/robot_text.hpp"
 
 namespace limber::scene {
