@@ -91,12 +91,12 @@ TEST(Softening, IsOneAtTheCriticalSpeedOfThePointMasses) {
 TEST(Guard, NamesACriticalSpeedThatIsPassed) {
   const PointMassBody body = make_point_mass_body(24, 4, 4.0, 1.0, 60.0, 42);
   const double critical = find_critical_speed(body, Vector3::UnitX());
-  Scene scene = make_spinning_body(0.97 * critical);
+  Scene scene = make_spinning_body(0.997 * critical);
   SystemState state = scene.state;
   EXPECT_THAT(
       simulate(scene.model, state, make_settings(1e-3, 1e-3), {}).warnings,
       ::testing::Each(::testing::Not(HasSubstr("critical speed"))));
-  scene = make_spinning_body(1.03 * critical);
+  scene = make_spinning_body(1.003 * critical);
   state = scene.state;
   const auto warnings =
       simulate(scene.model, state, make_settings(1e-3, 1e-3), {}).warnings;
