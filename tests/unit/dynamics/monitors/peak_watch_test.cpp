@@ -216,6 +216,34 @@ TEST(Peaks, OfWhatJumpsAreThoseBeforeAndAfterIt) {
   EXPECT_EQ(peaks[0].time, 0.5);
 }
 
+// Of the first and the last step only one neighbour has more to say.
+TEST(Peaks, OfTheFirstAndTheLastStepAreFoundWithinThem) {
+  SystemBuilder builder;
+  testing::add_mass(builder, "mass", 2.0);
+  Kicked scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  Followed followed;
+  followed.courses = {Course::values, Course::motion, Course::values,
+                      Course::motion};
+  followed.evaluate = [](const SystemState& at, std::vector<double>& values) {
+    const double begun = 100.0 - 5.0 * std::pow(at.t - 0.3, 2);
+    const double ends = 5.0 * std::pow(at.t - 3.7, 2) - 100.0;
+    values = {begun, begun, ends, ends};
+  };
+  SimulationSettings settings;
+  settings.step = 1.0;
+  settings.end_time = 4.0;
+  settings.output_times = {0.0, settings.end_time};
+  const std::vector<Extreme> peaks = run(scene, settings, followed);
+  ASSERT_EQ(peaks.size(), 4U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_NEAR(peaks[i].value, 100.0, 1e-9);
+    EXPECT_NEAR(peaks[i].time, 0.3, 1e-9);
+    EXPECT_NEAR(peaks[i + 2].value, -100.0, 1e-9);
+    EXPECT_NEAR(peaks[i + 2].time, 3.7, 1e-9);
+  }
+}
+
 TEST(Peaks, OfARunThatEndsEarlyAreThoseUpToThere) {
   const Kicked scene = make_kicked(1.0);
   SimulationSettings settings;

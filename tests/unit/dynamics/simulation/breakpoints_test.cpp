@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/sliding_masses.hpp"
+
 namespace limber::dynamics {
 namespace {
 
@@ -27,6 +29,25 @@ TEST(LongestStep, IsThatFromATimeOnOrOfAll) {
   const SimulationSettings settings = make_settings();
   EXPECT_EQ(find_longest_step(settings, 0.1), 1e-5);
   EXPECT_EQ(find_longest_step(settings), 4e-5);
+}
+
+// Steps end at the load's jump, not beside it; those to a tolerance are
+// interpolated at the times that were asked for.
+TEST(VisitedTimes, AreThoseOfJumpsThatOutputsMissByRoundOff) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
+  builder.add_load("push", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world, Constant{.from = 0.0, .until = 0.5});
+  SimulationSettings settings;
+  settings.end_time = 1.0;
+  settings.step = 0.1;
+  const double beside = 0.5 + 1e-13;
+  settings.output_times = {0.0, beside, 1.0};
+  EXPECT_EQ(find_visited_times(builder.build(), 0.0, settings),
+            (std::vector<double>{0.0, 0.5, 1.0}));
+  settings.tolerance = 1e-4;
+  EXPECT_EQ(find_visited_times(builder.build(), 0.0, settings),
+            settings.output_times);
 }
 
 }  // namespace
