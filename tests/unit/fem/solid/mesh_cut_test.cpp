@@ -15,8 +15,12 @@ using ::testing::HasSubstr;
 using testing::MshText;
 using testing::write_file;
 
-// A bar along x of one brick a layer, with the layers' ends at `ends`.
-Mesh make_bar(const std::vector<double>& ends, double width, double height) {
+constexpr double kNowhere = 1e9;
+
+// A bar along x of one brick a layer, with the layers' ends at `ends`; two
+// prisms in place of a brick from `prisms_from` on.
+Mesh make_bar(const std::vector<double>& ends, double width, double height,
+              double prisms_from = kNowhere) {
   MshText text;
   std::vector<int> last;
   for (const double x : ends) {
@@ -26,7 +30,12 @@ Mesh make_bar(const std::vector<double>& ends, double width, double height) {
           Vector3(x, 0, height)}) {
       now.push_back(text.add_node(corner));
     }
-    if (!last.empty()) {
+    if (!last.empty() && x > prisms_from) {
+      text.add_element(MshText::kPrism,
+                       {last[0], now[1], last[1], last[3], now[2], last[2]});
+      text.add_element(MshText::kPrism,
+                       {last[0], now[0], now[1], last[3], now[3], now[2]});
+    } else if (!last.empty()) {
       std::vector<int> nodes = last;
       nodes.insert(nodes.end(), now.begin(), now.end());
       text.add_element(MshText::kHexahedron, nodes);
@@ -69,6 +78,17 @@ TEST(MeshCut, GivesEachPieceOfABarItsShareOfEqualLayers) {
     EXPECT_EQ(piece.mesh.node_count(), 4 * 7);
   }
   EXPECT_EQ(cut.cuts.size(), 3);
+}
+
+// A place along the bar is the mean of an element's corners, six or eight.
+TEST(MeshCut, OrdersElementsOfAllKindsAlongTheBar) {
+  std::vector<double> ends{0.0};
+  add_layers(ends, 1.2, 24);
+  const CutMesh cut = cut_mesh(make_bar(ends, 0.05, 0.04, 0.401), 3);
+  ASSERT_EQ(cut.pieces.size(), 3);
+  for (const MeshPiece& piece : cut.pieces) {
+    EXPECT_EQ(piece.mesh.node_count(), 4 * 9);
+  }
 }
 
 TEST(MeshCut, AdvisesTwoPiecesFromTenTimesTheThicknessOn) {

@@ -173,6 +173,32 @@ TEST_P(DisplacementBound, OfASuddenSpinHoldsAtEveryTime) {
   EXPECT_GE(largest, 0.2 * bound.calc_displacement(0.0, 1.0));
 }
 
+// Each mode answers alpha along sum m x cross phi with twice its static
+// response.
+TEST_P(DisplacementBound, OfASuddenTorqueIsTheSumOfTheModesOwn) {
+  const PointBody made = make_point_body(7, GetParam());
+  const ReducedBody& body = made.body;
+  const auto phi = [&](Eigen::Index n, Eigen::Index k) -> Vector3 {
+    return body.rows.Phi_B.block<3, 1>(3 * n, k);
+  };
+  constexpr double kAlpha = 1.7;
+  double largest = 0.0;
+  for (Eigen::Index n = 0; n < made.mass.size(); ++n) {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < body.lambda.size(); ++k) {
+      Vector3 moment = Vector3::Zero();
+      for (Eigen::Index i = 0; i < made.mass.size(); ++i) {
+        moment += made.mass[i] * Vector3(body.rows.x_B.col(i)).cross(phi(i, k));
+      }
+      sum += 2.0 * kAlpha * phi(n, k).norm() * moment.norm() / body.lambda[k];
+    }
+    largest = std::max(largest, sum);
+  }
+  const InertialDisplacementBound bound(body, Onset::sudden);
+  EXPECT_NEAR(bound.calc_displacement(kAlpha, 0.0), largest,
+              kRoundoff * largest);
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, DisplacementBound, testing::Values(1, 2, 7));
 
 // Two masses m at +-L/2 on z, one stretching mode: the centrifugal force
