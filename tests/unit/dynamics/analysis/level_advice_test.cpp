@@ -42,6 +42,18 @@ TEST(Reaches, OfAChainAreTheDiametersBeyond) {
   }
 }
 
+TEST(Reaches, OfWhatTheWorldHoldsAreNone) {
+  auto chain = limber::testing::make_chain({.bodies = 2});
+  const auto ground = chain.builder.attach_world("ground", {});
+  chain.builder.add_coupler("hold", joints::Bushing({}), ground,
+                            AttachmentIndex(0));
+  const SystemModel model = chain.builder.build();
+  const double diameter = model.bodies[0].reduced->size.norm();
+  const std::vector<double> reaches = find_reaches(model);
+  EXPECT_EQ(reaches[0], 0.0);
+  EXPECT_NEAR(reaches[1], diameter, kRoundoff);
+}
+
 TEST(DisplacementMeasure, IsTheLargestNodesOfItsOwnBody) {
   const SystemModel model = make_chain_model(1);
   const flexbody::ReducedBody& body = *model.bodies[0].reduced;

@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -73,6 +75,60 @@ TEST_F(OverpoweredJoint, IsNotBlamedWhereTheSchemeBlewUp) {
   // The hinge stores kt d^2 / 2 = 11250 J.
   const Vector3 gap(0.0, 0.15, 0.0);
   EXPECT_THAT(find_cause_at(gap, Vector3::Zero(), 1.0), IsEmpty());
+}
+
+// A rigid body, a flexible one whose second mode has 90 rad/s, and a spring.
+class MostEnergy : public ::testing::Test {
+ protected:
+  MostEnergy() {
+    SystemBuilder builder;
+    const BodyIndex top = builder.add_rigid_body(
+        "top", {2.0, Vector3(0.1, 0.2, 0.25).asDiagonal()});
+    builder.add_flexible_body(
+        "cloud",
+        testing::share(testing::make_point_mass_body(24, 2, 4.0, 1.0, 60.0, 3)),
+        Fidelity::coupled, {});
+    builder.add_coupler("spring",
+                        joints::Bushing({.translational_stiffness =
+                                             200.0 * Matrix3::Identity()}),
+                        builder.attach_world("ground", {}),
+                        builder.attach_frame("end", top, {}));
+    model_ = builder.build();
+    state_ = make_state(model_);
+  }
+  void move(double translation, double rotation) {  // [J]
+    state_.bodies[0].v_WB_W.y() = std::sqrt(2.0 * translation / 2.0);
+    state_.bodies[0].w_WB_B.z() = std::sqrt(2.0 * rotation / 0.25);
+  }
+  [[nodiscard]] std::string find() const {
+    return find_most_energy(model_, state_);
+  }
+
+  SystemModel model_;
+  SystemState state_;
+};
+
+TEST_F(MostEnergy, OfABodyIsThatOfTranslationAndRotation) {
+  state_.etadot[1] = std::sqrt(2.0 * 0.99);
+  move(1.0, 0.0);
+  EXPECT_EQ(find(), "the motion of body 'top'");
+  move(0.0, 1.0);
+  EXPECT_EQ(find(), "the motion of body 'top'");
+}
+
+TEST_F(MostEnergy, OfAModeIsThatOfItsDeformationAndVelocity) {
+  state_.eta[1] = std::sqrt(2.0 * 0.505) / 90.0;
+  state_.etadot[1] = std::sqrt(2.0 * 0.505);
+  for (const double share : {0.0, 0.5, 1.0}) {
+    move(share, 1.0 - share);
+    EXPECT_EQ(find(), "mode 2 (14.32 Hz) of body 'cloud'");
+  }
+}
+
+TEST_F(MostEnergy, OfACouplerIsWhatItStores) {
+  move(0.0, 1.0);
+  state_.bodies[0].p_WB.x() = std::sqrt(1.01 / 100.0);
+  EXPECT_EQ(find(), "coupler 'spring'");
 }
 
 }  // namespace

@@ -93,6 +93,36 @@ TEST_P(ToleranceOf, HoldsAtEveryOutputOfAnOscillator) {
 
 INSTANTIATE_TEST_SUITE_P(, ToleranceOf, ::testing::Values(1e-3, 1e-5, 1e-7));
 
+TEST(Tolerance, CountsTheSolutionsOfAllPasses) {
+  const Oscillator o = make_oscillator();
+  const SimulationStatistics statistics =
+      run_from(o.model, o.state, to_tolerance(1e-5, 2.0, 3)).statistics;
+  EXPECT_GE(statistics.passes, 2);
+  EXPECT_GE(statistics.newton_iterations, statistics.steps);
+  EXPECT_GE(statistics.linear_solves, statistics.newton_iterations);
+}
+
+TEST(Tolerance, TellsTheShareOfTheTimeThatIsDone) {
+  const Oscillator o = make_oscillator();
+  for (const double tolerance : {0.0, 1e-5}) {
+    SystemState state = o.state;
+    state.t = 1.0;
+    SimulationSettings settings = to_tolerance(tolerance, 3.0, 3);
+    settings.step = tolerance > 0.0 ? 3.0 : 1e-3;
+    double largest = 0.0;
+    SimulationStatistics statistics;
+    simulate(
+        o.model, state, settings, {},
+        [&](std::string_view, double fraction) {
+          EXPECT_GE(fraction, 0.0);
+          EXPECT_LE(fraction, 1.0);
+          largest = std::max(largest, fraction);
+        },
+        statistics);
+    EXPECT_GT(largest, 0.5) << tolerance;
+  }
+}
+
 TEST(Tolerance, MakesStepsShortOnlyWhereTheyMustBe) {
   // A pulse of 1 ms on a free mass, and a long way after it.
   SystemBuilder builder;
