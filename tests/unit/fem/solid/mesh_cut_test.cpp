@@ -82,12 +82,15 @@ TEST(MeshCut, GivesEachPieceOfABarItsShareOfEqualLayers) {
 
 // A place along the bar is the mean of an element's corners, six or eight.
 TEST(MeshCut, OrdersElementsOfAllKindsAlongTheBar) {
-  std::vector<double> ends{0.0};
-  add_layers(ends, 1.2, 24);
-  const CutMesh cut = cut_mesh(make_bar(ends, 0.05, 0.04, 0.401), 3);
-  ASSERT_EQ(cut.pieces.size(), 3);
-  for (const MeshPiece& piece : cut.pieces) {
-    EXPECT_EQ(piece.mesh.node_count(), 4 * 9);
+  for (const double unit : {1.0, 1e-3}) {
+    std::vector<double> ends{0.0};
+    add_layers(ends, 1.2 * unit, 24);
+    const CutMesh cut =
+        cut_mesh(make_bar(ends, 0.05 * unit, 0.04 * unit, 0.401 * unit), 3);
+    ASSERT_EQ(cut.pieces.size(), 3);
+    for (const MeshPiece& piece : cut.pieces) {
+      EXPECT_EQ(piece.mesh.node_count(), 4 * 9);
+    }
   }
 }
 
