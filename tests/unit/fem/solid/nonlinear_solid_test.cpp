@@ -8,12 +8,15 @@
 #include <numbers>
 #include <random>
 #include <tuple>
+#include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/element_matrices.hpp"
 #include "limber/fem/solid/nodal_mass.hpp"
+#include "limber/fem/solid/static_solid.hpp"
+#include "limber/fem/solid/tangent.hpp"
 #include "unit/fem/meshes.hpp"
 
 namespace limber::fem {
@@ -37,6 +40,9 @@ class SolidBox
 
   double calc(const Matrix3X& u) {
     return solid_.calc_force(u, force_, workspace_);
+  }
+  [[nodiscard]] std::vector<int> find_root() const {
+    return mesh_.groups[find_group(mesh_, "root")].nodes;
   }
   [[nodiscard]] double volume() const { return testing::kBoxSize.prod(); }
   [[nodiscard]] double area() const { return std::pow(volume(), 2.0 / 3.0); }
@@ -133,6 +139,47 @@ TEST_P(SolidBox, TangentIsTheGradientOfTheForce) {
   calc(u - kStep * direction);
   const Matrix3X difference = (forward - force_) / (2.0 * kStep);
   EXPECT_LT((difference.reshaped() - product).norm(), 1e-6 * product.norm());
+}
+
+// c M x + (f(u + e x) - f(u - e x)) / 2 e = F on the free nodes; the second
+// time without the symbolic analysis.
+TEST_P(SolidBox, FactorsOfTheTangentSolveForTheGradientOfTheForce) {
+  const std::vector<ElasticMaterial> materials = {kSteel};
+  const StructuralMatrices matrices = assemble(mesh_, materials);
+  const std::vector<int> free = find_free_nodes(mesh_, find_root());
+  for (const std::vector<int>& moving : {free, find_free_nodes(mesh_, {})}) {
+    TangentFactor factor(mesh_, materials, std::get<2>(GetParam()),
+                         matrices.M_s, moving);
+    for (const double size : {0.0, 5e-4}) {
+      const Matrix3X u = random_field(size, 11);
+      constexpr double kShift = 3e10;  // above the geometric stiffness [1/s^2]
+      factor.factor(u, kShift);
+      const Matrix3X load = random_field(1e5, 12);
+      Matrix3X x = Matrix3X::Zero(3, mesh_.x.cols());
+      const MatrixX right_hand_side = load(Eigen::all, moving);
+      x(Eigen::all, moving) =
+          factor.solve(right_hand_side.reshaped()).reshaped(3, moving.size());
+      const double step = 1e-6 / x.cwiseAbs().maxCoeff();
+      calc(u + step * x);
+      const Matrix3X forward = force_;
+      calc(u - step * x);
+      const Matrix3X found = (forward - force_) / (2.0 * step) +
+                             kShift * x * MatrixX(matrices.M_s);
+      EXPECT_LT((found - load)(Eigen::all, moving).norm(), 1e-6 * load.norm());
+    }
+  }
+}
+
+TEST_P(SolidBox, StaticEquilibriumBalancesTheLoadWhereTheBoxIsFree) {
+  const std::vector<int> held = find_root();
+  const std::vector<int> free = find_free_nodes(mesh_, held);
+  const Matrix3X load = random_field(2e5, 13);
+  const StaticSolution solution = solve_static(
+      mesh_, {kSteel}, std::get<2>(GetParam()), load, held, {.load_steps = 2});
+  EXPECT_EQ(calc(solution.u), solution.strain_energy);
+  EXPECT_LT((force_ - load)(Eigen::all, free).norm(), 1e-10 * load.norm());
+  EXPECT_EQ(solution.u(Eigen::all, held).norm(), 0.0);
+  EXPECT_GE(solution.newton_iterations, 4);
 }
 
 // The patch test: a uniform deformation gradient has the law's own energy
