@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/full_lattice.hpp"
+#include "support/paired_bodies.hpp"
 
 /// Energies, momenta and forces of one body at level `full`, a network of
 /// springs.
@@ -176,6 +180,39 @@ TEST(FullLoad, OfNodesTurnsWithTheBodyAndDoesItsWork) {
   const Matrix3X expected = R_HB * pattern.reshaped(3, lattice.network.size());
   EXPECT_LT((terms.full[0].force - expected).norm(), 1e-13);
   EXPECT_NEAR(terms.load_power, expected.reshaped().dot(state.udot_H), 1e-12);
+}
+
+// --- What pairs see ----------------------------------------------------------
+
+TEST(FullPairMotion, HasTheNodesPlacesAndVelocities) {
+  Lattice lattice;
+  lattice.builder.add_pair(
+      "touch", kWorld, BodyIndex(0),
+      std::make_shared<testing::SphereContact>(1.0, 0.0, 0.1));
+  const SystemModel model = lattice.builder.build();
+  for (const SystemState& state : {stir(model), make_state(model)}) {
+    const auto [p, v] = find_fields(model, state);
+    const PairMotion motion = find_pair_motion(model, model.pairs[0], state);
+    const joints::PairBody& body = motion.bodies().B;
+    const Eigen::Index nodes = p.cols();
+    ASSERT_EQ(body.modes, 3 * nodes + 1);
+    double most_u = 0.0;
+    double most_udot = 0.0;
+    for (Eigen::Index n = 0; n < nodes; ++n) {
+      const Eigen::Map<const Vector3> u(body.eta + 3 * n);
+      const Eigen::Map<const Vector3> udot(body.etadot + 3 * n);
+      const Vector3 arm = model.full_bodies[0].mesh->x_B.col(n) + u;
+      EXPECT_LT((body.p_WB + body.R_WB * arm - p.col(n)).norm(), 1e-13);
+      EXPECT_LT(
+          (body.v_WB_W + body.R_WB * (body.w_WB_B.cross(arm) + udot) - v.col(n))
+              .norm(),
+          1e-12);
+      most_u = std::max(most_u, u.norm());
+      most_udot = std::max(most_udot, udot.norm());
+    }
+    EXPECT_NEAR(body.eta[3 * nodes], most_u, 1e-15);
+    EXPECT_NEAR(body.etadot[3 * nodes], most_udot, 1e-14);
+  }
 }
 
 }  // namespace
