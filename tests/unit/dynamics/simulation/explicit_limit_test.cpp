@@ -135,6 +135,29 @@ TEST(ExplicitLimit, GrowthIsThatOfTheAmplificationMatrix) {
   }
 }
 
+// Changes are small against turns of the lightest body, too.
+TEST(ExplicitLimit, GrowthDoesNotDependOnTheUnitOfMass) {
+  const auto find_growth_of = [](double unit) {
+    SystemBuilder builder;
+    const auto body = builder.add_rigid_body(
+        "body", {2.0 * unit, unit * Matrix3::Identity()});
+    const Pose arm{Matrix3::Identity(), {0.0, 0.7, 0.4}};
+    builder.add_coupler(
+        "spring", joints::PointSpring({.stiffness = unit * kOmega * kOmega}),
+        builder.attach_world("wall", arm),
+        builder.attach_frame("end", body, arm));
+    const SystemModel model = builder.build();
+    return find_growth(
+        model, make_state(model),
+        make_settings(IntegratorKind::runge_kutta_4, 1.0, 5.0 / kOmega));
+  };
+  const double growth = find_growth_of(1.0);
+  EXPECT_GT(growth, 2.0);
+  for (const double unit : {1e-8, 1e6}) {
+    EXPECT_NEAR(find_growth_of(unit) / growth, 1.0, 1e-3) << unit;
+  }
+}
+
 TEST(ExplicitLimit, GrowthOfMotionThatIsResolvedIsNone) {
   const SystemModel model = make_pair_of_masses(5.0);
   for (const IntegratorKind kind :
