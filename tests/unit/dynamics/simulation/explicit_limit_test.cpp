@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <complex>
+#include <cstdio>
+#include <string>
 #include <vector>
 
 #include "limber/common/errors.hpp"
@@ -236,8 +238,18 @@ TEST(ExplicitLimit, SaysWhereAThousandPartsDoNotSuffice) {
       make_settings(IntegratorKind::runge_kutta_4, 1e5 / kOmega, 1e4 / kOmega),
       {});
   EXPECT_EQ(statistics.steps, 10);
-  EXPECT_THAT(statistics.warnings,
+  ASSERT_THAT(statistics.warnings,
               ElementsAre(HasSubstr("steps are not divided so often")));
+  const std::string& text = statistics.warnings[0];
+  double longest = 0.0;
+  double times = 0.0;
+  double step = 0.0;
+  ASSERT_EQ(std::sscanf(text.substr(text.find("up to")).c_str(),
+                        "up to %lf s here, %lf times less than the step of %lf",
+                        &longest, &times, &step),
+            3);
+  EXPECT_NEAR(step, 1e4 / kOmega, 0.01 * step);
+  EXPECT_NEAR(times * longest, step, 0.01 * step);
 }
 
 }  // namespace
