@@ -58,17 +58,19 @@ long count_free(const NaturalModes& modes) {
 
 // A disc on a bushing: what its bearings are to a stiff shaft.
 struct Rotor {
-  Rotor(const Vector3& bearing, double spin, const Vector3& damping) {
+  Rotor(const Vector3& bearing, double spin, const Vector3& damping,
+        const Matrix3& R = Matrix3::Identity()) {
     SystemBuilder builder;
     const BodyIndex disc = builder.add_rigid_body(
         "disc",
         {kMass, Matrix3(Vector3(kAcross, kAcross, kPolar).asDiagonal())});
     builder.add_coupler("bearings",
                         make_bushing(bearing, {kTilt, kTilt, 0.0}, damping),
-                        builder.attach_world("ground", {}),
+                        builder.attach_world("ground", {R, Vector3::Zero()}),
                         builder.attach_frame("hub", disc, {}));
     model = builder.build();
     state = make_state(model);
+    state.bodies[0].quat_WB = Quaternion(R);
     state.bodies[0].w_WB_B = Vector3(0, 0, spin);
   }
   static constexpr double kMass = 2.0;
@@ -109,6 +111,27 @@ TEST(NaturalModes, OfASpinningDiscAreTheClosedFormsOfItsWhirls) {
     EXPECT_THAT(orbits, ::testing::UnorderedElementsAre(
                             ::testing::DoubleNear(1.0, 1e-6),
                             ::testing::DoubleNear(-1.0, 1e-6)));
+  }
+}
+
+// The places' two circles share one frequency, high or low, to round-off.
+TEST(NaturalModes, OfEqualBearingsAreCirclesInBothDirections) {
+  const Matrix3 R = exp_rotation(Vector3(0.4, -0.7, 0.3));
+  for (const double bearing : {8.0, 8e3, 8e7, 8e11}) {
+    const Rotor rotor({bearing, bearing, 3.0 * bearing}, 20.0, Vector3::Zero(),
+                      R);
+    const double place = std::sqrt(bearing / Rotor::kMass);
+    std::vector<double> orbits;
+    for (const NaturalMode& m :
+         find_natural_modes(rotor.model, rotor.state).modes) {
+      if (std::abs(m.value.imag() - place) < 1e-7 * place) {
+        orbits.push_back(m.orbit);
+      }
+    }
+    EXPECT_THAT(orbits, ::testing::UnorderedElementsAre(
+                            ::testing::DoubleNear(1.0, 1e-6),
+                            ::testing::DoubleNear(-1.0, 1e-6)))
+        << bearing;
   }
 }
 
