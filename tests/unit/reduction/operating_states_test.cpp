@@ -207,10 +207,18 @@ TEST(DriftingState, RefusesWhatHasNoSteadySpeed) {
               }),
               HasSubstr("mass_rate is -1"));
   const Matrix3X across = testing::spread(body, 0, {0.0, 1.0, 0.0});
-  EXPECT_THAT(error_of([&] {
-                return find_drifting_state(body, across, {.mass_rate = 1.0});
+  for (const double newtons : {1e-7, 1.0, 1e9}) {
+    EXPECT_EQ(error_of([&] {
+                return find_drifting_state(body, newtons * push,
+                                           {.mass_rate = 1.0});
               }),
-              AllOf(HasSubstr("centre of drag"), HasSubstr("would turn")));
+              "no error");
+    EXPECT_THAT(error_of([&] {
+                  return find_drifting_state(body, newtons * across,
+                                             {.mass_rate = 1.0});
+                }),
+                AllOf(HasSubstr("centre of drag"), HasSubstr("would turn")));
+  }
   const MeshedBody held(make_recipe({.is_clamped = true}), {});
   EXPECT_THAT(error_of([&] {
                 return find_drifting_state(held, push, {.mass_rate = 1.0});

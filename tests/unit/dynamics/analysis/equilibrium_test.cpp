@@ -42,13 +42,14 @@ std::string error_of(const std::function<void()>& run) {
 }
 
 joints::Joint make_hinge(double stiffness,
-                         std::vector<joints::JointElement> elements = {}) {
+                         std::vector<joints::JointElement> elements = {},
+                         double damping = 1.0) {
   return joints::make_joint(JointKind::revolute, -Vector3::UnitY(),
                             Vector3::UnitX(),
                             {.translational_stiffness = stiffness,
                              .rotational_stiffness = stiffness,
-                             .translational_damping = 1.0,
-                             .rotational_damping = 1.0},
+                             .translational_damping = damping,
+                             .rotational_damping = damping},
                             std::move(elements));
 }
 
@@ -61,14 +62,17 @@ joints::ScalarSpring make_spring(double stiffness) {
 /// A bar of 2 kg, 1 m to its centre of mass, on a hinge at the world's origin;
 /// at `angle` from the horizontal.
 struct Pendulum {
+  /// @param unit of mass, and with it of all forces, the stiffness's apart
   explicit Pendulum(double angle, double stiffness,
-                    std::vector<joints::JointElement> elements = {}) {
+                    std::vector<joints::JointElement> elements = {},
+                    double unit = 1.0) {
     SystemBuilder builder;
     builder.set_gravity({0, 0, -kGravity});
     const BodyIndex bar = builder.add_rigid_body(
-        "bar", {2.0, Matrix3(Vector3(0.1, 0.7, 0.7).asDiagonal())});
+        "bar",
+        {2.0 * unit, Matrix3((unit * Vector3(0.1, 0.7, 0.7)).asDiagonal())});
     builder.add_coupler(
-        "hinge", make_hinge(stiffness, std::move(elements)),
+        "hinge", make_hinge(stiffness, std::move(elements), unit),
         builder.attach_world("pivot", {}),
         builder.attach_frame("end", bar,
                              {Matrix3::Identity(), Vector3(-1, 0, 0)}));
@@ -130,6 +134,19 @@ TEST(Equilibrium, OfAFreePendulumIsFoundByRelaxation) {
   EXPECT_NEAR(found.state.bodies[0].p_WB.z(), -1.0 - 2.0 * kGravity / 1e8,
               1e-11);
   EXPECT_EQ(found.state.t, pendulum.state.t);
+}
+
+TEST(Equilibrium, OfALightPendulumTakesNoMoreRelaxation) {
+  EquilibriumSettings settings;
+  settings.method = EquilibriumMethod::relaxation;
+  const auto count_steps = [&](double unit) {
+    const Pendulum pendulum(0.1, 1e8 * unit, {}, unit);
+    return find_equilibrium(pendulum.model, pendulum.state, settings)
+        .relaxation_steps;
+  };
+  const int steps = count_steps(1.0);
+  EXPECT_NEAR(count_steps(1e-6), steps, 0.05 * steps);
+  EXPECT_NEAR(count_steps(1e6), steps, 0.05 * steps);
 }
 
 // Two springs of length 1 m at rest span 2 a and meet in a ball that is loaded
