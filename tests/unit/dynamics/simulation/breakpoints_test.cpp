@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/sliding_masses.hpp"
 
 namespace limber::dynamics {
@@ -48,6 +50,33 @@ TEST(VisitedTimes, AreThoseOfJumpsThatOutputsMissByRoundOff) {
   settings.tolerance = 1e-4;
   EXPECT_EQ(find_visited_times(builder.build(), 0.0, settings),
             settings.output_times);
+}
+
+// Of a pulse of 1 ms steps of 1 ms see nothing; that they begin within it
+// counts.
+TEST(Breakpoints, DivideAPulseThatStepsWouldMiss) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
+  builder.add_load("hit", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world, Pulse{PulseShape::half_sine, 0.1, 1e-3});
+  const SystemModel model = builder.build();
+  SimulationSettings settings;
+  settings.end_time = 0.2;
+  settings.step = 1e-5;
+  const auto count_within = [&] {
+    const auto marks = find_breakpoints(model, 0.0, settings);
+    return std::count_if(marks.begin(), marks.end(), [](const Breakpoint& m) {
+      return m.time > 0.1 && m.time < 0.101;
+    });
+  };
+  EXPECT_EQ(count_within(), 0);
+  settings.step_changes = {{0.15, 1e-3}};
+  EXPECT_EQ(count_within(), 0);
+  settings.step_changes = {{0.1005, 1e-3}};
+  EXPECT_GE(count_within(), 4);
+  settings.step_changes = {};
+  settings.step = 1e-3;
+  EXPECT_GE(count_within(), 4);
 }
 
 }  // namespace
