@@ -17,6 +17,7 @@
 #include "support/elastic_kinds.hpp"
 #include "support/free_chain.hpp"
 #include "support/linked_bodies.hpp"
+#include "support/point_mass_body.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -224,6 +225,29 @@ TEST(EnergyConserving, KeepsEnergyInEveryStepThatItCallsASuccess) {
     }
   }
   EXPECT_GT(successes, 0);
+}
+
+// Lengths decide when Newton's method ends; a mode's are over the root of its
+// mass.
+TEST(EnergyConserving, KeepsTheEnergyOfTheLightestBody) {
+  for (const double mass : {1e-12, 4.0, 1e9}) {
+    const auto cloud =
+        testing::make_point_mass_body(24, 4, mass, 1.0, 60.0, 42);
+    SystemBuilder builder;
+    builder.add_flexible_body("cloud", testing::share(cloud), Fidelity::coupled,
+                              {});
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    state.bodies[0].w_WB_B = Vector3(3.0, 1.0, -2.0);
+    state.eta << 0.02, -0.01, 0.03, 0.01;
+    state.etadot << 0.5, 0.3, -0.4, 1.0;
+    state.eta *= std::sqrt(mass);
+    state.etadot *= std::sqrt(mass);
+    const double energy = calc_energy(model, state).total();
+    EnergyConserving scheme(model, {});
+    for (int i = 1; i <= 100; ++i) scheme.step(state, 0.02, 0.02 * i);
+    EXPECT_NEAR(calc_energy(model, state).total() / energy, 1.0, 1e-12) << mass;
+  }
 }
 
 TEST(EnergyConserving, LeavesTheStateAsItWasWhenNewtonFails) {
