@@ -17,6 +17,7 @@
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/bushing.hpp"
 #include "limber/joints/point_spring.hpp"
 
 namespace limber::dynamics {
@@ -114,10 +115,35 @@ TEST(ExplicitLimit, OfSplittingIsTheLongestOfASpringAndOfADamper) {
   }
 }
 
+/// A body that swings about all axes at kOmega.
+SystemModel make_balance_wheel() {
+  SystemBuilder builder;
+  const auto wheel =
+      builder.add_rigid_body("wheel", {1.0, 0.3 * Matrix3::Identity()});
+  builder.add_coupler(
+      "hairspring",
+      joints::Bushing({.translational_stiffness = Matrix3::Identity(),
+                       .rotational_stiffness =
+                           0.3 * kOmega * kOmega * Matrix3::Identity()}),
+      builder.attach_world("ground", {}),
+      builder.attach_frame("hub", wheel, {}));
+  return builder.build();
+}
+
+class GrowthOf : public ::testing::TestWithParam<bool> {
+ protected:
+  SystemModel model =
+      GetParam() ? make_balance_wheel() : make_pair_of_masses(0.0);
+  SystemState state = make_state(model);
+};
+
+INSTANTIATE_TEST_SUITE_P(Motion, GrowthOf, ::testing::Bool(),
+                         [](const auto& p) {
+                           return p.param ? "Rotation" : "Translation";
+                         });
+
 // Of the classic tableau, and of drift, kick and drift.
-TEST(ExplicitLimit, GrowthIsThatOfTheAmplificationMatrix) {
-  const SystemModel model = make_pair_of_masses(0.0);
-  const SystemState state = make_state(model);
+TEST_P(GrowthOf, IsThatOfTheAmplificationMatrix) {
   for (const double y : {2.9, 3.0, 5.0, 40.0}) {
     const std::complex<double> z(0.0, y);
     const double exact = std::abs(1.0 + z + z * z / 2.0 + z * z * z / 6.0 +
