@@ -216,6 +216,32 @@ TEST(Peaks, OfWhatJumpsAreThoseBeforeAndAfterIt) {
   EXPECT_EQ(peaks[0].time, 0.5);
 }
 
+// A step that is longer than a spectator allows is shown in parts, whenever.
+TEST(Peaks, AreLookedForWithinStepsThatAreLong) {
+  SystemBuilder builder;
+  testing::add_mass(builder, "mass", 2.0);
+  Kicked scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.t = 1000.0;
+  SimulationSettings settings;
+  settings.step = 1.0;
+  settings.end_time = 1004.0;
+  settings.output_times = {settings.end_time};
+  for (const auto& [longest, parts] : {std::pair(1.5, 1), std::pair(0.4, 3)}) {
+    int shown = 0;
+    Followed followed;
+    followed.longest = longest;
+    followed.courses = {Course::values};
+    followed.evaluate = [](const SystemState&, std::vector<double>& values) {
+      values = {1.0};
+    };
+    followed.spectator =
+        Spectator{[] {}, [&](const SystemState&) { ++shown; }, [](Archive&) {}};
+    run(scene, settings, followed);
+    EXPECT_EQ(shown, 1 + 4 * parts) << longest;
+  }
+}
+
 // Of the first and the last step only one neighbour has more to say.
 TEST(Peaks, OfTheFirstAndTheLastStepAreFoundWithinThem) {
   SystemBuilder builder;

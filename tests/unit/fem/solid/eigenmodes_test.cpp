@@ -148,6 +148,7 @@ TEST_P(FreeAndClamped, ElasticInverseLeavesOutTheModesThatItIsGiven) {
 TEST_P(FreeAndClamped, ResultsAreTheSameForAnyNumberOfThreads) {
   const auto solve = [&](unsigned threads) {
     set_thread_count(threads);
+    EXPECT_EQ(thread_count(), threads);
     const Body body(testing::make_test_folder() / "box.msh", GetParam());
     return std::pair{
         MatrixX(body.matrices.K),

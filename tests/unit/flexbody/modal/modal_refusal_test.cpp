@@ -53,6 +53,12 @@ TEST_F(ModalResponseRefuses, CoefficientsThatAreNegativeOrNotFinite) {
   EXPECT_THAT(text, HasSubstr("damping of mode 0 is nan 1/s"));
 }
 
+TEST_F(ModalResponseRefuses, NoCoefficientForBeingSmall) {
+  lambda[1] = 1e-6;
+  damping[0] = 1e-6;
+  EXPECT_EQ(refusal(), "nothing refused");
+}
+
 TEST_F(ModalResponseRefuses, AsManyDampingsAsAreNotEigenvalues) {
   damping = make_vector({0.1});
   EXPECT_THAT(refusal(), HasSubstr("2 eigenvalues but 1 damping"));

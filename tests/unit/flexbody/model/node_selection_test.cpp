@@ -107,6 +107,9 @@ TEST(NodeSelection, EqualOnesHaveEqualNames) {
 TEST(NodeSelection, IsDescribedWithItsNumbers) {
   EXPECT_EQ(describe(make_plane({0, 0, 9}, {0, 0, 2}, 0.25)),
             "the plane through (0, 0, 9) m normal to (0, 0, 1) within 0.25 m");
+  EXPECT_EQ(
+      describe(make_plane({0, 0, 9}, {0, 0, 2}, 1e-4)),
+      "the plane through (0, 0, 9) m normal to (0, 0, 1) within 0.0001 m");
   EXPECT_EQ(describe(make_cylinder({0, 0, 1}, {0, 0, 2}, 0.5, 0.25)),
             "the cylinder from (0, 0, 1) to (0, 0, 2) m of radius 0.5 m "
             "outside 0.25 m");

@@ -194,6 +194,21 @@ TEST(PointSpringsInput, IsRefusedWithoutLinesOrWithOtherModes) {
   EXPECT_THROW(PointSprings({line}), InputError);
 }
 
+TEST(PairResponseOfCoupledPoints, HasATermForEachTwo) {
+  PairResponse response(3, 0, 0, true);
+  for (int i = 0; i < 3; ++i) response.add();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      response.coupling(i, j).setConstant(10.0 * i + j);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_EQ(response.coupling(i, j)(2, 1), 10.0 * i + j);
+    }
+  }
+}
+
 TEST(PairResponseOfCoupledPoints, BoundsItsStiffnessAfterGershgorin) {
   PairResponse response(3, 0, 0, true);
   response.add().stiffness = 10.0 * Matrix3::Identity();
