@@ -90,16 +90,16 @@ StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   const double before = calc_energy(model_, state, terms_).total();
   StepResult result = integrator_->step(state, h, end);
   const double after = calc_energy(model_, state, terms_).total();
-  const double lost = before + result.load_work - result.dissipated - after;
+  const double gained = after + result.dissipated - result.load_work - before;
   const double most = is_impact ? kMostGain : kMostGainInTouch;
-  if (-lost > most * (before + std::abs(result.load_work))) {
+  if (gained > most * (before + std::abs(result.load_work))) {
     take_back(state);
     throw NumericalError(fmt::format(
         "a step of {:.3g} s at t = {:.9g} s, too long for the contact in it, "
         "gains {:.3g} J",
-        h, state.t, -lost));
+        h, state.t, gained));
   }
-  if (damps) result.dissipated += std::max(lost, 0.0);
+  if (damps) result.dissipated += std::max(-gained, 0.0);
   return result;
 }
 
