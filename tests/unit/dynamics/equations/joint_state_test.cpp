@@ -221,6 +221,19 @@ TEST(JointState, ClosesALoopWhoseCoordinatesDo) {
               HasSubstr("leave where it holds them at 0.1 m/s and 0 rad/s"));
 }
 
+// Such as one that carries a spring, or is measured.
+TEST(JointState, AJointThatHoldsNothingClosesAnyLoop) {
+  SystemBuilder builder;
+  const auto a = builder.add_rigid_body("a", kInertia);
+  const auto b = builder.add_rigid_body("b", kInertia);
+  builder.add_joint("A", JointKind::revolute, {kWorld, kFar}, {a, kNear});
+  builder.add_joint("B", JointKind::revolute, {a, kFar}, {b, kNear});
+  builder.add_joint("C", JointKind::floating, {b, kFar}, {kWorld, kNear});
+  EXPECT_EQ(
+      refusal(builder.build(), {{"A", {{0.3}, {1.0}}}, {"B", {{0.7}, {2.0}}}}),
+      "");
+}
+
 TEST(JointState, RefusesCoordinatesOfAJointThatClosesALoop) {
   EXPECT_THAT(refusal(make_square(), {{"D", {{0.1}, {}}}}),
               HasSubstr("joint 'D': it closes a loop, so its coordinates"));
