@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/body_model.hpp"
 #include "support/chain.hpp"
 #include "support/elastic_kinds.hpp"
 #include "support/free_chain.hpp"
@@ -158,6 +160,44 @@ TEST(EnergyConserving, AuditOfLoadsDampersAndFrictionClosesToRoundOff) {
                 1e-12 * (energies[0].total() + std::abs(e.work)));
   }
   EXPECT_GT(energies.back().dissipated, 1e-3);
+}
+
+// Forces on products of modes, and moments that follow both, included.
+TEST(EnergyConserving, AuditOfNodalLoadsOnABodyOfSecondOrderClosesToRoundOff) {
+  auto bodies =
+      testing::make_linked_bodies(testing::make_all_links(0.5).at(0),
+                                  std::array{true, false, true}, 3, 1.0);
+  testing::bend(bodies.model, 3.0 * bodies.state.eta.cwiseAbs().maxCoeff());
+  BodyModel& body = bodies.model.bodies[0];
+  auto reduced = std::make_shared<flexbody::ReducedBody>(*body.reduced);
+  flexbody::QuadraticManifold table;
+  table.paired = {1, 3};
+  reduced->manifold = table;
+  body.reduced = reduced;
+  const auto wave = [](double size, Eigen::Index rows, Eigen::Index columns) {
+    return MatrixX(MatrixX::NullaryExpr(
+        rows, columns, [size](Eigen::Index i, Eigen::Index j) {
+          return size * std::sin(1.3 * static_cast<double>(i + 3 * j) + 0.4);
+        }));
+  };
+  const int count = count_coordinates(body);
+  ASSERT_EQ(count, body.modes + 3);
+  BodyLoad load;
+  load.body = BodyIndex(0);
+  load.history = {{0.0},
+                  wave(3.0, 3, 1),
+                  wave(0.5, 3, 1),
+                  wave(0.5, 3, count),
+                  wave(2.0, count, 1)};
+  bodies.model.body_loads.push_back(load);
+  const Gap gap = find_gap(bodies.model, bodies.state, 0.004, 45);
+  EXPECT_LT(std::abs(gap.energy), 1e-12);
+  const Gap alone = find_gap(
+      testing::make_linked_bodies(testing::make_all_links(0.5).at(0),
+                                  std::array{true, false, true}, 3, 1.0)
+          .model,
+      bodies.state, 0.004, 45);
+  EXPECT_NE(gap.dissipated, alone.dissipated);
 }
 
 // --- Failures ---------------------------------------------------------------
