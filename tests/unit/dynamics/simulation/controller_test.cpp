@@ -100,12 +100,13 @@ class ControlledExactly : public ::testing::TestWithParam<IntegratorKind> {};
 TEST_P(ControlledExactly, DeadbeatStopsAFreeMassInTwoSamples) {
   constexpr double T = 0.125;
   SystemBuilder builder = make_pushed_mass(0.0, InputHold::held);
-  builder.add_controller(
+  const ControllerIndex deadbeat = builder.add_controller(
       {.name = "deadbeat",
        .period = T,
        .writes = {0},
        .measures = {measure_x(), measure_v()},
        .law = make_feedback(-kMass / (T * T), -1.5 * kMass / T)});
+  EXPECT_EQ(deadbeat, ControllerIndex(0));
   const SystemModel model = builder.build();
   SystemState state = make_state(model);
   state.bodies[0].p_WB.x() = 0.3;
