@@ -38,6 +38,19 @@ TEST(PointSpring, WithoutLengthItIsSmoothWhereItsEndsCoincide) {
   EXPECT_NEAR(spring.evaluate(at(2.0)).energy, 18.0, 1e-14);
 }
 
+// Ends that part pull at each other, whatever the direction.
+TEST(PointSpring, ReadsLengthAndTensionAlsoWhereItsEndsCoincide) {
+  const PointSpring spring({.stiffness = 5.0, .damping = 2.0});
+  const CoordinateReading here = spring.read(0, at(0.0, -1.5), {}, {});
+  EXPECT_EQ(here.motion.z, 0.0);
+  EXPECT_EQ(here.motion.rate, 1.5);
+  EXPECT_EQ(here.effort, 3.0);
+  const CoordinateReading apart = spring.read(0, at(-0.5, -1.5), {}, {});
+  EXPECT_EQ(apart.motion.z, 0.5);
+  EXPECT_EQ(apart.motion.rate, 1.5);
+  EXPECT_EQ(apart.effort, 5.5);
+}
+
 TEST(PointSpring, ASlackLineMayHaveItsEndsTogether) {
   const PointSpring line(
       {.stiffness = 5.0, .free_length = 1.0, .tension_only = true});
