@@ -85,11 +85,17 @@ TEST(MeshCut, OrdersElementsOfAllKindsAlongTheBar) {
   for (const double unit : {1.0, 1e-3}) {
     std::vector<double> ends{0.0};
     add_layers(ends, 1.2 * unit, 24);
-    const CutMesh cut =
-        cut_mesh(make_bar(ends, 0.05 * unit, 0.04 * unit, 0.401 * unit), 3);
-    ASSERT_EQ(cut.pieces.size(), 3);
-    for (const MeshPiece& piece : cut.pieces) {
-      EXPECT_EQ(piece.mesh.node_count(), 4 * 9);
+    for (const double prisms_from : {0.401, 0.851, 0.951}) {
+      const Mesh bar =
+          make_bar(ends, 0.05 * unit, 0.04 * unit, prisms_from * unit);
+      for (const int count : {2, 3}) {
+        const CutMesh cut = cut_mesh(bar, count);
+        ASSERT_EQ(cut.pieces.size(), count);
+        for (const MeshPiece& piece : cut.pieces) {
+          EXPECT_EQ(piece.mesh.node_count(), 4 * (24 / count + 1))
+              << prisms_from << " " << count;
+        }
+      }
     }
   }
 }
