@@ -28,6 +28,8 @@ TEST_P(ContactRecordFrom, ABallOnAFloorIsHertzs) {
   dynamics::RunRecord record;
   dynamics::simulate(scene.model, scene.state, settings, {}, {}, statistics, {},
                      {}, record);
+  ASSERT_FALSE(statistics.events.empty());
+  EXPECT_NEAR(statistics.events[0].time - start, 1e-6 / kSpeed, 1e-9);
   const double k = testing::hertz_stiffness();
   const double depth =
       std::pow(1.25 * testing::kBallMass * kSpeed * kSpeed / k, 0.4);
