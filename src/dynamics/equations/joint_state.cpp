@@ -26,16 +26,16 @@ constexpr double kClosed = 1e-6;  // share of the size; [rad]
 /// How far a joint's frames are from where it holds them, and how fast they
 /// leave it.
 struct Gap {
-  double distance = 0.0;  ///< [m]
-  double turn = 0.0;      ///< [rad]
-  double speed = 0.0;     ///< [m/s]
-  double spin = 0.0;      ///< [rad/s]
+  double distance;  ///< [m]
+  double turn;      ///< [rad]
+  double speed;     ///< [m/s]
+  double spin;      ///< [rad/s]
 };
 
 Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
-  const auto held = joint.find_hold_stiffness();
-  if (!held) return {};
-  const joints::HoldGive give = joint.find_give(*held, motion);
+  // Every joint has a hold, of any stiffness.
+  const joints::HoldStiffness held = joint.find_hold_stiffness().value();
+  const joints::HoldGive give = joint.find_give(held, motion);
   const Matrix6 K = std::visit(
       [&](const auto& hold) { return hold.evaluate(motion).stiffness; },
       joint.hold());
@@ -47,8 +47,8 @@ Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
   };
   return {
       give.distance, give.turn,
-      held_part(K.topLeftCorner<3, 3>(), held->translational, motion.v_FM_F),
-      held_part(K.bottomRightCorner<3, 3>(), held->rotational, motion.w_FM_F)};
+      held_part(K.topLeftCorner<3, 3>(), held.translational, motion.v_FM_F),
+      held_part(K.bottomRightCorner<3, 3>(), held.rotational, motion.w_FM_F)};
 }
 
 class Placing {
