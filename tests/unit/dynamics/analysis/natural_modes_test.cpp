@@ -51,6 +51,22 @@ NaturalMode find_mode(const NaturalModes& modes, double frequency) {
   return best;
 }
 
+/// Of the modes of one frequency [rad/s].
+std::vector<double> find_orbits(const NaturalModes& modes, double omega) {
+  std::vector<double> orbits;
+  for (const NaturalMode& m : modes.modes) {
+    if (std::abs(m.value.imag() - omega) < 1e-8 * omega) {
+      orbits.push_back(m.orbit);
+    }
+  }
+  return orbits;
+}
+
+auto is_one_each_way() {
+  return ::testing::UnorderedElementsAre(::testing::DoubleNear(1.0, 1e-6),
+                                         ::testing::DoubleNear(-1.0, 1e-6));
+}
+
 long count_free(const NaturalModes& modes) {
   return std::count_if(modes.modes.begin(), modes.modes.end(),
                        [](const NaturalMode& m) { return m.is_free(); });
@@ -102,15 +118,7 @@ TEST(NaturalModes, OfASpinningDiscAreTheClosedFormsOfItsWhirls) {
     EXPECT_NEAR(forward.damping_ratio(), 0.0, 1e-9);
     EXPECT_EQ(count_free(found), 1);  // it spins freely
     // The places' two circles, of one frequency.
-    std::vector<double> orbits;
-    for (const NaturalMode& m : found.modes) {
-      if (std::abs(m.value.imag() - std::sqrt(4e3)) < 1e-6) {
-        orbits.push_back(m.orbit);
-      }
-    }
-    EXPECT_THAT(orbits, ::testing::UnorderedElementsAre(
-                            ::testing::DoubleNear(1.0, 1e-6),
-                            ::testing::DoubleNear(-1.0, 1e-6)));
+    EXPECT_THAT(find_orbits(found, std::sqrt(4e3)), is_one_each_way());
   }
 }
 
@@ -121,16 +129,9 @@ TEST(NaturalModes, OfEqualBearingsAreCirclesInBothDirections) {
     const Rotor rotor({bearing, bearing, 3.0 * bearing}, 20.0, Vector3::Zero(),
                       R);
     const double place = std::sqrt(bearing / Rotor::kMass);
-    std::vector<double> orbits;
-    for (const NaturalMode& m :
-         find_natural_modes(rotor.model, rotor.state).modes) {
-      if (std::abs(m.value.imag() - place) < 1e-7 * place) {
-        orbits.push_back(m.orbit);
-      }
-    }
-    EXPECT_THAT(orbits, ::testing::UnorderedElementsAre(
-                            ::testing::DoubleNear(1.0, 1e-6),
-                            ::testing::DoubleNear(-1.0, 1e-6)))
+    EXPECT_THAT(
+        find_orbits(find_natural_modes(rotor.model, rotor.state), place),
+        is_one_each_way())
         << bearing;
   }
 }

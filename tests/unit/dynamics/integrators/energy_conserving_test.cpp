@@ -189,14 +189,10 @@ TEST(EnergyConserving, AuditOfNodalLoadsOnABodyOfSecondOrderClosesToRoundOff) {
                   wave(0.5, 3, 1),
                   wave(0.5, 3, count),
                   wave(2.0, count, 1)};
+  const Gap alone = find_gap(bodies.model, bodies.state, 0.004, 45);
   bodies.model.body_loads.push_back(load);
   const Gap gap = find_gap(bodies.model, bodies.state, 0.004, 45);
   EXPECT_LT(std::abs(gap.energy), 1e-12);
-  const Gap alone = find_gap(
-      testing::make_linked_bodies(testing::make_all_links(0.5).at(0),
-                                  std::array{true, false, true}, 3, 1.0)
-          .model,
-      bodies.state, 0.004, 45);
   EXPECT_NE(gap.dissipated, alone.dissipated);
 }
 

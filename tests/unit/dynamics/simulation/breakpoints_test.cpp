@@ -33,33 +33,35 @@ TEST(LongestStep, IsThatFromATimeOnOrOfAll) {
   EXPECT_EQ(find_longest_step(settings), 4e-5);
 }
 
-// Steps end at the load's jump, not beside it; those to a tolerance are
-// interpolated at the times that were asked for.
-TEST(VisitedTimes, AreThoseOfJumpsThatOutputsMissByRoundOff) {
+SystemModel make_pushed_mass(const TimeFunction& function) {
   SystemBuilder builder;
   const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
   builder.add_load("push", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
-                   LoadFrame::world, Constant{.from = 0.0, .until = 0.5});
+                   LoadFrame::world, function);
+  return builder.build();
+}
+
+// Steps end at the load's jump, not beside it; those to a tolerance are
+// interpolated at the times that were asked for.
+TEST(VisitedTimes, AreThoseOfJumpsThatOutputsMissByRoundOff) {
+  const SystemModel model =
+      make_pushed_mass(Constant{.from = 0.0, .until = 0.5});
   SimulationSettings settings;
   settings.end_time = 1.0;
   settings.step = 0.1;
   const double beside = 0.5 + 1e-13;
   settings.output_times = {0.0, beside, 1.0};
-  EXPECT_EQ(find_visited_times(builder.build(), 0.0, settings),
+  EXPECT_EQ(find_visited_times(model, 0.0, settings),
             (std::vector<double>{0.0, 0.5, 1.0}));
   settings.tolerance = 1e-4;
-  EXPECT_EQ(find_visited_times(builder.build(), 0.0, settings),
-            settings.output_times);
+  EXPECT_EQ(find_visited_times(model, 0.0, settings), settings.output_times);
 }
 
 // Of a pulse of 1 ms steps of 1 ms see nothing; that they begin within it
 // counts.
 TEST(Breakpoints, DivideAPulseThatStepsWouldMiss) {
-  SystemBuilder builder;
-  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
-  builder.add_load("hit", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
-                   LoadFrame::world, Pulse{PulseShape::half_sine, 0.1, 1e-3});
-  const SystemModel model = builder.build();
+  const SystemModel model =
+      make_pushed_mass(Pulse{PulseShape::half_sine, 0.1, 1e-3});
   SimulationSettings settings;
   settings.end_time = 0.2;
   settings.step = 1e-5;
