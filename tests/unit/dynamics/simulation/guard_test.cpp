@@ -11,7 +11,6 @@
 #include "limber/dynamics/monitors/energy_watch.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
-#include "limber/dynamics/simulation/step_control.hpp"
 #include "limber/dynamics/simulation/work_budget.hpp"
 #include "support/chain.hpp"
 #include "support/eigenpairs.hpp"
@@ -288,42 +287,6 @@ TEST(EnergyWatch, WaitsForASecondLookWhereWorkLags) {
   EXPECT_FALSE(grows.is_blown_up(1.0));
   EXPECT_TRUE(grows.is_blown_up(4.0));
   EXPECT_TRUE(grows.is_blown_up(std::nan("")));
-}
-
-TEST(StepControl, ShortensAStepWhoseErrorIsNoNumber) {
-  StepControl control(1e-6, 1.0, 1.0);
-  const double h = control.step();
-  EXPECT_FALSE(control.accepts(h, std::nan("")));
-  EXPECT_LT(control.step(), 0.2 * h);
-}
-
-TEST(StepControl, TurnsNoBodyByMoreThanARadian) {
-  StepControl control(1.0, 1.0, 1.0);
-  for (int i = 0; i < 20; ++i) {
-    SystemState state;
-    state.bodies.resize(1);
-    state.bodies[0].w_WB_B = {0.0, 300.0, 400.0};
-    const double h = control.propose(state, 1.0);
-    EXPECT_LE(500.0 * h, 1.0 + 1e-12);
-    EXPECT_TRUE(control.accepts(h, 0.0));
-  }
-}
-
-TEST(StepControl, ShortensAllLimitsByTheRefinement) {
-  SystemState turning;
-  turning.bodies.resize(1);
-  turning.bodies[0].w_WB_B = {0.0, 0.0, 100.0};
-  const SystemState resting;
-  const auto settle = [](StepControl control, const SystemState& state) {
-    double h = 0.0;
-    for (int i = 0; i < 20; ++i) {
-      h = control.propose(state, 100.0);
-      EXPECT_TRUE(control.accepts(h, 0.0));
-    }
-    return h;
-  };
-  EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), resting), 0.075);
-  EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), turning), 0.0025);
 }
 
 TEST(Guard, RunToAToleranceEndsAfterMostSteps) {

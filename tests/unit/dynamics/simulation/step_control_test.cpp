@@ -111,5 +111,22 @@ TEST(StepControl, HalvesAfterAFailure) {
   EXPECT_DOUBLE_EQ(control.step(), 0.5e-4);
 }
 
+TEST(StepControl, ShortensAllLimitsByTheRefinement) {
+  SystemState turning;
+  turning.bodies.resize(1);
+  turning.bodies[0].w_WB_B = {0.0, 0.0, 100.0};
+  const SystemState resting;
+  const auto settle = [](StepControl control, const SystemState& state) {
+    double h = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      h = control.propose(state, 100.0);
+      EXPECT_TRUE(control.accepts(h, 0.0));
+    }
+    return h;
+  };
+  EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), resting), 0.075);
+  EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), turning), 0.0025);
+}
+
 }  // namespace
 }  // namespace limber::dynamics

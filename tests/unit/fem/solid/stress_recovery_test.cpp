@@ -50,7 +50,9 @@ struct Case {
   bool serendipity = false;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.kind << c.order; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.kind << c.order << (c.serendipity ? "_serendipity" : "");
+}
 
 class StressOf : public ::testing::TestWithParam<Case> {
  protected:
