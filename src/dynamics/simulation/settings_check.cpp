@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 
 namespace limber::dynamics {
@@ -69,6 +70,7 @@ void check_settings(const SystemModel& model, const SystemState& state,
   LIMBER_EXPECT(state.memory.size() ==
                 model.couplers.size() + model.transmissions.size());
   check_controllers(model, state, settings);
+  check_rounding(model, state);
   LIMBER_EXPECT(state.pair_memory.size() == model.pair_memory_size);
   const auto refuse = [](const std::string& text) { throw InputError(text); };
   if (!(settings.end_time > state.t) || !std::isfinite(settings.end_time)) {

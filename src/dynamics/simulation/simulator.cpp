@@ -11,6 +11,7 @@
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
+#include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/simulation/explicit_limit.hpp"
 #include "limber/dynamics/simulation/settings_check.hpp"
 #include "limber/dynamics/simulation/start_warnings.hpp"
@@ -36,7 +37,8 @@ struct Simulator::Parts {
         state(start),
         settings(check(model, state, asked, statistics)),
         loop(model, settings, state, statistics, 1.0),
-        limit(model) {
+        limit(model),
+        began_far(describe_rounding(model, state).has_value()) {
     show();
   }
 
@@ -52,6 +54,7 @@ struct Simulator::Parts {
     RunRecord record;
     loop.tell(record);
     warn_of_energy(settings.integrator, record.energy, statistics.warnings);
+    if (!began_far) add_rounding_warning(model, state, statistics.warnings);
     check_energy(settings.integrator, record.energy);
   }
 
@@ -62,6 +65,7 @@ struct Simulator::Parts {
   SimulationSettings settings;
   TimeLoop loop;
   LinearLimit limit;
+  bool began_far;  // from the world's origin
 };
 
 Simulator::Simulator(const SystemModel& model, const SystemState& start,

@@ -12,6 +12,7 @@
 #include "limber/dynamics/integrators/exact_modes.hpp"
 #include "limber/dynamics/integrators/modal_loads.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
+#include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/dynamics/simulation/explicit_limit.hpp"
 #include "limber/dynamics/simulation/start_warnings.hpp"
 #include "limber/dynamics/simulation/time_loop.hpp"
@@ -208,8 +209,10 @@ void run_once(const SystemModel& model, SystemState& state,
                 followed, record,   refinement};
   add_start_warnings(model, state, statistics);
   const double start = state.t;
+  const bool began_far = describe_rounding(model, state).has_value();
   const auto finish = [&] {
     update_mean_frames(model, state);
+    if (!began_far) add_rounding_warning(model, state, statistics.warnings);
     add_load_edges(model, start, state.t, statistics.events);
   };
   try {

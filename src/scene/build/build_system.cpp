@@ -7,6 +7,7 @@
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
+#include "limber/dynamics/monitors/rounding_limit.hpp"
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
@@ -64,6 +65,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   BuiltScene built;
   built.model = assembly.build();
   built.initial = assembly.make_initial_state(built.model);
+  dynamics::check_rounding(built.model, built.initial);
   assembly.check_start(built.model, built.initial);
   if (scene.scenario.equilibrium) settle(scene, built);
   built.probes = assembly.make_probes(built.model);

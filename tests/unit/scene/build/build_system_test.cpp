@@ -130,6 +130,23 @@ TEST(BuildSystem, FloatingJointLeavesEverythingFree) {
   EXPECT_NEAR(end[2], 3.0 - 4.905, 1e-6);
 }
 
+TEST(BuildSystem, RefusesABodySoFarAwayThatItsPositionHasNoDigitsLeft) {
+  const SceneFolder folder;
+  const std::string robot =
+      kWorld + rigid_link("body", 2.0, 0.1) + joint("floating");
+  const auto place = [](const std::string& x) {
+    return time_table(1.0, 0.1) +
+           fmt::format(
+               "[initial.joints]\nj = {{ position = [{}, 0, 0, 0, 0, "
+               "0] }}\n",
+               x) +
+           kProbe;
+  };
+  EXPECT_NO_THROW((void)folder.build(robot, place("1e6")));
+  EXPECT_THAT(input_error([&] { (void)folder.build(robot, place("1e300")); }),
+              HasSubstr("body 'body' at t = 0 s is 1e+300 m from the origin"));
+}
+
 TEST(BuildSystem, SceneInWhichNothingCanMoveIsRefused) {
   const SceneFolder folder;
   EXPECT_THAT(input_error([&] {

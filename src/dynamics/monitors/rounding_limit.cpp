@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/monitors/rounding_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "limber/common/errors.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+constexpr double kVisible = 1e-7;  // of a body's size: gives a warning
+constexpr double kAbsurd = 1e-4;   // of it: gives an error
+
+double find_radius_of_gyration(const BodyModel& body) {
+  const Vector3 moments = body.J0.selfadjointView<Eigen::Lower>().eigenvalues();
+  return std::sqrt(moments.maxCoeff() / body.mass);
+}
+
+// The body whose position loses most of its size.
+struct Rounding {
+  std::size_t body = 0;
+  double distance = 0.0;  // from the world's origin [m]
+  double radius = 0.0;    // of gyration [m]
+  double share = 0.0;     // of the radius that is rounded away [-]
+};
+
+Rounding find_largest_rounding(const SystemModel& model,
+                               const SystemState& state) {
+  Rounding largest;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const double radius = find_radius_of_gyration(model.bodies[b]);
+    const double distance = state.bodies[b].p_WB.stableNorm();
+    const double share =
+        std::numeric_limits<double>::epsilon() * distance / radius;
+    if (share > largest.share) largest = {b, distance, radius, share};
+  }
+  return largest;
+}
+
+std::string describe(const SystemModel& model, const SystemState& state,
+                     const Rounding& rounding) {
+  return fmt::format(
+      "body '{}' at t = {:.9g} s is {:.3g} m from the origin of the world, "
+      "where positions are rounded to {:.2g} m, {:.2g} of its radius of "
+      "gyration ({:.3g} m)",
+      model.bodies[rounding.body].name, state.t, rounding.distance,
+      rounding.share * rounding.radius, rounding.share, rounding.radius);
+}
+
+}  // namespace
+
+std::optional<std::string> describe_rounding(const SystemModel& model,
+                                             const SystemState& state) {
+  const Rounding rounding = find_largest_rounding(model, state);
+  if (rounding.share <= kVisible) return std::nullopt;
+  return fmt::format(
+      "{}: deformations and forces of joints are off by as much; an origin "
+      "near the bodies would help",
+      describe(model, state, rounding));
+}
+
+void add_rounding_warning(const SystemModel& model, const SystemState& state,
+                          std::vector<std::string>& warnings) {
+  if (auto warning = describe_rounding(model, state)) {
+    warnings.push_back(std::move(*warning));
+  }
+}
+
+void check_rounding(const SystemModel& model, const SystemState& state) {
+  const Rounding rounding = find_largest_rounding(model, state);
+  if (rounding.share <= kAbsurd) return;
+  throw InputError(fmt::format("{}; expected at most {:.2g} of it",
+                               describe(model, state, rounding), kAbsurd));
+}
+
+}  // namespace limber::dynamics
