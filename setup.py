@@ -18,7 +18,7 @@ SOURCE = pathlib.Path(__file__).resolve().parent
 class BuildByCMake(build_ext):
     """Builds target limber_python and packs its component.
 
-    LIMBER_BUILD names a build folder that has it already."""
+    LIMBER_BUILD names a build folder that has it already, with static libraries."""
 
     def build_extension(self, ext):
         build = os.environ.get("LIMBER_BUILD")
@@ -31,12 +31,20 @@ class BuildByCMake(build_ext):
                  f"-DPython_EXECUTABLE={sys.executable}"], check=True)
             subprocess.run(["cmake", "--build", build, "--target", "limber_python"],
                            check=True)
+        elif has_shared_libraries(build):
+            sys.exit(f"LIMBER_BUILD: '{build}' has shared libraries, which are no part of"
+                     " a Python package; expected one with BUILD_SHARED_LIBS=OFF")
         with tempfile.TemporaryDirectory() as place:
             subprocess.run(["cmake", "--install", build, "--component", "python",
                             "--prefix", place], check=True)
             made = next(pathlib.Path(place).glob("**/limber"))
             to = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent
             shutil.copytree(made, to, dirs_exist_ok=True)
+
+
+def has_shared_libraries(build):
+    cache = pathlib.Path(build, "CMakeCache.txt").read_text()
+    return "BUILD_SHARED_LIBS:BOOL=ON" in cache
 
 
 def read_version():

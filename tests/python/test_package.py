@@ -69,9 +69,15 @@ def test_pip_installs_it_without_a_network(tmp_path):
     # The build folder is given, so that nothing is compiled again.
     environment = dict(os.environ, LIMBER_BUILD=os.environ["LIMBER_BUILD"])
     environment.pop("PYTHONPATH")
-    subprocess.run([sys.executable, "-m", "pip", "install", "--no-index", "--no-deps",
-                    "--target", target, SOURCE], check=True, env=environment,
-                   capture_output=True, cwd=tmp_path)
+    installed = subprocess.run(
+        [sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--target",
+         target, SOURCE], env=environment, capture_output=True, text=True, cwd=tmp_path)
+    cache = pathlib.Path(os.environ["LIMBER_BUILD"], "CMakeCache.txt").read_text()
+    if "BUILD_SHARED_LIBS:BOOL=ON" in cache:
+        assert installed.returncode != 0
+        assert "expected one with BUILD_SHARED_LIBS=OFF" in installed.stderr
+        return
+    assert installed.returncode == 0, installed.stderr
     environment["PYTHONPATH"] = str(target)
     environment.pop("LIMBER_BUILD")
     found = subprocess.run(
