@@ -13,8 +13,10 @@
 #include "limber/dynamics/simulation/breakpoints.hpp"
 
 namespace limber::dynamics {
-
 namespace {
+
+// Shortest step in times that count as the same.
+constexpr double kFewestSame = 10.0;
 
 void check_controllers(const SystemModel& model, const SystemState& state,
                        const SimulationSettings& settings) {
@@ -33,6 +35,20 @@ void check_controllers(const SystemModel& model, const SystemState& state,
           controller.name, controller.find_time(own.next - 1), state.t));
     }
   }
+}
+
+// @param what it is: begins the message
+void check_step(const std::string& what, double step, double start,
+                const SimulationSettings& settings) {
+  if (!(step > 0.0) || !std::isfinite(step)) {
+    throw InputError(fmt::format("{} is {:g} s; expected > 0", what, step));
+  }
+  const double shortest = kFewestSame * find_same_time(start, settings);
+  if (step >= shortest) return;
+  throw InputError(fmt::format(
+      "{} is {:g} s, which numbers cannot resolve between {:g} s and {:g} s; "
+      "expected at least {:.2g} s, or times nearer to zero",
+      what, step, start, settings.end_time, shortest));
 }
 
 // "a, b or c": the integrators that have a property.
@@ -77,15 +93,11 @@ void check_settings(const SystemModel& model, const SystemState& state,
     refuse(fmt::format("duration: the end {:g} s is not after the start {:g} s",
                        settings.end_time, state.t));
   }
-  if (!(settings.step > 0.0) || !std::isfinite(settings.step)) {
-    refuse(fmt::format("step is {:g} s; expected > 0", settings.step));
-  }
+  check_step("step", settings.step, state.t, settings);
   for (std::size_t i = 0; i < settings.step_changes.size(); ++i) {
     const StepChange& change = settings.step_changes[i];
-    if (!(change.step > 0.0) || !std::isfinite(change.step)) {
-      refuse(fmt::format("step from {:g} s on is {:g} s; expected > 0",
-                         change.from, change.step));
-    }
+    check_step(fmt::format("step from {:g} s on", change.from), change.step,
+               state.t, settings);
     if (i > 0 && !(change.from > settings.step_changes[i - 1].from)) {
       refuse(
           fmt::format("steps change at {:g} s after {:g} s; times must "

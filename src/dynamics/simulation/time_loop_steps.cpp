@@ -16,8 +16,6 @@ namespace {
 constexpr int kMostHalvings = 10;
 constexpr double kSame = 1e-9;  // fraction of a step that counts as its end [-]
 constexpr double kFewestStepsToAMark = 4.0;  // with a tolerance
-// Shortest step to a tolerance, relative to the whole time [-].
-constexpr double kShortest = 1e-12;
 
 }  // namespace
 
@@ -124,7 +122,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   h_ = std::min({control_.propose(state, left), std::max(most, 0.0),
                  refinement_ * stepper_.touches().find_longest_step(state.t)});
   if (left - h_ < kSame * h_) h_ = left;
-  if (!(h_ > kShortest * (settings_.end_time - start_))) {
+  if (!(h_ > find_same_time(start_, settings_))) {
     fail(state, h_,
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
                      "step may have asks for steps below {:.3g} s",

@@ -128,6 +128,31 @@ TEST(Simulation, SettingsOutOfRangeAreRefused) {
   refuse({.end_time = 1.0, .step = 1e-3, .output_times = {}, .rho_inf = 1.5});
 }
 
+// A double has 52 bits after the first: seconds since 1970 are 2.4e-7 s apart.
+TEST(Simulation, StepsThatTimesCannotResolveAreRefused) {
+  const SystemModel model = rigid_body(Matrix3::Identity());
+  SystemState state = make_state(model);
+  state.bodies[0].v_WB_W.x() = 1.0;
+  state.t = 1.7e9;
+  for (const double step : {1e-8, 1e-6, 1e-3}) {
+    EXPECT_THROW(
+        run(model, state,
+            {.end_time = state.t + 1.0, .step = step, .output_times = {}}),
+        InputError)
+        << step;
+  }
+  EXPECT_THROW(run(model, state,
+                   {.end_time = state.t + 1.0,
+                    .step = 0.1,
+                    .step_changes = {{state.t + 0.5, 1e-6}},
+                    .output_times = {}}),
+               InputError);
+  const Outcome r =
+      run(model, state,
+          {.end_time = state.t + 100.0, .step = 0.1, .output_times = {}});
+  EXPECT_NEAR(r.state.bodies[0].p_WB.x(), 100.0, 1e-6);
+}
+
 TEST(Simulation, BlowUpEndsWithTheBodyAndTheTimeAndKeepsTheLastGoodState) {
   Chain chain = make_chain({.bodies = 2, .stiffness = 1e16});
   stir(chain.state, 1.0, 1.0, 1.0);
