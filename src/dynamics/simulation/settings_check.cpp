@@ -15,8 +15,9 @@
 namespace limber::dynamics {
 namespace {
 
-// Shortest step in times that count as the same.
-constexpr double kFewestSame = 10.0;
+// Shortest step, relative to the time at the start [-]. Relative to the time
+// that is left, the number of steps limits it.
+constexpr double kShortest = 1e-11;
 
 void check_controllers(const SystemModel& model, const SystemState& state,
                        const SimulationSettings& settings) {
@@ -38,17 +39,16 @@ void check_controllers(const SystemModel& model, const SystemState& state,
 }
 
 // @param what it is: begins the message
-void check_step(const std::string& what, double step, double start,
-                const SimulationSettings& settings) {
+void check_step(const std::string& what, double step, double start) {
   if (!(step > 0.0) || !std::isfinite(step)) {
     throw InputError(fmt::format("{} is {:g} s; expected > 0", what, step));
   }
-  const double shortest = kFewestSame * find_same_time(start, settings);
+  const double shortest = kShortest * std::abs(start);
   if (step >= shortest) return;
   throw InputError(fmt::format(
-      "{} is {:g} s, which numbers cannot resolve between {:g} s and {:g} s; "
-      "expected at least {:.2g} s, or times nearer to zero",
-      what, step, start, settings.end_time, shortest));
+      "{} is {:g} s, which numbers do not resolve at the start, {:g} s; "
+      "expected at least {:.2g} s, or a start nearer to zero",
+      what, step, start, shortest));
 }
 
 // "a, b or c": the integrators that have a property.
@@ -93,11 +93,11 @@ void check_settings(const SystemModel& model, const SystemState& state,
     refuse(fmt::format("duration: the end {:g} s is not after the start {:g} s",
                        settings.end_time, state.t));
   }
-  check_step("step", settings.step, state.t, settings);
+  check_step("step", settings.step, state.t);
   for (std::size_t i = 0; i < settings.step_changes.size(); ++i) {
     const StepChange& change = settings.step_changes[i];
     check_step(fmt::format("step from {:g} s on", change.from), change.step,
-               state.t, settings);
+               state.t);
     if (i > 0 && !(change.from > settings.step_changes[i - 1].from)) {
       refuse(
           fmt::format("steps change at {:g} s after {:g} s; times must "
