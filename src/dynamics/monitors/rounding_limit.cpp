@@ -59,8 +59,8 @@ std::optional<std::string> describe_rounding(const SystemModel& model,
   const Rounding rounding = find_largest_rounding(model, state);
   if (rounding.share <= kVisible) return std::nullopt;
   return fmt::format(
-      "{}: deformations and forces of joints are off by as much; an origin "
-      "near the bodies would help",
+      "{}: deformations are off by as much, and forces of joints by that times "
+      "their stiffness; an origin near the bodies would help",
       describe(model, state, rounding));
 }
 
