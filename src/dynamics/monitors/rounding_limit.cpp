@@ -64,11 +64,11 @@ std::optional<std::string> describe_rounding(const SystemModel& model,
       describe(model, state, rounding));
 }
 
-void add_rounding_warning(const SystemModel& model, const SystemState& state,
+bool add_rounding_warning(const SystemModel& model, const SystemState& state,
                           std::vector<std::string>& warnings) {
-  if (auto warning = describe_rounding(model, state)) {
-    warnings.push_back(std::move(*warning));
-  }
+  auto warning = describe_rounding(model, state);
+  if (warning) warnings.push_back(std::move(*warning));
+  return warning.has_value();
 }
 
 void check_rounding(const SystemModel& model, const SystemState& state) {

@@ -22,8 +22,8 @@ namespace limber::dynamics {
 [[nodiscard]] std::optional<std::string> describe_rounding(
     const SystemModel& model, const SystemState& state);
 
-/// Adds that warning, if there is one.
-void add_rounding_warning(const SystemModel& model, const SystemState& state,
+/// Adds that warning, if there is one. @returns whether there is
+bool add_rounding_warning(const SystemModel& model, const SystemState& state,
                           std::vector<std::string>& warnings);
 
 /// @throws InputError naming the body if its position is rounded to more than

@@ -38,7 +38,7 @@ struct Simulator::Parts {
         settings(check(model, state, asked, statistics)),
         loop(model, settings, state, statistics, 1.0),
         limit(model),
-        began_far(describe_rounding(model, state).has_value()) {
+        began_far(add_rounding_warning(model, state, statistics.warnings)) {
     show();
   }
 

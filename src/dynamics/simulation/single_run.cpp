@@ -207,9 +207,10 @@ void run_once(const SystemModel& model, SystemState& state,
   const Continuation whole = add_memory(limit, continuation);
   const Job job{settings, progress, statistics, whole,
                 followed, record,   refinement};
+  const bool began_far =
+      add_rounding_warning(model, state, statistics.warnings);
   add_start_warnings(model, state, statistics);
   const double start = state.t;
-  const bool began_far = describe_rounding(model, state).has_value();
   const auto finish = [&] {
     update_mean_frames(model, state);
     if (!began_far) add_rounding_warning(model, state, statistics.warnings);

@@ -10,7 +10,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
-#include "limber/dynamics/monitors/rounding_limit.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -51,7 +50,6 @@ std::optional<joints::ScalarMotion> find_motion(const Read& read) {
 
 void add_start_warnings(const SystemModel& model, const SystemState& state,
                         SimulationStatistics& statistics) {
-  add_rounding_warning(model, state, statistics.warnings);
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const Coupler& coupler = model.couplers[c];
     for (const joints::JointElement& element :
