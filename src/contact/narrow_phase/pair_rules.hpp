@@ -53,7 +53,7 @@ void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
 [[nodiscard]] Meeting find_enclosed_corner(const PlacedShape& A,
                                            const PlacedShape& B);
 /// A lower bound of the distance, the distance itself unless it is far; < 0 if
-/// they overlap [m].
+/// they overlap, by no more than that [m].
 [[nodiscard]] double find_skins_clearance(const PlacedShape& A,
                                           const PlacedShape& B);
 

@@ -75,6 +75,16 @@ bool SkinPairSearch::must_look_deeper() const {
   return summit == -kInfinity || summit > 0.5 * slack_;
 }
 
+void SkinPairSearch::run_to_overlap(double reach) {
+  ends_at_overlap_ = true;
+  run(reach);
+}
+
+// Whether any overlap will do, and one was found.
+bool SkinPairSearch::is_answered() const {
+  return ends_at_overlap_ && deepest_.at.depth > kNoDepth * edge_;
+}
+
 void SkinPairSearch::run(double reach) {
   reach_ = reach;
   const double most = std::min(A_.skin.find_ball(A_.eta).radius,
@@ -86,7 +96,9 @@ void SkinPairSearch::run(double reach) {
     deepest_.at.depth = -kInfinity;
     least_gap_ = nearest_ = kInfinity;
     descend(reach);
-    if (slack_ >= most || looked_ > kMostLooks || !must_look_deeper()) return;
+    if (is_answered() || slack_ >= most || looked_ > kMostLooks ||
+        !must_look_deeper())
+      return;
     slack_ = std::min(kMoreSlack * slack_, most);
   }
 }
@@ -148,7 +160,7 @@ void SkinPairSearch::descend(double reach) {
   const SkinTree& tree_B = B_.skin.tree();
   stack[size++] = make_root();
   if (stack[0].gap > reach) least_gap_ = stack[0].gap;
-  while (size > 0) {
+  while (size > 0 && !is_answered()) {
     const Entry entry = stack[--size];
     if (entry.gap > limit()) continue;
     const SkinTree::Node& a = tree_A.node(entry.node_A);
@@ -192,12 +204,16 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
   if (!(cosine < kFacing)) return;
   has_overlap_ = has_overlap_ || do_boxes_meet;
   const Vector3 normal = (normal_A - normal_B).normalized();
-  nearest_ = std::min(
-      nearest_, (A.find_point(kFaceMiddle) - B.find_point(kFaceMiddle)).norm());
+  const Vector3 arm = B.find_point(kFaceMiddle) - A.find_point(kFaceMiddle);
+  nearest_ = std::min(nearest_, arm.norm());
   const FacePatch::Range on_A = A.find_range(normal);
   const FacePatch::Range on_B = B.find_range(normal);
   if (on_B.low - on_A.high > limit()) return;
   if (!is_in_range(face_A, face_B, on_A.low - on_B.high)) return;
+  if (are_apart_along(normal_A, A, B) || are_apart_along(-normal_B, A, B) ||
+      are_apart_along(arm.normalized(), A, B)) {
+    return;
+  }
   if (is_flat(A, edge_) && is_flat(B, edge_)) {
     const FacePair faces{face_A, A, face_B, B};
     if (cosine < kParallel) {
@@ -220,6 +236,14 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
   feature.is_outer = !is_along_ridge(face_A, face_B, *at);
   if (at->depth > deepest_.at.depth && is_genuine(feature)) deepest_ = feature;
   if (is_summit(face_A, face_B, *at, kRises)) add(feature);
+}
+
+// Whether two faces are farther apart along `way`, a unit vector from A to B,
+// than what counts, and so are all of their places.
+bool SkinPairSearch::are_apart_along(const Vector3& way, const FacePatch& A,
+                                     const FacePatch& B) const {
+  return B.find_range(way).low - A.find_range(way).high >
+         limit() + kSamePlace * edge_;
 }
 
 // Sides that are turned away from each other beyond a thin part are none that

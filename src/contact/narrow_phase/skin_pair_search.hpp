@@ -51,6 +51,9 @@ class SkinPairSearch {
 
   /// @param reach >= 0: pairs farther apart do not count [m]
   void run(double reach);
+  /// Likewise, up to the first overlap that it finds, which need not be the
+  /// deepest.
+  void run_to_overlap(double reach);
 
   /// A lower bound of the distance by boxes alone, cheap [m].
   [[nodiscard]] double find_box_gap() const;
@@ -76,6 +79,8 @@ class SkinPairSearch {
   void look_at_leaves(const Entry& entry);
   void look_at(int face_A, const FacePatch& A, int face_B, const FacePatch& B,
                bool do_boxes_meet);
+  [[nodiscard]] bool are_apart_along(const Vector3& way, const FacePatch& A,
+                                     const FacePatch& B) const;
   // Between flat faces.
   struct FacePair {
     int face_A;
@@ -117,6 +122,7 @@ class SkinPairSearch {
   [[nodiscard]] SkinTree::Box find_box_B(int node) const;
   [[nodiscard]] double limit() const;
   [[nodiscard]] double find_radius(const Feature& feature) const;
+  [[nodiscard]] bool is_answered() const;
   [[nodiscard]] bool must_look_deeper() const;
   [[nodiscard]] double find_share(const Feature& feature) const;
 
@@ -135,6 +141,7 @@ class SkinPairSearch {
   double reach_ = 0.0;
   double slack_ = 0.0;  // up to which overlaps are looked for
   bool has_overlap_ = false;
+  bool ends_at_overlap_ = false;
   int looked_ = 0;  // pairs of faces
   double least_gap_ = std::numeric_limits<double>::infinity();
   // An upper bound of the distance.

@@ -112,7 +112,7 @@ double find_skins_clearance(const PlacedShape& A, const PlacedShape& B) {
   if (gap > std::max(skin_A.skin.mean_edge(), skin_B.skin.mean_edge())) {
     return gap;
   }
-  search.run(kInfinity);
+  search.run_to_overlap(kInfinity);
   return search.deepest() > -kInfinity ? -search.deepest() : search.least_gap();
 }
 
