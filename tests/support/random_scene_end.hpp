@@ -14,15 +14,13 @@ namespace limber::testing {
 /// twice 20 iterations with 60 Krylov vectors, each with its own few.
 inline constexpr long kSolvesOfAnAttempt = 2 * 20 * 64;
 
-/// Expects that a scene ends with finite results, or with an error that names a
-/// body or a coupler or what energy is open, within the work allowed by
+/// Expects that a scene ended with finite results, or with an error that names
+/// a body or a coupler or what energy is open, within the work allowed by
 /// dynamics/simulation/work_budget.hpp.
-inline void expect_good_end(unsigned seed,
-                            const RandomSceneOptions& options = {}) {
+inline void expect_good_end(const RandomScene& scene,
+                            const RandomOutcome& outcome) {
   using ::testing::AnyOf;
   using ::testing::HasSubstr;
-  const RandomScene scene = draw_scene(seed, options);
-  const RandomOutcome outcome = run_random_scene(seed, options);
   EXPECT_NE(outcome.kind, RandomOutcome::Kind::failed) << outcome.text;
   EXPECT_FALSE(is_silent_about_drift(outcome)) << outcome.drift << " J";
   if (outcome.kind == RandomOutcome::Kind::refused) {
@@ -39,6 +37,10 @@ inline void expect_good_end(unsigned seed,
   if (scene.settings.tolerance > 0.0) {
     EXPECT_LE(steps, scene.settings.most_steps + passes);
   }
+}
+
+inline void expect_good_end(unsigned seed) {
+  expect_good_end(draw_scene(seed), run_random_scene(seed));
 }
 
 }  // namespace limber::testing

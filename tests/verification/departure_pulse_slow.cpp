@@ -43,22 +43,35 @@ flexbody::ModalLoads make_pulse(const VectorX& f, double duration) {
   return loads;
 }
 
-class SmoothPulse : public ::testing::TestWithParam<bool> {
- protected:
-  SmoothPulse() : body_(make_recipe(GetParam()), {}) {
+struct LoadedBeam {
+  explicit LoadedBeam(bool is_clamped) : body(make_recipe(is_clamped), {}) {
     Vector6 wrench = Vector6::Zero();
     wrench[0] = 1e3;
-    load_ = body_.interfaces[0].motion.spread(wrench);
-    const flexbody::Support& support = body_.support;
-    force_ = flexbody::take_rows(load_, support.free_nodes);
+    load = body.interfaces[0].motion.spread(wrench);
+    const flexbody::Support& support = body.support;
+    force = flexbody::take_rows(load, support.free_nodes);
     const limber::testing::Eigenpairs pairs = limber::testing::find_eigenpairs(
         MatrixX(support.matrices.K), dense_mass(support.matrices.M_s));
-    const Eigen::Index elastic = force_.size() - support.R.cols();
-    all_ = {pairs.values.tail(elastic), pairs.vectors.rightCols(elastic)};
+    const Eigen::Index elastic = force.size() - support.R.cols();
+    all = {pairs.values.tail(elastic), pairs.vectors.rightCols(elastic)};
   }
 
+  flexbody::MeshedBody body;
+  MatrixX load;  // on all nodes [N]
+  VectorX force;
+  ReducedBasis all;
+};
+
+const LoadedBeam& find_beam(bool is_clamped) {
+  static const LoadedBeam free(false);
+  static const LoadedBeam clamped(true);
+  return is_clamped ? clamped : free;
+}
+
+class SmoothPulse : public ::testing::TestWithParam<bool> {
+ protected:
   [[nodiscard]] ReducedBasis expand(int terms) const {
-    return flexbody::make_departure_model(body_, load_, terms).basis;
+    return flexbody::make_departure_model(beam_.body, beam_.load, terms).basis;
   }
   [[nodiscard]] ReducedBasis take_lowest(int count) const {
     return {all_.lambda.head(count), all_.Phi.leftCols(count)};
@@ -74,7 +87,7 @@ class SmoothPulse : public ::testing::TestWithParam<bool> {
       times.push_back(0.01 * first * i);
     const flexbody::ModalResponse response(
         basis.lambda, VectorX::Zero(basis.lambda.size()),
-        make_pulse(basis.Phi.transpose() * force_, periods * first), {});
+        make_pulse(basis.Phi.transpose() * beam_.force, periods * first), {});
     const std::vector<Eigen::Index> rows = find_tip_rows();
     return basis.Phi(rows, Eigen::all) * response.evaluate(times).eta;
   }
@@ -87,19 +100,17 @@ class SmoothPulse : public ::testing::TestWithParam<bool> {
 
   [[nodiscard]] std::vector<Eigen::Index> find_tip_rows() const {
     std::vector<Eigen::Index> rows;
-    const std::vector<int>& nodes = body_.support.free_nodes;
+    const std::vector<int>& nodes = beam_.body.support.free_nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (std::abs(body_.mesh.x(2, nodes[i]) - 5.0) > 1e-9) continue;
+      if (std::abs(beam_.body.mesh.x(2, nodes[i]) - 5.0) > 1e-9) continue;
       for (Eigen::Index c = 0; c < 3; ++c)
         rows.push_back(3 * static_cast<Eigen::Index>(i) + c);
     }
     return rows;
   }
 
-  flexbody::MeshedBody body_;
-  MatrixX load_;  // on all nodes [N]
-  VectorX force_;
-  ReducedBasis all_;
+  const LoadedBeam& beam_ = find_beam(GetParam());
+  const ReducedBasis& all_ = beam_.all;
 };
 INSTANTIATE_TEST_SUITE_P(Support, SmoothPulse, ::testing::Bool(),
                          [](const auto& p) {

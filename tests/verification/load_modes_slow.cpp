@@ -123,7 +123,7 @@ double read_figure(const std::string& load, const std::string& key) {
 
 // Two programs that share no code, of one definition; eigenvalues agree to
 // 1e-8, and so do phases up to omega t = 1e5.
-TEST(EigenmodeTruncation, IsThatOfTheIndependentProgram) {
+TEST(LoadModes, AreMissedByEigenmodesAsInTheIndependentProgram) {
   for (const Load& load : list_loads()) {
     const MatrixX eta = respond(all_modes(), load, 0.0);
     const MatrixX truth = follow_corners(all_modes(), eta);
