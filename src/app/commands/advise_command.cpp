@@ -10,9 +10,9 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/setting_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/run/output_folder.hpp"
@@ -105,8 +105,7 @@ void add_advise(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "advise", "Recommend a level of fidelity for every flexible link");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
-      ->required();
+  add_scenario(*command, options->scenario);
   command
       ->add_option("--displacement", options->settings.displacement,
                    "Displacement to neglect [m] (default: 2e-7 of the body's "
@@ -130,7 +129,7 @@ void add_advise(CLI::App& app, Action& action) {
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>-advise)");
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { advise(*options); }; });
 }

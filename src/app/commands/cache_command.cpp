@@ -10,7 +10,7 @@
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/json.hpp"
-#include "limber/app/options/cache_option.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/parse_number.hpp"
 #include "limber/flexbody/file/cache.hpp"
@@ -204,7 +204,7 @@ CLI::App* add_command(CLI::App& cache, const char* name, const char* what,
                       const std::shared_ptr<Options>& options) {
   CLI::App* command = cache.add_subcommand(name, what);
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, run, options] { action = [run, options] { run(*options); }; });
   return command;

@@ -13,9 +13,9 @@
 #include "limber/app/compare/comparison_selection.hpp"
 #include "limber/app/console/percent.hpp"
 #include "limber/app/console/text_file.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/list_option.hpp"
 #include "limber/app/options/setting_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
@@ -286,8 +286,7 @@ void add_compare(CLI::App& app, Action& action) {
       "compare",
       "Simulate a scenario at several levels, bases and steps; measure what "
       "each costs and gives up");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
-      ->required();
+  add_scenario(*command, options->scenario);
   add_settings(*command, options->settings);
   add_axes(*command, *options);
   add_reference(*command, *options);
@@ -303,7 +302,7 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>-compare)");
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { compare(*options); }; });
 }

@@ -8,8 +8,8 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/setting_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/frequency_report.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -54,19 +54,15 @@ void add_frequencies(CLI::App& app, Action& action) {
       "frequencies",
       "Natural frequencies of a scenario's whole system about its start, held "
       "by its couplers and drives");
-  command->add_option("scenario", options->scenario, "Scenario file (.toml)")
-      ->required();
+  add_scenario(*command, options->scenario);
   add_settings(*command, options->settings_given);
-  command
-      ->add_option("--fidelity", options->fidelity,
-                   "Level of every flexible link, in place of the file's")
-      ->type_name("LEVEL");
+  add_fidelity(*command, options->fidelity);
   command
       ->add_option("--count", options->count,
                    "How many, from the lowest (default: 20)")
       ->check(make_positive());
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { find(*options); }; });
 }

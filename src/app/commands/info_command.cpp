@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "limber/app/commands/commands.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/reports/describe.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
@@ -67,7 +68,7 @@ void add_info(CLI::App& app, Action& action) {
       "info", "Describe a mesh, reduced body, scenario, robot or results file");
   command->add_option("file", options->file, "File")->required();
   command->add_option("--unit", options->unit, "Metres per mesh unit");
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback([&action, options] {
     action = [options] {
       const Json json = describe(*options);

@@ -10,9 +10,9 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/list_option.hpp"
 #include "limber/app/options/setting_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/linear_run.hpp"
 #include "limber/results/linear_model_file.hpp"
@@ -164,8 +164,7 @@ void add_linearize(CLI::App& app, Action& action) {
       "linearize",
       "Linear model (A, B, C, D) of a scenario's system: inputs are its loads, "
       "drives and controllers' inputs, outputs its probes");
-  command->add_option("scenario", options->scenario, "Scenario file (.toml)")
-      ->required();
+  add_scenario(*command, options->scenario);
   command
       ->add_option("-o,--output", options->file,
                    "File of the model: .mat, .npz or .json")
@@ -185,12 +184,9 @@ void add_linearize(CLI::App& app, Action& action) {
       ->add_option("--states", options->states,
                    "Reduce to so many states by balanced truncation")
       ->check(make_positive());
-  command
-      ->add_option("--fidelity", options->fidelity,
-                   "Level of every flexible link, in place of the file's")
-      ->type_name("LEVEL");
+  add_fidelity(*command, options->fidelity);
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { linearize(*options); }; });
 }

@@ -9,6 +9,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/mesh_options.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/mode_table.hpp"
 #include "limber/common/errors.hpp"
@@ -94,7 +95,7 @@ void add_modes(CLI::App& app, Action& action) {
   command->add_option("--interface", options->interfaces,
                       "Group whose static-deformation modes --static lists; "
                       "may be given again");
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { find_modes(*options); }; });
 }

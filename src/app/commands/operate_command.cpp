@@ -10,6 +10,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/mesh_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/reports/operate.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/files/hdf5_file.hpp"
@@ -144,7 +145,7 @@ void add_operate(CLI::App& app, Action& action) {
                       "enough to bend along (for ever) [s]");
   command->add_option("--out", options->out,
                       "Folder for state.h5, summary.json and a picture");
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { operate(*options); }; });
 }

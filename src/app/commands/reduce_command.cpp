@@ -10,6 +10,7 @@
 #include "limber/app/options/mesh_options.hpp"
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/describe.hpp"
 #include "limber/common/errors.hpp"
@@ -148,7 +149,7 @@ void add_reduce(CLI::App& app, Action& action) {
   command->add_flag("--stress", options->stress,
                     "With stress modes at the nodes kept, for probes of "
                     "stress");
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { reduce(*options); }; });
 }

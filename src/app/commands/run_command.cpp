@@ -8,8 +8,8 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/setting_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/run_scene.hpp"
@@ -107,16 +107,12 @@ void run(const Options& options) {
 void add_run(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)");
+  add_scenario(*command, options->scenario)->required(false);
   command->add_option("--from", options->from,
                       "FILE#RUN: a run of a study, as study.sqlite#17, in "
                       "place of a scenario");
   add_settings(*command, options->settings_given);
-  command
-      ->add_option("--fidelity", options->fidelity,
-                   "Level of every flexible link: rigid, uncoupled, one-way, "
-                   "coupled, nonlinear, full")
-      ->type_name("LEVEL");
+  add_fidelity(*command, options->fidelity);
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>)");
   add_cache_option(*command, options->cache);
@@ -126,7 +122,7 @@ void add_run(CLI::App& app, Action& action) {
       ->add_option("--checkpoint-interval", options->checkpoint_interval,
                    "Wall time between checkpoints [s] (default: 60)")
       ->check(make_not_negative());
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
   command->add_flag("--view", options->views,
                     "Write a page that shows the motion in a browser");

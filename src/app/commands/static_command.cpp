@@ -7,8 +7,8 @@
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/setting_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/static_run.hpp"
@@ -89,20 +89,16 @@ void add_static(CLI::App& app, Action& action) {
       "static",
       "Static equilibrium of a scenario under what acts at its start: loads, "
       "gravity, couplers, drives");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
-      ->required();
+  add_scenario(*command, options->scenario);
   add_settings(*command, options->settings_given);
-  command
-      ->add_option("--fidelity", options->fidelity,
-                   "Level of every flexible link, in place of the file's")
-      ->type_name("LEVEL");
+  add_fidelity(*command, options->fidelity);
   command->add_option("--method", options->method,
                       "newton: load stepping from the start; relaxation: "
                       "falls to an equilibrium, however far");
   command->add_option("--out", options->out,
                       "Results folder (default: out/<scenario name>_static)");
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
   command->callback(
       [&action, options] { action = [options] { find(*options); }; });

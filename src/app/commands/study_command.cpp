@@ -9,7 +9,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
-#include "limber/app/options/cache_option.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/app/study/study_pictures.hpp"
 #include "limber/app/study/study_reader.hpp"
@@ -159,7 +159,7 @@ void add_study(CLI::App& app, Action& action) {
                       "Results folder (default: out/<study name>)");
   add_cache_option(*command, options->cache);
   command->add_flag("--csv", options->csv, "Write the table as CSV, too");
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback(
       [&action, options] { action = [options] { run(*options); }; });
 }

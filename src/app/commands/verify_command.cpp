@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/list_option.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 
 namespace limber::app {
@@ -14,8 +14,7 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
   const auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = app.add_subcommand(
       "verify", "Compare the level `rigid` with Simbody, body by body");
-  command->add_option("scenario", options->scenario, "Scenario file (TOML)")
-      ->required();
+  add_scenario(*command, options->scenario);
   command->add_option("--joints", options->joints,
                       "What stands for joints in Simbody: bushings (default), "
                       "linear-bushings, ideal");
@@ -41,7 +40,7 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
                       "Folder for verification.json and, with --stiffen, "
                       "stiffness.png (default: none)");
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->callback([&action, options, verify] {
     action = [options, verify] { verify(*options); };
   });

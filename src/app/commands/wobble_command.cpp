@@ -7,8 +7,8 @@
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
-#include "limber/app/options/cache_option.hpp"
 #include "limber/app/options/mode_options.hpp"
+#include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/run_scene.hpp"
@@ -181,7 +181,7 @@ void add_wobble(CLI::App& app, Action& action) {
   command->add_option("--unit", options->unit, "Metres per mesh unit");
   command->add_option("--out", options->out, "Results folder");
   add_cache_option(*command, options->cache);
-  command->add_flag("--json", options->json, "Print one JSON object");
+  add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
   command->callback(
       [&action, options] { action = [options] { wobble(*options); }; });

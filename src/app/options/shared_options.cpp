@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/app/options/shared_options.hpp"
+
+namespace limber::app {
+
+CLI::Option* add_scenario(CLI::App& command, std::string& file) {
+  return command.add_option("scenario", file, "Scenario file (TOML)")
+      ->required();
+}
+
+CLI::Option* add_fidelity(CLI::App& command,
+                          std::optional<std::string>& level) {
+  return command
+      .add_option(
+          "--fidelity", level,
+          "Level of every flexible link, in place of the file's: rigid, "
+          "uncoupled, one-way, coupled, nonlinear, full")
+      ->type_name("LEVEL");
+}
+
+CLI::Option* add_cache_option(CLI::App& command, std::string& folder) {
+  return command
+      .add_option("--cache", folder,
+                  "Folder of reduced bodies (default: LIMBER_CACHE, else "
+                  "XDG_CACHE_HOME/limber, else HOME/.cache/limber)")
+      ->type_name("FOLDER");
+}
+
+CLI::Option* add_json(CLI::App& command, bool& is_asked) {
+  return command.add_flag("--json", is_asked, "Print one JSON object");
+}
+
+}  // namespace limber::app
