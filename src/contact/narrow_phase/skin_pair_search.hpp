@@ -128,6 +128,8 @@ class SkinPairSearch {
 
   static constexpr std::size_t kMostFeatures = 96;
   static constexpr double kSamePlace = 1e-6;  // of an edge [-]
+  // Depth up to which round-off tells, likewise.
+  static constexpr double kNoDepth = 1e-7;
   // Slope beyond an edge or a corner that is round-off [-].
   static constexpr double kRises = 1e-7;
   // Pairs of faces after which it looks for no deeper overlaps.
