@@ -41,7 +41,7 @@ def _children():
 def find_orphans():
     """Ends what a command left running, and says what it was."""
     orphans = []
-    for _ in range(20):
+    for _ in range(100):  # 5 s: gigabytes of a killed mesher take the system two
         alive = []
         for child in _children():
             if os.waitpid(child, os.WNOHANG)[0] == 0:

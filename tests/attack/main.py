@@ -10,6 +10,7 @@ import argparse
 import multiprocessing
 import os
 import shutil
+import signal
 import sys
 import time
 from collections import Counter
@@ -140,6 +141,8 @@ def _attack(jobs, workers):
 
 def main():
     arguments = _parse()
+    # What a shell starts in the background ignores it, and so would the command.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     jobs = list(_list_jobs(arguments))
     shutil.rmtree(arguments.work, ignore_errors=True)
     arguments.work.mkdir(parents=True)
