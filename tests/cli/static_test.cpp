@@ -142,6 +142,21 @@ TEST(Static, BeamOnAJointBendsByAFifthAsAnIndependentProgramsClampedOne) {
   EXPECT_NEAR(probe(summary, "tip.uz"), -0.11822246, 0.005);
 }
 
+// Those of a run would be gone.
+TEST(Static, WithoutAFolderLeavesTheResultsOfARunAlone) {
+  const Workspace place;
+  write_clamped_beam(place, "1e6");
+  for (const char* command : {"run", "static", "advise"}) {
+    const CommandResult r =
+        place.limber(fmt::format("{} s.toml --cache c", command));
+    ASSERT_EQ(r.status, 0) << r.errors;
+  }
+  for (const char* file :
+       {"s/results.h5", "s-static/results.h5", "s-advise/advice.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(place.folder() / "out" / file)) << file;
+  }
+}
+
 TEST(Static, WithoutALoadSaysThatTheAnswerIsTrivial) {
   const Workspace place;
   write_clamped_beam(place, "0");

@@ -78,10 +78,8 @@ Json summarize(const scene::Scene& scene, const std::vector<BodyLevel>& levels,
 
 void advise(const Options& options) {
   const scene::Scene scene = load(options);
-  const OutputFolder folder(options.out.empty()
-                                ? std::filesystem::path("out") /
-                                      (scene.scenario.name + "-advise")
-                                : std::filesystem::path(options.out));
+  const OutputFolder folder(
+      find_results_folder(options.out, scene.scenario.name + "-advise"));
   const std::vector<BodyLevel> levels = advise_scene(scene, options.cache);
   const Json json = summarize(scene, levels, folder.path());
   folder.write([&](const std::filesystem::path& place) {
@@ -126,8 +124,7 @@ void add_advise(CLI::App& app, Action& action) {
                    "Level to judge, of every flexible link, in place of the "
                    "scenario's")
       ->type_name("LEVEL");
-  command->add_option("--out", options->out,
-                      "Results folder (default: out/<scenario name>-advise)");
+  add_out(*command, options->out, "<scenario name>-advise");
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
   command->callback(

@@ -80,11 +80,8 @@ std::optional<Demand> make_demand(const Options& options) {
 ComparisonSettings make_settings(const Options& options) {
   ComparisonSettings settings;
   settings.scenario = options.scenario;
-  settings.folder =
-      options.out.empty()
-          ? fs::path("out") /
-                (fs::path(options.scenario).stem().string() + "-compare")
-          : fs::path(options.out);
+  settings.folder = find_results_folder(
+      options.out, fs::path(options.scenario).stem().string() + "-compare");
   settings.settings = to_settings(options.settings);
   settings.cache = options.cache;
   settings.repeats = options.repeats;
@@ -299,8 +296,7 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_flag("--keep", options->keep,
                     "Keep the results of every run (default: where levels are "
                     "the only axis)");
-  command->add_option("--out", options->out,
-                      "Results folder (default: out/<scenario name>-compare)");
+  add_out(*command, options->out, "<scenario name>-compare");
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
   command->callback(

@@ -41,7 +41,7 @@ std::filesystem::path find_folder(const Options& options,
                                   const scene::Scenario& scenario) {
   if (!options.out.empty()) return options.out;
   if (!scenario.output.folder.empty()) return scenario.output.folder;
-  return std::filesystem::path("out") / scenario.name;
+  return find_results_folder("", scenario.name);
 }
 
 StudiedRun find_run(const Options& options) {
@@ -113,8 +113,7 @@ void add_run(CLI::App& app, Action& action) {
                       "place of a scenario");
   add_settings(*command, options->settings_given);
   add_fidelity(*command, options->fidelity);
-  command->add_option("--out", options->out,
-                      "Results folder (default: out/<scenario name>)");
+  add_out(*command, options->out, "<scenario name>");
   add_cache_option(*command, options->cache);
   command->add_flag("--resume", options->resumes,
                     "Go on from the checkpoint in the results folder");

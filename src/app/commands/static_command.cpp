@@ -58,13 +58,9 @@ void print(const StaticRun& run, const std::filesystem::path& folder) {
 }
 
 void find(const Options& options) {
-  const OutputFolder folder(
-      options.out.empty()
-          ? std::filesystem::path("out") /
-                (std::filesystem::path(options.scenario).stem().string() +
-                 "_static")
-          : std::filesystem::path(options.out));
   const scene::Scene scene = load(options);
+  const OutputFolder folder(
+      find_results_folder(options.out, scene.scenario.name + "-static"));
   const StaticRun run = find_static(scene, find_method(options, scene.scenario),
                                     options.cache, make_progress_bar());
   clear_progress_bar();
@@ -95,8 +91,7 @@ void add_static(CLI::App& app, Action& action) {
   command->add_option("--method", options->method,
                       "newton: load stepping from the start; relaxation: "
                       "falls to an equilibrium, however far");
-  command->add_option("--out", options->out,
-                      "Results folder (default: out/<scenario name>_static)");
+  add_out(*command, options->out, "<scenario name>-static");
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");

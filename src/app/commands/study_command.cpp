@@ -51,8 +51,7 @@ Shard parse_shard(const std::string& text) {
 }
 
 fs::path make_folder(const Options& options, const std::string& name) {
-  fs::path folder =
-      options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  fs::path folder = find_results_folder(options.out, name);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
@@ -155,8 +154,7 @@ void add_study(CLI::App& app, Action& action) {
       ->add_option("--jobs", options->jobs,
                    "Runs at a time (default: as many as processors)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--out", options->out,
-                      "Results folder (default: out/<study name>)");
+  add_out(*command, options->out, "<study name>");
   add_cache_option(*command, options->cache);
   command->add_flag("--csv", options->csv, "Write the table as CSV, too");
   add_json(*command, options->json);

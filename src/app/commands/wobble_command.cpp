@@ -123,8 +123,7 @@ void wobble(const Options& options) {
   scene.robot = make_robot(options);
   scene.scenario = make_scenario(options, scene.robot.name);
   const OutputFolder folder(
-      options.out.empty() ? std::filesystem::path("out") / scene.scenario.name
-                          : std::filesystem::path(options.out));
+      find_results_folder(options.out, scene.scenario.name));
   DeferredSignals signals;
   CheckpointPlan none;
   none.signals = &signals;
@@ -179,7 +178,7 @@ void add_wobble(CLI::App& app, Action& action) {
   command->add_option("--order", options->order,
                       "Element order when meshing geometry: 1, 2 or 3");
   command->add_option("--unit", options->unit, "Metres per mesh unit");
-  command->add_option("--out", options->out, "Results folder");
+  add_out(*command, options->out, "<mesh name>");
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");

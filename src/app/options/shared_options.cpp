@@ -26,6 +26,20 @@ CLI::Option* add_cache_option(CLI::App& command, std::string& folder) {
       ->type_name("FOLDER");
 }
 
+CLI::Option* add_out(CLI::App& command, std::string& folder,
+                     const std::string& default_name) {
+  return command
+      .add_option("--out", folder,
+                  "Results folder (default: out/" + default_name + ")")
+      ->type_name("FOLDER");
+}
+
+std::filesystem::path find_results_folder(const std::string& out,
+                                          const std::string& default_name) {
+  if (!out.empty()) return out;
+  return std::filesystem::path("out") / default_name;
+}
+
 CLI::Option* add_json(CLI::App& command, bool& is_asked) {
   return command.add_flag("--json", is_asked, "Print one JSON object");
 }

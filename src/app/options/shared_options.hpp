@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,15 @@ CLI::Option* add_fidelity(CLI::App& command, std::optional<std::string>& level);
 
 /// --cache FOLDER, the folder of reduced bodies; empty: the default one.
 CLI::Option* add_cache_option(CLI::App& command, std::string& folder);
+
+/// --out FOLDER, a command's results; in words, what they are called without it
+/// in the folder out: "<scenario name>-advise".
+CLI::Option* add_out(CLI::App& command, std::string& folder,
+                     const std::string& default_name);
+
+/// What --out named, else the folder of this name in out.
+std::filesystem::path find_results_folder(const std::string& out,
+                                          const std::string& default_name);
 
 /// --json
 CLI::Option* add_json(CLI::App& command, bool& is_asked);
