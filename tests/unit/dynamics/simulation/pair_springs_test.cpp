@@ -72,7 +72,7 @@ TEST(PairSprings, MoveBodiesAsCouplersDoWithEveryImplicitScheme) {
       std::vector<double> distances;
       for (const double step : {1e-3, 5e-4}) {
         const Ends ends = run_both({.integrator = kind,
-                                    .end_time = 0.2,
+                                    .end_time = 0.1,
                                     .step = step,
                                     .newton_tolerance = 1e-12},
                                    options);
