@@ -33,15 +33,13 @@ std::string describe_stability(const SystemModel& model,
   if (integrator == IntegratorKind::splitting) {
     return fmt::format(
         "the step of {:.3g} s may be too long for the couplers, which "
-        "splitting "
-        "takes explicitly; one of {:.3g} s resolves all motion",
+        "splitting takes explicitly; one of {:.3g} s resolves all motion",
         h, stable);
   }
   return fmt::format(
       "the step of {:.3g} s is too long for an explicit scheme, which is "
-      "stable "
-      "up to about {:.3g} s here",
-      h, stable);
+      "stable up to about {:.3g} s at t = {:.6g} s",
+      h, stable, state.t);
 }
 
 // A scheme that blows up displaces joints, too: nothing is said of them then.

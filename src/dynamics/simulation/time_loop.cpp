@@ -43,6 +43,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
       within_(state),
+      sound_(state),
       kept_(Clock::now()) {}
 
 Losses TimeLoop::losses() const {
@@ -65,6 +66,7 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
 void TimeLoop::resume(const Checkpoint& checkpoint, SystemState& state) {
   Archive archive(checkpoint.numbers);
   exchange_memory(archive, state);
+  sound_ = state;
 }
 
 Checkpoint TimeLoop::save(SystemState& state) {
@@ -101,13 +103,17 @@ void TimeLoop::fail(const SystemState& state, double h,
 
 void TimeLoop::inspect(const SystemState& state) {
   const double stored = calc_energy(model_, state, terms_).total();
-  if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) return;
+  if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) {
+    if (!watch_.is_too_much(stored)) sound_ = state;
+    return;
+  }
   const bool is_early = statistics_.steps <= kStepsBetweenLooks;
   const IntegratorTraits& traits = traits_of(settings_.integrator);
   const char* advice = traits.is_implicit && traits.order == 1
                            ? "a smaller step may help"
                            : "a smaller step or implicit-euler may help";
-  fail(state, h_,
+  // What has blown up tells of no cause.
+  fail(sound_, h_,
        fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
                    "most in {}, where the start and the loads account for "
                    "{:.3g} J; {}",
@@ -169,7 +175,7 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
       at_jump_ = false;
     }
   } catch (const NumericalError& error) {
-    fail(state, h_,
+    fail(sound_, h_,
          fmt::format("before the step at t = {:.9g} s: {}", state.t,
                      error.what()));
   }

@@ -130,6 +130,7 @@ class TimeLoop {
   WorkBudget budget_;
   SystemTerms terms_;  // of the energy
   SystemState within_;
+  SystemState sound_;  // at the last look at an energy not too much
 
   // Progress of the run.
   bool has_started_ = false;

@@ -12,6 +12,7 @@
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/simulation/work_budget.hpp"
+#include "limber/joints/point_spring.hpp"
 #include "support/chain.hpp"
 #include "support/eigenpairs.hpp"
 #include "support/point_mass_body.hpp"
@@ -193,6 +194,36 @@ TEST(Guard, StopsExplicitEulerThatBlowsUpFromRest) {
                 AllOf(HasSubstr("blows up"),
                       HasSubstr("too long for an explicit scheme")));
   }
+}
+
+// A mass on a spring whose line meets its centre: 2 / omega. Where a blow-up
+// has turned it, the spring has a lever, and a tenth of that step is stable.
+TEST(Guard, TellsTheStableStepOfTheMotionAndNotOfWhatBlewUp) {
+  constexpr double kMass = 4.0;
+  constexpr double kStiffness = 1e6;
+  SystemBuilder builder;
+  const BodyIndex mass =
+      builder.add_rigid_body("mass", {kMass, 0.01 * Matrix3::Identity()});
+  builder.add_coupler(
+      "spring",
+      joints::PointSpring({.stiffness = kStiffness, .free_length = 1.0}),
+      builder.attach_world("ground", {Matrix3::Identity(), {1.5, 0.0, 0.0}}),
+      builder.attach_frame("end", mass,
+                           {Matrix3::Identity(), {0.5, 0.0, 0.0}}));
+  Scene scene{builder.build(), {}};
+  scene.state = make_state(scene.model);
+  scene.state.bodies[0].p_WB.x() = 1e-5;
+  scene.state.bodies[0].w_WB_B = {0.0, 0.2, 0.1};
+  const double stable = 2.0 * std::sqrt(kMass / kStiffness);
+  SimulationSettings settings = make_settings(100.0 * stable, 10.0 * stable);
+  settings.integrator = IntegratorKind::explicit_euler;
+  const std::string text = run_into_trouble(scene, settings);
+  EXPECT_THAT(text, HasSubstr("blows up"));
+  const std::string words = "stable up to about ";
+  const std::size_t at = text.find(words);
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_NEAR(std::stod(text.substr(at + words.size())), stable, 0.01 * stable)
+      << text;
 }
 
 TEST(Guard, HalvesAStepThatDoesNotGoThrough) {
