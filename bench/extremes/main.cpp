@@ -26,7 +26,9 @@ using Kind = Class;
 using Work = std::vector<std::function<std::string()>>;
 
 constexpr int kAtATime = 2;
-constexpr double kLimit = 60.0;           // processor time of a cell [s]
+// Processor time of a cell [s]: at most 2e4 steps of an explicit scheme, each
+// divided into up to a thousand parts.
+constexpr double kLimit = 120.0;
 constexpr double kReferenceLimit = 30.0;  // [s]
 constexpr double kLongLimit = 600.0;      // of a run of 1e7 steps [s]
 
@@ -355,7 +357,8 @@ void introduce(Page& page) {
       "inaccurate*, and so is one without a converged run (`?`). *Refused* is "
       "one that ends with an `InputError` or a `NumericalError`. NaN or "
       "infinity, a larger error reported as a success, any other exception, a "
-      "crash or 60 s of processor time is a *failure*.");
+      "crash or " +
+      fmt::format("{:g}", kLimit) + " s of processor time is a *failure*.");
 }
 
 void write_page(const std::filesystem::path& folder, bool full,
