@@ -11,35 +11,21 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
       accelerations_(make_accelerations(model)),
-      next_(make_state(model)) {
-  for (const BodyModel& body : model.bodies) {
-    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
-    for (int k = 0; k < body.modes; ++k) {
-      oscillators_.emplace_back(lambda[k], body.damping[k]);
-    }
-  }
-  responses_.resize(oscillators_.size());
+      next_(make_state(model)),
+      modes_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
-void ExplicitEuler::set_step(double h) {
-  if (h == step_) return;
-  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
-    responses_[i] = oscillators_[i].find_free_response(h);
-  }
-  step_ = h;
-}
-
 void ExplicitEuler::move_modes(SystemState& state) const {
-  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double lambda = oscillators_[i].lambda();
-    const flexbody::FreeResponse& r = responses_[i];
+    const double lambda = modes_.oscillator(i).lambda();
+    const flexbody::FreeResponse& r = modes_.response(i);
     const double eta = state.eta[k];
     const double etadot = state.etadot[k];
     // Force on the mode without its own spring and damper.
     const double load = accelerations_.etaddot[k] +
-                        oscillators_[i].damping() * etadot + lambda * eta;
+                        modes_.oscillator(i).damping() * etadot + lambda * eta;
     state.eta[k] = r.stay * eta + r.impulse * etadot + r.step * load;
     state.etadot[k] =
         -lambda * r.impulse * eta + r.keep * etadot + r.impulse * load;
@@ -47,7 +33,7 @@ void ExplicitEuler::move_modes(SystemState& state) const {
 }
 
 StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
-  set_step(h);
+  modes_.set_time(h);
   calc_terms(model_, state, Side::right, terms_);
   solve_accelerations(model_, terms_, accelerations_);
   StepResult result;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/free_vibration.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
-#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 namespace limber::dynamics {
 
@@ -30,16 +28,13 @@ class ExplicitEuler final : public Integrator {
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
-  void set_step(double h);
   void move_modes(SystemState& state) const;
 
   const SystemModel& model_;
   SystemTerms terms_;
   Accelerations accelerations_;
   SystemState next_;
-  std::vector<flexbody::ModalOscillator> oscillators_;  // all modes
-  std::vector<flexbody::FreeResponse> responses_;       // over step_
-  double step_ = 0.0;
+  FreeVibration modes_;  // over a step
 };
 
 }  // namespace limber::dynamics

@@ -12,40 +12,27 @@ Splitting::Splitting(const SystemModel& model)
       terms_(make_terms(model)),
       kick_(make_accelerations(model)),
       next_(make_state(model)),
-      middle_(make_state(model)) {
-  for (const BodyModel& body : model.bodies) {
-    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
-    for (int k = 0; k < body.modes; ++k) {
-      oscillators_.emplace_back(lambda[k], body.damping[k]);
-    }
-  }
-  responses_.resize(oscillators_.size());
+      middle_(make_state(model)),
+      modes_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
-void Splitting::set_half(double half) {
-  if (half == half_) return;
-  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
-    responses_[i] = oscillators_[i].find_free_response(half);
-  }
-  half_ = half;
-}
-
 void Splitting::drift(SystemState& state, double& dissipated) const {
+  const double half = modes_.time();
   for (BodyState& body : state.bodies) {
-    body.p_WB += half_ * body.v_WB_W;
-    body.quat_WB = body.quat_WB * exp_quaternion(half_ * body.w_WB_B);
+    body.p_WB += half * body.v_WB_W;
+    body.quat_WB = body.quat_WB * exp_quaternion(half * body.w_WB_B);
     body.quat_WB.normalize();
   }
-  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double lambda = oscillators_[i].lambda();
-    const flexbody::FreeResponse& r = responses_[i];
+    const double lambda = modes_.oscillator(i).lambda();
+    const flexbody::FreeResponse& r = modes_.response(i);
     const double eta = state.eta[k];
     const double etadot = state.etadot[k];
     state.eta[k] = r.stay * eta + r.impulse * etadot;
     state.etadot[k] = -lambda * r.impulse * eta + r.keep * etadot;
-    if (oscillators_[i].damping() == 0.0) continue;
+    if (modes_.oscillator(i).damping() == 0.0) continue;
     dissipated += 0.5 * (etadot * etadot - state.etadot[k] * state.etadot[k] +
                          lambda * (eta * eta - state.eta[k] * state.eta[k]));
   }
@@ -55,10 +42,10 @@ void Splitting::drift(SystemState& state, double& dissipated) const {
 void Splitting::calc_kick() {
   calc_terms(model_, middle_, Side::right, terms_);
   solve_accelerations(model_, terms_, kick_);
-  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    kick_.etaddot[k] += oscillators_[i].lambda() * middle_.eta[k] +
-                        oscillators_[i].damping() * middle_.etadot[k];
+    kick_.etaddot[k] += modes_.oscillator(i).lambda() * middle_.eta[k] +
+                        modes_.oscillator(i).damping() * middle_.etadot[k];
   }
 }
 
@@ -71,22 +58,23 @@ void Splitting::kick(const SystemState& from, double h, SystemState& to) const {
 }
 
 StepResult Splitting::step(SystemState& state, double h, double end) {
-  set_half(0.5 * h);
+  const double half = 0.5 * h;
+  modes_.set_time(half);
   StepResult result;
   next_ = state;
   next_.t = end;
   drift(next_, result.dissipated);
   middle_ = next_;
-  middle_.t = state.t + half_;
+  middle_.t = state.t + half;
   calc_kick();
-  kick(next_, half_, middle_);
+  kick(next_, half, middle_);
   calc_kick();
   kick(next_, h, next_);
   result.load_work = h * terms_.load_power;
   result.dissipated += h * terms_.dissipated_power;
-  for (std::size_t i = 0; i < oscillators_.size(); ++i) {
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
     const double rate = middle_.etadot[static_cast<Eigen::Index>(i)];
-    result.dissipated -= h * oscillators_[i].damping() * rate * rate;
+    result.dissipated -= h * modes_.oscillator(i).damping() * rate * rate;
   }
   drift(next_, result.dissipated);
   require_finite(model_, next_, h);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/integrators/free_vibration.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
-#include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 namespace limber::dynamics {
 
@@ -38,7 +36,6 @@ class Splitting final : public Integrator {
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
-  void set_half(double half);
   // Adds the energy dissipated by modal damping to `dissipated` [J].
   void drift(SystemState& state, double& dissipated) const;
   void calc_kick();
@@ -49,9 +46,7 @@ class Splitting final : public Integrator {
   Accelerations kick_;  // without the modes' own springs and dampers
   SystemState next_;
   SystemState middle_;
-  std::vector<flexbody::ModalOscillator> oscillators_;  // all modes
-  std::vector<flexbody::FreeResponse> responses_;       // over half_
-  double half_ = 0.0;                                   // of a step [s]
+  FreeVibration modes_;  // over half a step
 };
 
 }  // namespace limber::dynamics
