@@ -42,13 +42,10 @@ std::string describe_stability(const SystemModel& model,
       h, stable, state.t);
 }
 
-// A scheme that blows up displaces joints, too: nothing is said of them then.
 std::string describe_overpowered(const SystemModel& model,
-                                 const SystemState& state,
-                                 const EnergyWatch& energy) {
+                                 const SystemState& state) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
-  if (energy.is_too_much(calc_energy(model, state, terms).total())) return {};
   HoldWatch watch(model);
   watch.include(terms, state.t);
   return watch.find_overpowered().value_or("");
@@ -71,8 +68,7 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
 }  // namespace
 
 std::string find_cause(const SystemModel& model, const SystemState& state,
-                       IntegratorKind integrator, double h,
-                       const EnergyWatch& energy) {
+                       IntegratorKind integrator, double h) {
   if (may_be_unstable(integrator)) {
     try {
       std::string text = describe_stability(model, state, integrator, h);
@@ -89,7 +85,7 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
     if (bent) return *bent;
   }
   try {
-    std::string text = describe_overpowered(model, state, energy);
+    std::string text = describe_overpowered(model, state);
     if (!text.empty()) return text;
   } catch (const NumericalError&) {  // NOLINT(bugprone-empty-catch)
     // A joint whose axis is reversed names itself.

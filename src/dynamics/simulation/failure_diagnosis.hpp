@@ -5,22 +5,19 @@
 
 #include "limber/dynamics/equations/workspace.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
-#include "limber/dynamics/monitors/energy_watch.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 /// Diagnosis of simulations that fail.
 namespace limber::dynamics {
 
-/// A message with the likely cause, from the last good state: a body above its
-/// critical speed, a joint that the loads overpower, a step beyond the
-/// stability limit of an explicit scheme, a body that rotates too far within a
-/// step. Empty if none is found.
+/// A message with the likely cause, from a state before the motion blew up: a
+/// body above its critical speed, a joint that the loads overpower, a step
+/// beyond the stability limit of an explicit scheme, a body that rotates too
+/// far within a step. Empty if none is found.
 /// @param h length of the step [s]
-/// @param energy of the run: joints are not named where it has blown up
 [[nodiscard]] std::string find_cause(const SystemModel& model,
                                      const SystemState& state,
-                                     IntegratorKind integrator, double h,
-                                     const EnergyWatch& energy);
+                                     IntegratorKind integrator, double h);
 
 /// A message naming the coupler whose damper opposes the initial velocities, if
 /// it would dissipate ten times the stored energy within a step; else empty. A

@@ -95,9 +95,20 @@ double TimeLoop::find_share(double t) const {
          count_steps(settings_, start_, end);
 }
 
+// What has blown up tells of no cause.
+bool TimeLoop::is_sound(const SystemState& state) const {
+  try {
+    return !watch_.is_too_much(calc_energy(model_, state).total());
+  } catch (const NumericalError&) {
+    return true;  // as of a joint whose axis is reversed, which is a cause
+  }
+}
+
 void TimeLoop::fail(const SystemState& state, double h,
                     const std::string& what) const {
-  const auto cause = find_cause(model_, state, settings_.integrator, h, watch_);
+  const bool is_cause_here = is_sound(state);
+  const auto cause = find_cause(model_, is_cause_here ? state : sound_,
+                                settings_.integrator, is_cause_here ? h : h_);
   throw NumericalError(cause.empty() ? what : what + "; " + cause);
 }
 
@@ -112,8 +123,7 @@ void TimeLoop::inspect(const SystemState& state) {
   const char* advice = traits.is_implicit && traits.order == 1
                            ? "a smaller step may help"
                            : "a smaller step or implicit-euler may help";
-  // What has blown up tells of no cause.
-  fail(sound_, h_,
+  fail(state, h_,
        fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
                    "most in {}, where the start and the loads account for "
                    "{:.3g} J; {}",
@@ -175,7 +185,7 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
       at_jump_ = false;
     }
   } catch (const NumericalError& error) {
-    fail(sound_, h_,
+    fail(state, h_,
          fmt::format("before the step at t = {:.9g} s: {}", state.t,
                      error.what()));
   }

@@ -107,6 +107,7 @@ class TimeLoop {
                        bool is_last);
   [[nodiscard]] double find_share(double t) const;
   void exchange_memory(Archive& archive, SystemState& state);
+  [[nodiscard]] bool is_sound(const SystemState& state) const;
   [[noreturn]] void fail(const SystemState& state, double h,
                          const std::string& what) const;
   [[nodiscard]] std::string describe_failure(const SystemState& state) const;
