@@ -114,6 +114,37 @@ class Limber:
         ended.problems = judge(ended)
         return ended
 
+    def run_until(self, *words, moment, by):
+        """Runs it, with a signal after `moment` s, from which its seconds count."""
+        child = self.start(*words)
+        time.sleep(moment)
+        child.send_signal(by)
+        begin = time.monotonic()
+        out, errors = child.communicate()
+        return Ended(as_status(child.returncode), text(out), text(errors),
+                     time.monotonic() - begin)
+
+    def run_twice(self, *words, apart):
+        """Runs it twice at once in one folder, of which one may be refused.
+
+        @param apart s between their starts
+        @return the end of that with the lower status, and both statuses
+        """
+        first = self.start(*words)
+        time.sleep(apart)
+        second = self.start(*words)
+        ends = []
+        for child in (first, second):
+            out, errors = child.communicate()
+            ends.append(Ended(as_status(child.returncode), text(out), text(errors), 0.0))
+        ends.sort(key=lambda end: end.status)
+        ended = ends[0]
+        ended.problems = [problem for end in ends for problem in judge(end)]
+        statuses = [end.status for end in ends]
+        if statuses not in ([0, 0], [0, 2]):
+            ended.problems.append(f"ended {statuses}")
+        return ended, statuses
+
     @staticmethod
     def _stop(child):
         child.send_signal(signal.SIGINT)

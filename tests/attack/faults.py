@@ -7,7 +7,6 @@ import resource
 import shutil
 import signal
 import subprocess
-import time
 from random import Random
 
 import scene
@@ -20,13 +19,8 @@ RUN_SECONDS = 0.5  # s, in which a moment is drawn
 
 
 def _end_at_a_moment(limber, random, by):
-    child = limber.start(*KEEPING)
-    time.sleep(random.uniform(0.0, RUN_SECONDS))
-    child.send_signal(by)
-    begin = time.monotonic()
-    out, errors = child.communicate()
-    return Ended(as_status(child.returncode), text(out), text(errors),
-                 time.monotonic() - begin)
+    moment = random.uniform(0.0, RUN_SECONDS)
+    return limber.run_until(*KEEPING, moment=moment, by=by)
 
 
 def _resume_to_the_whole(limber, problems):
@@ -346,18 +340,8 @@ def attack_two(seed, limber):
     prepared = prepare(limber)
     random = Random(f"two {seed}")
     scene.lay_out(limber.place)
-    first = limber.start(*KEEPING)
-    time.sleep(random.uniform(0.0, 0.3))
-    second = limber.start(*KEEPING)
-    ends = []
-    for child in (first, second):
-        out, errors = child.communicate()
-        ends.append(Ended(as_status(child.returncode), text(out), text(errors), 0.0))
-    ended = min(ends, key=lambda end: end.status)
-    ended.problems = [p for end in ends for p in judge(end)]
-    if sorted(end.status for end in ends) not in ([0, 0], [0, 2]):
-        ended.problems.append(f"ended {[end.status for end in ends]}")
-    if [end.status for end in ends] == [0, 0]:
+    ended, statuses = limber.run_twice(*KEEPING, apart=random.uniform(0.0, 0.3))
+    if statuses == [0, 0]:
         ended.problems.append("both succeeded")
     _expect_the_answer(limber, ended, prepared)
     shutil.rmtree(limber.place / "out", ignore_errors=True)

@@ -3,12 +3,11 @@
 
 import shutil
 import signal
-import time
 from functools import cache
 from random import Random
 
 import scene
-from command import Ended, Limber, as_status, judge, text
+from command import Limber
 from damaged import damage
 from mutate import mutate_text
 
@@ -90,13 +89,8 @@ def attack_study_kill(seed, limber):
     random = Random(f"study kill {seed}")
     by = random.choice([signal.SIGKILL, signal.SIGINT, signal.SIGTERM])
     scene.lay_out(limber.place)
-    child = limber.start(*STUDY)
-    time.sleep(random.uniform(0.0, COMMAND_SECONDS))
-    child.send_signal(by)
-    begin = time.monotonic()
-    out, errors = child.communicate()
-    ended = Ended(as_status(child.returncode), text(out), text(errors),
-                  time.monotonic() - begin)
+    moment = random.uniform(0.0, COMMAND_SECONDS)
+    ended = limber.run_until(*STUDY, moment=moment, by=by)
     if ended.status not in (0, 128 + by):
         ended.problems.append(f"status {ended.status} after {by.name}")
     if ended.seconds > 2.0:
@@ -110,17 +104,7 @@ def attack_study_twice(seed, limber):
     prepare_study(limber)
     random = Random(f"study twice {seed}")
     scene.lay_out(limber.place)
-    first = limber.start(*STUDY)
-    time.sleep(random.uniform(0.0, 0.5))
-    second = limber.start(*STUDY)
-    ends = []
-    for child in (first, second):
-        out, errors = child.communicate()
-        ends.append(Ended(as_status(child.returncode), text(out), text(errors), 0.0))
-    ended = min(ends, key=lambda end: end.status)
-    ended.problems = [p for end in ends for p in judge(end)]
-    if sorted(end.status for end in ends) not in ([0, 0], [0, 2]):
-        ended.problems.append(f"ended {[end.status for end in ends]}")
+    ended, _ = limber.run_twice(*STUDY, apart=random.uniform(0.0, 0.5))
     if tables_differ(limber):
         ended.problems.append(tables_differ(limber))
     return ended
