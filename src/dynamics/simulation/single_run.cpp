@@ -9,11 +9,11 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/integrators/exact_modes.hpp"
-#include "limber/dynamics/integrators/modal_loads.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
+#include "limber/dynamics/simulation/exact_modes.hpp"
 #include "limber/dynamics/simulation/explicit_limit.hpp"
+#include "limber/dynamics/simulation/modal_loads.hpp"
 #include "limber/dynamics/simulation/start_warnings.hpp"
 #include "limber/dynamics/simulation/time_loop.hpp"
 

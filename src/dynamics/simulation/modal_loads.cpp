@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/integrators/modal_loads.hpp"
+#include "limber/dynamics/simulation/modal_loads.hpp"
 
 #include <algorithm>
 #include <numbers>

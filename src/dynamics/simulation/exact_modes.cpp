@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/integrators/exact_modes.hpp"
+#include "limber/dynamics/simulation/exact_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "limber/dynamics/integrators/modal_loads.hpp"
+#include "limber/dynamics/simulation/modal_loads.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 
 namespace limber::dynamics {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/integrators/exact_modes.hpp"
+#include "limber/dynamics/simulation/exact_modes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/integrators/modal_loads.hpp"
+#include "limber/dynamics/simulation/modal_loads.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
