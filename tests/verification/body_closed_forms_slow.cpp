@@ -14,6 +14,7 @@
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/eigenmodes.hpp"
+#include "support/own_folder.hpp"
 
 /// Free bodies whose frequencies are known without finite elements. The error
 /// of an eigenvalue on elements of order p falls as h^(2p) (Strang, Fix, An
@@ -24,9 +25,9 @@ namespace {
 const fem::ElasticMaterial kSteel{210e9, 0.3, 7850.0};
 
 std::filesystem::path write_geo(const std::string& text) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) /
+      limber::testing::own_folder() /
       fmt::format("limber_{}_{}.geo", test->test_suite_name(), test->name());
   std::ofstream(file) << text;
   return file;

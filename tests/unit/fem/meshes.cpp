@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "limber/fem/gmsh/gmsh_session.hpp"
+#include "support/own_folder.hpp"
 
 namespace limber::fem::testing {
 
@@ -20,7 +21,7 @@ std::filesystem::path make_test_folder() {
       fmt::format("{}.{}", info->test_suite_name(), info->name());
   std::replace(name.begin(), name.end(), '/', '_');
   const std::filesystem::path folder =
-      std::filesystem::path(::testing::TempDir()) / ("limber_fem." + name);
+      limber::testing::own_folder() / ("limber_fem." + name);
   std::filesystem::create_directories(folder);
   return folder;
 }
