@@ -26,7 +26,7 @@ const fem::ElasticMaterial kSteel{210e9, 0.3, 7850.0};
 
 std::filesystem::path write_geo(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path file =
+  std::filesystem::path file =
       limber::testing::own_folder() /
       fmt::format("limber_{}_{}.geo", test->test_suite_name(), test->name());
   std::ofstream(file) << text;

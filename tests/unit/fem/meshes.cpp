@@ -20,7 +20,7 @@ std::filesystem::path make_test_folder() {
   std::string name =
       fmt::format("{}.{}", info->test_suite_name(), info->name());
   std::replace(name.begin(), name.end(), '/', '_');
-  const std::filesystem::path folder =
+  std::filesystem::path folder =
       limber::testing::own_folder() / ("limber_fem." + name);
   std::filesystem::create_directories(folder);
   return folder;
@@ -28,7 +28,7 @@ std::filesystem::path make_test_folder() {
 
 std::filesystem::path write_file(const std::string& name,
                                  const std::string& text) {
-  const std::filesystem::path file = make_test_folder() / name;
+  std::filesystem::path file = make_test_folder() / name;
   std::ofstream(file) << text;
   return file;
 }
@@ -71,7 +71,7 @@ MshText unit_tetrahedron() {
 
 std::filesystem::path convert(const std::filesystem::path& source,
                               const std::string& name, const MshForm& form) {
-  const std::filesystem::path file = make_test_folder() / name;
+  std::filesystem::path file = make_test_folder() / name;
   const GmshSession session;
   gmsh::open(source.string());
   std::vector<int> types;
