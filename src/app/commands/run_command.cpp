@@ -39,9 +39,10 @@ struct Options {
 
 std::filesystem::path find_folder(const Options& options,
                                   const scene::Scenario& scenario) {
-  if (!options.out.empty()) return options.out;
-  if (!scenario.output.folder.empty()) return scenario.output.folder;
-  return find_results_folder("", scenario.name);
+  if (options.out.empty() && !scenario.output.folder.empty()) {
+    return scenario.output.folder;
+  }
+  return find_results_folder(options.out, scenario.name);
 }
 
 StudiedRun find_run(const Options& options) {
