@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "support/temporary_folder.hpp"
+
 namespace limber::test {
 
 /// Whether the command is built with sanitizers: these take terabytes of
@@ -23,18 +25,15 @@ struct CommandResult {
 /// A temporary folder for one test, removed at the end; commands run in it.
 class Workspace {
  public:
-  Workspace();
-  ~Workspace();
-  Workspace(const Workspace&) = delete;
-  Workspace& operator=(const Workspace&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const std::filesystem::path& folder() const {
+    return folder_.path();
+  }
   void write(const std::string& name, const std::string& text) const;
   /// Runs `limber ARGUMENTS`, quoted for a shell.
   [[nodiscard]] CommandResult limber(const std::string& arguments) const;
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);

@@ -14,7 +14,7 @@
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/eigenmodes.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// Free bodies whose frequencies are known without finite elements. The error
 /// of an eigenvalue on elements of order p falls as h^(2p) (Strang, Fix, An
@@ -27,7 +27,7 @@ const fem::ElasticMaterial kSteel{210e9, 0.3, 7850.0};
 std::filesystem::path write_geo(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   std::filesystem::path file =
-      limber::testing::own_folder() /
+      limber::test::own_folder() /
       fmt::format("limber_{}_{}.geo", test->test_suite_name(), test->name());
   std::ofstream(file) << text;
   return file;

@@ -12,7 +12,7 @@
 #include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 #include "limber/reduction/operating_states.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -35,7 +35,7 @@ std::vector<double> grade_layers(int count) {
 /// Bricks of second order: 10 across the wall, 32 around, one along the axis.
 Recipe make_disc() {
   const std::vector<double> layers = grade_layers(10);
-  const std::filesystem::path file = limber::testing::own_folder() / "disc.geo";
+  const std::filesystem::path file = limber::test::own_folder() / "disc.geo";
   std::ofstream(file)
       << "SetFactory(\"Built-in\");\nPoint(1) = {0.1, 0, 0};\n"
       << fmt::format(

@@ -16,7 +16,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/stress_recovery.hpp"
 #include "limber/reduction/meshed_body.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// NAFEMS LE10 [@nafems1990]: a thick elliptic plate
 /// with a hole under pressure. It holds single directions of faces, which
@@ -41,7 +41,7 @@ struct Division {
 /// A quarter, between the ellipses of semi-axes 2 and 1 m, 3.25 and 2.75 m,
 /// 0.6 m thick: bricks of second order, smaller towards D.
 TracedMesh make_plate(const Division& n) {
-  const std::filesystem::path file = limber::testing::own_folder() / "le10.geo";
+  const std::filesystem::path file = limber::test::own_folder() / "le10.geo";
   std::ofstream(file) << fmt::format(
       "SetFactory(\"Built-in\");\n"
       "Point(1) = {{0, 0, 0}};\nPoint(2) = {{2, 0, 0}};\n"

@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "limber/fem/gmsh/gmsh_session.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace limber::fem::testing {
 
@@ -21,7 +21,7 @@ std::filesystem::path make_test_folder() {
       fmt::format("{}.{}", info->test_suite_name(), info->name());
   std::replace(name.begin(), name.end(), '/', '_');
   std::filesystem::path folder =
-      limber::testing::own_folder() / ("limber_fem." + name);
+      limber::test::own_folder() / ("limber_fem." + name);
   std::filesystem::create_directories(folder);
   return folder;
 }

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "limber/reduction/meshed_body.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// A bar of hexahedra along x, and its matrices entry by entry.
 namespace limber::flexbody::testing {
@@ -30,7 +30,7 @@ inline std::filesystem::path write_bar(const Bar& bar) {
   std::string name =
       fmt::format("{}.{}.geo", info->test_suite_name(), info->name());
   std::replace(name.begin(), name.end(), '/', '_');
-  std::filesystem::path file = limber::testing::own_folder() / name;
+  std::filesystem::path file = limber::test::own_folder() / name;
   const Vector3& a = bar.corner;
   const Vector3& s = bar.size;
   std::ofstream(file) << fmt::format(

@@ -8,7 +8,7 @@
 #include "limber/reduction/contact_groups.hpp"
 #include "limber/reduction/contact_radii.hpp"
 #include "limber/reduction/contact_residual.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// The flexibility of a patch of given size on finer and finer meshes.
 namespace limber::flexbody {
@@ -48,7 +48,7 @@ class Box {
       return std::lround(size[axis] / cell);
     };
     Recipe recipe;
-    recipe.mesh.file = limber::testing::own_folder() / name;
+    recipe.mesh.file = limber::test::own_folder() / name;
     std::ofstream(recipe.mesh.file) << fmt::format(
         "Point(1) = {{0, 0, 0}};\n"
         "l[] = Extrude {{0, {1}, 0}} {{ Point{{1}}; Layers{{{4}}}; }};\n"

@@ -9,7 +9,7 @@
 
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/reduction/contact_radii.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// Patches on a plate of 8 x 6 x 2 cm in cells of 1 x 1 x 1 cm.
 namespace limber::flexbody {
@@ -19,8 +19,8 @@ constexpr double kCell = 0.01;  // m
 const Vector3 kSize{0.08, 0.06, 0.02};
 
 std::filesystem::path write_plate(int order) {
-  std::filesystem::path file = limber::testing::own_folder() /
-                               ("plate" + std::to_string(order) + ".geo");
+  std::filesystem::path file =
+      limber::test::own_folder() / ("plate" + std::to_string(order) + ".geo");
   std::ofstream(file)
       << "Point(1) = {0, 0, 0};\n"
          "l[] = Extrude {0, 0.06, 0} { Point{1}; Layers{6}; };\n"

@@ -12,7 +12,7 @@
 #include "limber/flexbody/elasticity/quadratic_strain.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/reduction/reduce.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {
@@ -305,7 +305,7 @@ TEST(Manifold, IsLeftOutUnlessAskedFor) {
 
 TEST(Manifold, SurvivesABodyFile) {
   const Manifold made(kBar);
-  const auto file = limber::testing::own_folder() / "manifold_body.h5";
+  const auto file = limber::test::own_folder() / "manifold_body.h5";
   write_body(made.body, file);
   const ReducedBody read = read_body(file);
   ASSERT_TRUE(read.manifold.has_value());

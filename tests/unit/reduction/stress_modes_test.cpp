@@ -16,7 +16,7 @@
 #include "limber/flexbody/file/cache.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "places.hpp"
-#include "support/own_folder.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/reduction/bar.hpp"
 
 namespace limber::flexbody {
@@ -211,8 +211,7 @@ TEST(StressModes, KeepTheRowsOfTheBody) {
 
 TEST(StressModes, AreInTheBodysFile) {
   const ReducedBody body = reduce(make_stressed(Bar{}));
-  const std::filesystem::path file =
-      limber::testing::own_folder() / "stressed.h5";
+  const std::filesystem::path file = limber::test::own_folder() / "stressed.h5";
   write_body(body, file);
   const ReducedBody again = read_body(file);
   ASSERT_TRUE(again.stress);
@@ -227,7 +226,7 @@ TEST(StressModes, AreInTheBodysFile) {
 
 TEST(StressModes, ThatDoNotFitTheirBodyAreRefused) {
   const ReducedBody body = reduce(make_stressed(Bar{.cells = 1}));
-  const std::filesystem::path file = limber::testing::own_folder() / "unfit.h5";
+  const std::filesystem::path file = limber::test::own_folder() / "unfit.h5";
   const auto is_refused = [&](const auto& change) {
     ReducedBody changed = body;
     change(*changed.stress);

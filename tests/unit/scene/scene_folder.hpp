@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -14,6 +13,7 @@
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/build/load_scene.hpp"
 #include "limber/scene/build/scene.hpp"
+#include "support/temporary_folder.hpp"
 
 /// Scenes of rigid links from text to motion.
 namespace limber::scene::test {
@@ -21,28 +21,17 @@ namespace limber::scene::test {
 /// A folder for one test.
 class SceneFolder {
  public:
-  SceneFolder() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "limber-scene-XXXXXX")
-            .string();
-    folder_ = mkdtemp(pattern.data());
+  [[nodiscard]] const std::filesystem::path& path() const {
+    return folder_.path();
   }
-  ~SceneFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(folder_, error);
-  }
-  SceneFolder(const SceneFolder&) = delete;
-  SceneFolder& operator=(const SceneFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
   [[nodiscard]] Scene load(const std::string& robot,
                            const std::string& scenario) const {
-    std::ofstream(folder_ / "robot.urdf") << "<robot name='r'>\n"
-                                          << robot << "</robot>\n";
-    std::ofstream(folder_ / "scenario.toml") << "robot = 'robot.urdf'\n"
-                                             << scenario;
-    return load_scene(folder_ / "scenario.toml");
+    std::ofstream(path() / "robot.urdf") << "<robot name='r'>\n"
+                                         << robot << "</robot>\n";
+    std::ofstream(path() / "scenario.toml") << "robot = 'robot.urdf'\n"
+                                            << scenario;
+    return load_scene(path() / "scenario.toml");
   }
 
   [[nodiscard]] BuiltScene build(const Scene& scene) const {
@@ -53,7 +42,7 @@ class SceneFolder {
            ADD_FAILURE() << mesh.file << " should not be reduced";
            return {};
          }},
-        folder_ / "cache");
+        path() / "cache");
   }
 
   [[nodiscard]] BuiltScene build(const std::string& robot,
@@ -62,7 +51,7 @@ class SceneFolder {
   }
 
  private:
-  std::filesystem::path folder_;
+  limber::test::TemporaryFolder folder_;
 };
 
 inline const std::string kWorld = "<link name='world'/>\n";

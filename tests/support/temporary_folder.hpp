@@ -3,19 +3,20 @@
 
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
-namespace limber::testing {
+namespace limber::test {
 
-/// A folder for the files of this process, which goes with it: tests that run
-/// at the same time do not share files of one name.
-class OwnFolder {
+/// A new empty folder that goes with its object, in the process that made it.
+class TemporaryFolder {
  public:
-  OwnFolder() {
+  TemporaryFolder() {
     std::string name =
         (std::filesystem::temp_directory_path() / "limber-test-XXXXXX")
             .string();
@@ -24,23 +25,28 @@ class OwnFolder {
     }
     path_ = name;
   }
-  ~OwnFolder() {
+  ~TemporaryFolder() {
     if (getpid() != owner_) return;  // a child of ours
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  OwnFolder(const OwnFolder&) = delete;
-  OwnFolder& operator=(const OwnFolder&) = delete;
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::ptrdiff_t count_files() const {
+    return std::distance(std::filesystem::directory_iterator(path_), {});
+  }
 
  private:
   std::filesystem::path path_;
   pid_t owner_ = getpid();
 };
 
+/// The folder of this process: tests that run at the same time do not share
+/// files of one name.
 inline const std::filesystem::path& own_folder() {
-  static const OwnFolder folder;
+  static const TemporaryFolder folder;
   return folder.path();
 }
 
-}  // namespace limber::testing
+}  // namespace limber::test
