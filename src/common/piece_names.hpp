@@ -9,7 +9,7 @@ namespace limber {
 /// @param piece counted from zero
 [[nodiscard]] std::string name_piece(const std::string& link, int piece);
 
-/// The link of a body that is called like a piece, or the body's own name.
+/// The link of a body with the name of a piece, else the body's own name.
 [[nodiscard]] std::string find_whole(const std::string& body);
 
 }  // namespace limber

@@ -4,8 +4,8 @@
 /// Impacts of two bodies on an elastic law f(d) with the damping f b d'.
 namespace limber {
 
-/// How long a free body touches what has no stiffness of its own: end stops
-/// and contacts without a material are as stiff as this takes [s].
+/// Duration of a free body's contact with end stops, and with contacts without
+/// a material, which determines their default stiffness [s].
 inline constexpr double kImpactDuration = 0.01;
 
 /// The b with which a free body that arrives at `speed` leaves at

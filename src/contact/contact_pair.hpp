@@ -25,16 +25,16 @@ struct ContactSide {
 /// stores energy and is damped to a restitution, and friction.
 ///
 /// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth,
-///            k of 1/R_e = the sum of both curvatures, R = R_A + R_B of what
-///            the bases leave out at both places; t a bristle within mu f
-///            of a flat surface of a flexible body on a plane, a face of a box,
-///            an end of a cylinder or another flat surface the forces of its
-///            pads (PadContact)
+///            k for 1/R_e = the sum of both curvatures, R = R_A + R_B the
+///            residual flexibilities of both bases there; t of a bristle
+///            within mu f; for a flat surface of a flexible body on a plane,
+///            a face of a box, an end of a cylinder or another flat surface
+///            the forces of its pads (PadContact); for shapes that touch at one
+///            place also PointTwist, against rotation about
+///            the normal
 /// Source     docs/theory/contact_laws.md
-///            of shapes that meet at one place PointTwist against turning
-///            about the normal
-/// Limits     the normal is held within a Newton iteration's tangent; features
-///            of shapes with several meet no friction of turning of their own
+/// Limits     the tangent takes the normal as constant; shapes that touch at
+///            several features have no torsional friction at each of them
 class ContactPair final : public joints::PairInteraction,
                           public joints::Touching {
  public:
@@ -94,10 +94,10 @@ class ContactPair final : public joints::PairInteraction,
                  joints::PairResponse& out) const;
   void commit_twist(const joints::PairBodies& bodies, const Meeting& meeting,
                     double normal_force, PointMemory& next) const;
-  // Finds all meetings, in the order of the points that remember them.
+  // Finds all meetings, in the order of the points' memories.
   void meet(const joints::PairBodies& bodies, double reach,
             std::span<const double> memory, std::span<Meeting> out) const;
-  // The same of a step's begin, middle and end, in one order.
+  // The same at a step's begin, middle and end, in one common order.
   void meet(const joints::PairStep& step, std::span<const double> memory,
             std::span<Meeting> begin, std::span<Meeting> middle,
             std::span<Meeting> end) const;
@@ -106,10 +106,10 @@ class ContactPair final : public joints::PairInteraction,
   }
   void evaluate_pads(std::span<const Meeting> meetings,
                      PadLaw::Response& out) const;
-  // Of a feature as it first touches.
+  // The normal force law of a feature at its first touch.
   [[nodiscard]] HertzLaw find_first_law(const Meeting& meeting,
                                         std::size_t i) const;
-  // What a feature remembers, or begins with.
+  // The memory of a feature, or the one that it starts with.
   [[nodiscard]] PointMemory recall(const PointMemory& memory,
                                    const Meeting& meeting, std::size_t i,
                                    double rate) const;

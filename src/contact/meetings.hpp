@@ -12,10 +12,10 @@
 
 namespace limber::contact {
 
-/// The meetings of a pair of shapes, on the stack.
+/// The meetings of a pair of shapes, stored on the stack.
 class Meetings {
  public:
-  /// Of any two shapes.
+  /// The largest number for any two shapes.
   static constexpr std::size_t kMost = 64;
 
   explicit Meetings(std::size_t count)

@@ -17,7 +17,7 @@
 /// Flat surfaces of flexible bodies on planes, faces and each other.
 namespace limber::contact {
 
-/// A shape and what it is made of.
+/// A shape and its material.
 struct SurfaceSide {
   const Shape& shape;
   const std::optional<SurfaceMaterial>& material;
@@ -26,17 +26,17 @@ struct SurfaceSide {
 /// Forces of the pads of a flat surface, which are the first features of its
 /// pair.
 ///
-/// Equation   C = R + the half space of the other side's material + a
-///            thousandth of the diagonal D of the surface's own as a half
-///            space, or of R; + D_i (1 / share_i - 1); + N R' N^T of another
-///            flat surface, N weights of its pads at the places opposite,
-///            by the inverse square of their distance
+/// Equation   C = R + the compliance of a half space of the other side's
+///            material + a thousandth of the diagonal D, that of the surface's
+///            own half space or of R; + D_i (1 / share_i - 1); + N R' N^T for
+///            another flat surface, with N the weights of its pads at the
+///            opposite places, by the inverse square of their distance
 /// Source     weights: [@shepard1968]
-/// Limits     the compliance of a box, a cylinder or a mesh is that of a half
-///            space; N moves with the places, of which V' is not told
+/// Limits     a box, a cylinder or a mesh has the compliance of a half space;
+///            the derivative of V neglects the change of N with the places
 class PadContact {
  public:
-  /// None of a pair without pads.
+  /// @returns none for a pair without pads.
   /// @throws InputError for parameters that pads do not have.
   [[nodiscard]] static std::optional<PadContact> make(
       const ShapePair& shapes, const SurfaceSide& A, const SurfaceSide& B,
@@ -52,7 +52,7 @@ class PadContact {
   [[nodiscard]] const PadLaw& law() const { return law_; }
 
   /// @param meetings of all features of the pair
-  /// @param out takes no memory from the heap
+  /// @param out filled without allocation
   void evaluate(std::span<const Meeting> meetings, PadLaw::Response& out) const;
 
  private:
@@ -71,14 +71,14 @@ class PadContact {
 /// The pads that touch, in the order of a response's points.
 class CoupledPads {
  public:
-  /// @param point its index in the response
-  /// @param by_elastic_W as PointResponse's
+  /// @param point index in the response
+  /// @param by_elastic_W as in PointResponse
   void add(std::size_t point, std::size_t pad, const Vector3& by_elastic_W,
            const Vector3& normal_W) {
     all_[count_++] = {point, static_cast<Eigen::Index>(pad), by_elastic_W,
                       normal_W};
   }
-  /// Sets how the forces of the points follow each other's depths.
+  /// Sets the coupling of the points' forces through their depths.
   void couple(const PadLaw::Response& pads, joints::PairResponse& out) const {
     for (std::size_t i = 0; i < count_; ++i) {
       for (std::size_t j = 0; j < count_; ++j) {

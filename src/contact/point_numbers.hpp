@@ -10,14 +10,14 @@
 
 namespace limber::contact {
 
-/// The numbers of one of a pair's points.
+/// The part of a pair's memory that belongs to one point.
 template <typename Number>
 [[nodiscard]] std::span<Number> numbers_of(std::size_t i,
                                            std::span<Number> memory) {
   return memory.subspan(i * kPointNumbers, kPointNumbers);
 }
 
-/// All but the energy.
+/// Adds everything but the energy.
 inline void set_response(const PointResponse& response,
                          joints::PairPoint& point, joints::PairResponse& out) {
   point.force_W = response.force_W;

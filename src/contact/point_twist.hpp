@@ -12,18 +12,18 @@
 
 namespace limber::contact {
 
-/// Friction of one contact point against turning about its normal, as a couple
-/// of two forces across the normal.
+/// Friction of one contact point against rotation about its normal, as a couple
+/// of two forces normal to it.
 ///
-/// Equation   TorsionalFriction with k_r = 16 a_0^3 G_r / 3 and a_0 = k_t /
-///            (8 G*) of the reference load that k_t is of, a tenth of critical
-///            damping of a ball of the reduced mass and R_e, and the limit's
-///            a = cbrt(3 f R_e / (4 E*)); the turn since the last commit is
+/// Equation   TorsionalFriction with k_r = 16 a_0^3 G_r / 3, a_0 = k_t / (8 G*)
+///            at the reference load of k_t, a tenth of the critical damping of
+///            a ball of the reduced mass and R_e, and a of the limit
+///            = cbrt(3 f R_e / (4 E*)); the rotation since the last commit is
 ///            n . log of the bodies' relative rotation since then
 /// Source     [@johnson1985, ch. 7]
-/// Limits     less than half a turn between commits; the surfaces' own turning
-///            by modes is not counted; sliding and turning do not weaken each
-///            other
+/// Limits     less than half a turn between commits; the rotation of the
+///            surfaces by modes is neglected; sliding and rotation do not
+///            weaken each other
 class PointTwist {
  public:
   /// @param mass reduced mass > 0 [kg]; @param size largest R_e [m]
@@ -49,11 +49,11 @@ class PointTwist {
   double size_;
 };
 
-/// Of body B in A, as PointMemory keeps it.
+/// Rotation of body B in A, as stored in PointMemory.
 [[nodiscard]] TurnMemory find_turn(const joints::PairBodies& bodies);
 
-/// Adds energy and power, and forces and stiffness to two points that are at
-/// the meeting's place, `arm` to both sides of it.
+/// Adds energy and power, and forces and stiffness to two points at a distance
+/// `arm` on both sides of the meeting's place.
 /// @param h time since the last commit [s]
 void add_couple(const TwistResponse& twist, const Vector3& normal_W, double arm,
                 double h, std::size_t first, joints::PairResponse& out);

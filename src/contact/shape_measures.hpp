@@ -9,25 +9,25 @@
 
 namespace limber::contact {
 
-/// Kind, sizes and pose, of a Skin its nodes and tables.
+/// Adds kind, sizes and pose of a shape; of a Skin its nodes and tables.
 void describe(Manifest& out, std::string_view name, const Shape& shape);
 
-/// Largest radius of curvature that a contact of both counts with: the larger
-/// of both shapes' radii, or half of their shortest edges, or of a Skin the
-/// largest radius of its patches [m].
+/// Largest radius of curvature for a contact of both: the larger of the shapes'
+/// radii, of half of their shortest edges, or of a Skin the largest radius of
+/// its patches [m].
 [[nodiscard]] double find_roundness(const Shape& A, const Shape& B);
 
 /// The smaller of both shapes' roundnesses; a half space has none [m].
 [[nodiscard]] double find_size(const Shape& A, const Shape& B);
 
-/// Where a material point of a body's shape is now.
-/// @param scratch for the point as a place of the body
+/// Present position of a material point of a body's shape, world frame [m].
+/// @param scratch memory for the point as a place of the body
 [[nodiscard]] Vector3 find_point(const joints::PairBody& body,
                                  const Shape& shape,
                                  const SurfacePlace& surface,
                                  joints::PairPlace& scratch);
 
-/// Of each mode the largest displacement of a node of the shape, m entries
+/// For each mode the largest displacement of a node of the shape, m entries
 /// [kg^-1/2].
 [[nodiscard]] VectorX find_mode_reach(const Shape& shape);
 

@@ -22,9 +22,9 @@ struct ContactPatch {
 ///            distance in space
 /// Source     Hertz's pressure [@johnson1985, sec. 3.4]; b as large as an
 ///            element, below which the mesh has no flexibility to offer
-/// Limits     Only where the surface is within 60 degrees of the patch's
+/// Limits     Includes only the surface within 60 degrees of the patch's
 ///            normal, so that no patch reaches through a plate or around a
-///            sharp edge; on a tip that has no such place, all of it.
+///            sharp edge; on a tip without such a part, all of it.
 /// @param surface of `mesh`; @param normals 3 x n, unit, outward
 /// @param radii n, > 0 [m]
 [[nodiscard]] std::vector<ContactPatch> find_patches(

@@ -7,11 +7,11 @@
 #include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/meshed_body.hpp"
 
-/// Flexibility that a basis leaves out. Part of limber_reduction.
+/// Residual flexibility of a basis. Part of limber_reduction.
 namespace limber::flexbody {
 
-/// What a unit load on each patch moves the patch by, less what the basis
-/// answers of it [m/N]; of a free body the elastic part, under inertia relief.
+/// Displacement of each patch under a unit load on it, minus that in the basis
+/// [m/N]; for a free body the elastic part, under inertia relief.
 ///
 /// Equation   R = f^T K^+ f - f^T Phi Lambda^-1 Phi^T f = F^T K^+ F >= 0,
 ///            f = w (x) n, F = f - K Phi Lambda^-1 Phi^T f; with A = K - s M,
@@ -25,15 +25,15 @@ namespace limber::flexbody {
     const std::vector<ContactPatch>& patches, const std::string& what = {},
     const Progress& progress = {});
 
-/// The same of all pairs of a few patches, symmetric and positive
+/// The same for all pairs of a few patches, symmetric and positive
 /// semidefinite: R_ij = F_i^T K^+ F_j.
 [[nodiscard]] MatrixX calc_residual_matrix(
     const MeshedBody& body, const ReducedBasis& basis,
     const std::vector<ContactPatch>& patches);
 
-/// Mean displacement, over Hertz's pressure of radius b, of a half-space under
-/// this pressure: the part of Hertz's approach that the pressure's own
-/// deformation makes [m/N].
+/// Mean displacement of a half-space under Hertz's pressure of radius b,
+/// weighted by this pressure: the part of Hertz's approach due to the local
+/// deformation [m/N].
 ///
 /// Equation   3 / (5 E' b), E' = E / (1 - nu^2)
 /// Source     u = pi p_0 (2 b^2 - r^2) / (4 E' b) [@johnson1985, sec. 3.4],

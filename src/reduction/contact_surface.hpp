@@ -19,13 +19,13 @@ namespace limber::flexbody {
     const MeshedBody& body, const Recipe& recipe, const ReducedBasis& basis,
     const MatrixX& Phi, const Vector3& center, const Progress& progress);
 
-/// The same of the body without reduction; they have no pads.
+/// The same for the body without reduction; these have no pads.
 /// @param materials one a region of the mesh
 [[nodiscard]] std::vector<FullContactSurface> make_full_contact_surfaces(
     const fem::Mesh& mesh, const Recipe& recipe,
     const std::vector<fem::ElasticMaterial>& materials, const Vector3& center);
 
-/// Most pads of a surface.
+/// Largest number of pads of a surface.
 inline constexpr int kMostPads = 25;
 
 /// Whether all points lie in one plane, to a millionth of the surface's size.
@@ -33,7 +33,7 @@ inline constexpr int kMostPads = 25;
                            const Matrix3X& normals);
 
 /// Divides a flat surface into pads about some of its corner nodes, at most
-/// kMostPads of them: each is what is nearer to its node than to the others.
+/// kMostPads of them: each is the part that is nearest to its node.
 ///
 /// Equation   nodes that are farthest from those chosen before, from the one
 ///            farthest from the centre on, up to where the distance drops, so

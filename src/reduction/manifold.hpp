@@ -31,8 +31,8 @@ struct ManifoldFields {
     const MeshedBody& body, const Recipe& recipe, const MatrixX& Phi,
     const VectorX& lambda, const Vector3& center, const Progress& progress);
 
-/// int theta dm of every pair, 3 x pairs [m^-1]: what gravity does to a clamped
-/// body's products of modes. @param M_s scalar mass of all nodes [kg]
+/// int theta dm of every pair, 3 x pairs [m^-1]: gravity on the products of
+/// modes of a clamped body. @param M_s scalar mass of all nodes [kg]
 [[nodiscard]] Matrix3X integrate(const fem::SparseMatrix& M_s,
                                  const MatrixX& Theta);
 

@@ -18,14 +18,14 @@ namespace limber::flexbody {
 struct PieceOfMesh {
   std::shared_ptr<const fem::TracedMesh> mesh;
   Recipe recipe;  ///< with the names that the piece has
-  /// The recipe's that the piece has, and its sides of the cuts.
+  /// The recipe's interfaces in the piece, and its sides of the cuts.
   std::vector<Interface> interfaces;
 };
 
 /// The pieces of a mesh.
 ///
-/// Interfaces keep the nodes and weights that they have on the whole mesh. One
-/// whose nodes are all in a piece belongs to it, at a cut to the first.
+/// Interfaces keep their nodes and weights of the whole mesh. An interface
+/// whose nodes are all in one piece belongs to it, at a cut to the first piece.
 /// Interfaces where pieces 1 and 2 meet are called "cut:1-2", with ".2" and so
 /// on for further faces between the same two; their weights are those of a load
 /// spread by area, and their static-deformation modes enter the basis.
@@ -35,8 +35,8 @@ class Pieces {
 
   [[nodiscard]] PieceAdvice advise() const;
 
-  /// @throws InputError for an interface that reaches over two pieces, and for
-  /// nodal forces and fields, which are of the whole mesh.
+  /// @throws InputError for an interface that spans two pieces, and for nodal
+  /// forces and fields, which need the whole mesh.
   [[nodiscard]] PieceOfMesh take(const Recipe& recipe, const Piece& piece);
 
  private:

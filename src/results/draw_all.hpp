@@ -7,12 +7,12 @@
 
 namespace limber::results {
 
-/// Draws one picture; empty, or why there is none.
+/// Draws one picture; returns an empty string, or why there is no picture.
 using Picture = std::function<std::string()>;
 
-/// Draws pictures, as many at a time as there are cores. Once three have
-/// failed the next would fail alike, and is not begun.
-/// @returns why there are none, each reason once, in the order of pictures
+/// Draws pictures, as many at a time as there are cores. Stops after three
+/// failures, since further ones would fail alike.
+/// @returns the reasons of failures, each once, in the order of pictures
 [[nodiscard]] std::vector<std::string> draw_all(
     const std::vector<Picture>& pictures);
 

@@ -10,7 +10,7 @@
 
 namespace limber::results {
 
-/// A linear model and what its file says of it.
+/// A linear model with the metadata of its file.
 struct LinearRecord {
   dynamics::LinearModel model;
   double time = 0.0;  ///< of the reference [s]
@@ -23,13 +23,13 @@ struct LinearRecord {
   std::vector<std::string> warnings;
 };
 
-/// Writes MATLAB's format 5 (.mat), NumPy's (.npz) or JSON (.json), as the
-/// ending says. Keys: docs/linearize.md.
-/// @throws InputError for another ending, or if it cannot be written.
+/// Writes MATLAB's format 5 (.mat), NumPy's (.npz) or JSON (.json), by the
+/// file's extension. Keys: docs/linearize.md.
+/// @throws InputError for another extension, or if it cannot be written.
 void write_linear_model(const std::filesystem::path& file,
                         const LinearRecord& record);
 
-/// @throws InputError for an ending of none of the formats.
+/// @throws InputError for the extension of no format.
 void check_linear_model_ending(const std::filesystem::path& file);
 
 }  // namespace limber::results

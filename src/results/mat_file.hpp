@@ -9,8 +9,8 @@
 
 namespace limber::results {
 
-/// Named arrays as MATLAB's format 5, which MATLAB, Octave and SciPy read.
-/// Built in memory: the library that writes it does not tell a full disk.
+/// Named arrays in MATLAB's format 5, which MATLAB, Octave and SciPy read.
+/// Built in memory: the library that writes it does not report a full disk.
 class MatFile {
  public:
   /// @throws NumericalError, as each of the others, if memory is exhausted.

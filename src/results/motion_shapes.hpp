@@ -20,8 +20,8 @@ struct MotionShapes {
 /// Length of the longest vector in three rows a node [as u].
 [[nodiscard]] double find_largest_length(const VectorX& u);
 
-/// Truncated singular-value decomposition of what `column(i)` gives at each of
-/// `count` times.
+/// Truncated singular-value decomposition of the columns `column(i)` at `count`
+/// times.
 ///
 /// Equation   u(t_i) = sum_k shapes_k coordinates_ik + rest; shapes until the
 ///            rest is below kShapeTolerance of the largest displacement, at
@@ -30,7 +30,7 @@ struct MotionShapes {
 ///            kMostSnapshots evenly spaced times, coordinates at all of them
 /// Limits     squares of singular values: shapes below 1e-7 of the largest are
 ///            lost in round-off
-/// @param size of what is left out of a column; by default the largest
+/// @param size norm of the omitted part of a column; by default the largest
 /// displacement of a node, three rows each
 [[nodiscard]] MotionShapes find_motion_shapes(
     const std::function<VectorX(std::size_t)>& column, std::size_t count,

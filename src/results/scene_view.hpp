@@ -8,7 +8,7 @@
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/results/history.hpp"
 
-/// What a picture of a motion shows, and from where.
+/// Content and view of a picture of a motion.
 namespace limber::results {
 
 /// An output, and the largest deformation of a node there.
@@ -23,9 +23,9 @@ struct DeformationPeak {
 [[nodiscard]] DeformationPeak find_largest_deformation(
     const dynamics::SystemModel& model, const History& history);
 
-/// The factor by which a deformation is drawn: 1 if it can be seen, which is
-/// from 2 % of the size on, and else 1, 2 or 5 times a power of ten such that
-/// it is drawn at 2.5 to 6 % of it. 1 for round-off, below 1e-9 of the size.
+/// The factor by which a deformation is magnified: 1 if it is visible, from 2 %
+/// of the size on, else 1, 2 or 5 times a power of ten such that it appears at
+/// 2.5 to 6 % of the size. 1 for round-off, below 1e-9 of the size.
 /// @param deformation, size of the picture [m]
 [[nodiscard]] double find_magnification(double deformation, double size);
 

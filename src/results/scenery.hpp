@@ -10,8 +10,8 @@
 #include "limber/results/history.hpp"
 #include "limber/results/solids.hpp"
 
-/// What a picture of a run needs beside its states, so that results.h5 can be
-/// drawn without the scenario, the robot and the reduced bodies.
+/// Data for pictures of a run in addition to its states, so that results.h5 can
+/// be drawn without the scenario, the robot and the reduced bodies.
 namespace limber::results {
 
 /// Layout of the group `scene`.

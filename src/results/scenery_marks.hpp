@@ -13,8 +13,8 @@ namespace limber::results {
 [[nodiscard]] std::string name_body(const dynamics::SystemModel& model,
                                     dynamics::BodyIndex body);
 
-/// Whether a body's nodes move by its modes alone: not at level `full`, where
-/// they move themselves, nor at `nonlinear`, where products of modes do, too.
+/// Whether the motion of a body's nodes is linear in its modes: not at level
+/// `full`, whose unknowns are nodes, nor at `nonlinear` (products of modes).
 [[nodiscard]] bool moves_linearly(const dynamics::BodyModel& body);
 
 /// Writes couplers, lines, loads and contacts into the group `scene`.

@@ -14,12 +14,12 @@
 namespace limber::results {
 
 /// Cauchy stress at nodes of a link at level `full`; at a border of materials
-/// that of the first.
+/// that of the first material.
 class FullStressField {
  public:
   /// @param model kept by the caller
   /// @param nodes increasing
-  /// @returns null below level `full`, and if its solver knows no stress
+  /// @returns null below level `full`, and if its solver computes no stress
   static std::unique_ptr<FullStressField> make(
       const dynamics::SystemModel& model, dynamics::BodyIndex body,
       const std::vector<int>& nodes);
@@ -43,12 +43,12 @@ class FullStressField {
   std::vector<Eigen::Index> first_points_;  // of each node
 };
 
-/// Whether a reduced body has the stress of its coordinates, those of its
+/// Whether a reduced body has stress modes for the coordinates of its
 /// level.
 [[nodiscard]] bool has_modal_stress(const dynamics::BodyModel& body);
 
 /// Stress in body axes at all output times as a few shapes, 6n rows [1], times
-/// coordinates [Pa]; the error is the largest von Mises stress left out [Pa].
+/// coordinates [Pa]; the error is the largest omitted von Mises stress [Pa].
 /// @param stress_of 6n, components (xx, yy, zz, xy, yz, xz) of each node [Pa]
 [[nodiscard]] MotionShapes find_stress_shapes(
     const std::function<VectorX(const dynamics::SystemState&)>& stress_of,

@@ -13,8 +13,8 @@ namespace limber::results {
 /// Writes the flexible bodies' moving surfaces for ParaView, with the fields of
 /// xdmf_file.hpp: all stored nodes, stress of bodies with stress modes and at
 /// level `full`. Bodies without a mesh are omitted.
-/// @returns what is not in it: bodies whose surface was not kept, or the whole
-/// file if no body has one
+/// @returns the omissions: bodies whose surface was not kept, or the whole file
+/// if no body has one
 /// @throws InputError if it cannot be written.
 [[nodiscard]] std::vector<std::string> write_xdmf(
     const std::filesystem::path& file, const dynamics::SystemModel& model,

@@ -15,7 +15,7 @@ namespace limber::view {
 /// Equation   p = R_WB (x_B + magnification sum_k eta_k phi_k) + p_WB
 /// Source     Khronos Group, glTF 2.0 specification
 /// Limits     between outputs, viewers interpolate linearly. Outputs whose
-///            times are equal in single precision are one.
+///            times are equal in single precision are merged.
 /// @param magnification of the deformation, > 0 [-]
 /// @throws InputError if the file cannot be written.
 void write_gltf(const std::filesystem::path& file, const Recording& recording,

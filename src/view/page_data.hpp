@@ -8,10 +8,10 @@
 
 namespace limber::view {
 
-/// What the page reads: zlib's compression of the length of a header (4 bytes,
+/// The data of the page: zlib's compression of the length of a header (4 bytes,
 /// little-endian), the header (JSON) and, from the next multiple of 8 on,
-/// arrays. The header refers to an array by {"at", "count", "type"}; its
-/// elements' first bytes come first, then their second bytes, ..., which
+/// arrays. The header refers to an array by {"at", "count", "type"}; the first
+/// bytes of all elements come first, then their second bytes, ..., which
 /// compresses better.
 ///
 /// Equation   x_B = origin + scale i, Phi_k = scale_k i_k, i 16-bit integers:

@@ -10,7 +10,7 @@
 #include "limber/common/types.hpp"
 #include "limber/results/solids.hpp"
 
-/// What results.h5 contains for pictures, in memory.
+/// The content of results.h5 for pictures, in memory.
 namespace limber::view {
 
 /// A surface of a body, with the shapes that move it.
@@ -111,14 +111,14 @@ struct Recording {
 };
 
 /// The file results.h5 of a folder, or the file itself.
-/// @throws InputError if it is not there.
+/// @throws InputError if it does not exist.
 [[nodiscard]] std::filesystem::path find_results(
     const std::filesystem::path& results);
 
 /// @param results results.h5, or the folder that contains it
-/// @throws InputError if it is not there, is not Limber's, lacks what pictures
-/// need, or is inconsistent; naming links whose surface was not kept, and how
-/// to keep it.
+/// @throws InputError if it does not exist, is not Limber's, lacks data for
+/// pictures, or is inconsistent; naming links whose surface was not kept, and
+/// how to keep it.
 [[nodiscard]] Recording read_recording(const std::filesystem::path& results);
 
 /// Positions of a body's surface nodes at output `i` [m], 3 x n, world.

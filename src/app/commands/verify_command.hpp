@@ -9,7 +9,7 @@
 
 namespace limber::app {
 
-/// What the command line says.
+/// Options of the command line.
 struct VerifyOptions {
   std::string scenario;
   std::string joints;
@@ -26,7 +26,7 @@ struct VerifyOptions {
 
 using Verify = std::function<void(const VerifyOptions&)>;
 
-/// Adds `verify`; choosing it has `verify` called.
+/// Adds `verify`; choosing it calls `verify`.
 void add_verify(CLI::App& app, Action& action, const Verify& verify);
 
 }  // namespace limber::app

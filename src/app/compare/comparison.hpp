@@ -62,8 +62,8 @@ struct ComparisonSettings {
   std::filesystem::path cache;           ///< empty for the default one
   bool keep_runs = false;                ///< a folder for each run
   int repeats = 0;  ///< count; 0: until they take kEnough together
-  /// Called during all work, beside the progress bar; may throw to end the
-  /// current run (dynamics::Interrupted).
+  /// Called during all work, in addition to the progress bar; may throw to end
+  /// the current run (dynamics::Interrupted).
   Progress watch = {};
 };
 /// Runs shorter than this are repeated until they take this long together [s].

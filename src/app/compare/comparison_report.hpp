@@ -12,7 +12,7 @@ namespace limber::app {
                            const ComparedRun* reference);
 [[nodiscard]] Json to_json(const Comparison& comparison);
 
-/// A table with a line a run, the reference last.
+/// A table with one line per run, the reference last.
 [[nodiscard]] std::string to_text(const Comparison& comparison);
 
 }  // namespace limber::app

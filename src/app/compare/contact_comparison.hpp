@@ -10,7 +10,7 @@
 
 namespace limber::app {
 
-/// What a pair of bodies did in a run, over all its impacts.
+/// Contact of a pair of bodies in a run, over all its impacts.
 struct PairContact {
   std::string pair;         ///< name, "A/B"
   int impacts = 0;          ///< count
@@ -26,7 +26,7 @@ struct PairContact {
 [[nodiscard]] std::vector<PairContact> sum_up(
     const std::vector<dynamics::ContactRecord>& records);
 
-/// Differences from the reference's, relative to them; restitution's as it is.
+/// Relative differences from the reference; for restitution the absolute one.
 /// None where the reference's is zero or does not exist.
 struct ContactDifference {
   std::optional<double> impulse;      ///< [-]
@@ -48,7 +48,7 @@ struct NamedContacts {
                            const std::vector<PairContact>* reference);
 
 /// A table for each pair that touched in any run, the reference last; empty if
-/// none did. A pair that did not touch in a run has a row that says so.
+/// none did. If a pair did not touch in a run, its row says so.
 [[nodiscard]] std::string to_text(const std::vector<NamedContacts>& runs,
                                   const NamedContacts& reference);
 

@@ -9,14 +9,14 @@ class App;
 
 namespace limber::app {
 
-/// What the chosen subcommand does once the command line is read.
+/// Runs the chosen subcommand once the command line is read.
 using Action = std::function<void()>;
 
 /// Adds subcommands; choosing one sets the action.
 using AddCommands = std::function<void(CLI::App&, Action&)>;
 
-/// Reads the command line of `limber` and does what it asks for, in a process
-/// prepared for it (prepare_process). @return exit status
+/// Reads the command line of `limber` and runs it, in a process prepared by
+/// prepare_process. @return exit status
 [[nodiscard]] int run_command_line(int argc, char** argv,
                                    const AddCommands& add_commands);
 

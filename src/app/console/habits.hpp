@@ -9,7 +9,7 @@ class App;
 
 namespace limber::app {
 
-/// What every command understands.
+/// Options that every command has.
 struct HabitFlags {
   bool quiet = false;
   bool verbose = false;
@@ -19,13 +19,13 @@ using Habits = std::shared_ptr<HabitFlags>;
 /// Adds --quiet and --verbose to `limber` and all its commands.
 [[nodiscard]] Habits add_habits(CLI::App& app);
 
-/// After the command line was read: quiet, a command that leaves its results in
-/// files prints no summary of them; an answer that is nowhere else, and --json,
-/// are printed.
+/// To be called after the command line was read. With --quiet a command whose
+/// results are in files prints no summary; answers that are in no file, and
+/// --json, are printed.
 /// @throws InputError for both flags
 void follow_habits(const CLI::App& app, const HabitFlags& habits);
 
-/// Time and memory of this process, if verbose.
+/// Prints time and memory of this process, if verbose.
 void print_cost();
 
 }  // namespace limber::app

@@ -8,7 +8,7 @@ namespace limber::app {
 /// Version, compiler and options of the build: `limber --version`.
 [[nodiscard]] std::string describe_build();
 
-/// What ends `limber --help` and its manual page: environment and exit status.
+/// Environment and exit status, for `limber --help` and its manual page.
 [[nodiscard]] std::string describe_surroundings();
 
 }  // namespace limber::app

@@ -3,14 +3,14 @@
 
 namespace limber::app {
 
-/// How much is told on standard error.
+/// Amount of text on standard error.
 enum class Verbosity {
   quiet,   ///< errors and warnings
   usual,   ///< and progress
   verbose  ///< and each step of the work with its time
 };
 
-/// Of this process, from now on.
+/// Sets it for this process, from now on.
 void set_verbosity(Verbosity verbosity);
 [[nodiscard]] Verbosity find_verbosity();
 

@@ -22,7 +22,7 @@ void add_settings(CLI::App& command, SettingOptions& options);
 [[nodiscard]] std::vector<scene::Setting> to_settings(
     const SettingOptions& options);
 
-/// What a scene is loaded with.
+/// The overrides to load a scene with.
 /// @param fidelity of `--fidelity`; none: the file's levels
 /// @throws InputError as to_settings, and for an unknown level.
 [[nodiscard]] scene::Overrides to_overrides(

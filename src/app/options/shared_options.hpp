@@ -18,12 +18,12 @@ CLI::Option* add_fidelity(CLI::App& command, std::optional<std::string>& level);
 /// --cache FOLDER, the folder of reduced bodies; empty: the default one.
 CLI::Option* add_cache_option(CLI::App& command, std::string& folder);
 
-/// --out FOLDER, a command's results; in words, what they are called without it
-/// in the folder out: "<scenario name>-advise".
+/// --out FOLDER, a command's results. The help text names the default in the
+/// folder `out`: "<scenario name>-advise".
 CLI::Option* add_out(CLI::App& command, std::string& folder,
                      const std::string& default_name);
 
-/// What --out named, else the folder of this name in out.
+/// The folder given by --out, else the folder of this name in `out`.
 std::filesystem::path find_results_folder(const std::string& out,
                                           const std::string& default_name);
 

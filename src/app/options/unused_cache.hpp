@@ -7,7 +7,7 @@
 
 namespace limber::app {
 
-/// Adds a warning to the scene's if a cache was asked for and no body needs
+/// Adds a warning to the scene's if a cache was given and no body needs
 /// one.
 /// @param cache as given on the command line; empty: not given
 /// @param built from files, without bodies known before

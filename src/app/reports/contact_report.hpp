@@ -17,9 +17,9 @@ namespace limber::app {
 /// the end), all in SI units.
 [[nodiscard]] Json to_json(const std::vector<dynamics::ContactRecord>& records);
 
-/// A table with a line an impact; if there are more than twenty, the twenty
-/// with the largest impulse, in the order of time, and how many others there
-/// are. Empty without impacts.
+/// A table with one line per impact; if there are more than twenty, those with
+/// the largest impulse, in the order of time, and the number of the others.
+/// Empty without impacts.
 [[nodiscard]] std::string to_text(
     const std::vector<dynamics::ContactRecord>& records);
 

@@ -10,8 +10,8 @@
 
 namespace limber::app {
 
-/// Says, once for each, what touches two pieces of one link at a time. At a cut
-/// both resist as if they were alone. An impact's force grows as the 2/5th
+/// A warning for each body that touched two pieces of a link at one time. At a
+/// cut both resist as if they were alone. An impact's force grows as the 2/5th
 /// power of its stiffness (Hertz), so that it may be 1.32 times too large.
 [[nodiscard]] std::vector<std::string> find_cut_contacts(
     const scene::Robot& robot, const dynamics::SystemModel& model,

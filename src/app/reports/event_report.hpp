@@ -13,7 +13,7 @@ namespace limber::app {
 /// Every event: time, source, what, rate.
 [[nodiscard]] Json to_json(const std::vector<dynamics::Event>& events);
 
-/// A line an event; if there are more than ten, a line a kind with their
+/// One line per event; if there are more than ten, one line per kind with the
 /// number, the first and the last. Empty without events.
 [[nodiscard]] std::string to_text(const std::vector<dynamics::Event>& events);
 

@@ -28,7 +28,7 @@ struct BodyLevel {
   std::vector<dynamics::RotationPoint> track;
   /// Of rotation; set only by find_bounds, since it is expensive.
   std::shared_ptr<const flexbody::InertialDisplacementBound> bound;
-  /// Of each pair in which it touches another body; set only by advise_scene.
+  /// For each pair in which it touches another body; set only by advise_scene.
   std::vector<dynamics::ImpactSpectrum> impacts;
 
   /// Whether the level used neglects no more than the limits allow.
@@ -56,7 +56,7 @@ class RunSurvey {
   RunSurvey& operator=(const RunSurvey&) = delete;
   ~RunSurvey() = default;
 
-  /// None if no body is flexible. @returns an observer that refers to this
+  /// @returns an observer that refers to this; none if no body is flexible
   [[nodiscard]] std::optional<dynamics::Spectator> make_spectator();
   void include(const dynamics::SystemState& state);
   [[nodiscard]] std::vector<BodyLevel> judge() const;
@@ -69,8 +69,8 @@ class RunSurvey {
   dynamics::SystemState framed_;  // with mean frames of full bodies
 };
 
-/// The scene with every flexible link at `level`, built with the reduced
-/// bodies that are `known`; those in `others` at their own.
+/// The scene with every flexible link at `level`, built with the reduced bodies
+/// in `known`; links in `others` at their own levels.
 [[nodiscard]] scene::BuiltScene build_at_level(
     const scene::Scene& scene, dynamics::Fidelity level,
     const scene::KnownBodies& known, const std::filesystem::path& cache,

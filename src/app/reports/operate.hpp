@@ -44,8 +44,8 @@ struct OperatingAnswer {
   results::Surface surface;       ///< all nodes, undeformed
   Matrix3X u;                     ///< 3 x N [m]
   Matrix3X internal_force;        ///< 3 x N [N]
-  /// Tags of the nodes of `stress`; one at a border of materials has a column
-  /// for each of them.
+  /// Tags of the nodes of `stress`; a node at a border of materials has a
+  /// column for each material.
   std::vector<std::size_t> stress_tags;
   Matrix6X stress;    ///< 6 x p, mesh frame: xx, yy, zz, xy, yz, xz [Pa]
   double size = 0.0;  ///< the mesh's longest edge [m]

@@ -19,9 +19,9 @@ struct NamedHistory {
   const std::vector<dynamics::Extreme>* peaks = nullptr;
 };
 
-/// A picture a probe, "probe_NAME.png": its columns, a line a history. All have
-/// the columns of the first. A single history's events are marked.
-/// @param lines whose histories are there until the pictures are drawn
+/// One picture per probe, "probe_NAME.png": its columns, one line per history.
+/// All have the columns of the first. A single history's events are marked.
+/// @param lines their histories must exist until the pictures are drawn
 [[nodiscard]] std::vector<results::Picture> list_probe_pictures(
     const std::vector<NamedHistory>& lines,
     const std::filesystem::path& folder);

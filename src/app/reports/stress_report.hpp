@@ -25,13 +25,13 @@ struct StressPeak {
   /// nearest to the peak (flexbody::find_averaging_error); none at level full
   /// [-].
   std::optional<double> averaging_error;
-  /// There and then, von Mises stress of the static-deformation modes over that
-  /// of all modes: what the eigenmodes alone would leave out; none if it is not
-  /// known which modes are which [-].
+  /// At that node and time, von Mises stress of the static-deformation modes
+  /// over that of all modes, which eigenmodes alone would lack; none if the
+  /// kinds of modes are unknown [-].
   std::optional<double> correction_share;
 };
 
-/// One for each link whose stress [output] asks for, that was ever deformed.
+/// One for each link whose stress [output] requests and that was deformed.
 [[nodiscard]] std::vector<StressPeak> find_stress_peaks(
     const scene::BuiltScene& built, const results::History& history,
     const dynamics::RunRecord& record);

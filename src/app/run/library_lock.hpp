@@ -5,9 +5,9 @@
 
 namespace limber::app {
 
-/// One thread at a time loads scenes, builds systems, and reads and writes
-/// HDF5: the libraries for it are not safe in threads. Held by whoever may run
-/// beside another.
+/// Locks loading of scenes, building of systems, and HDF5: the libraries for
+/// these are not thread-safe. To be held by code that may run in several
+/// threads.
 [[nodiscard]] std::unique_lock<std::mutex> lock_libraries();
 
 }  // namespace limber::app

@@ -16,9 +16,9 @@ namespace limber::app {
 /// States of a scene about which it is linearised.
 enum class Reference { start, equilibrium };
 
-/// What of a scene is linearised, and about what.
+/// Request for a linear model of a scene.
 struct LinearRequest {
-  /// Or the state of its run at a time [s].
+  /// A reference, or the state of the scene's run at a time [s].
   std::variant<Reference, double> at = Reference::start;
   scene::LinearSelection selection = {};
   int states = 0;  ///< after balanced truncation; 0: all, without it

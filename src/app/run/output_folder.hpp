@@ -39,8 +39,8 @@ class OutputFolder {
   /// @throws InputError with the failure and where the files are instead
   void write(const Writer& writer) const;
 
-  /// Has more files of the same command written likewise, beside those that
-  /// `write` has placed.
+  /// Writes more files of the same command, in addition to those of
+  /// `write`.
   void add(const Writer& writer) const;
 
  private:

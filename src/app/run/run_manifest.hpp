@@ -7,8 +7,8 @@
 
 namespace limber::app {
 
-/// All that a run's results depend on, resolved: this program, the settings,
-/// the system with its bodies, couplers and loads, the probes and the start.
+/// All inputs of a run's results, resolved: this program, the settings, the
+/// system with its bodies, couplers and loads, the probes and the start.
 [[nodiscard]] Manifest make_manifest(const scene::Scene& scene,
                                      const scene::BuiltScene& built);
 

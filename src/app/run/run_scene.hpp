@@ -41,7 +41,7 @@ struct Run {
                                  const CheckpointPlan& checkpoints = {},
                                  bool judges = false);
 
-/// Simulates a scene that is built likewise.
+/// The same for a scene that is already built.
 [[nodiscard]] Run simulate_built(const scene::Scene& scene,
                                  scene::BuiltScene built,
                                  const std::filesystem::path& cache,
@@ -63,20 +63,20 @@ struct Run {
 [[nodiscard]] Json summarize(const Run& run);
 
 /// Prints the run's summary, as JSON or as text, and only then draws its
-/// pictures, which take as long as many a run.
+/// pictures, which may take longer than the run.
 /// @param folder where its files are
-/// @throws NumericalError if the run ended early, of which the pictures are
-/// drawn, too; Interrupted says how to go on.
+/// @throws NumericalError if the run ended early, after drawing its pictures;
+/// Interrupted with the way to continue.
 void finish_run(const Run& run, const OutputFolder& folder, bool json);
 
-/// Writes results.h5, probes.csv, summary.json and what the scenario asks for
-/// but pictures.
+/// Writes results.h5, probes.csv, summary.json and other files that the
+/// scenario requests, except pictures.
 void write_run(const Run& run, const std::filesystem::path& folder, bool xdmf);
 
-/// Whether the scenario asks for pictures, and there is something to draw.
+/// Whether the scenario requests pictures, and there is something to draw.
 [[nodiscard]] bool has_pictures(const Run& run);
 
-/// Draws them. One that cannot be drawn costs a warning, not the run.
+/// Draws them. A picture that fails gives a warning, and the run is kept.
 void draw_run(const Run& run, const std::filesystem::path& folder);
 
 }  // namespace limber::app

@@ -7,10 +7,10 @@
 
 namespace limber::app {
 
-/// What pictures need of files, as they are now: the scenario's name, its text
-/// and its robots', the settings that were applied to them, and the shapes of
-/// rigid links, <visual> or else <collision>, in the frames of their links.
-/// @throws InputError if one cannot be read: all such meshes at once.
+/// Content of files for pictures, as they are now: the scenario's name, its
+/// text and those of its robots, the settings applied to them, and the shapes
+/// of rigid links, <visual> or else <collision>, in the frames of their links.
+/// @throws InputError listing all meshes that cannot be read.
 [[nodiscard]] results::Scenery read_scenery(const scene::Scene& scene);
 
 /// Puts the shapes of links into the frames of their bodies, and adds those of

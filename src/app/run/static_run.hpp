@@ -41,7 +41,7 @@ struct StaticRun {
 /// For summary.json and --json.
 [[nodiscard]] Json summarize(const StaticRun& run);
 
-/// Writes results.h5, probes.csv, summary.json and what the scenario asks for.
+/// Writes results.h5, probes.csv, summary.json and files by request.
 void write_static(const StaticRun& run, const std::filesystem::path& folder,
                   bool xdmf);
 

@@ -21,7 +21,7 @@ namespace limber::app {
 std::filesystem::path add_view_to(
     const OutputFolder& folder, const std::vector<view::Recording>& recordings);
 
-/// A line with the file and its size.
+/// One line with the file and its size.
 [[nodiscard]] std::string describe_view(const std::filesystem::path& page);
 
 }  // namespace limber::app

@@ -12,8 +12,8 @@ namespace limber::app {
 /// The runs of a study: for each the value of each factor, as TOML.
 using Design = std::vector<std::vector<std::string>>;
 
-/// All runs. They depend on the study alone, so any part of them can be made
-/// anywhere.
+/// All runs. They depend on the study only, so that any machine can make any
+/// part of them.
 ///
 /// `grid`: all combinations, the last factor varies fastest. `list`: the k-th
 /// run has the k-th value of every factor. `monte-carlo`: independent values.
@@ -34,7 +34,7 @@ using Design = std::vector<std::vector<std::string>>;
 /// Source     Wichura (1988), algorithm AS 241, 16 digits [@wichura1988]
 [[nodiscard]] double find_normal_quantile(double u);
 
-/// What makes run `values` of the scenario.
+/// The overrides that turn the scenario into the run with these values.
 [[nodiscard]] scene::Overrides to_overrides(
     const Study& study, const std::vector<std::string>& values);
 

@@ -8,8 +8,8 @@
 
 namespace limber::app {
 
-/// How a response is distributed over the values of the factors, and how well
-/// the samples show that, with a confidence of 95 %.
+/// Distribution of a response over the values of the factors, and the
+/// uncertainty of its estimate with a confidence of 95 %.
 ///
 /// Equation   mean ± t s / √n, t of Student's distribution with n - 1 degrees
 ///            of freedom; distribution function ± √(ln(2 / 0.05) / (2 n))
@@ -17,7 +17,7 @@ namespace limber::app {
 /// Limits     exact of independent samples (the mean's of normal ones or many);
 ///            a Latin hypercube and Sobol's sequence are usually closer
 struct Distribution {
-  /// Of the runs that have it, ascending [the response's unit].
+  /// Values of the runs that have one, ascending [the response's unit].
   std::vector<double> values;
   double mean = 0.0;        ///< [the response's unit]
   double mean_error = 0.0;  ///< half the width of its interval [the same]
@@ -27,13 +27,13 @@ struct Distribution {
   [[nodiscard]] double quantile(double p) const;
 };
 
-/// Of a sampled design, of `sobol` over its independent runs; none of others,
-/// or of fewer than two values.
+/// For a sampled design, for `sobol` over its independent runs; none for other
+/// designs, or for fewer than two values.
 [[nodiscard]] std::optional<Distribution> find_distribution(
     const Study& study, const std::vector<StudyRow>& rows,
     std::size_t response);
 
-/// t of Student's distribution that 97.5 % are below.
+/// The 97.5 % quantile of Student's t distribution.
 ///
 /// Source     Abramowitz, Stegun, 26.7.5: 0.12 % off with 3 degrees of freedom,
 ///            less with more; 1 and 2 in closed form

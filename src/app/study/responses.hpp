@@ -9,23 +9,23 @@
 
 namespace limber::app {
 
-/// A number for each response; none where there is none, as a restitution
-/// while bodies still touch, or where it is not finite.
+/// A number for each response; none if it does not exist, such as a restitution
+/// while bodies still touch, or is not finite.
 using ResponseValues = std::vector<std::optional<double>>;
 
-/// @throws InputError naming every response that is not there in runs of a
-/// scene: an unknown column, contact or figure, or a wrong formula.
+/// @throws InputError naming every response that runs of the scene cannot have:
+/// an unknown column, contact or figure, or a wrong formula.
 void check_responses(const Study& study, const scene::Scene& scene,
                      const scene::BuiltScene& built);
 
 /// Whether a response needs the judgement of levels, which costs time.
 [[nodiscard]] bool needs_levels(const Study& study);
 
-/// All responses but formulas.
+/// All responses except formulas.
 /// @throws InputError for a figure that the run's summary does not have
 [[nodiscard]] ResponseValues evaluate_run(const Study& study, const Run& run);
 
-/// Adds those. Not in two threads at a time.
+/// Adds the formulas. Not thread-safe.
 void evaluate_formulas(const Study& study,
                        const std::vector<std::string>& factors,
                        ResponseValues& values);

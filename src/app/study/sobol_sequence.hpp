@@ -6,8 +6,8 @@
 
 namespace limber::app {
 
-/// Points of Sobol's sequence, whose every 2^k first ones fill each dimension
-/// evenly.
+/// Points of Sobol's sequence, whose first 2^k points fill each dimension
+/// evenly, for every k.
 ///
 /// Source     Joe, Kuo (2008) [@joe2008], the direction numbers
 ///            new-joe-kuo-6.21201

@@ -30,11 +30,11 @@ struct Normal {
   double deviation = 1.0;  ///< > 0 [its unit]
 };
 
-/// What differs between the runs.
+/// A quantity that differs between the runs.
 struct Factor {
   std::string name;
-  /// Of scenario and robot, all of the same value; "fidelity" is the level of
-  /// every flexible link.
+  /// Keys of scenario and robot, all with the same value; "fidelity" is the
+  /// level of every flexible link.
   std::vector<std::string> paths;
   std::variant<Listed, Spread, Normal> values;
 };
@@ -70,7 +70,7 @@ struct ExpressionResponse {
   std::string formula;
 };
 
-/// What of a run is kept, one number.
+/// One number that is kept of each run.
 struct Response {
   std::string name;
   std::variant<ProbeResponse, ContactResponse, SummaryResponse,

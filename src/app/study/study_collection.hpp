@@ -10,7 +10,7 @@
 namespace limber::app {
 
 /// Joins files of shards into one new file of the whole study.
-/// @returns how many rows it has
+/// @returns its number of rows
 /// @throws InputError if they are of different studies, two have a run in
 /// common, or the new file exists.
 std::size_t collect_study(const std::vector<std::string>& files,
@@ -26,8 +26,8 @@ struct StudiedRun {
 /// @throws InputError if there is no such run.
 [[nodiscard]] StudiedRun find_studied_run(const std::string& place);
 
-/// @throws InputError if the scenario is not any more what the study was of,
-/// naming the differences.
+/// @throws InputError if the scenario has changed since the study, naming the
+/// differences.
 void check_is_unchanged(const std::string& place,
                         const std::filesystem::path& cache);
 

@@ -23,7 +23,7 @@ struct StudyRow {
   double seconds_ready = 0.0;  ///< and before them, alone or waiting [s]
 };
 
-/// What a file of results is of.
+/// Identity of a file of results.
 struct StudyRecord {
   Study study;
   std::string manifest;   ///< of study and scenario (study_manifest.hpp)
@@ -32,13 +32,13 @@ struct StudyRecord {
   std::size_t shards = 1;
 };
 
-/// The results of a study, an SQLite file (docs/studies.md). Rows are there
-/// whole or not at all, also after kill -9.
+/// The results of a study, an SQLite file (docs/studies.md). Rows are written
+/// completely or not at all, even after kill -9.
 class StudyFile {
  public:
-  /// Creates the file, or goes on with one of the same study.
-  /// @throws InputError if it is of another study, naming the differences; if
-  /// another process writes it; if it is no such file.
+  /// Creates the file, or continues one of the same study.
+  /// @throws InputError if it belongs to another study, naming the differences;
+  /// if another process writes it; if it is not such a file.
   StudyFile(const std::filesystem::path& file, const StudyRecord& record);
   /// Reads one.
   explicit StudyFile(const std::filesystem::path& file);
@@ -49,7 +49,7 @@ class StudyFile {
   [[nodiscard]] const StudyRecord& record() const { return record_; }
   /// In the order of runs.
   [[nodiscard]] std::vector<StudyRow> read_rows() const;
-  /// All or none of them. @throws InputError if the file cannot be written.
+  /// Adds all rows or none. @throws InputError if the file cannot be written.
   void add(const std::vector<StudyRow>& rows);
 
  private:

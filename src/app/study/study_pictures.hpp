@@ -9,10 +9,10 @@
 
 namespace limber::app {
 
-/// Draws, for each response, it over each factor (`response_NAME.png`) and over
-/// each two (`map_NAME.png`), all over each other (`matrix.png`), the effects
-/// (`effects.png`), and the distributions (`distribution.png`). One that cannot
-/// be drawn costs a warning.
+/// Draws each response over each factor (`response_NAME.png`) and over each
+/// pair of factors (`map_NAME.png`), all quantities over each other
+/// (`matrix.png`), the effects (`effects.png`), and the distributions
+/// (`distribution.png`). A picture that fails gives a warning.
 void draw_study(const Study& study, const std::vector<StudyRow>& rows,
                 const Effects& effects, const std::filesystem::path& folder);
 

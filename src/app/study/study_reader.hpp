@@ -9,7 +9,7 @@ namespace limber::app {
 /// @throws InputError with every problem of the file.
 [[nodiscard]] Study read_study(const std::filesystem::path& file);
 
-/// The same from its text, which need not be in `file` any more.
+/// The same from its text; `file` need not exist any more.
 [[nodiscard]] Study read_study(const std::string& text,
                                const std::filesystem::path& file);
 

@@ -6,7 +6,7 @@
 
 namespace limber::app {
 
-/// The first run of a study, by which all is checked.
+/// The first run of a study, against which the study is checked.
 struct StudyBase {
   scene::Scene scene;
   scene::BuiltScene built;
@@ -24,16 +24,16 @@ struct StudyOptions {
   int jobs = 1;  ///< threads
 };
 
-/// How the runs of one call went.
+/// Counts and times of one call of run_study.
 struct StudyCost {
   std::size_t runs = 0;
   double seconds = 0.0;        ///< wall time [s]
   double seconds_steps = 0.0;  ///< sum over the runs [s]
 };
 
-/// Runs what the file has not yet, in threads, and writes rows as they finish.
-/// Scenes are loaded one at a time, because the libraries for it are not safe
-/// in threads; each distinct reduction is done once.
+/// Makes the runs that the file lacks, in threads, and writes rows as they
+/// finish. Scenes are loaded one at a time, because the libraries for it are
+/// not thread-safe; each distinct reduction is done once.
 /// @throws Interrupted after SIGINT or SIGTERM; finished runs are in the file.
 StudyCost run_study(const Design& design, const StudyBase& base,
                     const StudyOptions& options, StudyFile& file);

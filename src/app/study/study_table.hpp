@@ -14,7 +14,7 @@ namespace limber::app {
 [[nodiscard]] std::string to_csv(const Study& study,
                                  const std::vector<StudyRow>& rows);
 
-/// Least, mean and largest of one response over the runs that have it.
+/// Smallest, mean and largest value of one response over the runs that have it.
 struct ResponseRange {
   std::size_t count = 0;
   double least = 0.0;    ///< [the response's unit]
@@ -32,7 +32,7 @@ struct Effect {
   double total = 0.0;  ///< [-]
 };
 using Effects = std::vector<std::vector<std::optional<Effect>>>;
-/// Of a complete `sobol` or `grid` design; empty for others.
+/// For a complete `sobol` or `grid` design; empty for others.
 ///
 /// Source     `sobol`: Saltelli et al. (2010) [@saltelli2010], its estimators
 ///            (b) and (f); `grid`: the variances of conditional means

@@ -14,8 +14,8 @@
 namespace limber::app {
 
 /// Makes runs of a study, in any number of threads. Scenes are loaded one at a
-/// time, because the libraries for it are not safe in threads; each distinct
-/// reduction is done once, and a robot is read once with the same settings.
+/// time, because the libraries for it are not thread-safe; each distinct
+/// reduction is done once, and a robot is read once for the same settings.
 class StudyWorker {
  public:
   /// @param study must outlive the worker
@@ -25,10 +25,10 @@ class StudyWorker {
   StudyWorker(const Study& study, std::filesystem::path cache,
               scene::KnownBodies known, Progress watch);
 
-  /// The row of one run but its formulas (evaluate_formulas). A run that fails
-  /// is a row with its words.
+  /// The row of one run without its formulas (evaluate_formulas). The row of a
+  /// run that fails has its message.
   /// @param factors the run's values, as TOML
-  /// @returns none if `watch` ended it by dynamics::Interrupted
+  /// @returns none if `watch` ended it with dynamics::Interrupted
   [[nodiscard]] std::optional<StudyRow> make_row(
       std::size_t run, const std::vector<std::string>& factors);
 
@@ -40,7 +40,7 @@ class StudyWorker {
   Progress watch_;
   bool judges_;
 
-  // While libraries are locked:
+  // To be used only while libraries are locked:
   scene::KnownBodies known_;
   scene::KnownRobots robots_;
   scene::Reducer reducer_;

@@ -40,7 +40,7 @@ class Hdf5File {
              const std::string& unit, const std::string& meaning);
   void write(const std::string& name, const std::string& text,
              const std::string& meaning);
-  /// The same in single precision, for what is only drawn.
+  /// The same in single precision, for data that is only drawn.
   void write_single(const std::string& name, const MatrixX& values,
                     const std::string& unit, const std::string& meaning);
   /// Row-major data of any rank.

@@ -5,8 +5,8 @@
 
 namespace limber {
 
-/// Has Limber take the file that contains `code` for its own in place of the
-/// program, which is another one, as Python. Once, before anything else.
+/// Makes Limber use the file that contains `code` as its own, for programs of
+/// others such as Python. To be called once, before anything else.
 /// @param code address of a function of Limber
 void set_own_code(const void* code);
 
@@ -15,7 +15,7 @@ void set_own_code(const void* code);
 
 /// The program, or the file that set_own_code chose. Other files of the
 /// installation are found from its folder.
-/// @returns empty if the system does not tell
+/// @returns empty if the system does not provide it
 [[nodiscard]] std::filesystem::path find_own_file();
 
 }  // namespace limber

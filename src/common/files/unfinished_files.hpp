@@ -37,7 +37,7 @@ void remove_unfinished_files() noexcept;
 /// longer exists.
 [[nodiscard]] bool is_stale_part(const std::filesystem::path& file);
 
-/// Removes all unfinished files in a folder that nobody else writes to.
+/// Removes all unfinished files in a folder that no other process writes to.
 void remove_stale_parts(const std::filesystem::path& folder);
 
 }  // namespace limber

@@ -7,9 +7,9 @@
 
 namespace limber::contact {
 
-/// What a contact point remembers of its friction between steps: a plain
-/// value, part of the state, of the slave side, in whose frame S it is
-/// expressed, so that it turns with it.
+/// Friction history of a contact point between steps: a plain value, part of
+/// the state. Expressed in frame S of the slave side, with which it therefore
+/// rotates.
 struct BristleMemory {
   Vector3 s_S = Vector3::Zero();  ///< deflection of the bristle [m]
   Vector3 normal_S =
@@ -20,18 +20,18 @@ constexpr auto fields_of(const BristleMemory*) {
   return list_fields("bristle", "s_S [m]", "normal_S");
 }
 
-/// Motion of the slave's point relative to the master's that it touches; what
-/// is normal of it is left out.
+/// Motion of the slave's point relative to the master's that it touches; its
+/// normal part is ignored.
 struct BristleMotion {
   Vector3 normal_S = Vector3::Zero();  ///< unit vector [-]
-  /// Since the memory was committed, from positions: a rate times the step
+  /// Since the last commit, from positions, because a rate times the step
   /// drifts [m].
   Vector3 increment_S = Vector3::Zero();
   Vector3 velocity_S = Vector3::Zero();  ///< [m/s]
   double normal_force = 0.0;             ///< f >= 0, damping included [N]
 };
 
-/// What friction exerts on the slave's point, in S.
+/// Friction on the slave's point, expressed in S.
 struct BristleResponse {
   Vector3 force_S = Vector3::Zero();  ///< t [N]
   bool slips = false;                 ///< the cone limits it
@@ -44,7 +44,7 @@ struct BristleResponse {
   BristleMemory next = {};  ///< what to commit when the step is accepted
 };
 
-/// Coulomb friction of one contact point that holds: a bristle with return
+/// Coulomb friction with sticking at one contact point: a bristle with return
 /// mapping.
 ///
 /// Equation   t = -k_t s - c_t v within the cone |t| <= mu f; beyond it both
@@ -71,8 +71,8 @@ class BristleFriction {
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
-  /// Changes no memory: memory = response.next commits. At f = 0 the next
-  /// memory is at rest. NaN goes through.
+  /// Does not change the memory: memory = response.next commits. At f = 0 the
+  /// next memory is undeflected. NaN propagates.
   [[nodiscard]] BristleResponse evaluate(const BristleMemory& memory,
                                          const BristleMotion& motion) const;
 
@@ -80,7 +80,7 @@ class BristleFriction {
   Parameters parameters_;
 };
 
-/// c_t of a share [-] of critical damping of `mass` on k_t [N s/m].
+/// c_t as a share [-] of the critical damping of `mass` on k_t [N s/m].
 /// @throws ContractError for a value < 0 or NaN.
 [[nodiscard]] double find_bristle_damping(double stiffness, double mass,
                                           double share = 0.1);

@@ -5,16 +5,16 @@
 
 namespace limber::contact {
 
-/// A bristle, a spring s with a damper beside it, of which friction bears a
-/// limited force only: in the tangent plane (n = 3) or about the normal
-/// (n = 1).
+/// A bristle, a spring s in parallel with a damper, whose force
+/// friction limits: in the tangent plane (n = 3) or about the normal (n
+/// = 1).
 ///
 /// Equation   with the trial s* = s_0 + increment:
 ///            s = s* min(1, L / (k |s*|)),
 ///            t = x min(1, L / |x|),  x = -k s - c v
-/// Source     return mapping: [@wriggers2006, ch. 5]; here the spring comes
-///            back to the cone by itself, and the damper, which may hold the
-///            sum on it, gets what is left. Both then dissipate, always.
+/// Source     return mapping: [@wriggers2006, ch. 5]; here the spring's force
+///            is returned to the cone first, then the sum with the damper's, so
+///            that slip and damper can only dissipate.
 template <int n>
 struct ConeReturn {
   using Vector = Eigen::Matrix<double, n, 1>;

@@ -3,25 +3,25 @@
 
 namespace limber::contact {
 
-/// Damping of a normal force, and the restitution that it gives.
+/// Damping of a normal force, and the restitution that it causes.
 struct ContactDamping {
   double coefficient = 0.0;  ///< b [s/m]
   double restitution = 1.0;  ///< of an impact at `speed` [-]
   double speed = 0.0;        ///< [m/s]
 };
 
-/// Below this restitution b is that of it: the body then keeps 1e-4 of its
+/// Smaller restitutions use the b of this one: the body then keeps 1e-4 of its
 /// energy, and touches for up to 7.2 times as long as without damping. At 0 it
 /// would stop at once, under an infinite force [-].
 inline constexpr double kLeastRestitution = 0.01;
-/// Slower touches are damped as one of this speed, and so lose less: b grows
+/// Slower touches use the b of this speed, and so lose less energy: b grows
 /// without bound as 1 / speed, and a contact that begins at rest may be moved
 /// faster afterwards [m/s].
 inline constexpr double kLeastTouchSpeed = 1e-5;
 
-/// The b with which two free bodies that touch at `speed` part at
-/// `restitution` of it, whatever their masses and the elastic law. The result
-/// says which restitution and speed it is for.
+/// The b with which two free bodies that touch at `speed` part at `restitution`
+/// times it, for any masses and elastic law. The result contains the
+/// restitution and the speed that it is for.
 ///
 /// Source     find_restitution_damping (common/restitution.hpp)
 /// @param restitution e in [0, 1] [-]

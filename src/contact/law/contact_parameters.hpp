@@ -8,7 +8,7 @@
 
 namespace limber::contact {
 
-/// What a user chooses of a contact.
+/// What a user can set for a contact.
 struct ContactParameters {
   FrictionLimit friction = {};        ///< none
   double restitution = 1.0;           ///< of a free impact, in [0, 1] [-]

@@ -6,7 +6,7 @@
 namespace limber::contact {
 
 /// Elastic normal force of one contact point: Hertz's flattening of the two
-/// surfaces in series with the flexibility that the bodies' bases leave out.
+/// surfaces in series with the residual flexibility of the bodies' bases.
 ///
 /// Equation   d = (f/k)^(2/3) + R f, with s = cbrt(f): d = c s^2 + R s^3,
 ///            c = k^(-2/3); V = 2/5 c s^5 + R f^2 / 2 with dV/dd = f;
@@ -14,9 +14,9 @@ namespace limber::contact {
 ///            have part of the flattening already; then this holds up to
 ///            s = c / (3 |R|), where df/dd = 1 / |R|, and beyond it df/dd stays
 /// Source     Hertz: [@johnson1985, ch. 4]
-/// Limits     the area that touches stays small against the radii, and the
-///            contact lasts long against the time that waves take through
-///            the bodies' parts that R stands for
+/// Limits     the area of contact is small compared with the radii, and the
+///            contact long compared with the travel time of waves through the
+///            parts of the bodies that R represents
 class HertzLaw {
  public:
   /// k of surfaces that do not flatten: d = R f [N/m^1.5].
@@ -50,12 +50,12 @@ class HertzLaw {
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
-  /// At a depth d [m], by Newton's method to round-off; all zero at d <= 0,
-  /// all NaN at NaN.
+  /// At a depth d [m], by Newton's method to round-off; all zero at d <= 0, all
+  /// NaN if d is NaN.
   [[nodiscard]] Response evaluate(double depth) const;
 
-  /// The force that balances the energies of a step exactly, to round-off;
-  /// f(d) and half of f'(d) as d0 and d1 meet. NaN where a depth is.
+  /// The force that balances the energies of a step, to round-off; f(d) and
+  /// half of f'(d) in the limit of equal depths. NaN if a depth is.
   /// Source     discrete gradients: [@gonzalez1996]
   [[nodiscard]] StepResponse evaluate_over_step(double depth0,
                                                 double depth1) const;
@@ -69,7 +69,7 @@ class HertzLaw {
   /// cbrt(f) at a depth > 0, up to depth_limit_.
   [[nodiscard]] double find_root(double depth) const;
   [[nodiscard]] Response evaluate_root(double s) const;
-  /// Beyond depth_limit_, by so much [m].
+  /// At a depth beyond depth_limit_ by `beyond` [m].
   [[nodiscard]] Response extend(double beyond) const;
   [[nodiscard]] StepResponse evaluate_beyond(double d0, double d1) const;
 

@@ -22,17 +22,17 @@ struct ImpactEstimate {
 ///            sqrt(T_H^2 + T_R^2) <= T_c <= T_H + T_R.
 /// Source     R = 0: [@johnson1985, ch. 11]
 /// Limits     bodies that vibrate may part sooner, and touch again. Damping
-///            makes it last longer (twice at restitution 0.1, 7.2 times at
-///            0.01) and less deep, the force in its rise higher (1.4 times at
-///            0.1, 3.3 at 0.01; more where R prevails)
-/// @param mass 1/m = 1/m_A + 1/m_B of what approaches > 0 [kg]
+///            makes the impact longer (twice at restitution 0.1, 7.2 times at
+///            0.01) and less deep, and the rising force higher (1.4 times at
+///            0.1, 3.3 at 0.01; more where R dominates)
+/// @param mass 1/m = 1/m_A + 1/m_B of the two bodies > 0 [kg]
 /// @param speed v > 0 [m/s]
 /// @throws ContractError for values outside their range.
 [[nodiscard]] ImpactEstimate estimate_impact(const HertzLaw& law, double mass,
                                              double speed);
 
-/// A law for two sides of which none has a material: linear, as stiff as an
-/// end stop's default; a free impact lasts kImpactDuration at any speed.
+/// The law for two sides without material: linear, as stiff as the default of
+/// an end stop; a free impact lasts kImpactDuration at any speed.
 /// Equation   k rigid, R = (kImpactDuration / pi)^2 / m
 /// @param mass as above
 /// @throws ContractError for a mass outside its range.

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-/// Stiffnesses of a contact from what its two sides are made of.
+/// Stiffnesses of a contact from the materials of its two sides.
 namespace limber::contact {
 
-/// What one side is made of, isotropic and linear.
+/// Material of one side, isotropic and linear.
 struct SurfaceMaterial {
   double youngs_modulus = 0.0;  ///< E > 0 [Pa]
   double poisson_ratio = 0.0;   ///< -1 < nu <= 0.5 [-]
@@ -21,7 +21,7 @@ struct SurfaceMaterial {
 ///            a the radius of the touching area, G = E / (2 (1 + nu)).
 ///            Of equal sides k_t / k_n = 2 (1 - nu) / (2 - nu).
 /// Source     [@johnson1985, chs. 4 and 7]; k_t [@mindlin1949]
-/// Limits     k_t and k_r are those of an area that does not slip
+/// Limits     k_t and k_r hold for an area that does not slip
 struct PairModuli {
   double normal = 0.0;      ///< E* [Pa]
   double tangential = 0.0;  ///< G* [Pa]
@@ -40,7 +40,7 @@ struct PairModuli {
     const std::optional<SurfaceMaterial>& side_A,
     const std::optional<SurfaceMaterial>& side_B);
 
-/// k_t / k_n of a pair of which no side has a material: that of nu = 0.3 [-].
+/// k_t / k_n of a pair without materials: that of nu = 0.3 [-].
 inline constexpr double kDefaultTangentialRatio = 2.0 * 0.7 / 1.7;
 
 /// Hertz's k = 4/3 E* sqrt(R_e) [N/m^1.5].

@@ -7,15 +7,15 @@
 
 namespace limber::contact {
 
-/// Elastic forces of the pads of a flat face on a plane, which press each other
-/// away.
+/// Elastic forces of the pads of a flat face on a plane, with the displacement
+/// that each causes at the others.
 ///
 /// Equation   d = C f where f > 0, d <= C f where f = 0: f maximises
 ///            d^T f - f^T C f / 2 over f >= 0; V = f^T C f / 2 with dV/dd = f
-/// Source     [@kalker1990, ch. 3]; the active set by the primal-dual method,
-///            or, where that goes round in a circle, one pad at a time
-///            [@lawson1974, ch. 23]
-/// Limits     linear; C of kMost pads
+/// Source     [@kalker1990, ch. 3]; the active set by the primal-dual
+///            method, or, where that cycles, one pad at a time [@lawson1974,
+///            ch. 23]
+/// Limits     linear; at most kMost pads
 class PadLaw {
  public:
   static constexpr int kMost = 25;
@@ -25,8 +25,8 @@ class PadLaw {
 
   /// @param compliance k x k, 1 <= k <= kMost, symmetric positive
   /// definite [m/N]
-  /// @param common what is added to all of its elements in most states, for
-  /// uniform_stiffness and total_stiffness [m/N]
+  /// @param common added to all elements of C in uniform_stiffness and
+  /// total_stiffness, as in most states [m/N]
   /// @throws InputError if it is not.
   explicit PadLaw(const MatrixX& compliance, double common = 0.0);
 
@@ -37,15 +37,15 @@ class PadLaw {
     Matrix stiffness;     ///< k x k, df/dd; zero where a pad is free [N/m]
     double energy = 0.0;  ///< [J]
   };
-  /// @param depth k of them, of any sign [m]
-  /// @param out takes no memory from the heap
+  /// @param depth of each pad, k, of any sign [m]
+  /// @param out filled without allocation
   void evaluate(const Vector& depth, Response& out) const;
-  /// Of C and what is added to it. @param added k x k, symmetric positive
+  /// The same for C + added. @param added k x k, symmetric positive
   /// semidefinite [m/N]
   void evaluate(const Vector& depth, const Matrix& added, Response& out) const;
 
-  /// df_i/dd of pad i if all go equally deep, at least a hundredth of their
-  /// mean [N/m].
+  /// df_i/dd of pad i with equal depths of all, at least a hundredth of the
+  /// pads' mean [N/m].
   [[nodiscard]] double uniform_stiffness(int i) const { return uniform_[i]; }
   /// Of all pads together [N/m].
   [[nodiscard]] double total_stiffness() const { return total_; }

@@ -12,8 +12,8 @@
 
 namespace limber::contact {
 
-/// Motion at one contact point, world frame; n from body A to body B, relative
-/// quantities those of B's material point less A's.
+/// Motion at one contact point, world frame; n points from body A to body B,
+/// relative quantities are those of B's material point minus A's.
 struct PointMotion {
   Vector3 normal_W = Vector3::Zero();     ///< n, unit [-]
   double depth = 0.0;                     ///< d > 0 [m]
@@ -25,11 +25,11 @@ struct PointMotion {
   Matrix3 R_WB = Matrix3::Identity();     ///< of body B, the slave [-]
   double time = 0.0;                      ///< [s]
 
-  /// d', as if the normal stood still [m/s].
+  /// d' for a constant normal [m/s].
   [[nodiscard]] double rate() const { return -normal_W.dot(velocity_W); }
 };
 
-/// What acts on B at one contact point.
+/// Forces on B at one contact point.
 struct PointResponse {
   Vector3 force_W = Vector3::Zero();     ///< normal force and friction [N]
   double normal_force = 0.0;             ///< [N]
@@ -40,7 +40,7 @@ struct PointResponse {
   double area = 0.0;                    ///< that touches, Hertz's [m^2]
   Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
   Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]
-  /// d force_W / d elastic force, of what acts elsewhere [-].
+  /// d force_W / d elastic force, if that depends on other points [-].
   Vector3 by_elastic_W = Vector3::Zero();
   PointMemory next = {};  ///< but for its places
 };
@@ -51,37 +51,37 @@ struct PointResponse {
 ///            k of the materials and R_e, or of neither's material the default
 ///            law; k_t = k_t/k_n of the materials times the normal stiffness of
 ///            an impact at the speed of touch, at least at kReferenceSpeed
-/// Limits     k_t is that of the touch: a later load does not change it
+/// Limits     k_t is found at first touch: a later load does not change it
 class PointLaw {
  public:
-  /// Slowest touch that k_t is of [m/s].
+  /// Slower touches use the k_t of this speed [m/s].
   static constexpr double kReferenceSpeed = 0.01;
 
-  /// @param moduli of both sides; none: neither has a material
+  /// @param moduli of both sides; none if neither has a material
   /// @param mass reduced mass of both bodies > 0 [kg]
-  /// @param size at least this 1/R_e counts: an edge, a corner or a flat face
-  /// is as round as half of the body [m]
+  /// @param size largest R_e, for edges, corners and flat faces: half of the
+  /// smaller body's size [m]
   /// @throws InputError as check(parameters).
   PointLaw(const ContactParameters& parameters,
            const std::optional<PairModuli>& moduli, double mass, double size);
 
   [[nodiscard]] bool has_friction() const { return has_friction_; }
 
-  /// @param motion of a point that overlaps
+  /// @param motion of a point with depth > 0
   [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
                                        const PointMemory& memory) const;
 
-  /// With an elastic force from elsewhere, such as the mean over a step.
-  /// `energy` is then that of friction alone, `area` 0.
+  /// With a given elastic force, such as the mean over a step. `energy` is then
+  /// that of friction alone, `area` 0.
   [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
                                        const ElasticForce& elastic,
                                        const PointMemory& memory) const;
 
-  /// Of the elastic force where the surfaces are as at `motion`; with a share w
-  /// that of w k and R / w, so that the force is w times that of the depth.
+  /// The elastic force law for these surfaces; for a share w that of w k and
+  /// R / w, so that the force at any depth is w times that of a whole point.
   [[nodiscard]] HertzLaw find_law(double curvature, double residual,
                                   double share = 1.0) const;
-  /// What a point remembers of a first touch at this rate of depth [m/s].
+  /// Memory of a point after a first touch at this rate of depth [m/s].
   /// @param law of a whole point, of share 1
   [[nodiscard]] PointMemory begin(const HertzLaw& law, double rate) const;
   /// T_c of an impact of both bodies at a speed > 0 [s].

@@ -8,8 +8,8 @@
 
 namespace limber::contact {
 
-/// The material point of a body at which a contact's force acted, moved as the
-/// place of the surface next to it; as numbers, see SurfacePlace.
+/// The material point of a body at which a contact's force acted, which moves
+/// with the nearest place of the surface; as numbers, see SurfacePlace.
 struct PlaceMemory {
   Vector3 x_B = Vector3::Zero();  ///< undeformed, body frame [m]
   double face = -1.0;             ///< index [-]
@@ -17,7 +17,7 @@ struct PlaceMemory {
   double v = 0.0;                 ///< [-]
 };
 
-/// Rotation of body B in A, as a quaternion [-]; all zero: none is remembered.
+/// Rotation of body B in A, as a quaternion [-]; all zero if not yet set.
 struct TurnMemory {
   double w = 0.0;
   double x = 0.0;
@@ -30,10 +30,10 @@ struct TurnMemory {
   [[nodiscard]] Quaternion quat_AB() const { return {w, x, y, z}; }
 };
 
-/// What a contact's point remembers between steps; of a point that does not
-/// touch all zero.
+/// Memory of a contact point between steps; all zero while it does not
+/// touch.
 struct PointMemory {
-  /// Approach at first touch, 0 before it [m/s].
+  /// Approach speed at first touch, 0 before it [m/s].
   double speed = 0.0;
   double damping = 0.0;               ///< b of that speed [s/m]
   double tangential_stiffness = 0.0;  ///< k_t of that speed [N/m]
@@ -47,7 +47,7 @@ struct PointMemory {
   [[nodiscard]] bool is_touching() const { return speed > 0.0; }
 };
 
-/// Numbers that one point takes.
+/// Number of values in a point's memory.
 inline constexpr std::size_t kPointNumbers = 27;
 
 /// @param numbers kPointNumbers of them

@@ -8,7 +8,7 @@
 namespace limber::contact {
 
 /// Derivatives of the force on the slave's point, f n + t, with respect to its
-/// motion relative to the master's point; unsymmetric while it slips.
+/// motion relative to the master's point; unsymmetric during slip.
 ///
 /// Equation   n from master to slave, d = -n . u, d' = -n . v:
 ///            -dF/du = (n + dt/df) n^T df/dd  - dt/d increment
@@ -19,7 +19,7 @@ struct PointTangent {
   Matrix3 damping = Matrix3::Zero();    ///< -dF/dv [N s/m]
 };
 
-/// All in one frame.
+/// All arguments expressed in one frame.
 [[nodiscard]] inline PointTangent find_point_tangent(
     const Vector3& normal, const DampedForce& pressed,
     const BristleResponse& friction) {

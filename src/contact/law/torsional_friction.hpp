@@ -5,8 +5,8 @@
 
 namespace limber::contact {
 
-/// Twist of the bristle about the normal, which a contact point remembers: a
-/// plain value, part of the state.
+/// Twist of a contact point's bristle about the normal: a plain value, part of
+/// the state.
 struct TwistMemory {
   double twist = 0.0;  ///< [rad]
 };
@@ -15,7 +15,7 @@ constexpr auto fields_of(const TwistMemory*) {
   return list_fields("twist", "twist [rad]");
 }
 
-/// Turn of the slave relative to the master about the normal, and the load.
+/// Rotation of the slave relative to the master about the normal, and the load.
 struct TwistMotion {
   double increment = 0.0;       ///< since the memory was committed [rad]
   double velocity = 0.0;        ///< [rad/s]
@@ -23,7 +23,7 @@ struct TwistMotion {
   double contact_radius = 0.0;  ///< a >= 0, Hertz's at f [m]
 };
 
-/// What friction exerts on the slave about the normal.
+/// Friction moment on the slave about the normal.
 struct TwistResponse {
   double moment = 0.0;           ///< [N m]
   bool slips = false;            ///< the limit is reached
@@ -36,14 +36,14 @@ struct TwistResponse {
   TwistMemory next = {};         ///< what to commit when the step is accepted
 };
 
-/// Friction against turning about the normal on Hertz's area.
+/// Friction against rotation about the normal on Hertz's area.
 ///
 /// Equation   a bristle about the normal, as of BristleFriction, with the
 ///            limit 3 pi mu f a / 16: of full slip under Hertz's pressure
 /// Source     [@johnson1985, ch. 7]
-/// Limits     k_r is that of an area without slip, at a reference load; slip
-///            begins at the rim long before. Sliding and turning do not
-///            weaken each other here.
+/// Limits     k_r holds for an area without slip, at a reference load; in
+///            reality slip begins at the rim long before the limit. Sliding and
+///            rotation do not weaken each other here.
 class TorsionalFriction {
  public:
   struct Parameters {
@@ -57,7 +57,7 @@ class TorsionalFriction {
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
-  /// Changes no memory: memory = response.next commits.
+  /// Does not change the memory: memory = response.next commits.
   [[nodiscard]] TwistResponse evaluate(const TwistMemory& memory,
                                        const TwistMotion& motion) const;
 

@@ -10,7 +10,7 @@
 
 namespace limber::contact {
 
-/// A capsule, a cylinder or a box in the world as a sum of simple sets:
+/// A capsule, a cylinder or a box in the world frame as a Minkowski sum of
 /// segments about its centre, a disc and a ball.
 ///
 /// Equation   support max n . x = n . c + sum_k h_k |n . u_k|
@@ -26,7 +26,7 @@ class ConvexCore {
   explicit ConvexCore(const PlacedShape& shape);
 
   [[nodiscard]] const Vector3& centre() const { return centre_; }
-  /// Of a box three, otherwise one.
+  /// Three for a box, otherwise one.
   [[nodiscard]] std::span<const Segment> segments() const {
     return std::span(segments_).first(count_);
   }
@@ -34,15 +34,15 @@ class ConvexCore {
   [[nodiscard]] double disc() const { return disc_; }
   /// r of the ball [m].
   [[nodiscard]] double ball() const { return ball_; }
-  /// Of its points from the centre, at most, without the ball [m].
+  /// Largest distance of a point from the centre, without the ball [m].
   [[nodiscard]] double size() const { return size_; }
 
   /// Without the ball, and relative to the centre [m]. @param n unit
   [[nodiscard]] double find_support(const Vector3& n) const;
-  /// The point, or one of them, of the set without the ball that is farthest
-  /// along n, of any length [m].
+  /// A point of the set without the ball that is farthest along n, which may
+  /// have any length [m].
   [[nodiscard]] Vector3 find_support_point(const Vector3& n) const;
-  /// Second derivative of the support by n, of the disc [m]. @param n unit
+  /// Second derivative of the disc's support by n [m]. @param n unit
   [[nodiscard]] Matrix3 find_curvature(const Vector3& n) const;
 
  private:

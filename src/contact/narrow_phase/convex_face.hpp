@@ -9,9 +9,9 @@
 
 namespace limber::contact {
 
-/// What a convex shape turns towards a direction: a face of a box, the end of a
-/// cylinder as a hexagon one of whose corners is farthest along it, the line of
-/// a cylinder's or capsule's side there, or an end of a capsule.
+/// The part of a convex shape that faces a direction: a face of a box, the end
+/// of a cylinder as a hexagon with one corner farthest along it, the line of a
+/// cylinder's or capsule's side there, or an end of a capsule.
 struct ConvexFace {
   static constexpr std::size_t kMostCorners = 6;
   std::array<Vector3, kMostCorners> corners = {};  ///< around it [m]
@@ -21,11 +21,11 @@ struct ConvexFace {
   void add(const Vector3& corner) { corners[count++] = corner; }
 };
 
-/// @param n unit, world frame. A ball's surface is that towards n.
+/// @param n unit, world frame; of a ball the surface towards n counts
 /// @param shape a box, cylinder or capsule
 [[nodiscard]] ConvexFace find_face(const PlacedShape& shape, const Vector3& n);
 
-/// Corners of a shape's face, at most.
+/// Largest number of corners of a shape's face.
 [[nodiscard]] std::size_t count_face_corners(const Shape& shape);
 
 }  // namespace limber::contact

@@ -7,7 +7,7 @@
 
 namespace limber::contact {
 
-/// A corner of the area in which two faces cover each other, seen along a
+/// A corner of the common area of two faces, as seen along a
 /// normal.
 struct OverlapPoint {
   double share = 0.0;  ///< of the area's edge around it [-]; 0: no corner
@@ -15,20 +15,20 @@ struct OverlapPoint {
   Vector3 on_B = Vector3::Zero();  ///< of B's face [m]
 };
 
-/// Numbers of corners of `find_overlap`: A's corners, B's corners, and of each
-/// edge of A where it enters B's face and where it leaves it.
+/// Size of the output of `find_overlap`: A's corners, B's corners, and for each
+/// edge of A the points where it enters and leaves B's face.
 [[nodiscard]] std::size_t count_overlap_points(std::size_t corners_A,
                                                std::size_t corners_B);
 
-/// Fills `out`, of count_overlap_points of the shapes' corners. The shares of
-/// all add up to the smaller face's number of corners, or there is none: none
-/// either of a point, and of two lines.
+/// Fills `out`, whose size is count_overlap_points of the faces' corners. The
+/// shares add up to the smaller face's number of corners, or all are zero if
+/// there is no common area, as always for a point and for two lines.
 ///
 /// Equation   share = that number times half of both edges that meet at the
 ///            corner over the circumference, so that it is continuous where
 ///            corners come and go
 /// @param n unit, from A to B
-/// @returns whether there are any
+/// @returns whether there is a common area
 bool find_overlap(const ConvexFace& A, const ConvexFace& B, const Vector3& n,
                   std::size_t corners_A, std::size_t corners_B,
                   std::span<OverlapPoint> out);

@@ -17,20 +17,20 @@ struct FacePairPlace {
 
 /// Where two faces are closest, or overlap most: the points are apart along a
 /// normal of both. On an edge or a corner any normal between those of the sides
-/// counts, so each of them may be within its face, on an edge or in a corner.
+/// counts: each point may be within its face, on an edge or in a corner.
 ///
-/// Equation   a - b = d n, n . a' = 0, n . b' = 0 along all ways in which each
-///            place may move; Newton's method on the places and n, from the
-///            shortest way between A and B after B is moved off along n. So it
-///            is regular at d = 0, where the distance itself is not.
+/// Equation   a - b = d n, n . a' = 0, n . b' = 0 along all directions in which
+///            each place can move; Newton's method on the places and n, from
+///            the shortest line between A and B after B is moved off along n.
+///            So it is regular at d = 0, where the distance itself is not.
 /// Limits     a local solution. Flat faces in parallel have many; one of them
 ///            is found, to round-off in depth.
 /// @param normal towards B, about that of both faces, unit [-]
-/// @param most_depth of overlap that is looked for [m]
-/// @param is_inner whether other faces go on smoothly beyond all edges of both
-/// (Skin::FaceMeasures::overshoot): a place far outside of its face is then
-/// another's, and is none here
-/// @returns none if the faces turn away from each other there
+/// @param most_depth largest overlap to be found [m]
+/// @param is_inner whether smooth faces adjoin all edges of both
+/// (Skin::FaceMeasures::overshoot): a place far outside of its face then
+/// belongs to another face and is rejected here
+/// @returns none if the faces do not face each other there
 [[nodiscard]] std::optional<FacePairPlace> find_opposite(const FacePatch& A,
                                                          const FacePatch& B,
                                                          const Vector3& normal,
@@ -38,7 +38,7 @@ struct FacePairPlace {
                                                          bool is_inner);
 
 /// Where two straight segments cross as seen along `normal`: the weights of
-/// their second ends, in [0, 1] [-]. None if they do not, or are parallel.
+/// their second ends, in [0, 1] [-]. None if parallel or apart.
 struct SegmentCrossing {
   double s = 0.0;
   double t = 0.0;

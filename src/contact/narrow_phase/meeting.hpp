@@ -8,12 +8,12 @@
 
 namespace limber::contact {
 
-/// Where a feature of a pair of shapes, such as a corner and a plane, is
-/// closest.
+/// The closest points at a feature of a pair of shapes, such as a corner and a
+/// plane.
 ///
 /// Equation   d depth = normal . (d p_A - d p_B), p of both material points
 struct Meeting {
-  /// > 0: overlap, < 0: minus the distance, -infinity where it is farther than
+  /// > 0: overlap, < 0: minus the distance, -infinity beyond the reach that was
   /// asked for; then all else is undefined [m].
   double depth = -std::numeric_limits<double>::infinity();
   Vector3 normal_W = Vector3::UnitZ();  ///< unit, from A to B [-]
@@ -24,7 +24,7 @@ struct Meeting {
   /// ones, convex > 0), added, and 0 if that is negative. Edges and corners
   /// count as flat [1/m].
   double curvature = 0.0;
-  /// Factor on the force of this depth, > 0, where several features stand for
+  /// Factor > 0 on the force at this depth, where several features represent
   /// one area [-].
   double share = 1.0;
 };

@@ -5,7 +5,7 @@
 
 namespace limber::contact {
 
-/// Where two sets without their balls are nearest.
+/// The nearest points of two sets without their balls.
 struct NearestOfCores {
   Vector3 on_A = Vector3::Zero();  ///< [m]
   Vector3 on_B = Vector3::Zero();  ///< [m]

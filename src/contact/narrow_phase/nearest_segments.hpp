@@ -12,19 +12,19 @@ struct Segment {
   double half_length = 0.0;          ///< > 0 [m]
 };
 
-/// Where two segments are nearest: s on the first, t on the second [m].
+/// The nearest points of two segments: s on the first, t on the second [m].
 struct NearestOfSegments {
   double s = 0.0;
   double t = 0.0;
 };
 
-/// Of parallel segments that lie along each other the middle of that part.
+/// For parallel segments the middle of the part that lies alongside.
 ///
 /// Equation   the least distance is that of both lines if it is within both
 ///            segments, or else of an end from the other segment
-/// Limits     the distance is continuous; where it is does jump from one end to
-///            the other as segments that lie along each other tilt through
-///            parallel.
+/// Limits     the distance is continuous; the points jump from one end to
+///            the other as segments alongside each other tilt through
+///            parallel
 [[nodiscard]] NearestOfSegments find_nearest(const Segment& a,
                                              const Segment& b);
 

@@ -24,9 +24,9 @@ namespace limber::contact {
 /// Limits     one point: see find_nearest of segments
 [[nodiscard]] Meeting meet_capsules(const PlacedShape& A, const PlacedShape& B);
 
-/// Of two of box, cylinder and capsule: the corners of the area in which the
-/// faces that they turn to each other cover each other, and then where both
-/// are nearest, which counts as far as no corner is as deep.
+/// Features of two shapes out of box, cylinder and capsule: the corners of the
+/// common area of the faces that face each other, and then the nearest points,
+/// with a share that falls to 0 as a corner becomes as deep.
 ///
 /// Equation   depth = height of A's face over B's along the normal of least
 ///            depth (find_separation)
@@ -40,31 +40,31 @@ void meet_convex(const PlacedShape& A, const PlacedShape& B,
 [[nodiscard]] double find_convex_clearance(const PlacedShape& A,
                                            const PlacedShape& B);
 
-/// Of two skins: the deepest places of their overlap that are apart from each
-/// other, the deepest first, at most so many (SkinPairSearch).
+/// Features of two skins: the deepest places of their overlap that are
+/// distinct, the deepest first, at most this number (SkinPairSearch).
 ///
 /// Equation   depth = overlap along the common normal of both places
-/// Limits     which of a contact's features comes first changes with the motion
+/// Limits     the order of a contact's features changes with the motion
 inline constexpr std::size_t kSkinFeatures = 8;
 void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
                 std::span<Meeting> out);
-/// The corner of a face of either that is deepest inside the other, however
-/// deep; of depth -infinity: none is. Slow.
+/// The corner of a face of either that is deepest inside the other, at any
+/// depth; depth -infinity if there is none. Slow.
 [[nodiscard]] Meeting find_enclosed_corner(const PlacedShape& A,
                                            const PlacedShape& B);
-/// A lower bound of the distance, the distance itself unless it is far; < 0 if
-/// they overlap, by no more than that [m].
+/// A lower bound of the distance, the distance itself unless it is large; < 0
+/// if they overlap, a bound of the depth [m].
 [[nodiscard]] double find_skins_clearance(const PlacedShape& A,
                                           const PlacedShape& B);
 
-/// A surface with pads; null of all other shapes.
+/// The shape as a surface with pads; null for all others.
 [[nodiscard]] const Skin* find_flat(const Shape& shape);
-/// Most pads of a flat surface that touches others than half spaces.
+/// Largest number of pads with which a flat surface touches others than planes.
 inline constexpr std::size_t kMostPads = 25;
 /// Whether A is a flat surface with so many pads at most, and B a box, a
 /// cylinder or such a surface that is not smaller.
 [[nodiscard]] bool is_flat_pair(const Shape& A, const Shape& B);
-/// Of A's pads with the face, or the end, that B turns to them.
+/// Features of A's pads with the face, or the end, of B that faces them.
 ///
 /// Equation   depth = -height of the pad over B's surface along B's normal;
 ///            share = 1 - what the pad's node is beyond B's rim / the pad's
@@ -72,14 +72,14 @@ inline constexpr std::size_t kMostPads = 25;
 ///            degrees on, linear in its cosine, and times 0 where B's rim is
 ///            pressed into A: where the plane of B's face goes deeper than B
 ///            by 2 % of the root of A's area, 1 up to 1 %
-/// Limits     B is taken to go on in the plane of its face up to that
-///            distance. A pad deeper than B is thick, or than the root of A's
-///            area, is behind B and does not touch.
+/// Limits     the plane of B's face is extended up to that distance beyond the
+///            rim. A pad deeper than the thickness of B, or than the root of
+///            A's area, is behind B and does not touch.
 /// @param out one a pad
 void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
                        std::span<Meeting> out);
-/// Reduces the shares of A's other places: what remains are corners and edges
-/// between its pads that are deeper than all of them.
+/// Reduces the shares of A's other places to what the pads do not cover:
+/// corners and edges between pads that are deeper than all of them.
 ///
 /// Equation   share (1 - hold) deeper: hold is 1 up to half of a pad's radius
 ///            from a line between two covered pads, 0 from 1.5 of it on;
@@ -89,11 +89,11 @@ void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
 void take_what_pads_miss(const Shape& A, std::span<const Meeting> pads,
                          std::span<Meeting> others);
 
-/// Of B's features with a half space: how many, and each of them.
+/// B's features with a half space: their number, and each of them.
 ///
 /// Equation   depth = -height of the feature's lowest point
 [[nodiscard]] std::size_t count_half_space_features(const Shape& B);
-/// Whether they are the deepest of a larger number.
+/// Whether they are only the deepest of a larger number.
 [[nodiscard]] bool has_loose_features_on_plane(const Shape& B);
 void meet_half_space(const PlacedShape& A, const PlacedShape& B, double reach,
                      std::span<Meeting> out);

@@ -7,7 +7,7 @@
 
 namespace limber::contact {
 
-/// A shape where its body is.
+/// A shape at the pose of its body.
 struct PlacedShape {
   PlacedShape(const Shape& shape_, const joints::PairBody& body_)
       : shape(shape_),
@@ -20,7 +20,7 @@ struct PlacedShape {
   Pose X_WB;
   Pose X_WS;
 
-  /// A point in the shape's frame as a place in the body's.
+  /// A point in the shape's frame as a place of the body.
   [[nodiscard]] SurfacePlace make_place(const Vector3& x_S) const {
     return {.x_B = shape.X_BS * x_S};
   }

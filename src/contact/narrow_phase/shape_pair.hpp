@@ -14,7 +14,7 @@ namespace limber::contact {
 
 /// Where two shapes are closest. Immutable.
 ///
-/// Their features are of a fixed number, most in a fixed order, so that a
+/// The number of features is fixed, for most pairs also their order, so that a
 /// feature keeps its identity from step to step:
 ///
 ///     sphere with any other        1
@@ -36,43 +36,43 @@ namespace limber::contact {
 ///                                  no fixed order
 class ShapePair {
  public:
-  /// @param with_pads whether flat skins touch others than half spaces with
-  /// their pads
+  /// @param with_pads whether flat skins use their pads also with other shapes
+  /// than half spaces
   /// @throws InputError as check_shape, or for a pair of kinds without a rule.
   ShapePair(const Shape& A, const Shape& B, bool with_pads = true);
 
   [[nodiscard]] const Shape& A() const { return A_; }
   [[nodiscard]] const Shape& B() const { return B_; }
 
-  /// Features.
+  /// Number of features.
   [[nodiscard]] std::size_t most_points() const { return most_points_; }
-  /// Whether a feature may change its place in the order from one time to
-  /// another; its SurfacePlace tells which one it is.
+  /// Whether a feature's index may change from one time to another; its
+  /// SurfacePlace identifies it.
   [[nodiscard]] bool has_loose_features() const { return is_loose_; }
 
-  /// The pads' features, which are the first.
+  /// Number of the pads' features, which come first.
   [[nodiscard]] std::size_t pad_count() const { return pad_count_; }
-  /// Whose pads they are, if there are any.
+  /// Whether the pads, if there are any, are those of A.
   [[nodiscard]] bool has_pads_on_A() const { return has_pads_on_A_; }
-  /// Features that are always at the same place of `out`, which are the first.
+  /// Number of features with a fixed index in `out`, which come first.
   [[nodiscard]] std::size_t ordered_count() const {
     return most_points_ - unordered_count_;
   }
 
   /// Fills `out`, one Meeting a feature. Allocates nothing.
-  /// @param reach >= 0: a feature whose surfaces are farther apart may have
-  /// the depth -infinity, which is found cheaply [m]
+  /// @param reach >= 0: features with a larger distance may get the depth
+  /// -infinity, which is cheap to find [m]
   /// @param out of most_points()
   void find(const joints::PairBodies& bodies, double reach,
             std::span<Meeting> out) const;
 
-  /// How deep bodies are in each other that overlap by more than `find` looks
-  /// for, and where, at the start of a run: depth and p_W alone. The depth is
-  /// -infinity for pairs whose features are found at any depth.
+  /// Depth and p_W, and nothing else, of an overlap deeper than `find` can see,
+  /// for the start of a run. The depth is -infinity for pairs whose features
+  /// are found at any depth.
   [[nodiscard]] Meeting find_enclosed(const joints::PairBodies& bodies) const;
 
-  /// A lower bound of the distance between both, near to it where they are
-  /// close; 0 if they touch [m].
+  /// A lower bound of the distance, accurate where they are close; 0 if they
+  /// touch [m].
   [[nodiscard]] double find_clearance(const joints::PairBodies& bodies) const;
 
  private:

@@ -12,25 +12,25 @@
 
 namespace limber::contact {
 
-/// A skin with the coordinates of its body.
+/// A skin with the modal coordinates of its body.
 struct DeformedSkin {
   const Skin& skin;
   ModalView eta;
 };
 
-/// Searches where two skins are nearest or overlap, in the frame of A.
+/// Finds where two skins are nearest or overlap, in the frame of A.
 ///
-/// Equation   both trees are descended together; of every two faces within
-///            reach whose sides are turned to each other find_opposite, which
-///            counts where neither surface rises beyond the edges that it is
-///            held by. Of flat faces in parallel the corners of their common
-///            area: corners of either above the other, and crossing sharp
-///            edges; of an edge along a flat part both ends of that line
+/// Equation   both trees are descended together; for every two faces within
+///            reach that face each other find_opposite, which counts where
+///            neither surface rises beyond the edges that bound it. For
+///            parallel flat faces the corners of their common area: corners of
+///            either above the other, and crossing sharp edges; for an edge
+///            along a flat part both ends of that line
 /// Limits     overlaps up to half of the sum of both thicknesses there
 class SkinPairSearch {
  public:
   struct Feature {
-    /// How it was found; of several at one place the later kind counts.
+    /// How a feature was found; of several at one place the later kind counts.
     enum class Kind { kOpposite, kCrossing, kCornerOfB, kCornerOfA };
     Kind kind = Kind::kOpposite;
     int face_A = -1;
@@ -39,8 +39,8 @@ class SkinPairSearch {
     Vector3 middle = Vector3::Zero();  ///< between both points, in A [m]
     double curvature = 0.0;            ///< of both, >= 0 [1/m]
     double share = 1.0;                ///< [-]
-    /// False: a node of a flat part that is no corner, or a place of a line
-    /// that is no end. It counts as far as it is much deeper than corners and
+    /// False for a node of a flat part that is no corner, or a place of a line
+    /// that is no end. It counts only where it is much deeper than corners and
     /// ends.
     bool is_outer = true;
   };
@@ -49,31 +49,31 @@ class SkinPairSearch {
   SkinPairSearch(const DeformedSkin& A, const DeformedSkin& B,
                  const Pose& X_AB);
 
-  /// @param reach >= 0: pairs farther apart do not count [m]
+  /// @param reach >= 0: pairs with a larger distance do not count [m]
   void run(double reach);
-  /// Likewise, up to the first overlap that it finds, which need not be the
+  /// The same, but ends at the first overlap found, which need not be the
   /// deepest.
   void run_to_overlap(double reach);
 
-  /// A lower bound of the distance by boxes alone, cheap [m].
+  /// A lower bound of the distance from boxes alone, cheap [m].
   [[nodiscard]] double find_box_gap() const;
 
-  /// -distance or depth of the deepest of all pairs; -infinity: none [m].
+  /// Depth, or minus the distance, of the deepest pair; -infinity: none [m].
   [[nodiscard]] double deepest() const { return deepest_.at.depth; }
   /// A lower bound of the distance where there is no feature [m].
   [[nodiscard]] double least_gap() const { return least_gap_; }
 
-  /// The deepest features that are apart from each other, the deepest first. A
-  /// feature near to a deeper one is part of the same area of contact: its
-  /// share falls to 0 from 1.5 to once the radius within which both overlap.
-  /// @returns how many there are
+  /// The deepest distinct features, the deepest first. A feature near to a
+  /// deeper one is part of the same area of contact: its share falls to 0 from
+  /// 1.5 to 1 times the radius within which both overlap.
+  /// @returns their number
   std::size_t select(std::span<Feature> out) const;
 
  private:
   struct Entry;
 
   void descend(double reach);
-  // The pair of both roots, and those below a pair.
+  // The pair of both roots, and the children of a pair.
   [[nodiscard]] Entry make_root() const;
   [[nodiscard]] std::array<Entry, 2> split(const Entry& entry) const;
   void look_at_leaves(const Entry& entry);
@@ -99,21 +99,21 @@ class SkinPairSearch {
   void look_at_corners(const FacePair& faces, const Vector3& normal);
   void look_at_edges(const FacePair& faces, const Vector3& normal);
   void look_at_ridges(const FacePair& faces, const Vector3& normal);
-  // Whether it is any place of an edge that lies along a plane.
+  // Whether a place is within an edge that lies along a plane.
   [[nodiscard]] bool is_along_ridge(int face_A, int face_B,
                                     const FacePairPlace& at) const;
   [[nodiscard]] bool is_summit(int face_A, int face_B, const FacePairPlace& at,
                                double tolerance) const;
   void add(const Feature& feature);
-  // Of two features at one place.
+  // Of two features at one place the one that counts.
   [[nodiscard]] Feature choose(const Feature& a, const Feature& b) const;
-  // Whether nothing of either surface is much nearer than the opposite place:
-  // sides that pass each other beside the contact are no overlap.
+  // Whether no part of either surface is much nearer than the opposite place:
+  // sides that pass each other beside the contact do not overlap.
   [[nodiscard]] bool is_genuine(const Feature& feature) const;
   [[nodiscard]] bool is_genuine_of_flat(const Feature& feature) const;
   [[nodiscard]] double find_height(const DeformedSkin& over,
                                    const Vector3& p) const;
-  // Whether other faces go on smoothly beyond both.
+  // Whether smooth faces adjoin all edges of both.
   [[nodiscard]] bool are_inner(int face_A, int face_B) const;
   [[nodiscard]] bool is_in_range(int face_A, int face_B, double depth) const;
   [[nodiscard]] Feature make_feature(int face_A, const FacePatch& A, int face_B,
@@ -128,11 +128,11 @@ class SkinPairSearch {
 
   static constexpr std::size_t kMostFeatures = 96;
   static constexpr double kSamePlace = 1e-6;  // of an edge [-]
-  // Depth up to which round-off tells, likewise.
+  // Depth of the order of round-off, likewise.
   static constexpr double kNoDepth = 1e-7;
-  // Slope beyond an edge or a corner that is round-off [-].
+  // Slope beyond an edge or a corner of the order of round-off [-].
   static constexpr double kRises = 1e-7;
-  // Pairs of faces after which it looks for no deeper overlaps.
+  // Number of face pairs after which it stops looking for deeper overlaps.
   static constexpr int kMostLooks = 60000;
 
   DeformedSkin A_;

@@ -24,12 +24,12 @@ inline constexpr std::array<FacePlace, 3> kFaceCorners = {
     {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
 inline constexpr FacePlace kFaceMiddle{1.0 / 3.0, 1.0 / 3.0};
 
-/// Part s of the way from one place to another.
+/// The place at the fraction s of the way from one to another.
 [[nodiscard]] constexpr FacePlace find_between(const FacePlace& from,
                                                const FacePlace& to, double s) {
   return {from.u + s * (to.u - from.u), from.v + s * (to.v - from.v)};
 }
-/// On an edge: 01, 12 or 20.
+/// The place at the fraction s of an edge: 01, 12 or 20.
 [[nodiscard]] constexpr FacePlace find_between(std::size_t edge, double s) {
   return find_between(kFaceCorners[edge], kFaceCorners[(edge + 1) % 3], s);
 }
@@ -40,9 +40,9 @@ inline constexpr FacePlace kFaceMiddle{1.0 / 3.0, 1.0 / 3.0};
 ///            triangle of 3 or 6 nodes, kept as a polynomial in u and v
 class FacePatch {
  public:
-  /// Of a straight face. @param X its corners [m]
+  /// A straight face. @param X its corners [m]
   explicit FacePatch(const std::array<Vector3, 3>& X);
-  /// Of a quadratic face. @param X its corners, then its middle nodes [m]
+  /// A quadratic face. @param X its corners, then its mid-edge nodes [m]
   explicit FacePatch(const std::array<Vector3, 6>& X);
 
   [[nodiscard]] Vector3 find_point(const FacePlace& at) const {
@@ -55,7 +55,7 @@ class FacePatch {
   [[nodiscard]] Vector3 find_tangent_v(const FacePlace& at) const {
     return x_v_ + at.u * x_uv_ + at.v * x_vv_;
   }
-  /// Second derivatives, the same everywhere [m].
+  /// Second derivatives, constant over the face [m].
   [[nodiscard]] const Vector3& x_uu() const { return x_uu_; }
   [[nodiscard]] const Vector3& x_uv() const { return x_uv_; }
   [[nodiscard]] const Vector3& x_vv() const { return x_vv_; }
@@ -71,26 +71,26 @@ class FacePatch {
   /// Source     [@docarmo1976, sec. 3-3]
   [[nodiscard]] double find_mean_curvature(const FacePlace& at) const;
 
-  /// The largest distance of the patch from the four flat triangles between its
-  /// nodes, at most [m].
+  /// An upper bound of the distance of the patch from the four flat triangles
+  /// between its nodes [m].
   [[nodiscard]] double find_bulge() const;
 
   struct Range {
     double low = 0.0;   ///< [m]
     double high = 0.0;  ///< [m]
   };
-  /// Of way . x over the patch, by its control points: no less than it takes.
+  /// Range of way . x over the patch, from its control points: not too narrow.
   [[nodiscard]] Range find_range(const Vector3& way) const;
 
   struct FlatNearest {
     FacePlace at;
     double square = 0.0;  ///< of the distance [m^2]
   };
-  /// Where those flat triangles (the face itself if it is straight) are nearest
-  /// to p.
+  /// The point of those flat triangles (the face itself if it is straight) that
+  /// is nearest to p.
   [[nodiscard]] FlatNearest find_nearest_of_flat(const Vector3& p) const;
-  /// Where the patch is nearest to p, by Newton's method from a place close to
-  /// that; a local minimum of the distance within the triangle.
+  /// The point of the patch nearest to p, by Newton's method from a place close
+  /// to it; a local minimum of the distance within the triangle.
   [[nodiscard]] FacePlace find_nearest(const Vector3& p,
                                        const FacePlace& start) const;
 
@@ -107,8 +107,8 @@ class FacePatch {
   bool is_straight_;
 };
 
-/// The weights of a face's nodes at a place; the last three are 0 on a straight
-/// face [-].
+/// The weights of a face's nodes at a place; the last three are 0 for a
+/// straight face [-].
 [[nodiscard]] std::array<double, 6> find_shape_functions(const FacePlace& at,
                                                          bool is_straight);
 

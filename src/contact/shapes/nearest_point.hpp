@@ -15,8 +15,8 @@ struct NearestPoint {
   double curvature = 0.0;            ///< mean curvature there, 0 on edges [1/m]
 };
 
-/// Where several points are nearest, such as to the centre of a sphere, one of
-/// them, always the same.
+/// If several points are nearest, as to the centre of a sphere, one of them,
+/// always the same.
 [[nodiscard]] NearestPoint find_nearest(const Sphere& shape, const Vector3& p);
 [[nodiscard]] NearestPoint find_nearest(const Capsule& shape, const Vector3& p);
 [[nodiscard]] NearestPoint find_nearest(const Cylinder& shape,

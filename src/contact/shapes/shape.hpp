@@ -34,8 +34,8 @@ struct HalfSpace {};
 using ShapeKind = std::variant<Sphere, Capsule, Cylinder, Box, HalfSpace,
                                std::shared_ptr<const Skin>>;
 
-/// A shape that a body carries. A Skin deforms with the body's modes; all
-/// others move with its frame.
+/// A shape attached to a body. A Skin deforms with the body's modes; all others
+/// move with its frame.
 struct Shape {
   ShapeKind kind;
   Pose X_BS;  ///< the shape's frame in the body frame; identity for a Skin

@@ -6,12 +6,12 @@
 namespace limber::contact {
 
 /// The surface of a box, a capsule or a cylinder as a Skin without modes, in
-/// the body frame; of a Skin itself.
+/// the body frame; a Skin unchanged.
 ///
-/// Limits     a capsule is of quadratic faces, 32 around, which leave its
+/// Limits     a capsule has quadratic faces, 32 around, which deviate from its
 ///            surface by 1.5e-5 of its radius, at its ends by up to 1e-4; a
-///            cylinder's side is of 48 around, and its ends have as many
-///            straight edges, within the rim by up to 2e-3 of the radius
+///            cylinder's side has 48 around, and its ends as many straight
+///            edges, inside the rim by up to 2e-3 of the radius
 /// @throws ContractError for another kind.
 [[nodiscard]] Shape make_skin(const Shape& shape);
 

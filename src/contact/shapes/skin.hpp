@@ -21,21 +21,21 @@ namespace limber::contact {
 /// modes. Immutable; bodies with the same reduction share it. All in the body
 /// frame; no function but the constructor allocates memory.
 ///
-/// Equation   x(u,v) = sum_i N_i(u,v) (x_B + Phi_B eta)_i on every face
-///            at level `full` eta are the displacements of all N nodes of the
-///            mesh, then the largest of their magnitudes, which moves nothing
-///            and bounds the rest (joints::PairBody)
-/// Limits     the surface is that of x_B + Phi_B eta, also where Phi_B is the
-///            mean motion of patches. A surface with a border, such as a group
-///            of faces, has no inside: see find_nearest.
+/// Equation   x(u,v) = sum_i N_i(u,v) (x_B + Phi_B eta)_i on every face at
+///            level `full` eta holds the displacements of all N nodes of the
+///            mesh, then the largest of their magnitudes, which only bounds the
+///            others (joints::PairBody)
+/// Limits     the surface follows x_B + Phi_B eta, also where Phi_B is the mean
+///            motion of patches. A surface with a border, such as a group of
+///            faces, has no inside: see find_nearest.
 class Skin {
  public:
   /// @throws InputError, with the surface's name, for sizes that do not fit,
   /// rows out of range, nodes without a face, values that are not finite, or
   /// faces without area.
   explicit Skin(flexbody::ContactSurface surface);
-  /// Of a body at level `full`. @param mesh_nodes N
-  /// @throws InputError likewise, also for nodes beyond N
+  /// For a body at level `full`. @param mesh_nodes N
+  /// @throws InputError as above, also for nodes beyond N
   Skin(flexbody::FullContactSurface surface, Eigen::Index mesh_nodes);
 
   [[nodiscard]] const flexbody::ContactSurface& surface() const {
@@ -45,8 +45,8 @@ class Skin {
     return static_cast<int>(has_means() ? 3 * mesh_nodes_ + 1
                                         : surface_.Phi_B.cols());
   }
-  /// Of each modal coordinate the largest displacement of a point
-  /// [kg^-1/2, at level `full` -].
+  /// For each modal coordinate the largest displacement of a point [kg^-1/2, at
+  /// level `full` -].
   [[nodiscard]] VectorX find_mode_reach() const;
   [[nodiscard]] std::size_t node_count() const { return owners_.size(); }
   /// Whether no edge belongs to one face alone.
@@ -56,16 +56,16 @@ class Skin {
     NearestPoint nearest;  ///< of the deformed surface
     SurfacePlace place;
   };
-  /// The point of the deformed faces nearest to a point p. Its distance is that
-  /// from the curved faces themselves; its sign follows from the face's normal,
-  /// on edges and corners from the normals of all faces there, weighted by
-  /// their angles.
+  /// The point of the deformed faces nearest to a point p. The distance is
+  /// that from the curved faces; its sign follows from the face's normal, on
+  /// edges and corners from the normals of all faces there, weighted by their
+  /// angles.
   ///
   /// Source     [@baerentzen2005]
-  /// Limits     of a surface with a border: beyond the border all is outside,
-  ///            and what is behind the surface by more than `thickness` has no
-  ///            nearest point. Within a face the minimum next to that of its
-  ///            flat parts: p not beyond the centre of a hollow face.
+  /// Limits     with a border, points beyond it are outside, and points behind
+  ///            the surface by more than `thickness` have no nearest point. In
+  ///            a face it finds the minimum next to that of its flat parts: p
+  ///            not beyond the centre of a hollow face.
   /// @param reach points farther outside have none [m]
   /// @param thickness see limits [m]
   [[nodiscard]] std::optional<Hit> find_nearest(const Vector3& p,
@@ -73,9 +73,9 @@ class Skin {
                                                 double reach,
                                                 double thickness) const;
 
-  /// A lower bound of the distance between the surface and a sphere about p,
-  /// by the rules of find_nearest with its radius as thickness; the distance
-  /// itself unless it is far away; < 0 if they overlap [m].
+  /// A lower bound of the distance between the surface and a sphere about p, as
+  /// in find_nearest with the radius as thickness; the distance itself unless
+  /// it is large; < 0 if they overlap [m].
   [[nodiscard]] double find_clearance(const Vector3& p, double radius,
                                       const ModalView& eta) const;
 
@@ -91,7 +91,7 @@ class Skin {
     double curvature = 0.0;  ///< mean, of one of its faces [1/m]
   };
   /// Calls use(const NodeHit&) for every node up to `reach` above a plane, in a
-  /// fixed order. Nodes in the middle of edges count as others.
+  /// fixed order, mid-edge nodes included.
   template <class Use>
   void visit_nodes_below(const Plane& plane, const ModalView& eta, double reach,
                          const Use& use) const;
@@ -99,8 +99,8 @@ class Skin {
   [[nodiscard]] double find_lowest_height(const Plane& plane,
                                           const ModalView& eta) const;
 
-  /// Pads of a flat surface (ContactPads). Their places have the `face` that
-  /// comes after those of all faces, and no u, v.
+  /// Pads of a flat surface (ContactPads). Their places have indices `face`
+  /// after those of all faces, and no u, v.
   [[nodiscard]] std::size_t pad_count() const {
     return static_cast<std::size_t>(surface_.pads.count());
   }
@@ -109,8 +109,8 @@ class Skin {
     SurfacePlace place;
   };
   [[nodiscard]] PadHit find_pad(std::size_t pad, const ModalView& eta) const;
-  /// Of a flat surface the normal of its mean plane as it is deformed, unit;
-  /// linear in eta but for its length.
+  /// Unit normal of the mean plane of a deformed flat surface; before
+  /// normalisation it is linear in eta.
   ///
   /// Equation   sum over faces of (x_1 - x_0) x (x_2 - x_0) / 2, x their
   ///            corners
@@ -119,40 +119,40 @@ class Skin {
   /// Weights of the face's nodes at a place, and the modes' rows there.
   /// @param out 3 x mode_count() [kg^-1/2]
   void set_shape_functions(const SurfacePlace& place, Matrix3X& out) const;
-  /// Of surface().residual, linear between corners [m/N].
+  /// surface().residual, linear between corners [m/N].
   [[nodiscard]] double find_residual(const SurfacePlace& place) const;
-  /// A bound of the distance of the deformed surface from Bo [m].
+  /// Upper bound of the deformed surface's distance from Bo [m].
   [[nodiscard]] double find_extent(const ModalView& eta) const;
   /// Boxes about its faces.
   [[nodiscard]] const SkinTree& tree() const { return tree_; }
   [[nodiscard]] std::size_t face_count() const { return surface_.faces.size(); }
-  /// A face as it is deformed, then moved.
+  /// A deformed face, then moved by a pose.
   [[nodiscard]] FacePatch make_patch(int f, const ModalView& eta,
                                      const Pose& X) const;
-  /// Of the undeformed surface.
+  /// Measures of a face of the undeformed surface.
   struct FaceMeasures {
     double edge = 0.0;  ///< mean length of its edges [m]
-    /// How far straight inward the surface's other side is, at least, from the
+    /// Least distance to the surface's opposite side, straight inward from the
     /// face's middle and corners; infinite where there is none [m].
     double thickness = std::numeric_limits<double>::infinity();
     /// Whether the surface is convex there by more than 20 degrees, at the
     /// edges 01, 12, 20.
     std::array<bool, 3> is_sharp = {};
-    /// Which edges are such or borders: the rim of the surface, or of a part.
+    /// Which edges are sharp or borders: the rim of the surface, or of a part.
     std::array<bool, 3> is_rim = {};
-    /// Which parts of the rim go on straight to a corner, or on.
+    /// Which parts of the rim run straight to a corner or beyond it.
     std::array<bool, 3> is_ridge = {};
-    /// Which corners are on a rim, also of another face; there it goes on
-    /// straight, or turns by more than 5 degrees or ends.
+    /// Which corners are on a rim, also of another face; whether the rim goes
+    /// on straight there, or turns by more than 5 degrees or ends.
     std::array<bool, 3> is_on_rim = {};
     std::array<bool, 3> is_on_ridge = {};
     std::array<bool, 3> is_corner = {};
-    /// How far beyond its edges a place of the face's surface may be whose
-    /// normal is between those of the face and of one next to it: 0 where they
-    /// go on smoothly; infinite where a rim meets the face [m].
+    /// Largest distance beyond its edges of a place of the extended face whose
+    /// normal is between those of the face and an adjacent one: 0 where they
+    /// join smoothly; infinite where a rim meets the face [m].
     double overshoot = 0.0;
-    /// Whether it is plane, and so is the surface beyond its edges that are not
-    /// sharp.
+    /// Whether the face, and the surface beyond those of its edges that are not
+    /// sharp, are plane.
     bool is_plane = true;
   };
   [[nodiscard]] const FaceMeasures& measures(int f) const {
@@ -165,18 +165,18 @@ class Skin {
     Vector3 centre = Vector3::Zero();  ///< [m]
     double radius = 0.0;               ///< [m]
   };
-  /// All of the surface is within it.
+  /// A ball that contains the whole surface.
   [[nodiscard]] Ball find_ball(const ModalView& eta) const {
     return {centre_, radius_ + find_deformation_bound(eta)};
   }
-  /// Whether the deformed surface rises along a direction nowhere next to a
-  /// place on a corner or an edge of its face, by slopes above `tolerance`.
-  /// True within a face and on a border.
+  /// Whether no face around a place on a corner or an edge rises along a
+  /// direction by a slope above `tolerance`, as deformed. True within a face
+  /// and on a border.
   /// @param way unit, body frame
   [[nodiscard]] bool is_summit(const SurfacePlace& place, const ModalView& eta,
                                const Vector3& way, double tolerance) const;
-  /// The least of the cosines between a direction and the normals of the
-  /// deformed faces that meet at a place.
+  /// The least cosine between a direction and the normals of the deformed faces
+  /// at a place.
   /// @param way unit, body frame
   [[nodiscard]] double find_least_cosine(const SurfacePlace& place,
                                          const ModalView& eta,
@@ -184,13 +184,13 @@ class Skin {
 
   /// The place on a face with its undeformed position.
   [[nodiscard]] SurfacePlace make_place(int f, const FacePlace& at) const;
-  /// A place of the surface as it is deformed [m].
+  /// Position of a place of the deformed surface [m].
   [[nodiscard]] Vector3 find_position(const SurfacePlace& place,
                                       const ModalView& eta) const;
 
  private:
   using Face = std::array<int, 6>;
-  // Where a node is: in one of its faces, as its corner or middle node.
+  // One of the faces of a node, and its index there as corner or mid-edge node.
   struct Owner {
     int face = -1;
     int corner = 0;
@@ -200,18 +200,18 @@ class Skin {
     FacePlace at;
     double square = 0.0;  // of its distance
   };
-  // A corner's weight, or that of the corner opposite to an edge, up to which a
-  // place counts as on the other corner or on the edge.
+  // How close to 1 or 0 a corner's weight may be for a place to count as on the
+  // corner, or on the edge opposite to it [-].
   static constexpr double kOnEdge = 1e-9;
 
   [[nodiscard]] FacePatch make_undeformed_patch(int f) const;
-  // Which corner of a face one of its nodes is.
+  // Index of a node among the corners of a face.
   [[nodiscard]] std::size_t find_corner(int f, int node) const;
   [[nodiscard]] double find_overshoot(int f, int edge, int other) const;
   [[nodiscard]] const Face& face(int f) const {
     return surface_.faces[index(f)];
   }
-  // Index of a pad whose place it is, or < 0.
+  // Index of the pad at a place, or < 0.
   [[nodiscard]] Eigen::Index pad_of(const SurfacePlace& place) const;
   [[nodiscard]] Vector3 deform(int node, const ModalView& eta) const;
   [[nodiscard]] FacePatch deform_face(int f, const ModalView& eta) const;
@@ -219,11 +219,11 @@ class Skin {
                                       const ModalView& eta) const;
   [[nodiscard]] std::span<const int> find_faces_of(int node) const;
   [[nodiscard]] double find_deformation_bound(const ModalView& eta) const;
-  // The nearest of all faces within a distance.
+  // The nearest face within a distance.
   [[nodiscard]] std::optional<Candidate> search(const Vector3& p,
                                                 const ModalView& eta,
                                                 double most_square) const;
-  // The normal that tells outside from inside, of any length; none on a border.
+  // The normal for the sign of distances, of any length; none on a border.
   [[nodiscard]] std::optional<Vector3> find_pseudo_normal(
       const Candidate& at, const FacePatch& patch, const ModalView& eta) const;
   [[nodiscard]] Vector3 sum_corner_normals(int node,
@@ -238,7 +238,7 @@ class Skin {
   void check() const;
   void check_means() const;
   void prepare();
-  // Whether it is that of a body at level `full`.
+  // Whether the body is at level `full`.
   [[nodiscard]] bool has_means() const { return !means_.first.empty(); }
   // Adds weight times the rows of a node.
   void add_rows(int node, double weight, Matrix3X& out) const;
@@ -272,7 +272,7 @@ class Skin {
   double mean_edge_ = 0.0;
 };
 
-/// Those of the body if the skin has modes, or else none.
+/// The body's modal coordinates if the skin has modes, else none.
 /// @throws ContractError if their numbers differ.
 [[nodiscard]] ModalView find_modal_coordinates(const Skin& skin,
                                                const joints::PairBody& body);

@@ -10,10 +10,10 @@
 
 namespace limber::contact {
 
-/// Modal coordinates as bodies keep them [kg^1/2 m].
+/// View of a body's modal coordinates [kg^1/2 m].
 using ModalView = Eigen::Map<const VectorX>;
 
-/// Boxes around the faces of a surface that hold them however it deforms.
+/// Boxes around the faces of a surface that contain them in any deformation.
 ///
 /// Equation   a face is within the hull of its control points X + Phi eta (of
 ///            Bezier: a middle node's is 2 X_m - (X_1 + X_2)/2), so along each
@@ -54,8 +54,8 @@ class SkinTree {
   SkinTree(const std::vector<std::array<int, 6>>& faces, const Matrix3X& X,
            const MatrixX& Phi);
 
-  /// Takes eta for displacements whose largest magnitude is its last entry:
-  /// boxes are then larger by `spread` times that [-].
+  /// For an eta of displacements whose last entry is their largest magnitude:
+  /// enlarges the boxes by `spread` times that [-].
   void set_spread(double spread) { spread_ = spread; }
 
   /// The root is node 0.
@@ -63,11 +63,11 @@ class SkinTree {
   [[nodiscard]] std::span<const int> find_faces(const Node& node) const {
     return std::span(order_).subspan(index(node.first), index(node.count));
   }
-  /// Of node i as the surface is without deformation.
+  /// Box of node i of the undeformed surface.
   [[nodiscard]] const Box& undeformed_box(int i) const {
     return boxes_[index(i)];
   }
-  /// Of node i as the surface is deformed.
+  /// Box of node i of the deformed surface.
   [[nodiscard]] Box find_box(int i, const ModalView& eta) const;
 
  private:

@@ -7,16 +7,16 @@
 
 namespace limber::dynamics {
 
-/// What a body carries along itself at one instant.
+/// Axial load and strain of a body at one instant.
 struct AxialState {
   double share = 0.0;   ///< of what makes it buckle, > 0 under tension [-]
   double strain = 0.0;  ///< mean, > 0 under tension [-]
 };
 
-/// What a body carries along itself, against what makes it buckle and what
-/// stretches it: estimates of the geometric stiffness that levels up to
-/// `coupled` lack, and of the stretch's own nonlinearity that `nonlinear`
-/// lacks, without tables of second order.
+/// Axial load of a body, compared with its buckling load and its axial
+/// stiffness: estimates of the geometric stiffness that levels up to `coupled`
+/// lack, and of the nonlinearity of axial strain that `nonlinear` lacks,
+/// without tables of second order.
 ///
 /// Equation   N_a / P_a = a' T a / (c lambda S_a) for each long axis a, with
 ///            the integral of the stress T = sym(sum r f' - S0 [w]^2), r and f
@@ -30,18 +30,18 @@ struct AxialState {
 ///            12 / 49.48 = 0.243 [@blevins1979]; 1.2: E V C_a / S_a^2 of a
 ///            uniform bar that spins, int N^2 / (E A) dx = (rho A)^2 L^5 / (120
 ///            E A)
-/// Limits     long axes: S_a at least a tenth of the largest. Contacts, files
-///            of nodal forces and moments are left out; a clamped body has
-///            none. A basis without modes of stretch shows no strain.
+/// Limits     long axes: S_a at least a tenth of the largest. Neglects
+///            contacts, files of nodal forces and moments; none for a clamped
+///            body. A basis without axial modes shows no strain.
 class AxialLoad {
  public:
   AxialLoad(const SystemModel& model, BodyIndex body);
 
   /// @param terms at the state, with the forces of couplers
-  /// @returns each of the axis where its magnitude is largest
+  /// @returns the values of the axis with the largest magnitude, for each
   [[nodiscard]] AxialState calc_state(const SystemState& state, Side side,
                                       const SystemTerms& terms) const;
-  /// How much of each mode is a stretch along a long axis: the largest |s_k| /
+  /// Axial part of each mode, along any long axis: the largest |s_k| /
   /// sqrt(S_a), from 0 to 1 [-].
   [[nodiscard]] const VectorX& stretch() const { return stretch_; }
   /// Lowest frequency of the body alone, held at a joint if it has one [rad/s].
@@ -69,7 +69,7 @@ struct InterfaceTurn {
   double own = 0.0;
   double relative = 0.0;
 };
-/// To first order. @param eta m, the body's modal coordinates [kg^1/2 m]
+/// To first order in eta. @param eta m, the body's modal coordinates [kg^1/2 m]
 [[nodiscard]] InterfaceTurn find_turn(const SystemModel& model, BodyIndex body,
                                       const VectorX& eta);
 

@@ -5,21 +5,21 @@
 
 namespace limber::dynamics {
 
-/// A linear model with fewer states, and what that costs.
+/// A linear model with fewer states, and the error of the reduction.
 struct TruncatedModel {
   LinearModel model;
-  /// Hankel singular values of what decays, descending [output's / input's].
+  /// Hankel singular values, decaying motion, descending [output's / input's].
   VectorX hankel;
   /// Number of states of motion that does not decay: free, undamped and
   /// unstable. They are the first ones of the model, all kept.
   Eigen::Index kept = 0;
-  /// The largest gain at any frequency from inputs to outputs by which the
-  /// model differs, at most: of the matrix 2-norm [output's / input's].
+  /// Upper bound of the error in gain from inputs to outputs at any frequency,
+  /// in the matrix 2-norm [output's / input's].
   double bound = 0.0;
 };
 
-/// Balanced truncation of the motion that decays; all other motion, whose
-/// Hankel singular values are infinite, is separated first and kept.
+/// Balanced truncation of decaying motion; all other motion, whose Hankel
+/// singular values are infinite, is separated first and kept.
 ///
 /// Equation   (A, B, C) = (A_k, B_k, C_k) + (A_s, B_s, C_s) by invariant
 ///            subspaces; A_s P + P A_s' + B_s B_s' = 0,
@@ -30,11 +30,11 @@ struct TruncatedModel {
 ///            1987 [@laub1987]; factors X, Y: Hammarling, IMA J. Numer. Anal.
 ///            2, 1982 [@hammarling1982]; bound: Glover, Int. J. Control 39,
 ///            1984 [@glover1984]
-/// Limits     decaying: damping ratio above 1e-9, and faster than the round-off
-///            of free motion. Values
-///            and bound depend on the units of inputs and outputs, which the
-///            method weighs alike. D is that of the model, and so exact at high
-///            frequencies; the gain at rest is not exact
+/// Limits     decaying: damping ratio above 1e-9, and faster than the
+///            round-off of free motion. Values and bound depend on the units
+///            of inputs and outputs, which have equal weights. D is that of
+///            the model, and so exact at high frequencies; the static gain is
+///            not exact
 /// @param states number of states of the result, those kept included
 /// @throws InputError for fewer states than are kept, or more than there are; a
 /// model without inputs or outputs.

@@ -58,18 +58,18 @@ struct LevelErrors {
 [[nodiscard]] LevelErrors estimate_errors(const BodyModel& body,
                                           const BodyPeaks& peaks);
 
-/// What a level may be off by of the deformation, where it is above what the
-/// user neglects [-].
+/// Largest error of a level relative to the deformation, where that exceeds
+/// what the user neglects [-].
 inline constexpr double kLargestShare = 0.1;
 /// Rotation of interfaces relative to one another beyond which linear
 /// kinematics, and relative to the mean axes beyond which those of second order
 /// are off by 2 % [rad].
 inline constexpr double kLargestTurn = 0.4;
-/// Share of the buckling load beyond which `nonlinear` is not to be trusted
+/// Share of the buckling load beyond which `nonlinear` is not reliable
 /// [-].
 inline constexpr double kLargestLoad = 0.8;
 
-/// The lowest adequate level for one body, and why.
+/// The lowest adequate level for one body, and the reason.
 struct LevelAdvice {
   Fidelity level = Fidelity::coupled;
   std::string reason;  ///< one sentence with its numbers

@@ -46,15 +46,15 @@ struct BodyPeaks {
   /// 1 / frequency [-].
   Peak tension;
   Peak compression;
-  /// Of AxialLoad: whether a joint holds the body, and its lowest frequency.
+  /// From AxialLoad: whether a joint holds the body, and its lowest frequency.
   bool is_held = false;
   double frequency = 0.0;  ///< [rad/s]
   /// Integral of the share's magnitude [s].
   double axial_time = 0.0;
   Peak strain;               ///< magnitude of the mean along the body [-]
   double strain_time = 0.0;  ///< its integral [s]
-  /// Amplitudes of oscillation along the body, for a force that acts at once
-  /// [kg^1/2 m].
+  /// Amplitudes of axial oscillation for a suddenly applied force [kg^1/2
+  /// m].
   VectorX stretch;
   /// Largest rotations of interfaces, relative to the body's mean axes and to
   /// one another [rad].

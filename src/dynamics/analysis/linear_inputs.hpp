@@ -15,34 +15,34 @@ struct LinearInput {
   std::string unit;
   double value = 0.0;  ///< at the reference [unit]
   VectorX force;       ///< on x of SmallMotion, by the input [row's / unit]
-  /// Of couplers and transmissions, rows as SmallMotion::G, at rest of all else
-  /// [N, N m / unit].
+  /// Wrenches of couplers and transmissions, rows as SmallMotion::G, all else
+  /// at rest [N, N m / unit].
   VectorX wrenches;
   int written = -1;  ///< index of the controllers' input that it is; else -1
 };
 
-/// A drive of a system that commands itself.
+/// A drive with a command of its own, which follows no input.
 struct DriveSource {
   int coupler = -1;  ///< index of its coupler, or
   int transmission = -1;
   int number = 0;  ///< among the drives there, from 0
 };
 
-/// Names of drives, which a model does not have.
+/// Gives names to drives, since a model has none.
 using DriveNames = std::function<std::string(const DriveSource&)>;
 
-/// What acts from outside on the system: its loads, by their factor; the
-/// commands of its drives; the inputs that its controllers write, which loads
-/// and drives follow. A command with a damper to its rate has that rate as an
-/// input of its own, NAME.rate. Equal names get what they are of in front:
+/// External inputs of the system: the factors of its loads; the commands
+/// of its drives; the inputs that its controllers write, which loads and
+/// drives follow. If a damper acts on the rate of a command, that rate
+/// is a separate input, NAME.rate. Equal names get a prefix:
 /// "load.NAME".
 ///
 /// Equation   force = d (generalised force) / d input, the state unchanged
-/// Limits     nodal forces (SystemModel::body_loads) act as they are, and are
-///            no inputs
+/// Limits     nodal forces (SystemModel::body_loads) act unchanged and are not
+///            inputs
 /// @param motion of the same model and state, in axes with R = 1
-/// @param names by default those of couplers and transmissions, ".2" after the
-/// second of one
+/// @param names by default those of couplers and transmissions, with ".2" for
+/// the second drive of one
 [[nodiscard]] std::vector<LinearInput> find_linear_inputs(
     const SystemModel& model, const SystemState& state,
     const SmallMotion& motion, const DriveNames& names = {});

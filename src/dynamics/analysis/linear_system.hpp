@@ -9,21 +9,21 @@
 
 namespace limber::dynamics {
 
-/// A system linearised about the motion from a state: equations of motion of
-/// first order, and what outputs are made of.
+/// A system linearised about the motion from a state: first-order equations of
+/// motion, and the rows that outputs are composed of.
 ///
 /// Equation   z' = A z + B du,   z = (s q, q'),   x = Q q
 ///            q'' = -Q' S Q q - Q' D Q q' + Q' F du
 ///            of SmallMotion in PrincipalBasis; s the frequency of a
 ///            coordinate, which scales A, and 1 of free motion
-/// Limits     dense. Coefficients are those of the state: exact where the
-///            motion is steady (`imbalance`, `change`). Controllers are not in
-///            it: their inputs are inputs. What switches stays as it is;
-///            friction is the damper that it is near rest
+/// Limits     dense. Coefficients are those at the state: exact for steady
+///            motion (`imbalance`, `change`). Controllers are not included:
+///            what they write are inputs. Switches keep their positions;
+///            friction acts as the damper that it is near rest
 ///
-/// Rows by the states: of links (couplers, then transmissions) six each, as
-/// SmallMotion::G; of the frames asked for six each, world frame, translation
-/// first.
+/// Rows as functions of the states: six for each link (couplers, then
+/// transmissions), as SmallMotion::G; six for each requested frame, world
+/// frame, translation first.
 struct LinearSystem {
   TurningAxes axes;  ///< R = 1; vectors are in these axes
   bool is_moving = false;
@@ -43,7 +43,7 @@ struct LinearSystem {
   MatrixX modes;              ///< of all bodies, order of the state [kg^1/2 m]
 };
 
-/// @param frames attachments whose motion outputs need
+/// @param frames attachments whose motion is needed for outputs
 /// @param names of drives; default: find_linear_inputs
 /// @throws InputError for a body at level `full`, bodies that touch, or if
 /// nothing moves.

@@ -20,7 +20,7 @@ struct PrincipalBasis {
 [[nodiscard]] PrincipalBasis find_principal_basis(const SystemModel& model,
                                                   const SmallMotion& motion);
 
-/// Whether nothing damps, and S is symmetric within round-off.
+/// Whether there is no damping and S is symmetric within round-off.
 [[nodiscard]] bool is_conservative(const SmallMotion& motion,
                                    const PrincipalBasis& basis);
 

@@ -55,7 +55,7 @@ struct SmallMotion {
   /// [m/s or rad/s / column's, or its rate's].
   MatrixX velocities;
   MatrixX velocities_by_rate;
-  /// Of the frames asked for, six rows each, translation first: motion in the
+  /// For the requested frames, six rows each, translation first: motion in the
   /// world by x [m or rad], velocity by x and by x' [m/s or rad/s].
   MatrixX frames;
   MatrixX frame_velocities;
@@ -76,9 +76,9 @@ struct SmallMotion {
   [[nodiscard]] MatrixX find_holds() const;
 };
 
-/// About the motion of the system from `state`, with loads after a jump at its
-/// time.
-/// @param frames attachments whose motion is asked for, too
+/// Linearises about the motion of the system from `state`, with loads after a
+/// jump at its time.
+/// @param frames attachments whose motion is also requested
 /// @throws InputError for a body at level `full`.
 [[nodiscard]] SmallMotion find_small_motion(
     const SystemModel& model, const SystemState& state,

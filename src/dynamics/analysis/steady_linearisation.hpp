@@ -6,8 +6,8 @@
 
 namespace limber::dynamics {
 
-/// Small motion about a motion that is steady at best, in the axes in which it
-/// is.
+/// Small motion about a motion that should be steady, in the axes in which it
+/// is most nearly so.
 struct SteadyMotion {
   TurningAxes axes;
   SmallMotion motion;

@@ -18,9 +18,9 @@ namespace limber::dynamics {
 /// Limits     dense: (6 bodies + modes)^3. No pairs, no bodies at level `full`
 /// @param start its velocities are those of a rotation of all bodies about one
 /// axis, of constant direction in the world
-/// @throws InputError for other velocities, and for gravity or loads across the
-/// axis in the world, which no rotating system follows; NumericalError if there
-/// is no such motion near the start
+/// @throws InputError for other velocities, and for gravity or loads fixed in
+/// the world and normal to the axis, which exclude steady rotation;
+/// NumericalError if there is no such motion near the start
 [[nodiscard]] SystemState find_steady_spin(const SystemModel& model,
                                            const SystemState& start);
 

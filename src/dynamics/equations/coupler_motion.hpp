@@ -23,10 +23,10 @@ struct CouplerReading {
 
 using joints::CoordinateReading;
 
-/// A coordinate that its law shows, with the whole turns of the state's memory.
+/// A coordinate of its law, with the whole turns stored in the state's memory.
 /// @param coordinate from 0
-/// @throws ContractError for one that is not there.
-/// @throws NumericalError where the coordinate has no meaning.
+/// @throws ContractError for one that does not exist.
+/// @throws NumericalError where the coordinate is undefined.
 [[nodiscard]] CoordinateReading evaluate_coordinate(const SystemModel& model,
                                                     const SystemState& state,
                                                     CouplerIndex coupler,

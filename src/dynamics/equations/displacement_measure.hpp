@@ -26,14 +26,14 @@ namespace limber::dynamics {
 /// Equation   max over stored nodes |Phi_n eta|, and over the ends of couplers
 ///            |Phi_F eta| + reach |Psi_F eta|
 /// Limits     the second is the displacement of the bodies that it carries: a
-///            bound, as if every joint transmitted every rotation. Of one
-///            thread: the tree of the nodes, which costs as much as hundreds of
-///            steps, is made when it is first needed
+///            bound, as if every joint transmitted every rotation. Not for
+///            several threads: the tree of the nodes, which costs as much as
+///            hundreds of steps, is made at first use
 class DisplacementMeasure {
  public:
-  /// Of the body's own nodes.
+  /// Measures the body's own nodes.
   explicit DisplacementMeasure(const BodyModel& body);
-  /// Of its own nodes and of all that its couplers carry.
+  /// Measures its own nodes and all bodies that its couplers carry.
   /// @param reaches of all bodies, by find_reach [m]
   DisplacementMeasure(const SystemModel& model, BodyIndex body,
                       const std::vector<double>& reaches);
@@ -80,7 +80,7 @@ class PeakDisplacement {
   VectorX eta_0_;     ///< the last one measured
   double u_0_ = 0.0;  ///< its displacement [m]
   Peak peak_;
-  // The last two, and whether the last one is the largest.
+  // The last two samples, and whether the last one is the largest.
   VectorX eta_a_;
   VectorX eta_b_;
   double t_a_ = 0.0;  // [s]

@@ -8,7 +8,7 @@
 namespace limber::dynamics {
 
 /// Nodes of a flexible body in a tree of boxes, to find the node that modes
-/// move farthest without looking at all of them.
+/// move farthest without evaluating all of them.
 ///
 /// Equation   |Phi_n eta| <= |Phi_c eta| + sum_k r_ck |eta_k|, Phi_c the mean
 ///            of the rows of a box's nodes, r_ck the largest |Phi_nk - Phi_ck|

@@ -7,7 +7,7 @@
 
 namespace limber::dynamics {
 
-/// All but `dissipated` and `work`, which depend on the history.
+/// All fields except `dissipated` and `work`, which depend on the history.
 [[nodiscard]] EnergyBalance calc_energy(const SystemModel& model,
                                         const SystemState& state);
 /// The same with `terms` of make_terms(model), without allocation.

@@ -25,8 +25,8 @@ void calc_terms(const SystemModel& model, const SystemState& state, Side side,
 void solve_accelerations(const SystemModel& model, const SystemTerms& terms,
                          Accelerations& accelerations);
 
-/// Adds the derivative of minus the modal forces by the modes at level
-/// nonlinear: the geometric stiffness of all that acts on interfaces, points
+/// Adds the derivative of minus the modal forces with respect to the modes at
+/// level nonlinear: the geometric stiffness of all forces on interfaces, points
 /// and nodes, m x m. @param terms with forces
 void add_geometric_stiffness(const SystemModel& model, std::size_t body,
                              const SystemTerms& terms,

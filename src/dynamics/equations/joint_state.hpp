@@ -15,23 +15,23 @@ namespace limber::dynamics {
 using JointStates = std::map<std::string, joints::JointCoordinates>;
 
 /// A state in which the joints have these coordinates and rates, see
-/// place_bodies. Where no joint leads to the world, the first body of a group
-/// that is no joint's child stands at the world's origin, at rest.
+/// place_bodies. In a group without a joint to the world, the first body that
+/// is no joint's child is at the world's origin, at rest.
 /// @throws InputError as place_bodies does.
 [[nodiscard]] SystemState make_state(const SystemModel& model,
                                      const JointStates& joints);
 
-/// Moves the bodies so that the joints have these coordinates and rates. The
-/// world, clamped bodies, and of each other group of joined bodies the first
-/// that is no joint's child (its frame M) stay as they are in `state`; so do
-/// modal coordinates, with which interfaces stand where they are. Nodes of
-/// unreduced bodies follow, undeformed. A joint added later than those that
-/// have placed its bodies closes a loop: it has no coordinates to give.
-/// Transmissions are not looked at: what is geared is given for each joint.
-/// @throws InputError, with all that is wrong: an unknown joint, with the
-/// nearest name; a number of coordinates that is not the joint's, a value that
-/// is not finite; a loop that does not close, to 1e-6 of the system's size,
-/// 1e-6 rad, or as much per second, with the gap.
+/// Moves the bodies so that the joints have these coordinates and rates.
+/// Clamped bodies, and of each other group of joined bodies the first that is
+/// no joint's child (its frame M), keep their motion of `state`; so do modal
+/// coordinates, which displace interfaces. Nodes of unreduced bodies follow,
+/// undeformed. A joint between bodies that earlier joints have placed closes a
+/// loop: it has no coordinates to give. Transmissions are ignored: geared
+/// joints need coordinates each.
+/// @throws InputError, listing all errors: an unknown joint, with the nearest
+/// name; a wrong number of coordinates, a value that is not finite; a loop that
+/// does not close, to 1e-6 of the system's size, 1e-6 rad, or as much per
+/// second, with the gap.
 void place_bodies(const SystemModel& model, const JointStates& joints,
                   SystemState& state);
 

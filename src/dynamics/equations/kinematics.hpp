@@ -40,7 +40,7 @@ struct AttachmentMotion {
   Vector6 wrench_B;
 };
 
-/// What modes do to the frame at the state: du = Phi d_eta, dpsi = Psi d_eta.
+/// Tangent of the frame by the modes: du = Phi d_eta, dpsi = Psi d_eta.
 [[nodiscard]] inline const Matrix3X& translation_of(
     const Attachment& attachment, const AttachmentMotion& motion) {
   return attachment.second ? motion.Phi_B : attachment.Phi_B;

@@ -36,13 +36,13 @@ template <typename State>
 void set_pair_bodies(const SystemModel& model, const SystemState& state,
                      SystemTerms& terms);
 
-/// Both bodies of a pair at a state. Takes its memory when it is made.
+/// Both bodies of a pair at a state. Allocates only in its constructor.
 ///
-/// Of an unreduced body frame B is the mean-axis frame; eta are the
+/// For an unreduced body frame B is the mean-axis frame; eta holds the
 /// displacements of all nodes relative to B [m], then the largest of their
-/// magnitudes, which moves nothing; etadot likewise. Forces act on the nodes
-/// alone: where PairPlace::x_B is apart from the surface across the force, the
-/// moment of that arm is left out.
+/// magnitudes, which is only a bound; etadot likewise. Forces act on nodes
+/// only: where PairPlace::x_B is off the surface in a direction normal to the
+/// force, the moment of that arm is neglected.
 class PairMotion {
  public:
   PairMotion(const SystemModel& model, const Pair& pair);
@@ -55,7 +55,7 @@ class PairMotion {
   /// Refers to this, and to the coordinates of `state`.
   joints::PairBodies set(const SystemModel& model, const Pair& pair,
                          const SystemState& state);
-  /// As they were set.
+  /// The bodies as last set.
   [[nodiscard]] joints::PairBodies bodies() const { return {A_, B_}; }
 
  private:
@@ -65,7 +65,7 @@ class PairMotion {
   ProductTerms coordinates_B_;
 };
 
-/// Set to a state.
+/// A PairMotion set to a state.
 [[nodiscard]] PairMotion find_pair_motion(const SystemModel& model,
                                           const Pair& pair,
                                           const SystemState& state);
@@ -85,13 +85,13 @@ void add_modal_force(const BodyModel& body, const joints::PairPlace& place,
                      const Vector3& force_B, BodyTerms& terms,
                      ProductTerms& products);
 
-/// Takes the forces on the modes at eta, products included, of a force on a
-/// body at a place from their residual. @param force_B body frame [N]
+/// Subtracts the modal forces at eta, products included, of a force on a body
+/// at a place from the residual. @param force_B body frame [N]
 void add_modal_residual(const BodyModel& body, const joints::PairPlace& place,
                         const double* eta, const Vector3& force_B,
                         double* residual);
 
-/// Adds what forces on products are on the modes at eta, once all are known.
+/// Adds the forces on products to those on the modes, once all are known.
 /// @param state supplies eta
 void add_product_forces(const SystemModel& model, const SystemState& state,
                         SystemTerms& terms);
@@ -99,8 +99,8 @@ void add_product_forces(const SystemModel& model, const SystemState& state,
 /// @throws NumericalError if its force, energy or dissipation is not finite.
 void check_finite(const joints::PairResponse& response);
 
-/// Whether a pair has points on an unreduced body. NewtonMatrix takes such a
-/// body for the world there, so that corrections have to be exact.
+/// Whether a pair has points on an unreduced body. NewtonMatrix treats such a
+/// body as the world there, so that corrections have to be exact.
 [[nodiscard]] bool acts_on_nodes(const SystemModel& model,
                                  const SystemTerms& terms);
 
@@ -110,8 +110,8 @@ void add_residual(const SystemModel& model, const Pair& pair,
                   const joints::PairPoint& point, const Vector3& force_W,
                   const SystemTerms& terms, VectorX& residual);
 
-/// The laws' commit() at the end of an accepted step. Without a law that
-/// remembers something it does nothing.
+/// Calls the laws' commit() at the end of an accepted step. Does nothing if no
+/// law has a memory.
 class PairCommit {
  public:
   explicit PairCommit(const SystemModel& model);

@@ -77,13 +77,13 @@ struct PairTerms {
   std::vector<joints::PairResponse> responses;  ///< one a pair
 };
 
-/// One body's coordinates as pairs see them, where they are not its modes
-/// alone: at level nonlinear with products of modes
-/// (flexbody/model/mode_products.hpp), at level full of nodes (PairMotion). All
-/// empty at other levels, and where nothing acts on points or nodes.
+/// One body's coordinates for pairs, where they are not only its modes: at
+/// level nonlinear with products of modes (flexbody/model/mode_products.hpp),
+/// at level full those of nodes (PairMotion). All empty at other levels, and
+/// where nothing acts on points or nodes.
 struct ProductTerms {
-  /// On products, by points, nodal loads and gravity; in modal_force already
-  /// [kg^-1 m^-1 N].
+  /// Forces on products, of points, nodal loads and gravity; included in
+  /// modal_force [kg^-1 m^-1 N].
   VectorX force;
   VectorX eta;
   VectorX etadot;

@@ -37,9 +37,9 @@ class Integrator {
   /// Prepares for the next step, of about h [s], at a discontinuity of a load
   /// at `state`, the end of the last step.
   virtual void cross_jump(const SystemState& /*state*/, double /*h*/) {}
-  /// Whether the next steps damp all motion that they do not resolve, as those
-  /// of implicit Euler, for impacts much shorter than a step.
-  /// @returns whether they do; other schemes have no such steps
+  /// Selects whether the next steps damp all unresolved motion, like implicit
+  /// Euler, for impacts much shorter than a step.
+  /// @returns whether they do; false for schemes without such steps
   virtual bool damp(bool /*damps*/) { return false; }
   /// Reverts the last step; `before` is the state at its beginning.
   virtual void undo(const SystemState& /*before*/) {}

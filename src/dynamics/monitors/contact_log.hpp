@@ -12,7 +12,7 @@
 
 namespace limber::dynamics {
 
-/// Of a pair, between its first and its last touch.
+/// A contact of a pair, from its first to its last touch.
 struct OngoingContact {
   bool is_touching = false;
   double force = 0.0;         ///< normal, at the last state [N]
@@ -37,21 +37,21 @@ class ContactLog {
  public:
   ContactLog(const SystemModel& model, IntegratorKind scheme);
 
-  /// At the start, and then after every accepted step.
+  /// To be called at the start, and then after every accepted step.
   void include(const SystemState& state, TouchWatch& touches);
 
-  /// In the order of time; those that touch last until the time of the last
+  /// In the order of time; contacts that have not ended last until the last
   /// state.
   [[nodiscard]] std::vector<ContactRecord> find_records() const;
-  /// On steps too long for the impacts that they went through, on bases too
-  /// small for them (ImpactSpectrum), on contacts deeper than kDeepest, on
-  /// touches of surfaces that do not face each other, and on the stable step of
-  /// an explicit scheme where the force was largest.
+  /// Warns of steps too long for their impacts, of bases too small for them
+  /// (ImpactSpectrum), of contacts deeper than kDeepest, of touches of surfaces
+  /// that do not face each other, and of the stable step of an explicit scheme
+  /// where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
   /// Depth over the radius of curvature, or over the smaller body's extent
-  /// (corners of a mesh share a contact, whose areas tell of no radius), beyond
-  /// which to warn: the area's radius is then 0.3 of it, where Hertz's
-  /// paraboloid on a half space takes it to be small [@johnson1985] [-].
+  /// (areas shared by corners of a mesh define no radius), that gives a
+  /// warning: the area's radius is then 0.3 of it, while Hertz's paraboloid on
+  /// a half space assumes that it is small [@johnson1985] [-].
   static constexpr double kDeepest = 0.1;
 
   /// Saves or restores its state for checkpoints.
@@ -75,7 +75,7 @@ class ContactLog {
 
   const SystemModel& model_;
   IntegratorKind scheme_;
-  // Of an explicit scheme: where the force was largest; not in checkpoints.
+  // For explicit schemes, the state with the largest force; not in checkpoints.
   SystemState stiffest_;
   ContactRecord strongest_;
   std::vector<OngoingContact> pairs_;  // in the order of TouchWatch

@@ -8,8 +8,8 @@
 
 namespace limber::dynamics {
 
-/// An impact of two bodies, or that one rests on the other: all touches of a
-/// pair that follow each other faster than the impact has lasted by then.
+/// An impact of two bodies, or one body resting on another: all touches of a
+/// pair with gaps shorter than the contact has lasted so far.
 struct ContactRecord {
   std::string pair;         ///< name
   double time = 0.0;        ///< of the first touch [s]
@@ -28,9 +28,9 @@ struct ContactRecord {
   bool has_parted = false;       ///< false: they touch at the end
   double impact_duration = 0.0;  ///< T_c of a free impact, expected [s]
 
-  /// Of both bodies' rigid motions, along the normals where they first touched
-  /// and last left each other: what vibrates does not count [-]. None while
-  /// they touch at the end, or where they did not approach each other.
+  /// Of both bodies' rigid motions, along the normals of the first touch and
+  /// the last leave, without vibration [-]. None if they touch at the end, or
+  /// did not approach each other.
   [[nodiscard]] std::optional<double> restitution() const {
     if (!has_parted || !(touch_speed > 0.0)) return std::nullopt;
     return parting_speed / touch_speed;

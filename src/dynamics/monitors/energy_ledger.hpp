@@ -35,9 +35,9 @@ class EnergyLedger {
   /// The end of a step. @param totals work and dissipation since the start
   void add(const SystemState& state, const SystemTerms& terms,
            const StepResult& totals);
-  /// The same with approximate terms: of stiff couplers and contacts they keep
-  /// the remaining error of Newton's method. @returns false, without effect,
-  /// where they would give a new extreme: exact ones must tell it
+  /// The same with approximate terms, which contain the remaining error of
+  /// Newton's method in stiff couplers and contacts. @returns false, without
+  /// effect, if they would give a new extreme, which needs exact terms
   [[nodiscard]] bool try_add(const SystemState& state, const SystemTerms& terms,
                              const StepResult& totals);
   /// Forces jump at `state`: the next step begins with new ones.
@@ -70,7 +70,7 @@ class EnergyLedger {
   [[nodiscard]] double find_drift(const Sums& sums,
                                   const StepResult& totals) const;
   [[nodiscard]] bool is_remarkable(const Sums& sums, double drift) const;
-  // Of sums and parts that were evaluated.
+  // Includes evaluated sums and parts.
   void include(const Sums& sums, double drift, const SystemState& state,
                const SystemTerms& terms, const StepResult& totals);
   void include_energies(const Sums& sums, double t);

@@ -51,8 +51,8 @@ struct Followed {
       std::function<void(const SystemState&, std::vector<double>&)>;
   std::vector<Course> courses = {};  ///< one per scalar
   Evaluate evaluate = {};
-  /// Where a scalar had its value in the last evaluation, as a number that its
-  /// owner knows, -1 for nowhere; may be empty.
+  /// The place of a scalar's value in the last evaluation, as a number defined
+  /// by its owner, -1 for none; may be empty.
   std::function<int(std::size_t scalar)> find_place = {};
   /// Largest time between evaluations, for motion faster than the steps [s].
   double longest = std::numeric_limits<double>::infinity();

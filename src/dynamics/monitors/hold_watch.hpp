@@ -34,8 +34,8 @@ class HoldWatch {
   /// The joint that was displaced most, if by more than kOverpowered; nothing
   /// if none was.
   [[nodiscard]] std::optional<std::string> find_overpowered() const;
-  /// Of a body's size, and in rotation: nothing that a joint's springs
-  /// constrain moves so far where they hold [-, rad].
+  /// Of a body's size, and in rotation: larger than any displacement of a joint
+  /// whose springs hold [-, rad].
   static constexpr double kOverpowered = 0.5;
 
   /// Saves or restores its state for checkpoints.
@@ -51,7 +51,7 @@ class HoldWatch {
     double turn = 0.0;       // theta at its largest [rad]
     double give_time = 0.0;  // [s]
     double turn_time = 0.0;  // [s]
-    // The larger of both, of the body's size or [rad].
+    // The larger of both, relative to the body's size or in [rad].
     [[nodiscard]] double largest() const { return std::max(give / size, turn); }
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;

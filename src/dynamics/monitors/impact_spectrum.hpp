@@ -10,13 +10,13 @@
 
 namespace limber::dynamics {
 
-/// Whether a body's basis reaches as high as the shortest impact on it.
+/// Whether a body's basis has frequencies for the shortest impact on it.
 ///
 /// Equation   share = f_max T_c, with f_max of the highest mode
 /// Source     docs/theory/contact_laws.md, "Modes for an impact": measured
 ///            against whole finite elements
 /// Limits     static-deformation modes count as eigenmodes of their frequency,
-///            which none of the body may have: f_max is then too high
+///            which may be above those of the body: f_max is then too high
 struct ImpactSpectrum {
   static constexpr double kEnough = 2.0;  ///< share [-]
   static constexpr double kPoor = 0.6;    ///< impulses err by a fifth [-]
@@ -34,8 +34,8 @@ struct ImpactSpectrum {
   [[nodiscard]] bool is_enough() const { return share() >= kEnough; }
 };
 
-/// One for each pair of bodies that touched and each of its bodies that has
-/// modes in the model.
+/// One for each pair of bodies that touched, for each of its bodies with modes
+/// in the model.
 [[nodiscard]] std::vector<ImpactSpectrum> find_impact_spectra(
     const SystemModel& model, const std::vector<ContactRecord>& records);
 

@@ -57,7 +57,7 @@ class PeakWatch {
   void exchange_memory(Archive& archive);
 
  private:
-  // A state and its values; at a jump those before it.
+  // A state and its values; at a jump the values before it.
   struct Sample {
     SystemState state;
     std::vector<double> values;

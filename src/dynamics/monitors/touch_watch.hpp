@@ -19,29 +19,29 @@ namespace limber::dynamics {
 /// Monitors which pairs touch from step to step, and finds when they first
 /// touch and last leave each other.
 ///
-/// Equation   between a step's ends positions are cubic, as of outputs between
-///            steps. A touch is found by conservative advancement: the time
-///            that the clearance lasts at the greatest speed passes without a
-///            touch, so that thin shapes are not missed. A distance once looked
-///            at lasts until both bodies have gone so far (TravelBound): pairs
-///            that are far cost two sums a step
+/// Equation   between a step's ends positions are cubic, as for outputs between
+///            steps. A touch is found by conservative advancement: no touch is
+///            possible during clearance / largest speed, so that thin shapes
+///            are not missed. A known distance remains a bound until both
+///            bodies have moved that far (TravelBound): distant pairs cost two
+///            sums a step
 /// Source     [@mirtich1996, ch. 2]
-/// Limits     a leave and a touch within one step are not seen; between two
-///            looks a body must not turn by more than half a turn
+/// Limits     a leave and a touch within one step are not detected; between two
+///            evaluations a body must not turn by more than half a turn
 class TouchWatch {
  public:
   /// Steps per T_c of an impact [-].
   static constexpr double kStepsOfImpact = 16.0;
-  /// Fewest steps per T_c that tell its restitution [-].
+  /// Smallest number of steps per T_c that resolves its restitution [-].
   static constexpr double kFewestSteps = 4.0;
-  /// Fewer of them may gain energy in one step, which is looked at.
+  /// With fewer of them a step may gain energy, which is checked.
   static constexpr double kSureSteps = 8.0;
 
   explicit TouchWatch(const SystemModel& model);
 
   [[nodiscard]] bool is_empty() const { return pairs_.empty(); }
 
-  /// Pairs that overlap touch from the start on.
+  /// Pairs that overlap touch from the start.
   void start(SystemState& state, std::vector<Event>& events);
 
   struct Crossing {
@@ -49,36 +49,36 @@ class TouchWatch {
     double share = 0.0;     ///< fraction of the step, in [0, 1] [-]
   };
   /// Marks in `state` the pairs that do not touch: they have no points in the
-  /// coming step, also where it ends beyond their touch, which is then found on
-  /// the way that they would have gone.
+  /// next step, even if it ends beyond their touch, which is then found on the
+  /// path without contact forces.
   void mark_apart(SystemState& state) const;
   /// The first touch or leave in a step from `before` to `after`.
   [[nodiscard]] std::optional<Crossing> find_first(const SystemState& before,
                                                    const SystemState& after);
 
-  /// Refuses a step of h [s] from the state last accepted in which two that
-  /// touch could pass through each other.
+  /// Refuses a step of h [s] from the last accepted state in which two touching
+  /// bodies could pass through each other.
   /// @throws NumericalError naming the pair.
   void check_step(double h, double t) const;
-  /// How deep a pair was before a step that leaves it no place of contact,
-  /// where it cannot have parted; else 0 [m].
+  /// Depth of a pair before a step that ends without any place of contact
+  /// although it cannot have parted; else 0 [m].
   [[nodiscard]] double find_lost_depth(std::size_t index,
                                        const SystemState& before,
                                        const SystemState& after);
-  /// A step from `before` to `state` is taken; the next goes on from there.
+  /// Accepts a step from `before` to `state`.
   void accept(const SystemState& before, const SystemState& state);
 
-  /// How far a pair is from the touch or leave that was found: < 0 before it,
-  /// > 0 after it [m].
+  /// Signed distance of a pair from the touch or leave that was found: < 0
+  /// before it, > 0 after it [m].
   [[nodiscard]] double find_excess(std::size_t index, const SystemState& state);
-  /// A distance that counts as none, of a pair that moves as at `state`, in
-  /// steps of h [s] [m].
+  /// Distance that counts as zero for a pair that moves as at `state`, in steps
+  /// of h [s] [m].
   [[nodiscard]] double find_tolerance(std::size_t index,
                                       const SystemState& state, double h);
 
-  /// The pair touches, or has left, from here on.
+  /// Marks the pair as touching, or as apart, from here on.
   void pass(std::size_t index, SystemState& state, std::vector<Event>& events);
-  /// All touch that overlap at `state`, and no others.
+  /// Marks all pairs that overlap at `state` as touching, and no others.
   void pass_all(SystemState& state, std::vector<Event>& events);
 
   /// Index into SystemModel::pairs of each pair watched.
@@ -93,15 +93,15 @@ class TouchWatch {
   [[nodiscard]] double impact_duration(std::size_t index) const {
     return pairs_[index].impact_duration;
   }
-  /// Longest step that resolves the impacts that go on; infinite if none does.
-  /// What still touches after eight times the expected duration rests [s].
+  /// Longest step that resolves ongoing impacts; infinite without any. A touch
+  /// of more than eight times the expected duration is rest [s].
   [[nodiscard]] double find_longest_step(double t) const;
-  /// Of the impacts that go on, T_c over h of the shortest; infinite if none
-  /// does. One goes on from a touch for three steps, or eight times T_c [-].
+  /// T_c / h of the shortest ongoing impact; infinite without any. An impact is
+  /// ongoing for three steps from a touch, or eight times T_c [-].
   [[nodiscard]] double find_steps_of_impact(double h, double t) const;
-  /// Likewise of all that touch, impacts or not [-].
+  /// The same for all touching pairs, impacts or not [-].
   [[nodiscard]] double find_steps_of_touch(double h) const;
-  /// As it is at `state`.
+  /// The touch at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);
   [[nodiscard]] joints::TouchReading read(std::size_t index,
@@ -120,7 +120,7 @@ class TouchWatch {
     double impact_duration = 0.0;  // [s]
     double rate = 0.0;             // of the depth, while they touch [m/s]
     int steps = 0;                 // accepted since the touch
-    // Way of both bodies up to which they cannot touch [m].
+    // Travel of both bodies up to which they cannot touch [m].
     double look_at = 0.0;
     bool is_clear = false;  // in the step last searched
     joints::PairResponse scratch;
@@ -140,7 +140,7 @@ class TouchWatch {
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);
   template <typename Predicate>
   [[nodiscard]] double find_shortest(const Predicate& counts) const;
-  // What touches is no impact any more.
+  // Whether a touching pair is no longer in an impact.
   [[nodiscard]] static bool has_rested(const Watched& watched, double t);
   // @param is_early whether `within_` is before what is looked for
   template <typename Predicate>

@@ -9,8 +9,8 @@
 
 namespace limber::dynamics {
 
-/// How far the points of bodies that may touch have moved since the start, at
-/// most: what is farther apart than both bodies' ways needs no look.
+/// Upper bounds of the travel of bodies' points since the start: pairs with a
+/// larger distance than both bodies' travel need no evaluation.
 ///
 /// Equation   way_b += margin h max(v_b), at both ends of a step,
 ///            v_b = |v| + |w| (extent + sum reach_k |eta_k|)
@@ -21,17 +21,17 @@ class TravelBound {
  public:
   explicit TravelBound(const SystemModel& model);
 
-  /// Takes in a body's points. @param body kWorld does nothing
+  /// Includes a body's points. @param body kWorld has no effect
   void include(BodyIndex body, const joints::TouchReach& reach);
 
-  /// Of all bodies at a state [m/s].
+  /// Speeds of all bodies at a state [m/s].
   void find_speeds(const SystemModel& model, const SystemState& state,
                    std::vector<double>& speeds) const;
 
-  /// Adds the ways of a step [m].
+  /// Adds the travel in a step [m].
   void advance(const std::vector<double>& ways);
 
-  /// Of both bodies together since the start [m].
+  /// Travel of both bodies together since the start [m].
   [[nodiscard]] double find_way(BodyIndex A, BodyIndex B) const;
 
  private:

@@ -36,19 +36,19 @@ inline constexpr double kLeastShare = 1e-12;
                                  const CorrectionSize& limit,
                                  const Roundoff& roundoff);
 
-/// Where an edge of a mesh is pressed inwards, two of its faces are nearest,
-/// each by the solution for the other, and corrections go back and forth
-/// between them.
+/// Detects a cycle of Newton's method: where an edge of a mesh is pressed
+/// inwards, the solution for one of its faces makes the other one nearest, and
+/// corrections alternate between them.
 class FaceCycle {
  public:
   /// @param corrections as in NewtonMatrix
   explicit FaceCycle(Eigen::Index corrections);
 
-  /// @param is_first of a step: it takes nothing back
-  /// @param touches whether a mesh does; costs nothing else
+  /// @param is_first whether it is the first of a step, which reverts nothing
+  /// @param touches whether a mesh does; if not, the call costs nothing
   void include(const VectorX& correction, bool is_first, bool touches);
 
-  /// Whether the last correction took back the one before it, but for a tenth,
+  /// Whether the last correction reverted the one before it, to within a tenth,
   /// and is at most 1e-3 of the step's motion.
   /// @param size, motion [m]
   [[nodiscard]] bool ends(double size, double motion) const;

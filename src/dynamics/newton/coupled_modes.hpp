@@ -11,10 +11,10 @@ namespace limber::dynamics {
 /// modes.
 ///
 /// Equation   A = c + v zeta + K, not symmetric where K is that of a step
-/// Limits     factoring allocates, once a factor (measured with 20 modes).
-///            Factors that are kept are inverted after kSolvesByFactors
-///            solutions: a product costs less than half of a solution, an
-///            inverse some 20 of them
+/// Limits     factoring allocates. Factors that are kept are inverted after
+///            kSolvesByFactors solutions: a product costs less than half of
+///            a solution, an inverse about 20 of them (measured with 20
+///            modes)
 class CoupledModes {
  public:
   explicit CoupledModes(Eigen::Index modes);

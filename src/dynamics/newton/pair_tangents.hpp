@@ -13,15 +13,15 @@ namespace limber::dynamics {
 /// Equation   of a pair: sum_i J_i' (K_i + v D_i) J_i
 ///            + sum_i sum_j J_i' coupling_ij J_j, d(p_B - p_A)_i = J_i x;
 ///            J = R_WB [R_BW, -arm x, Phi] of B's columns, minus that of A's
-/// Limits     neglects what the force does by turning with its arm, as
-///            NewtonMatrix says
+/// Limits     neglects the rotation of the force's arm, as NewtonMatrix
+///            does
 class PairTangents {
  public:
   PairTangents() = default;
   explicit PairTangents(const SystemModel& model);
 
-  /// Takes the points of `terms`. @returns whether other pairs than before have
-  /// some
+  /// Uses the points of `terms`. @returns whether the set of pairs with points
+  /// has changed
   bool update(const SystemTerms& terms);
   /// Whether pairs have as many points each as at the last update.
   [[nodiscard]] bool knows(const SystemTerms& terms) const;

@@ -45,9 +45,9 @@ struct Breakpoint {
 /// The longest step that they allow at any time [s].
 [[nodiscard]] double find_longest_step(const SimulationSettings& settings);
 
-/// Times at which a simulation outputs its state [s]: the output times, but
-/// those that differ from another breakpoint by round-off only are that
-/// breakpoint's.
+/// Times at which a simulation outputs its state [s]: the output times,
+/// replaced by another breakpoint where they differ from it by round-off
+/// only.
 [[nodiscard]] std::vector<double> find_visited_times(
     const SystemModel& model, double start, const SimulationSettings& settings);
 

@@ -8,14 +8,14 @@
 
 namespace limber::dynamics {
 
-/// Takes the samples of a system's controllers. All that the next sample
-/// depends on is in the state.
+/// Samples a system's controllers. The next sample depends on the state
+/// only.
 class ControllerSampling {
  public:
-  /// @param same samples that are later by no more are taken, too [s]
+  /// @param same tolerance in time: samples later by at most this are due [s]
   ControllerSampling(const SystemModel& model, double same);
 
-  /// Leaves out samples before a run that starts at `state`.
+  /// Skips samples before a run that starts at `state`.
   void skip_until(SystemState& state) const;
 
   struct Change {
@@ -23,10 +23,10 @@ class ControllerSampling {
     /// By which the energy in the springs of position drives changed [J].
     double work = 0.0;
   };
-  /// Takes all samples that are due. Controllers that are sampled at one time
-  /// see the same state.
+  /// Takes all due samples. Controllers sampled at the same time see the same
+  /// state.
   /// @throws NumericalError naming the controller, the input and the time if it
-  /// throws or writes what is not finite; `state` is then unchanged.
+  /// throws or writes a value that is not finite; `state` is then unchanged.
   /// Interrupted if it throws that.
   Change take(SystemState& state);
 

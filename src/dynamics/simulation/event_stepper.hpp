@@ -49,7 +49,7 @@ class EventStepper {
   void settle(SystemState& state, double nominal_h);
   /// Reverts the attempted step.
   void take_back(SystemState& state);
-  /// What drives did between two steps [J].
+  /// Adds work of drives between two steps [J].
   void add_work(double work) { totals_.load_work += work; }
 
   /// Result of the last attempted step.
@@ -85,8 +85,8 @@ class EventStepper {
   StepResult take_step(SystemState& state, double h, double end);
   void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
   void pass_all_at_end(SystemState& state, double h);
-  // @throws NumericalError if a touch brings energy, or a leave is none; the
-  // step is taken back.
+  // @throws NumericalError if a touch adds energy, or a leave is not genuine;
+  // the step is reverted.
   void check_deep_touch(std::size_t index, SystemState& state);
   void check_leave(std::size_t index, SystemState& state);
   void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,

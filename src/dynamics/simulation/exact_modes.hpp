@@ -8,8 +8,8 @@
 
 namespace limber::dynamics {
 
-/// Splits a system in two: modes driven by known loads only, solved in closed
-/// form at any time, and the rest, which is integrated in steps.
+/// Splits a system into modes driven by known loads only, solved in closed form
+/// at any time, and the rest, which is integrated in steps.
 ///
 /// Source     SimpleRB of the WOBBLE report [@morrison2023, section 3.4.3];
 ///            has_closed_modal_loads (modal_loads.hpp) selects the bodies

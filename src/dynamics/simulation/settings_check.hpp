@@ -15,7 +15,7 @@ namespace limber::dynamics {
 void check_settings(const SystemModel& model, const SystemState& state,
                     const SimulationSettings& settings);
 
-/// @param why controllers have to be repeatable: the end of a sentence
+/// @param why controllers must be repeatable: the end of the message's sentence
 /// @throws InputError for a controller with hidden memory.
 void refuse_hidden_memory(const SystemModel& model, const std::string& why);
 

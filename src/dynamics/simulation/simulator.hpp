@@ -39,7 +39,7 @@ class Simulator {
   /// that of the last good step), also at end_time if more than half of the
   /// energy does not balance.
   bool advance_to(double t, const std::stop_token& stop = {});
-  /// The same, for a caller who is asked before every step whether to stop.
+  /// The same; `stops` is called before every step and returns whether to stop.
   bool advance_to(double t, const std::function<bool()>& stops);
 
   [[nodiscard]] const SystemState& state() const;

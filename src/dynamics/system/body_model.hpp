@@ -49,7 +49,7 @@ namespace limber::dynamics {
                                          BodyIndex body);
 
 /// Eigenvalues of a body's modes [rad^2/s^2].
-/// @param work what takes each mode alone, "advice on levels"
+/// @param work what needs uncoupled modes, such as "advice on levels"
 /// @throws InputError naming the body if its elasticity couples them.
 [[nodiscard]] const VectorX& require_eigenvalues(const BodyModel& body,
                                                  std::string_view work);

@@ -30,7 +30,7 @@ void check_reduced(const std::string& what,
 void check_integrals(const std::string& what,
                      const flexbody::ReducedBody& reduced);
 
-/// Number of modes, and damping that they can have.
+/// Number of modes, and damping that is possible with them.
 void check_elasticity(const std::string& what,
                       const flexbody::ModalElasticity& elasticity, int modes,
                       const ModalDamping& damping);

@@ -17,14 +17,14 @@ namespace limber::dynamics {
 struct SystemModel;
 struct SystemState;
 
-/// What an input does between two samples of its controller.
+/// Course of an input between two samples of its controller.
 enum class InputHold {
   held,    ///< jumps to what was written, and stays
   linear,  ///< reaches what was written one period later, without a jump
 };
 [[nodiscard]] std::string_view to_string(InputHold hold);
 
-/// A named number that one controller writes, and drives and loads follow
+/// A named value that one controller writes, and drives and loads follow
 /// (joints::InputSignal, InputFunction).
 struct Input {
   std::string name;
@@ -32,7 +32,7 @@ struct Input {
   InputHold hold = InputHold::held;
 };
 
-/// What a controller sees of a system at a sample.
+/// Read-only view of a system for a controller at a sample.
 struct ControllerView {
   double t = 0.0;   ///< [s]
   long sample = 0;  ///< k, counted from 0 at the offset
@@ -41,8 +41,8 @@ struct ControllerView {
   std::span<const double> measured;  ///< by ControllerModel::measures
 };
 
-/// A control law. It is shared by runs, perhaps in several threads, so that
-/// `sample` depends on its arguments alone.
+/// A control law. Runs share it, possibly in several threads, so `sample` must
+/// depend on its arguments only.
 class Controller {
  public:
   Controller() = default;
@@ -51,26 +51,26 @@ class Controller {
   virtual ~Controller() = default;
 
   /// Called once a sample.
-  /// @param memory what it keeps between samples (ControllerModel::memory); it
-  /// may change it
-  /// @param written to be filled: one for each of ControllerModel::writes [unit
+  /// @param memory its values kept between samples (ControllerModel::memory),
+  /// which it may change
+  /// @param written output, one value for each of ControllerModel::writes [unit
   /// of the input]
   /// @throws anything derived from std::exception to end the run.
   virtual void sample(const ControllerView& view, std::span<double> memory,
                       std::span<double> written) const = 0;
 
-  /// All that its output depends on beside its arguments: what goes on from a
-  /// checkpoint compares it.
+  /// Adds everything except arguments that its output depends on: compared when
+  /// a run resumes from a checkpoint.
   virtual void describe(Manifest& out) const = 0;
 
-  /// Whether it keeps anything between samples that is not in its memory. A run
-  /// with such a law cannot be repeated: it takes no checkpoints and no passes
-  /// to a tolerance.
+  /// Whether it keeps data between samples outside of its memory. A run with
+  /// such a law cannot be repeated: no checkpoints and no tolerance are
+  /// possible.
   [[nodiscard]] virtual bool has_hidden_memory() const { return false; }
 };
 
-/// A number that a controller measures. Not all that is measured can be told
-/// from the state by this library: whoever knows brings a function.
+/// A value that a controller measures, as a function of the state, since the
+/// library does not know every measured quantity.
 struct Measurement {
   std::string name;
   std::string of;  ///< what identifies `measure` where checkpoints compare it
@@ -80,9 +80,9 @@ struct Measurement {
 
 /// A controller in a system. Samples are taken at offset + k period, k = 0, 1,
 /// ..., from the start to the end of a run, both included, after the step that
-/// ends there; those before the start are left out.
+/// ends there; those before the start are skipped.
 ///
-/// Limits     time is continuous between samples: the law itself takes none
+/// Limits     the law takes no time: its output acts from the sample on
 struct ControllerModel {
   std::string name;
   double period = 0.0;      ///< > 0 [s]
@@ -100,14 +100,14 @@ struct ControllerModel {
   [[nodiscard]] long find_first(double t, double same) const;
 };
 
-/// A law that is a function, for one that has nothing to describe but a text.
+/// A law given as a function, described by a text only.
 class FunctionController : public Controller {
  public:
   using Function = std::function<void(const ControllerView&, std::span<double>,
                                       std::span<double>)>;
   enum class Memory { in_state, hidden };
 
-  /// @param identity what describe() says: change it whenever the function does
+  /// @param identity text for describe(), to change with the function
   FunctionController(std::string identity, Function function,
                      Memory memory = Memory::in_state);
 

@@ -8,7 +8,7 @@ namespace limber::dynamics {
 /// Checks a whole model, built or changed by hand: that it has bodies and they
 /// have masses; names, indices, sizes of tables, offsets; that couplers join
 /// two bodies, sums are of joints' coordinates and loads act on bodies.
-/// @throws InputError with all that is wrong.
+/// @throws InputError listing all errors.
 void check_model(const SystemModel& model);
 
 }  // namespace limber::dynamics

@@ -51,7 +51,7 @@ constexpr auto fields_of(const Measurement*) {
   return list_fields("measurement", "name", "of", nullptr);
 }
 
-/// What the law says of itself.
+/// Adds the law's own description.
 inline void describe(Manifest& out, std::string_view name,
                      const Controller& law) {
   out.within(name, [&] { law.describe(out); });

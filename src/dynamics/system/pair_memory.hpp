@@ -11,9 +11,9 @@
 
 namespace limber::dynamics {
 
-/// Numbers that pairs remember, in their own units, one pair after the other.
-/// All are zero until they are written. States are copied several times a step,
-/// most pairs never touch: a copy to one of the same size takes only blocks
+/// Memory of pairs, in their own units, one pair after the other. All values
+/// are zero until they are written. States are copied several times a step, and
+/// most pairs never touch: a copy to one of the same size copies only blocks
 /// that have been written in either.
 class PairMemory {
  public:
@@ -27,10 +27,10 @@ class PairMemory {
 
   [[nodiscard]] std::size_t size() const { return numbers_.size(); }
 
-  /// @throws ContractError outside of its size; so the others
+  /// @throws ContractError outside of its size; likewise below
   [[nodiscard]] std::span<const double> at(std::size_t first,
                                            std::size_t count) const;
-  /// To be written.
+  /// For writing.
   [[nodiscard]] std::span<double> at(std::size_t first, std::size_t count);
 
   [[nodiscard]] friend bool operator==(const PairMemory& a,

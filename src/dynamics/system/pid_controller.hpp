@@ -12,17 +12,17 @@
 
 namespace limber::dynamics {
 
-/// Gains and limits of a PidController. u: unit of what it writes, y: of what
-/// it measures.
+/// Gains and limits of a PidController. u: unit of its output, y: of its
+/// measurement.
 struct PidParameters {
   joints::Signal reference = {joints::ConstantSignal{}};  ///< r [y]
   double proportional = 0.0;                              ///< kp [u/y]
   double integral = 0.0;                                  ///< ki [u/(y s)]
   double derivative = 0.0;                                ///< kd [u s/y]
   double filter_time = 0.0;  ///< tau of the low-pass filter, >= 0 [s]
-  /// Samples between a measurement and what is written for it.
+  /// Number of samples from a measurement to the output for it.
   std::size_t delay = 0;
-  /// Bounds of what is written [u]
+  /// Bounds of the output [u]
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double initial = 0.0;   ///< written while a delay has nothing yet [u]
@@ -36,19 +36,19 @@ struct PidParameters {
 ///            e_k  = r(t_k) - yf_k,    I_k = I_(k-1) + ki T e_k
 ///            u_k  = kp e_k + I_k + kd (r'(t_k) - (yf_k - yf_(k-1)) / T)
 ///            within [lower, upper]; I keeps its value in a sample in which u
-///            is beyond a bound and ki e_k would move it further. With a
-///            measured rate, that takes the place of the difference, filtered
-///            alike
+///            is beyond a bound and ki e_k would move it further. A
+///            measured rate replaces the difference, with the same
+///            filter
 /// Source     [@astrom1995], ch. 3 (conditional integration)
-/// Limits     the derivative of the first sample has no difference: the rate of
-///            the measurement counts as 0 there
+/// Limits     the first sample has no difference: the rate of the measurement
+///            is taken as 0 there
 class PidController : public Controller {
  public:
   /// @throws InputError for a number that is not finite, a negative filter
-  /// time, bounds that leave nothing, an initial value beyond them, no gain.
+  /// time, an empty range of bounds, an initial value outside them, or no gain.
   explicit PidController(PidParameters parameters);
 
-  /// What ControllerModel::memory has to be.
+  /// The required ControllerModel::memory.
   [[nodiscard]] std::vector<double> make_memory() const;
 
   void sample(const ControllerView& view, std::span<double> memory,

@@ -39,8 +39,8 @@ struct JointSide {
   /// Pose of the joint's frame on the undeformed body. By default the middle of
   /// the interface, with the axes of B; without interface the frame B itself.
   std::optional<Pose> X_BF{};
-  /// What carries the joint on a flexible body: an interface of its by name, or
-  /// as a table.
+  /// The interface that carries the joint on a flexible body: by name, or as a
+  /// table.
   std::variant<std::monostate, std::string, flexbody::InterfaceTable>
       interface {};
 };
@@ -67,9 +67,9 @@ class SystemBuilder {
   /// Flexible body; at Fidelity::rigid only its mass properties are used.
   /// Fidelity::nonlinear needs a body with a manifold.
   /// @param elasticity of its modes, in place of the reduced body's linear one
-  /// @throws InputError for an elasticity of another number of modes, or for
-  /// damping by frequencies that its modes do not have each of its own; at
-  /// level nonlinear for a body without second-order tables, or an elasticity.
+  /// @throws InputError for an elasticity with another number of modes, or for
+  /// damping by natural frequencies if it couples the modes; at level nonlinear
+  /// for a body without second-order tables, or with an elasticity.
   BodyIndex add_flexible_body(
       const std::string& name,
       std::shared_ptr<const flexbody::ReducedBody> body, Fidelity fidelity,
@@ -106,7 +106,7 @@ class SystemBuilder {
   /// A joint between frame F on `parent` and frame M on `child`, which coincide
   /// where its coordinates are zero. The frames are attached as NAME.F and
   /// NAME.M, see attach_frame and attach_interface.
-  /// @param axis_F of any length; not looked at where the kind has none
+  /// @param axis_F of any length; ignored if the kind has no axis
   /// @throws InputError also for an unknown interface, with the nearest; a
   /// flexible body without interface; one that does not define a rotation that
   /// the joint needs; two sides that cannot move.
@@ -126,8 +126,8 @@ class SystemBuilder {
   TransmissionIndex add_joint_sum(const std::string& name, const JointSum& sum,
                                   const std::vector<joints::ScalarLaw>& laws);
 
-  /// A law between two bodies, or a body and the world (kWorld). Which pairs
-  /// there are is fixed; their points come and go.
+  /// A law between two bodies, or a body and the world (kWorld). The pairs of a
+  /// system are fixed; their points come and go.
   /// @throws InputError also for a body at level `full`, a body with itself,
   /// and a law that does not fit the bodies.
   PairIndex add_pair(const std::string& name, BodyIndex body_A,
@@ -149,13 +149,13 @@ class SystemBuilder {
                       const flexbody::NodalLoad& history,
                       const MatrixX& nodal = {});
 
-  /// A number that loads (InputFunction) and drives (joints::InputSignal) can
-  /// follow from here on.
+  /// A value that loads (InputFunction) and drives (joints::InputSignal) added
+  /// later can follow.
   InputIndex add_input(const std::string& name, double initial,
                        InputHold hold = InputHold::held);
 
-  /// What writes inputs. @throws InputError also for an input that another
-  /// controller writes, a period that is not > 0, no input at all.
+  /// Adds a controller. @throws InputError also for an input that another
+  /// controller writes, a period that is not > 0, or no input.
   ControllerIndex add_controller(const ControllerModel& controller);
 
   /// Uniform gravitational acceleration [m/s^2], world frame.

@@ -22,9 +22,9 @@ struct BodyState {
   Vector3 w_WB_B = Vector3::Zero();             ///< [rad/s], in B
 };
 
-/// What a controller keeps between samples. A plain value, part of the state.
+/// Data of a controller between samples. A plain value, part of the state.
 struct ControllerState {
-  /// Of the next sample, at offset + next period; those before it are taken.
+  /// Index of the next sample, at offset + next period; earlier ones are taken.
   long next = 0;
   std::vector<double> memory;  ///< its own [its own units]
 };
@@ -44,13 +44,13 @@ struct SystemState {
   /// Memory of couplers and then transmissions, one each; changes only between
   /// steps.
   std::vector<joints::CouplerMemory> memory;
-  /// One an input; changes only when a controller is sampled.
+  /// One per input; changes only when a controller is sampled.
   std::vector<InputState> inputs;
   std::vector<ControllerState> controllers;  ///< one a controller
   /// Memory of pairs, one after the other; changes only at accepted steps.
   PairMemory pair_memory;
-  /// Of each pair 1 if its bodies do not touch: it then has no points in the
-  /// coming step, and is not evaluated; empty if nothing is known.
+  /// For each pair 1 if its bodies do not touch: it then has no points in the
+  /// next step, and is not evaluated; empty if unknown.
   std::vector<char> far_pairs;
 };
 
@@ -70,7 +70,7 @@ inline void copy_step_constants(const SystemState& from, SystemState& to) {
 }
 
 /// A state of the right size: every body at the world origin, at rest; joints'
-/// angles without full turns; inputs and controllers as they begin.
+/// angles without full turns; inputs and controllers at their initial values.
 [[nodiscard]] SystemState make_state(const SystemModel& model);
 
 /// Places the nodes of each unreduced body by its BodyState and `u_B`: home

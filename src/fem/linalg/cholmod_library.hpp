@@ -6,8 +6,8 @@
 
 namespace limber::fem {
 
-/// CHOLMOD's functions, and with them BLAS: loaded when they are first asked
-/// for. A program that never factors a matrix starts without them, in half the
+/// CHOLMOD's functions, and with them BLAS, loaded at first use: a
+/// program that never factors a matrix starts without them, in half the
 /// time.
 struct CholmodLibrary {
   decltype(&cholmod_start) start = nullptr;
@@ -21,7 +21,7 @@ struct CholmodLibrary {
   decltype(&cholmod_free_factor) free_factor = nullptr;
 };
 
-/// The library that is there for the process. Any thread may ask.
+/// The library of the process. Thread-safe.
 /// @throws InputError if it cannot be loaded, with the loader's message
 [[nodiscard]] const CholmodLibrary& cholmod();
 

@@ -6,7 +6,7 @@
 
 namespace limber::fem {
 
-/// Finds those of many axis-aligned boxes that meet another one.
+/// Finds those of many axis-aligned boxes that intersect another one.
 ///
 /// Source     bounding volume hierarchy, split at the median of centres
 class BoxTree {

@@ -8,17 +8,17 @@
 
 namespace limber::fem {
 
-/// A part of a mesh, as a mesh of its own.
+/// A part of a mesh, as a separate mesh.
 ///
-/// Its surface is that of the whole: faces that it shares with other pieces are
-/// not in boundary_faces. Tags of nodes and elements and the list of volume
-/// groups are those of the whole; groups have those of their elements that the
-/// piece has, and are left out without any.
+/// Its surface is part of the whole's: faces shared with other pieces are not
+/// in boundary_faces. Tags of nodes and elements and the list of volume groups
+/// are those of the whole; groups contain their elements in the piece, and are
+/// omitted if there are none.
 struct MeshPiece {
   Mesh mesh;
   std::vector<int> nodes;  ///< index in the whole mesh of each node, sorted
 
-  /// Index in the piece of a node of the whole mesh; -1: not in the piece.
+  /// Index in the piece of a node of the whole mesh; -1 if it has none.
   [[nodiscard]] int find(int node) const;
 };
 

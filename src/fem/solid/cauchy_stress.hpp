@@ -32,7 +32,7 @@ class CauchyStress {
                 Eigen::Ref<Matrix6X> stress) const;
 
  private:
-  // A node of an element that is asked for.
+  // A requested node of an element.
   struct Wanted {
     int point = 0;  // index in nodes_
     VectorX fit;    // a quadrature point, divided by the point's elements

@@ -41,9 +41,9 @@ class ElasticInverse {
     return solve(F, MatrixX(F.rows(), 0));
   }
 
-  /// K^+ F without its components along `modes`: V' K (the solution) = 0. Of a
-  /// slender body's response along its axis this is accurate where K^+ F is
-  /// not, because round-off bends the body.
+  /// K^+ F without its components along `modes`: V' K (the solution) = 0. For
+  /// the axial response of a slender body this is accurate where K^+ F is not,
+  /// because round-off bends the body.
   ///
   /// Equation   D K^+ F, D = I - V (V' K V)^-1 V' K
   /// @param modes V, 3N x k with K-orthogonal columns, free of rigid motion

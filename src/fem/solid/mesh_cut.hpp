@@ -16,8 +16,8 @@ namespace limber::fem {
 ///            centre line, so that cuts are across it. A cut is moved to where
 ///            f makes a step nearby, between two layers of elements
 /// Source     spectral bisection: [@fiedler1975]; here of the solid itself
-/// Limits     needs a body with one longest way through it: where a piece would
-///            be in two parts, as of a ring cut into three, it throws
+/// Limits     needs a body with one long direction: throws if a piece would
+///            consist of two parts, as in a ring cut into three
 /// @throws InputError for pieces without elements or in several parts
 [[nodiscard]] CutMesh cut_mesh(const Mesh& mesh, int count);
 
@@ -30,7 +30,7 @@ struct PieceAdvice {
 /// A piece shorter than this many times its thickness gains nothing [-].
 inline constexpr double kLeastSlenderness = 5.0;
 
-/// Two pieces for a mesh that is slender enough, else one.
+/// Advises two pieces for a mesh that is slender enough, else one.
 ///
 /// Equation   slenderness = length / thickness, length = pi / sqrt(mu) of the
 ///            mode above, thickness = the largest extent of a cut in the middle

@@ -49,8 +49,8 @@ struct MeanDeformation {
 [[nodiscard]] VectorX find_rotation_ratios(const MeanDeformation& mean);
 
 /// Energies of the second-order strains E_ij = sym(grad theta_ij) + sym(H_i'
-/// H_j) of pairs: what Green's strain of a body on the manifold has beside that
-/// of its modes.
+/// H_j) of pairs: the part of Green's strain on the manifold that is not linear
+/// in the modes.
 ///
 /// Equation   W_kl = int E_k : C : E_l dV
 /// @param Phi 3N x p; @param Theta 3N x p (p + 1) / 2, pairs as above
@@ -60,7 +60,7 @@ struct MeanDeformation {
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
     const MatrixX& Phi, const MatrixX& Theta, const std::vector<int>& of);
 
-/// The diagonal of the same of all pairs, at a cost that grows as their number.
+/// Its diagonal for all pairs, at a cost proportional to their number.
 [[nodiscard]] VectorX calc_pair_energies(
     const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
     const MatrixX& Phi, const MatrixX& Theta);

@@ -22,7 +22,7 @@ namespace limber::fem {
 [[nodiscard]] MatrixX make_stress_fit(const ReferenceElement& element,
                                       const Quadrature& rule);
 
-/// Materials by what matters for stress: equal E and nu are one.
+/// Materials that differ in stress: those with equal E and nu are merged.
 struct IndexedMaterials {
   std::vector<ElasticMaterial> constants;
   std::vector<int> of_region;  ///< index into `constants`
@@ -39,7 +39,7 @@ struct PairedFields {
   Elasticity law = Elasticity::st_venant_kirchhoff;
 };
 
-/// Stress of k fields at nodes, a point for each material that a node is of.
+/// Stress of k fields at nodes, with a point for each material of a node.
 struct NodalStress {
   std::vector<int> nodes;      ///< p, increasing
   std::vector<int> materials;  ///< p: index into `constants`

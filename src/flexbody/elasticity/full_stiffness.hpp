@@ -17,7 +17,7 @@ class FullStiffness {
   };
 
   /// K is made symmetric to the last digit.
-  /// @throws InputError for a matrix that is not as it should be.
+  /// @throws InputError for a matrix that violates these conditions.
   explicit FullStiffness(Parameters parameters);
 
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }

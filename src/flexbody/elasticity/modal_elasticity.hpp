@@ -7,13 +7,13 @@
 #include "limber/flexbody/elasticity/full_stiffness.hpp"
 #include "limber/flexbody/elasticity/quadratic_strain.hpp"
 
-/// The one place that knows all kinds of modal elasticity: everybody else asks
-/// these functions, which answer as modal_elasticity_kind.hpp says.
+/// Dispatch over all kinds of modal elasticity: other code calls these
+/// functions, which call the kind's own (modal_elasticity_kind.hpp).
 namespace limber::flexbody {
 
-/// Elasticity of a body's modes. A new kind joins here and in the contract of
-/// kinds of elasticity; see docs/decisions, "Elasticity of a
-/// body's modes".
+/// Elasticity of a body's modes. A new kind is added here and in the contract
+/// tests of kinds of elasticity; see docs/decisions, "Elasticity of a body's
+/// modes".
 using ModalElasticity =
     std::variant<DiagonalStiffness, FullStiffness, QuadraticStrain>;
 

@@ -6,7 +6,7 @@
 #include "limber/common/records/manifest.hpp"
 #include "limber/common/types.hpp"
 
-/// What the elasticity of a body's modes answers. A kind that is silent does
+/// What a kind of modal elasticity provides. A kind that lacks a function does
 /// not compile.
 namespace limber::flexbody {
 
@@ -38,7 +38,7 @@ concept HasDiscreteGradient = requires(const Kind& kind, const ModesIn& q0,
   kind.calc_tangent_over_step(q0, q1, tangent);
 };
 
-/// What algorithms may rely on.
+/// Properties on which algorithms may rely.
 ///
 /// `eigenvalues`: m [rad^2/s^2] if modes are independent linear oscillators,
 /// dV/dq_k = eigenvalue_k q_k, else null. Everything that takes each mode alone

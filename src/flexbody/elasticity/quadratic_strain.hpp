@@ -63,9 +63,9 @@ class QuadraticStrain {
 
  private:
   using Paired = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPaired, 1>;
-  /// Rows and pairs that Q connects: those of a symmetric body fall apart into
-  /// the classes of its symmetry. All i, j and rows are places in P; of a
-  /// self-strain, whose root is zero, the row is any.
+  /// Rows and pairs that Q connects: for a symmetric body the classes of its
+  /// symmetry are separate. All i, j and rows are indices into P; the row of a
+  /// self-strain, whose root is zero, is arbitrary.
   struct Block {
     std::vector<int> rows;
     std::vector<int> i, j;  // of each pair

@@ -11,16 +11,16 @@ namespace limber::flexbody {
 /// The first line of its seal.
 inline constexpr std::string_view kReducedBodyFormat = "limber reduced body";
 
-/// Version of the layout that `write_body` writes of a body without contact
+/// Version of the layout that `write_body` uses for a body without contact
 /// surfaces.
 inline constexpr int kBodyFileVersion = 7;
-/// The same of a body with contact surfaces.
+/// The same for a body with contact surfaces.
 inline constexpr int kContactBodyFileVersion = 8;
 
-/// The same of a body with second-order kinematics, with or without surfaces.
+/// The same for a body with second-order kinematics, with or without surfaces.
 inline constexpr int kManifoldBodyFileVersion = 9;
 
-/// The same of a body with stress modes, with or without the others.
+/// The same for a body with stress modes, with or without the others.
 inline constexpr int kStressBodyFileVersion = 10;
 
 /// Writes one self-describing HDF5 file (every dataset carries its unit and

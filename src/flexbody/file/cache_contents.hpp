@@ -8,7 +8,7 @@
 
 namespace limber::flexbody {
 
-/// What of ours is in a cache folder.
+/// A file of Limber's in a cache folder.
 struct CacheItem {
   enum class Kind {
     body,        ///< KEY.h5, and KEY.origin beside it
@@ -40,9 +40,9 @@ struct CacheContents {
 void write_origin(const std::filesystem::path& body,
                   const std::filesystem::path& mesh);
 
-/// Removes the files of these items while no other process cleans the folder.
-/// A program that reads one at the time is not disturbed; one that needs it
-/// later makes it again. Files that are gone already do not matter.
+/// Removes the files of these items while no other process cleans the folder. A
+/// program that reads one at the time is not disturbed; one that needs it later
+/// makes it again. Ignores files that no longer exist.
 /// @throws InputError if another process holds the folder, or if a file cannot
 /// be removed.
 void remove_from_cache(const std::filesystem::path& folder,

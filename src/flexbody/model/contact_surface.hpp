@@ -28,8 +28,8 @@ struct ContactPads {
 };
 
 /// The part of a body's surface that may touch others: its nodes with the
-/// smoothed motion of a patch around each, and the flexibility there that the
-/// basis leaves out.
+/// smoothed motion of a patch around each, and the residual flexibility of the
+/// basis there.
 ///
 /// Equation   u_p = n . Phi_B(p) eta + R_p f,  f a normal force on the patch
 ///            under Hertz's pressure of radius b: w^T of the displacements,
@@ -47,8 +47,8 @@ struct ContactSurface {
   MatrixX Phi_B;  ///< 3n x m: w^T Phi, mean of the modes over the patch around
                   ///< each node [kg^-1/2]
   /// n: R_p of a unit normal force on the patch without Hertz's own share
-  /// [m/N]. Negative where the modes, or a compact body, leave out less than
-  /// that. Interpolate it linearly between the corners of a face.
+  /// [m/N]. Negative where the residual flexibility is smaller than that share.
+  /// Interpolate it linearly between the corners of a face.
   VectorX residual;
   VectorX patch_radius;  ///< n: b [m]
   /// Outward (right-hand) indices of nodes: the corners 0, 1, 2, then the

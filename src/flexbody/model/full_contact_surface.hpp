@@ -19,14 +19,14 @@ struct NodalMeans {
 /// A surface of a body at level `full`: its Phi_B has no columns, and each of
 /// its nodes moves as the mean of the mesh's nodes in its patch.
 ///
-/// Equation   residual = -3 / (5 E' b): the mesh gives way itself, and Hertz's
-///            share is taken from it
+/// Equation   residual = -3 / (5 E' b): the mesh itself deforms locally, so
+///            Hertz's share is subtracted
 struct FullContactSurface {
   ContactSurface surface;
   NodalMeans means;
 };
 
-/// What a FullBodySolver also is if its body may touch others.
+/// Additional interface of a FullBodySolver whose body may touch others.
 class ContactSurfaces {
  public:
   ContactSurfaces() = default;

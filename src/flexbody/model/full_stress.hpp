@@ -27,7 +27,7 @@ class FullStress {
                            Eigen::Ref<Matrix6X> stress) const = 0;
 };
 
-/// A solver of level `full` that knows the stress of its body, too.
+/// A solver of level `full` that also computes the stress of its body.
 class StressedSolver : public FullBodySolver {
  public:
   /// @param nodes sorted indices
@@ -35,7 +35,7 @@ class StressedSolver : public FullBodySolver {
       const std::vector<int>& nodes) const = 0;
 };
 
-/// Null if the body's solver does not know its stress.
+/// Null if the body's solver does not compute its stress.
 [[nodiscard]] std::shared_ptr<const FullStress> make_full_stress(
     const FullBody& body, const std::vector<int>& nodes);
 

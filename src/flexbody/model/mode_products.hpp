@@ -6,8 +6,8 @@
 
 #include "limber/common/types.hpp"
 
-/// Products of paired modes as further coordinates p_ij, behind the m modes, in
-/// which the motion of level `nonlinear` is linear: tables of points and of
+/// Products of paired modes as additional coordinates p_ij, after the m modes,
+/// in which the motion of level `nonlinear` is linear: tables of points and of
 /// loads have m + pairs columns.
 ///
 /// Equation   u = Phi q + Theta p,  p_ij = c_ij q_i q_j for i <= j in P,

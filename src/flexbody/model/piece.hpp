@@ -5,8 +5,8 @@
 #include <string_view>
 
 /// A mesh that is cut along its length into several bodies. A piece of a mesh
-/// is a mesh: recipes, reduced bodies and their files do not tell it from
-/// others.
+/// is a mesh: recipes, reduced bodies and their files do not distinguish it
+/// from others.
 namespace limber::flexbody {
 
 /// A piece of a mesh.
@@ -21,8 +21,8 @@ struct PieceAdvice {
   std::string reason;  ///< why it stays whole
 };
 
-/// How names of the interfaces where pieces meet begin. Both sides of a cut
-/// have the same name, and their nodes are the same.
+/// Prefix of the names of interfaces where pieces meet. Both sides of a cut
+/// have the same name and the same nodes.
 inline constexpr std::string_view kCutPrefix = "cut:";
 
 [[nodiscard]] inline bool is_cut(std::string_view interface) {

@@ -17,7 +17,7 @@ namespace limber::flexbody {
 ///            Hooke's law at quadrature points, fitted over each element and
 ///            averaged at nodes over the elements of one material
 /// Source     [@hinton1974]; docs/theory/stress.md
-/// Limits     small strain; truncated modes take their stress with them
+/// Limits     small strain; lacks the stress of truncated modes
 struct StressModes {
   /// p: rows of the points, increasing. A node at a border of materials has a
   /// point for each of them.
@@ -45,8 +45,8 @@ struct StressModes {
 /// The components in axes of a frame L. @param R_BL axes of L in B
 [[nodiscard]] Vector6 turn_stress(const Vector6& stress_B, const Matrix3& R_BL);
 
-/// Share of the averaging in the stress of a deformation: the error that it
-/// estimates, in the energy norm [-]. Zero for no deformation.
+/// Error estimate of a deformation's stress by averaging over elements, in the
+/// energy norm [-]. Zero without deformation.
 ///
 /// Equation   sqrt(eta^T averaging eta / eta^T diag(lambda) eta)
 /// Source     [@zienkiewicz1987]

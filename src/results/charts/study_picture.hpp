@@ -9,7 +9,7 @@
 /// is no picture.
 namespace limber::results {
 
-/// One factor or response, a value a run.
+/// One factor or response, with a value for each run.
 struct StudyColumn {
   std::string name;
   /// NaN: none; of texts their number from 0 [its unit].
@@ -18,23 +18,23 @@ struct StudyColumn {
   bool is_logarithmic = false;
 };
 
-/// A response over each factor, a panel each, one point a run.
+/// A response over each factor, one panel per factor and one point per run.
 [[nodiscard]] std::string draw_response(
     const std::filesystem::path& file, const std::string& title,
     const StudyColumn& response, const std::vector<StudyColumn>& factors);
 
-/// A response as the colour of points over each two factors.
+/// A response as the colour of points over each pair of factors.
 [[nodiscard]] std::string draw_maps(const std::filesystem::path& file,
                                     const std::string& title,
                                     const StudyColumn& response,
                                     const std::vector<StudyColumn>& factors);
 
-/// All columns over each other, the first eight.
+/// The first eight columns over each other.
 [[nodiscard]] std::string draw_matrix(const std::filesystem::path& file,
                                       const std::string& title,
                                       const std::vector<StudyColumn>& columns);
 
-/// How one response is distributed.
+/// Distribution of one response.
 struct DistributionCurve {
   std::string response;
   std::vector<double> values;  ///< of the samples, ascending [its unit]

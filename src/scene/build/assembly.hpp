@@ -35,7 +35,7 @@ class Assembly {
   [[nodiscard]] dynamics::SystemState make_initial_state(
       const dynamics::SystemModel& model) const;
   /// Adds warnings of bodies in contact that overlap at the start.
-  /// @throws InputError if they overlap too deep.
+  /// @throws InputError if they overlap too deeply.
   void check_start(const dynamics::SystemModel& model,
                    const dynamics::SystemState& initial);
   [[nodiscard]] PlacedLink place_link(int link) const;

@@ -39,7 +39,7 @@ class AttachmentSites {
 
   /// The bodies of a link.
   [[nodiscard]] std::span<const BodyPlan> pieces_of(int link) const;
-  /// One of them, by default the first.
+  /// One of these bodies, by default the first.
   [[nodiscard]] const BodyPlan& plan_of(int link, int piece = 0) const;
   [[nodiscard]] dynamics::BodyIndex body_of(int link, int piece = 0) const;
   [[nodiscard]] Pose X_BL(int link, int piece = 0) const;

@@ -51,7 +51,7 @@ struct BodyPlans {
 [[nodiscard]] std::span<const BodyPlan> find_bodies(const BodyPlans& plans,
                                                     int link);
 
-/// Frame of a link in that of one of its pieces.
+/// Frame of a link in the frame of one of its pieces.
 [[nodiscard]] Pose find_X_BL(const BodyPlans& plans, int link, int piece);
 
 /// The reduced bodies of a built system's links, as plan_bodies() takes them.
@@ -62,8 +62,8 @@ struct BodyPlans {
 /// frame B at its centre of mass, with the axes of the first link if rigid, of
 /// the mesh if flexible. The world's B is the root link.
 /// @param reduced one entry per link
-/// @throws InputError for a body without mass, a clamped body that is not the
-/// root or fixed to the world, and a link called like a piece of another.
+/// @throws InputError for a body without mass, a clamped body that is neither
+/// root nor fixed to the world, and a link named like another's piece.
 [[nodiscard]] BodyPlans plan_bodies(const Robot& robot,
                                     const std::vector<ReducedPieces>& reduced);
 

@@ -30,11 +30,11 @@ struct BuiltScene {
 };
 
 /// Reduces the flexible links (equal ones once, known ones from `cache`),
-/// builds the system and finds its initial state: body frames from the joint
-/// coordinates of the undeformed links, velocities consistent with the joints'
-/// rates, and flexible links deformed as the scenario specifies; or, if
-/// requested, the static equilibrium near that. Bodies in contact must not
-/// overlap deep there. Couplers are unstressed in the
+/// builds the system and finds its initial state: body frames from the
+/// joint coordinates of the undeformed links, velocities consistent with
+/// the joints' rates, and flexible links deformed as the scenario
+/// specifies; or, if requested, the static equilibrium near that. Bodies in
+/// contact must not overlap deeply there. Couplers are unstressed in the
 /// undeformed configuration. `make_full` is needed only for links at level
 /// `full`.
 /// @param known takes precedence over the cache for equal recipes

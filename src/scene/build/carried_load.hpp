@@ -16,24 +16,24 @@ using dynamics::CarriedLoad;
 ///
 /// Equation   force  = sum_i m_i (w^2 r_i + g) + sum_l |f_l|,
 ///            moment = sum_i m_i (w^2 r_i + g) d_i + sum_l (|f_l| d_l + |t_l|),
-///            of the bodies i and loads l outboard of the joint, of all that
-///            joints hold together if these have loops; d the distance from the
+///            for the bodies i and loads l outboard of the joint, or of the
+///            whole connected group if it has loops; d the distance from the
 ///            joint, r_i the largest distance of body i's centre of mass from a
-///            joint between it and the root; w, of what joints hold together,
-///            the largest angular speed of a link at the start or the largest
-///            sum of commanded drive speeds along a path from the root
+///            joint between it and the root; w, for the connected group, the
+///            largest angular speed of a link at the start or the largest sum
+///            of commanded drive speeds along a path from the root
 /// Limits     an upper bound if all rotate as one, else an estimate: neglects
-///            speeds due to loads or effort drives, shocks such as
-///            contacts', loads of acceleration by drives, and what controllers
-///            without limits write.
+///            speeds due to loads or effort drives, shocks such as contacts,
+///            inertial loads by drives, and outputs of controllers without
+///            limits.
 class CarriedLoads {
  public:
   CarriedLoads(const Scene& scene, const BodyPlans& plans,
                const std::vector<LinkMotion>& start);
 
-  /// At a joint of the tree.
+  /// Load of a joint of the tree.
   [[nodiscard]] CarriedLoad of_joint(int joint) const;
-  /// At a loop's joint.
+  /// Load of a loop's joint.
   [[nodiscard]] CarriedLoad of_loop(const Loop& loop) const;
 
  private:

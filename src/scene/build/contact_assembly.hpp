@@ -17,7 +17,7 @@
 
 namespace limber::scene {
 
-/// Adds the pairs of bodies that touch to a system.
+/// Adds the pairs of bodies that may touch to a system.
 class ContactAssembly {
  public:
   ContactAssembly(const Scene& scene, const AttachmentSites& sites,
@@ -25,7 +25,7 @@ class ContactAssembly {
       : scene_(scene), sites_(sites), builder_(builder) {}
 
   /// A pair for every two shapes, called "A/B" after their bodies, with the
-  /// shape's number ("A.2/B") or surface ("A.tip/B") where a body has several.
+  /// shape's number ("A.2/B") or surface ("A.tip/B") if a body has several.
   /// @throws InputError naming file and contact.
   [[nodiscard]] std::vector<PlacedPair> add_all();
 

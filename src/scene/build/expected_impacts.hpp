@@ -9,17 +9,17 @@
 
 namespace limber::scene {
 
-/// Impacts of a flexible link that its contacts and the start of the run let
-/// expect, for automatic modes: of each body that it may touch, and whose
+/// Impacts of a flexible link to be expected from its contacts and the start of
+/// the run, for automatic modes: one for each body that it may touch and whose
 /// origin moves relative to that of the link.
 ///
 /// Equation   k = 4/3 E* sqrt(R_e) of both materials, with R_e the contact's
 ///            `radius` or the other body's; or the contact's `stiffness`
-/// Limits     Bodies that are set in motion later (by gravity, drives, loads)
-///            and such of unknown curvature or material (meshes, planes, other
-///            flexible links) are left out, unless the contact says both. The
+/// Limits     Omits bodies that are set in motion later (by gravity, drives,
+///            loads), and those of unknown curvature or material (meshes,
+///            planes, other flexible links) unless the contact gives both. The
 ///            mass of a flexible link counts as infinite.
-/// @param motions one a link, at the start
+/// @param motions one per link, at the start
 [[nodiscard]] std::vector<flexbody::ExpectedImpact> find_expected_impacts(
     const Scene& scene, const std::vector<LinkMotion>& motions, int link);
 

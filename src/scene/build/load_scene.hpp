@@ -9,7 +9,7 @@
 namespace limber::scene {
 
 /// Reads the scenario and its robot, and checks their consistency.
-/// @param known robots that need not be read again; none: read all
+/// @param known robots that need not be read again; null: read all
 /// @throws InputError with every problem found.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file,
                                const Overrides& overrides = {},

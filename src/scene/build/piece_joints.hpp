@@ -8,11 +8,11 @@
 
 namespace limber::scene {
 
-/// Stiffness of a cut relative to that of the two pieces at it, in every
-/// direction alike [-].
+/// Stiffness of a cut relative to that of its two pieces, in every direction
+/// [-].
 inline constexpr double kCutStiffnessRatio = 10000.0;
 
-/// What holds two pieces together at a cut.
+/// The bushing that holds two pieces together at a cut.
 ///
 /// Equation   K = kCutStiffnessRatio (C_F + C_M)^-1, with C the flexibility of
 ///            each piece at its side of the cut, 6 x 6: the cut adds at most

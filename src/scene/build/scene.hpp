@@ -22,11 +22,11 @@ struct Scene {
   Scenario scenario;
   Robot robot;
   std::vector<TouchingPair> touching = {};
-  /// What was set over the files, for results to tell.
+  /// Settings that override the files, recorded in results.
   std::vector<Setting> settings = {};
 };
 
-/// Where a link of the robot is in the system, for pictures.
+/// Body and frame of a robot's link in the system, for pictures.
 struct PlacedLink {
   dynamics::BodyIndex body = dynamics::kWorld;
   Pose X_BL;  ///< link frame in the body's; of the world: in the world's
@@ -34,10 +34,10 @@ struct PlacedLink {
 
 /// Values of the command line that override the file's.
 struct Overrides {
-  /// Keys of the scenario and the robot; the values below go over them.
+  /// Keys of the scenario and the robot; the values below override them.
   std::vector<Setting> settings = {};
   std::optional<dynamics::Fidelity> fidelity = {};  ///< for every flexible link
-  /// Over the file's [basis] for every flexible link, key by key.
+  /// Overrides the file's [basis] for every flexible link, key by key.
   BasisChoice basis = {};
   /// Fixed step from the start to the end, in place of the file's steps or
   /// tolerance [s]. Output times remain those of the file.

@@ -7,8 +7,8 @@
 namespace limber::scene {
 
 /// Checks a scenario against its robot: links exist, places fit their link,
-/// levels only for flexible links, names of added bodies are their own, and
-/// contacts find theirs.
+/// only flexible links have levels, names of added bodies are unique, and
+/// contacts name existing bodies.
 /// @param robot with the projectiles
 /// @throws InputError with every problem found.
 void check_scenario(const Scenario& scenario, const Robot& robot);

@@ -11,15 +11,15 @@
 
 namespace limber::scene {
 
-/// Robots that were read, by their file and the settings that are of it. To
-/// read one costs more than all else of a scene: scenes of one study share it.
+/// Robots that were read, by their file and its settings. Reading one costs
+/// more than the rest of a scene, so the scenes of a study share it.
 using KnownRobots = std::map<std::vector<std::string>, Robot>;
 
-/// The robot of a scenario, or all of its robots as one (join_robots). Adds
-/// the velocities of several robots to the joints' starts, since those are of
-/// joints then.
+/// The robot of a scenario, or all of its robots as one
+/// (join_robots). With several robots their velocities become starts
+/// of joints.
 /// @param settings are applied to the files first
-/// @param known is looked up and added to, without looking at files again
+/// @param known robots read before, which are not read again; gets new ones
 /// @throws InputError with every problem of the files.
 [[nodiscard]] Robot read_robots(Scenario& scenario,
                                 const std::vector<RobotSetting>& settings,

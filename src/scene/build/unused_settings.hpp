@@ -9,11 +9,11 @@
 
 namespace limber::scene {
 
-/// Settings of robots that this scene has no use for, each with the reason: a
+/// Settings of robots without effect in this scene, each with the reason: a
 /// value of URDF that an element of Limber's own replaces, or that the joint's
-/// type, the link's level or the rest of the scenario leaves without effect.
-/// A file may have such values for other programs or other scenarios; whoever
-/// sets one expects another answer.
+/// type, the link's level or the rest of the scenario makes irrelevant. A file
+/// may have such values for other programs or scenarios, but a user who sets
+/// one expects the result to change.
 [[nodiscard]] std::vector<std::string> find_unused_settings(
     const std::vector<RobotSetting>& settings, const Scene& scene);
 

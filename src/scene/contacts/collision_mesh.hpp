@@ -11,13 +11,13 @@
 namespace limber::scene {
 
 /// A closed surface of straight triangles without modes and residual
-/// flexibility. Corners that differ by less than 1e-6 of its size are one. The
-/// radius of a node's patch is the mean length of the edges there, at most half
-/// of the smallest side of the box around the surface.
+/// flexibility. Corners that differ by less than 1e-6 of its size are merged.
+/// The radius of a node's patch is the mean length of the edges there, at most
+/// half of the smallest side of the box around the surface.
 /// @param name in messages
-/// @throws InputError for a triangle without area, a surface that is open,
-/// turned inside out, joins more than two triangles in one edge or crosses
-/// itself; each says where.
+/// @throws InputError, with the place, for a triangle without area, and for a
+/// surface that is open, is turned inside out, joins more than two triangles in
+/// one edge or intersects itself.
 [[nodiscard]] flexbody::ContactSurface join_triangles(
     const std::vector<Triangle>& triangles, const std::string& name);
 

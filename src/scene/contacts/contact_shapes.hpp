@@ -6,7 +6,7 @@
 #include "limber/scene/robot/geometry.hpp"
 #include "limber/scene/scenario/contact_spec.hpp"
 
-/// From what files say to what contacts compute with.
+/// Converts shapes of files to those of contacts.
 namespace limber::scene {
 
 /// @param geometry any but MeshGeometry and OtherGeometry

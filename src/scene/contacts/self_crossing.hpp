@@ -9,10 +9,10 @@
 
 namespace limber::scene {
 
-/// Where an edge of one triangle passes through another that shares no corner
-/// with it; none: nowhere. Triangles that touch in a common plane do not count.
+/// A point where an edge of one triangle passes through another that shares no
+/// corner with it, if any. Triangles that touch in a common plane do not count.
 ///
-/// Source     of edges and triangles [@moller1997]
+/// Source     intersection of edge and triangle [@moller1997]
 [[nodiscard]] std::optional<Vector3> find_self_crossing(
     const std::vector<Vector3>& points,
     const std::vector<std::array<int, 3>>& faces);

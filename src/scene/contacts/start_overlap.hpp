@@ -22,10 +22,10 @@ struct PlacedPair {
 };
 
 /// Refuses bodies that overlap at the start by more than 3 % of R_e, or 0.1 mm
-/// where they are flat, since they would leap apart.
-/// @returns a notice of each smaller overlap, with the force that it begins
-/// with
-/// @throws InputError with every such pair, its depth and place (10 at most).
+/// where they are flat, since they would burst apart.
+/// @returns a notice of each smaller overlap, with its initial
+/// force
+/// @throws InputError listing such pairs, with depth and place (10 at most).
 [[nodiscard]] std::vector<std::string> check_overlaps(
     const std::vector<PlacedPair>& pairs, const dynamics::SystemModel& model,
     const dynamics::SystemState& state);

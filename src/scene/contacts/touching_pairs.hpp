@@ -11,7 +11,7 @@
 
 namespace limber::scene {
 
-/// A body that contacts name: a link of the robot, projectiles included, or an
+/// A body named by contacts: a link of the robot, projectiles included, or an
 /// obstacle.
 struct Toucher {
   bool is_obstacle = false;
@@ -36,20 +36,20 @@ struct TouchingPair {
 
 struct TouchingPairs {
   std::vector<TouchingPair> pairs;  ///< in the order of contacts and bodies
-  /// Contacts whose every pair others decide.
+  /// Contacts that other contacts override in every pair.
   std::vector<std::size_t> idle;
 };
 
-/// Which bodies touch, each pair once. A contact that names both bodies decides
-/// over those with patterns, and of these the first. A pattern stands for the
-/// bodies that have a shape. Pairs of patterns leave out bodies that are fixed
-/// to each other or in the world, and links that a joint (not a floating one)
-/// or a loop connects directly.
+/// The pairs of bodies that may touch, each once. A contact that names both
+/// bodies overrides those with patterns, and of these the first applies. A
+/// pattern matches bodies that have a shape. Pairs from patterns omit bodies
+/// that are fixed to each other or in the world, and links that a joint (not a
+/// floating one) or a loop connects directly.
 /// @param robot with the projectiles
-/// @throws InputError with every problem, without the file: unknown names,
-/// patterns without bodies, contacts without pairs, pairs that cannot be, two
-/// contacts that name the same bodies, links without shapes or with meshes for
-/// shapes.
+/// @throws InputError listing every problem, without the file: unknown names,
+/// patterns without bodies, contacts without pairs, impossible pairs, two
+/// contacts that name the same bodies, links without shapes or with unusable
+/// ones.
 [[nodiscard]] TouchingPairs find_touching_pairs(const Scenario& scenario,
                                                 const Robot& robot);
 

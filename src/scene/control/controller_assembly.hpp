@@ -10,11 +10,11 @@
 
 namespace limber::scene {
 
-/// Adds the input of each controller, in their order, before what follows it.
+/// Adds the input of each controller, before loads and drives that follow it.
 void add_inputs(const Scenario& scenario, dynamics::SystemBuilder& builder);
 
-/// Index of a controller, and of its input. @throws ContractError if there is
-/// no such one.
+/// Index of a controller, and of its input. @throws ContractError if it does
+/// not exist.
 [[nodiscard]] int find_controller(const Scenario& scenario,
                                   const std::string& name);
 

@@ -8,7 +8,7 @@
 
 namespace limber::scene {
 
-/// Derivatives of a coupler probe's columns: a row each.
+/// Derivatives of a coupler probe's columns, one row per column.
 struct CouplerRows {
   MatrixX by_state;      ///< [column's unit / unit of the state]
   MatrixX by_input;      ///< [column's unit / unit of the input]

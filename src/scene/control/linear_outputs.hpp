@@ -22,20 +22,20 @@ struct LinearOutput {
 struct ObservedModel {
   dynamics::SystemModel model;
   std::vector<dynamics::AttachmentIndex> frames;
-  /// Of each probe: first of its frames, the base before the point; -1: none.
+  /// For each probe its first frame, the base before the point; -1: none.
   std::vector<int> first_frame;
 };
 [[nodiscard]] ObservedModel observe(const dynamics::SystemModel& model,
                                     const std::vector<Probe>& probes);
 
-/// All columns of all probes, in order, but those of `[output] stress`.
+/// All columns of all probes, in order, except those of `[output] stress`.
 ///
 /// Equation   derivatives of what point_probe.hpp, coupler_probe.hpp and
 ///            stress_probe.hpp state, by the motion of links and frames; of
 ///            efforts and wrenches by stiffness and damping of the laws, and by
 ///            the inputs
-/// Limits     energies, powers and what bodies exert where they touch have
-///            none, nor does the largest of several stresses
+/// Limits     energies, powers and contact forces have none, nor does the
+///            largest of several stresses
 /// @param system linearised with `observed.frames`
 [[nodiscard]] std::vector<LinearOutput> find_linear_outputs(
     const std::vector<Probe>& probes, const ObservedModel& observed,

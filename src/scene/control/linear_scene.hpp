@@ -10,8 +10,8 @@
 
 namespace limber::scene {
 
-/// Which inputs and outputs a linear model has: by name, an output also by the
-/// name of its probe; none named: all.
+/// Selects inputs and outputs of a linear model by name, an output also by the
+/// name of its probe; empty: all.
 struct LinearSelection {
   std::vector<std::string> inputs = {};
   std::vector<std::string> outputs = {};
@@ -23,13 +23,13 @@ struct LinearScene {
   dynamics::LinearSystem system;
   dynamics::LinearModel model;
   std::vector<std::string> open_loops;  ///< controllers that are not in it
-  /// What the model does not have, or has only near the reference.
+  /// Effects that the model lacks, or has only near the reference.
   std::vector<std::string> warnings;
 };
 
 /// @param probes of the scenario, with their starts
 /// @throws InputError for a body at level `full`, an unknown input or output,
-/// with the nearest, and an output that is named but has no derivative.
+/// with the nearest name, and a named output without derivative.
 [[nodiscard]] LinearScene linearise(const Scenario& scenario,
                                     const dynamics::SystemModel& model,
                                     const dynamics::SystemState& state,

@@ -8,8 +8,8 @@
 
 namespace limber::scene {
 
-/// A column of a probe, "tip.ux", as what a controller measures.
-/// @throws InputError naming the probe's columns if there is no such one.
+/// A column of a probe, "tip.ux", as a controller's measurement.
+/// @throws InputError naming the probe's columns if it is not among them.
 [[nodiscard]] dynamics::Measurement measure_probe(const Probe& probe,
                                                   const std::string& column);
 

@@ -7,7 +7,7 @@
 /// Derivatives of vectors by the states of a linear system: 3 x n each.
 namespace limber::scene {
 
-/// Of a frame: its motion and velocity, in the world or in another frame.
+/// Derivatives of a frame's motion and velocity, in the world or another frame.
 struct MotionRows {
   Matrix3X p;    ///< position [m]
   Matrix3X phi;  ///< rotation [rad]
@@ -36,8 +36,8 @@ struct MotionRows {
   return rows;
 }
 
-/// Of the rotation vector of R, from those of the rotation of its axes in the
-/// outer frame.
+/// Derivatives of the rotation vector of R, from those of the rotation of its
+/// axes in the outer frame.
 [[nodiscard]] inline Matrix3X log_rows(const Matrix3& R, const Matrix3X& phi) {
   return right_jacobian_inverse(-log_rotation(R)) * phi;
 }

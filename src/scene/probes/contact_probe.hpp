@@ -14,14 +14,14 @@
 
 namespace limber::scene {
 
-/// A probe of what two bodies exert on each other where they touch.
+/// A probe of the contact between two bodies.
 ///
 /// Equation   over all points of all pairs of their shapes: sums of forces,
 ///            areas and energies, the largest depth, and the place of the
 ///            largest normal force; the force on the second body is that on B
 ///            of a pair, or the opposite if `is_turned`
-/// Limits     forces are those at a state; over a step, a scheme may take a
-///            mean. Not to be evaluated by two threads at once: copy it
+/// Limits     forces are those at a state; over a step, a scheme may use a
+///            mean. Not thread-safe: copy it for each thread
 struct ContactProbe {
   /// A pair of shapes.
   struct Part {
@@ -33,21 +33,21 @@ struct ContactProbe {
   std::vector<Part> parts;
 };
 
-/// Which two bodies a probe is of.
+/// The two bodies of a contact probe.
 struct ProbedContact {
   std::size_t touching = 0;  ///< index of the pair of bodies
   bool is_turned = false;    ///< the probe's first body is its B
 };
 
-/// @param touching the pairs of bodies that contacts let touch
+/// @param touching the pairs of bodies that may touch
 /// @param robot with the projectiles
-/// @throws InputError for an unknown body, with the nearest, one body twice,
-/// and bodies without a contact.
+/// @throws InputError for an unknown body, with the nearest name, the same body
+/// twice, and bodies without a contact.
 [[nodiscard]] ProbedContact check_contact_probe(
     const ContactProbeSpec& spec, const std::vector<TouchingPair>& touching,
     const Robot& robot, const Scenario& scenario);
 
-/// @param pairs of both bodies' shapes, contacts of `model`
+/// @param pairs contacts of `model` between shapes of both bodies
 [[nodiscard]] ContactProbe make_contact_probe(
     const ContactProbeSpec& spec, bool is_turned,
     const std::vector<dynamics::PairIndex>& pairs,

@@ -15,11 +15,11 @@ struct ControllerProbe {
   int input = 0;  ///< index in the system
 };
 
-/// "NAME.u", in the unit of what follows it.
+/// "NAME.u", in the unit of the loads or drives that follow it.
 [[nodiscard]] std::vector<ProbeColumnName> column_names(
     const ControllerProbe& probe, const std::string& name);
 
-/// Appends its value; at a sample what was written.
+/// Appends its value; at a sample the value just written.
 void append_values(const ControllerProbe& probe,
                    const dynamics::SystemModel& model,
                    const dynamics::SystemState& state,

@@ -8,7 +8,7 @@
 
 namespace limber::scene {
 
-/// Quantities available to a probe of a coupler.
+/// Quantities available for probes of a coupler.
 struct CouplerTraits {
   std::string name;
   bool has_frames = true;  ///< connects two frames; a tendon or gear does not

@@ -12,17 +12,17 @@
 #include "limber/scene/probes/stress_probe.hpp"
 #include "limber/scene/scenario/scenario.hpp"
 
-/// Which links have stress, and at which of their nodes it is wanted.
+/// Links that have stress, and the nodes at which it is requested.
 namespace limber::scene {
 
 /// Whether there is stress: at every level but rigid.
 [[nodiscard]] bool has_stress(dynamics::Fidelity level);
 
-/// Why there is none at level rigid, and what to do: for messages.
+/// For messages: why there is no stress at level rigid, and the remedy.
 [[nodiscard]] std::string explain_no_stress();
 
-/// Whether a probe or [output] wants the stress of this flexible link, at a
-/// level that has one.
+/// Whether a probe or [output] requests the stress of this flexible link, at a
+/// level that has it.
 [[nodiscard]] bool wants_stress(const Scenario& scenario,
                                 const std::string& link);
 
@@ -39,17 +39,17 @@ bool leave_out_stress(Scenario& scenario);
 void require_stress(const flexbody::ReducedBody& body,
                     dynamics::Fidelity level);
 
-/// Where a stress is wanted.
+/// The place of a requested stress.
 struct StressPlace {
   std::string interface;                         ///< name, or empty
   std::optional<flexbody::NodeSelection> nodes;  ///< if it is not an interface
 };
 
-/// Without a place, on the whole surface.
+/// Makes a probe, without a place for the whole surface.
 /// @param level nonlinear, or one with linear stress
 /// @param X_BL link frame in the body's
 /// @throws InputError for a body without stress modes, an unknown place, and
-/// rows that leave out part of the surface.
+/// rows that lack part of the surface.
 [[nodiscard]] StressProbe make_stress_probe(StressQuantity quantity,
                                             const flexbody::ReducedBody& body,
                                             dynamics::Fidelity level,

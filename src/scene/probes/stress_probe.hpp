@@ -15,7 +15,7 @@
 
 namespace limber::scene {
 
-/// A probe of stress at a link's nodes, of the largest if there are several.
+/// A probe of stress at a link's nodes, the largest if there are several.
 ///
 /// Equation   sigma = Sigma_L eta, at level `nonlinear` Sigma_L [eta;
 /// products],
@@ -24,8 +24,8 @@ namespace limber::scene {
 ///            the one with the largest von Mises stress, or the largest
 ///            principal stress
 /// Source     flexbody/model/stress_modes.hpp, full_stress.hpp
-/// Limits     small strain but at level `full`. Not to be evaluated by two
-///            threads at once: copy it
+/// Limits     small strain except at level `full`. Not thread-safe: copy it for
+///            each thread
 struct StressProbe {
   /// For evaluations.
   struct Scratch {
@@ -42,8 +42,8 @@ struct StressProbe {
   MatrixX Sigma_L;          ///< 6p rows as StressModes::Sigma_B, axes of the
                             ///< link, columns of the body's coordinates
   StressClusters clusters;  ///< of the points, which are in its order
-  /// The first modes, eigenmodes; the others correct for those left out, by
-  /// static deformation. -1: not known, as of saved bodies.
+  /// Number of eigenmodes, which come first; the others are static
+  /// deformations, which correct for omitted ones. -1: unknown (saved bodies).
   int eigenmodes = -1;
   /// At level `full` in place of the modes: stress at the points, and the axes
   /// of the link in the body's.

@@ -20,7 +20,7 @@ namespace limber::scene {
 void read_collisions(const TiXmlElement& root, Robot& robot,
                      Problems& problems);
 
-/// The same of the <visual> of rigid links. @param robot with its extension
+/// The same for the <visual> of rigid links. @param robot with its extension
 void read_visuals(const TiXmlElement& root, Robot& robot, Problems& problems);
 
 /// Content of <contact link="...">.

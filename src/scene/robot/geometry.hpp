@@ -7,7 +7,7 @@
 
 #include "limber/common/types.hpp"
 
-/// Shapes of bodies that touch, as robots and scenarios give them.
+/// Shapes of bodies for contact, as given in robots and scenarios.
 namespace limber::scene {
 
 /// All lengths > 0 [m].
@@ -33,7 +33,7 @@ struct MeshGeometry {
   std::filesystem::path file;
   Vector3 scale = Vector3::Ones();  ///< of its coordinates, none 0 [m]
 };
-/// What robots have and contacts cannot take, such as a mesh for pictures.
+/// A shape that contacts cannot use, such as a mesh for pictures.
 struct OtherGeometry {
   std::string tag;
 };

@@ -16,12 +16,12 @@ struct NamedRobot {
   Pose X_WR;  ///< of its root link at the start
 };
 
-/// Whether the world holds a robot: its root link stands for the world, or is
-/// clamped.
+/// Whether a robot is fixed to the world: its root link represents the world,
+/// or is clamped.
 [[nodiscard]] bool is_held(const Robot& robot);
 
-/// One tree of all robots: its root is the world, from which a joint called
-/// like the robot leads to the robot's root link, a fixed one if the robot is
+/// One tree of all robots: its root is the world, from which a joint with the
+/// robot's name leads to the robot's root link, a fixed one if the robot is
 /// held, else a floating one without coordinates at the start. Links, joints
 /// and couplers of a robot are called NAME.OWN_NAME. "world" stays the world as
 /// the end of a coupler, unless it is the robot's root link.

@@ -56,9 +56,9 @@ struct Collision {
   Geometry geometry;
 };
 
-/// <contact link="...">: what contacts of the link are like.
+/// <contact link="...">: properties of the link in contacts.
 struct LinkContact {
-  /// Of a rigid link; none: rigid there, too.
+  /// Of a rigid link; none: rigid also in contacts.
   std::optional<contact::SurfaceMaterial> material;
   /// Of a flexible link: the groups that touch; empty: its whole surface.
   std::vector<std::string> surfaces;

@@ -14,12 +14,12 @@ namespace limber::scene {
 /// (`robot.joint.elbow.origin.xyz.0`).
 ///
 /// KIND is `link`, `joint` or one of Limber's own elements; NAME its name, link
-/// or joint. What of a `joint` is not URDF's is of its <coupler>, which is
-/// added if there is none; so is a <contact> of a link. A child that occurs
-/// several times is followed by its name, joint, group or 0-based number; one
-/// that is not there is added. The readers check its name and value.
+/// or joint. Attributes of a `joint` beyond URDF belong to its <coupler>, which
+/// is added if needed; so is a <contact> of a link. A child that can occur
+/// several times is followed by name, joint, group or 0-based number; a missing
+/// one is added. The readers check its name and value.
 /// @throws InputError naming every setting with an unknown path, one that ends
-/// at an element, or two of one place.
+/// at an element, or two for the same place.
 void apply_settings(const std::vector<RobotSetting>& settings,
                     TiXmlElement& robot);
 

@@ -6,8 +6,8 @@
 
 namespace limber::scene {
 
-/// Every [[contact]], with what [contact_default] gives for it, and notices of
-/// the values that none of them gives.
+/// Reads every [[contact]], with values of [contact_default], and adds notices
+/// of the values that neither gives.
 void read_contacts(TomlTable& root, Scenario& scenario);
 
 }  // namespace limber::scene

@@ -10,7 +10,7 @@
 #include "limber/contact/law/materials.hpp"
 #include "limber/scene/robot/geometry.hpp"
 
-/// What moves and may touch, and how, as scenarios give it.
+/// Added bodies and contacts of a scenario.
 namespace limber::scene {
 
 /// Motion of a free body at the start, world frame.
@@ -47,7 +47,7 @@ struct ObstacleSpec {
   std::optional<contact::SurfaceMaterial> material;
 };
 
-/// Of contacts; those not given are chosen by the shapes and materials.
+/// Options of contacts; those not given follow from shapes and materials.
 struct ContactOptions {
   std::optional<double> friction;         ///< of sliding, >= 0 [-]
   std::optional<double> static_friction;  ///< >= friction [-]
@@ -58,7 +58,7 @@ struct ContactOptions {
   std::optional<double> stiffness;        ///< Hertz's k > 0 [N/m^1.5]
 };
 
-/// Which bodies touch: names, or patterns with * and ?.
+/// Two bodies that may touch: names, or patterns with * and ?.
 struct ContactSpec {
   std::array<std::string, 2> between;
   ContactOptions options;  ///< those of [contact_default] included

@@ -58,7 +58,7 @@ struct PointProbeSpec {
   std::optional<Place> relative_to;
 };
 
-/// Of a coupler; docs/formats/scenario.md lists which couplers have which.
+/// Quantities of couplers; docs/formats/scenario.md lists those of each kind.
 enum class CouplerQuantity {
   coordinate,                 ///< with full turns [rad or m]
   coordinate_rate,            ///< [rad/s or m/s]
@@ -94,7 +94,7 @@ struct CouplerProbeSpec {
   ProbeAxes axes = ProbeAxes::F;  ///< of vectors
 };
 
-/// Of all points where two bodies touch.
+/// Quantities over all points where two bodies touch.
 enum class ContactQuantity {
   force,           ///< resultant on the second body, world frame [N]
   normal_force,    ///< sum of magnitudes [N]
@@ -111,18 +111,18 @@ enum class ContactQuantity {
          quantity == ContactQuantity::place;
 }
 
-/// A probe of what two bodies exert on each other where they touch.
+/// A probe of the contact between two bodies.
 struct ContactProbeSpec {
   std::array<std::string, 2> bodies;  ///< links, projectiles or obstacles
   ContactQuantity quantity = ContactQuantity::force;
 };
 
-/// A probe of what a controller writes.
+/// A probe of a controller's output.
 struct ControllerProbeSpec {
   std::string controller;
 };
 
-/// Of linear isotropic elasticity, at nodes of a flexible link.
+/// Stress quantities at nodes of a flexible link.
 enum class StressQuantity {
   stress,         ///< six components, link frame [Pa]
   von_mises,      ///< [Pa]

@@ -10,7 +10,7 @@
 
 namespace limber::scene {
 
-/// What signals of a scenario refer to.
+/// Context that signals of a scenario refer to.
 struct SignalContext {
   const std::filesystem::path& folder;  ///< to which file names are relative
   /// Names of controllers, in the order of the inputs that they write.

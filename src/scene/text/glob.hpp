@@ -5,7 +5,7 @@
 
 namespace limber::scene {
 
-/// Whether a name has a `*` (any text) or `?` (any one byte).
+/// Whether a name contains `*` (any text) or `?` (any one byte).
 [[nodiscard]] bool is_pattern(std::string_view name);
 
 /// Whether the whole of `name` matches `pattern`; time is at most the product

@@ -13,7 +13,7 @@ namespace limber::scene {
 struct Setting {
   /// Dotted; parts with dots are in double quotes: load."a.b".force.2
   std::string path;
-  /// TOML; what is no TOML value is a string. None: the key is removed.
+  /// TOML; text that is no TOML value is a string. None: the key is removed.
   std::optional<std::string> value = {};
 
   bool operator==(const Setting&) const = default;
@@ -22,14 +22,14 @@ struct Setting {
 /// From `PATH=VALUE`. @throws InputError without '=' or path.
 [[nodiscard]] Setting parse_setting(std::string_view text);
 
-/// The option that makes it, for messages: "--set time.step=1e-4".
+/// The equivalent option, for messages: "--set time.step=1e-4".
 [[nodiscard]] std::string to_string(const Setting& setting);
 
 /// Parts of a path, without quotes. @throws InputError if one is empty, a quote
 /// is not closed, or there are more than kMostKeyParts.
 [[nodiscard]] std::vector<std::string> split_path(const std::string& path);
 
-/// The index that a part is; none if it is no whole number.
+/// A part as an index; none if it is not a whole number.
 [[nodiscard]] std::optional<std::size_t> to_index(const std::string& part);
 
 }  // namespace limber::scene

@@ -22,9 +22,9 @@ struct SortedSettings {
   std::vector<RobotSetting> robots;
 };
 
-/// Which file each setting is of. `robot.KIND.NAME.ATTRIBUTE` is of the
-/// robot's; of several robots `robot.ROBOT.KIND.NAME.ATTRIBUTE` is, and shorter
-/// paths are the scenario's (`robot.ROBOT.position.0`).
+/// Sorts settings by file. `robot.KIND.NAME.ATTRIBUTE` is in the robot's file;
+/// with several robots `robot.ROBOT.KIND.NAME.ATTRIBUTE` is, and shorter paths
+/// are the scenario's (`robot.ROBOT.position.0`).
 /// @throws InputError naming every setting whose path is malformed or names an
 /// unknown robot.
 [[nodiscard]] SortedSettings sort_settings(const std::vector<Setting>& settings,
@@ -32,18 +32,18 @@ struct SortedSettings {
 
 /// Applies settings to a parsed scenario.
 ///
-/// A part of a path is the key of a table; of an array the 0-based index of an
-/// entry, or the `name` of a table in it. Keys that are not in the file are
-/// added, and so are the tables around them: whoever reads the scenario checks
+/// A part of a path is the key of a table, or for an array the 0-based index of
+/// an entry or the `name` of a table in it. Keys that are not in the file are
+/// added, with the tables around them; the reader of the scenario checks
 /// whether it knows them. Nodes that are set have the setting's text as their
 /// source().path.
 /// @throws InputError naming every setting whose path leads through a value or
-/// to an array's entry that is not there, is a table, is given twice, or, to
-/// be removed, is not there.
+/// to a missing entry of an array, is a table, is given twice, or is to be
+/// removed but missing.
 void apply_settings(const std::vector<Setting>& settings, toml::table& root);
 
 /// The value of a setting as one TOML node under the key `value`.
-/// @param source what its source().path says
+/// @param source its source().path
 [[nodiscard]] toml::table parse_value(const std::string& value,
                                       const std::string& source);
 
