@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
   CLI::App app("Random scenes: how they end");
   unsigned first = 1;
   unsigned number = 10000;
-  double limit = 60.0;
+  double limit = 300.0;
   app.add_option("--first", first, "First seed");
   app.add_option("--number", number, "How many");
   std::vector<unsigned> seeds;
