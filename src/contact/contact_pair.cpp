@@ -22,8 +22,8 @@ using joints::PairBodies;
 using joints::PairBody;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Features that touch at once, such as the corners of a box that lands flat,
-// begin at once: at most as far behind the first, of the shapes' size [-].
+// Features whose depths differ by at most this share of the shapes' size, such
+// as the corners of a box that lands flat, begin to touch together [-].
 constexpr double kTogether = 1e-9;
 
 double find_reduced_mass(double mass_A, double mass_B) {
@@ -41,14 +41,14 @@ SurfacePlace to_place(const PlaceMemory& memory) {
   return {memory.x_B, static_cast<int>(memory.face), memory.u, memory.v};
 }
 
-// Of the material point where the force acts, so that increments since then are
-// those that the force does work on.
+// Stores the material point where the force acts, so that later increments are
+// those on which the force does work.
 PlaceMemory to_memory(const SurfacePlace& surface,
                       const joints::PairPlace& place) {
   return {place.x_B, static_cast<double>(surface.face), surface.u, surface.v};
 }
 
-// The material point of a body that is at p_W, moved as its surface there.
+// Sets the material point of a body at p_W, which moves as the surface there.
 void set_place(const PairBody& body, const Shape& shape,
                const SurfacePlace& surface, const Vector3& p_W,
                joints::PairPlace& out) {
@@ -65,7 +65,7 @@ joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
   return {find_extent(shape, body), mode_reach};
 }
 
-// Of the shape's points relative to its body's origin, at most [m/s].
+// Largest speed of the shape's points relative to its body's origin [m/s].
 double find_own_speed(const Shape& shape, const VectorX& mode_reach,
                       const PairBody& body) {
   const double turn = body.w_WB_B.norm();
@@ -103,7 +103,7 @@ std::optional<PointTwist> ContactPair::make_twist(
                     find_roundness(A_.shape, B_.shape));
 }
 
-// Friction against turning, as two further points.
+// Adds torsional friction as two more points.
 void ContactPair::add_twist(const PairBodies& bodies, const Meeting& meeting,
                             const PointResponse& response, double h,
                             joints::PairResponse& out) const {
@@ -157,7 +157,7 @@ void ContactPair::check(int modes_A, int modes_B) const {
   check_modes(B_.shape, modes_B, "B");
 }
 
-// Motion at a feature; places the point there.
+// Motion at a feature; sets the places of the point.
 PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
                                const PointMemory& memory, double t,
                                joints::PairPoint& point) const {
@@ -169,7 +169,7 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
                      .share = meeting.share,
                      .R_WB = bodies.B.R_WB,
                      .time = t};
-  // At the commit both were at one point: their distance has come since.
+  // At the last commit both points coincided: their distance is the increment.
   if (law_.has_friction() && memory.is_touching()) {
     motion.increment_W =
         find_point(bodies.B, B_.shape, to_place(memory.on_B), point.on_B) -
@@ -338,13 +338,13 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
   Meetings meetings(count_features());
   meet(bodies, kInfinity, memory, meetings.all());
   const std::size_t deepest = meetings.find_deepest();
-  // Surfaces that cross where neither has an inside.
+  // Surfaces that cross where neither has an interior.
   if (meetings[deepest].depth == Meeting{}.depth) return kInfinity;
   const double least_depth = meetings[deepest].depth - kTogether * size_;
   for (std::size_t i = 0; i < count_features(); ++i) {
     const Meeting& meeting = meetings[i];
     const std::span<double> numbers = numbers_of(i, memory);
-    // Where an earlier run goes on they touch already.
+    // In a resumed run they touch already.
     if (!(meeting.depth >= least_depth) || load_memory(numbers).is_touching()) {
       continue;
     }

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// What ContactPair does over a step of the energy-conserving scheme.
+// SPDX-License-Identifier: BSD-3-Clause ContactPair over a step of the
+// energy-conserving scheme.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,11 +15,11 @@ namespace limber::contact {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Below this share of the change of depth the way along the normal does not
-// tell the force [-].
+// Below this share of the change of depth the motion along the normal does not
+// determine the force [-].
 constexpr double kLeastWay = 0.1;
 
-// A feature of another instant where its material points are now.
+// A feature of another instant at the present positions of its points.
 Meeting carry(const Shape& A, const Shape& B, const joints::PairBodies& bodies,
               const Meeting& known, joints::PairPoint& scratch) {
   const Vector3 p_A = find_point(bodies.A, A, known.on_A, scratch.on_A);
@@ -41,7 +41,7 @@ ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
       law_.find_law(motion.curvature, motion.residual, motion.share)
           .evaluate_over_step(begin.depth, end.depth);
   ElasticForce elastic{mean.force, mean.stiffness};
-  // Way and energies are nearly those of that law: the normal turns, and
+  // Motion and energies are nearly those of that law: the normal rotates, and
   // curvature and residual vary.
   const Vector3 way = (find_position(step.end.B, point.on_B) -
                        find_position(step.begin.B, point.on_B)) -
@@ -98,7 +98,7 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
   for (std::size_t i = shapes_.pad_count(); i < count_features(); ++i) {
     if (!(begin[i].depth > 0.0) && !(end[i].depth > 0.0)) continue;
     joints::PairPoint& point = out.add();
-    // What is a feature at one instant alone.
+    // A feature that exists at one instant only.
     const Meeting& known = end[i].depth > 0.0 ? end[i] : begin[i];
     const auto complete = [&](const joints::PairBodies& bodies,
                               Meeting& meeting) {
@@ -122,8 +122,8 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
   }
 }
 
-// As HertzLaw::evaluate_over_step, of all pads at once: the mean of the forces
-// at both ends, and what of the energy it leaves by the pads' ways.
+// As HertzLaw::evaluate_over_step for all pads together: the mean of the forces
+// at both ends, and the remaining energy by the pads' motion.
 void ContactPair::evaluate_pads_over_step(const joints::PairStep& step,
                                           const StepMeetings& meetings,
                                           std::span<const double> memory,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMost = 16;
 
-// Where something on both bodies is, in their frames.
+// A place on both bodies, in their frames.
 struct Mark {
   bool is_set = false;
   Vector3 on_A = Vector3::Zero();
@@ -35,7 +35,7 @@ void take(const Marks& slots, double reach, std::span<Meeting> meetings) {
   for (std::size_t i = 0; i < count; ++i) {
     all[i] = meetings[i];
     places[i] = mark(all[i]);
-    // What is not finite has no place and stays.
+    // A depth that is not finite has no place and keeps its index.
     if (!std::isfinite(all[i].depth) && !std::isnan(all[i].depth)) {
       is_placed[i] = true;
     }

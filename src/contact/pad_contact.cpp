@@ -11,10 +11,10 @@
 namespace limber::contact {
 namespace {
 
-// Of the surface's own flexibility, which keeps the law definite where the
-// basis leaves nothing out [-].
+// Share of the surface's own flexibility that keeps the law definite without
+// residual flexibility [-].
 constexpr double kShare = 1e-3;
-// Where a pad does not touch [m].
+// Depth of a pad that does not touch [m].
 constexpr double kFar = -1.0;
 
 MatrixX calc_compliance(const flexbody::ContactPads& pads,
@@ -24,8 +24,8 @@ MatrixX calc_compliance(const flexbody::ContactPads& pads,
                                     material.youngs_modulus / (1.0 - nu * nu));
 }
 
-// Of the pads at a place between them, by the inverse square of the distance;
-// their sum is 1.
+// Weights of the pads at a place between them, by the inverse square of the
+// distance; their sum is 1.
 PadLaw::Vector weigh(const Matrix3X& pads_x_B, const Vector3& x_B) {
   PadLaw::Vector weights(pads_x_B.cols());
   for (Eigen::Index i = 0; i < pads_x_B.cols(); ++i) {

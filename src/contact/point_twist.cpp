@@ -9,7 +9,7 @@
 namespace limber::contact {
 namespace {
 
-// Of B against A since then, about the normal [rad].
+// Rotation of B relative to A since then, about the normal [rad].
 double find_increment(const joints::PairBodies& bodies, const Vector3& normal_W,
                       const TurnMemory& former) {
   if (!former.is_set()) return 0.0;
@@ -70,8 +70,8 @@ TurnMemory find_turn(const joints::PairBodies& bodies) {
 void add_couple(const TwistResponse& twist, const Vector3& normal_W, double arm,
                 double h, std::size_t first, joints::PairResponse& out) {
   const Vector3 along = normal_W.cross(normal_W.unitOrthogonal());
-  // Of a force for a difference of both points' ways along it; the damper is
-  // left to Newton's iterations.
+  // Stiffness of a force against the difference of both points' motion along
+  // it; the tangent neglects the damper.
   const Matrix3 K =
       twist.by_increment / (4.0 * arm * arm) * along * along.transpose();
   for (const std::size_t i : {first, first + 1}) {

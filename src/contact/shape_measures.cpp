@@ -24,7 +24,7 @@ void describe_kind(Manifest& out, const Sphere& sphere) {
   out.add("radius [m]", sphere.radius);
 }
 
-// Of a capsule or a cylinder.
+// For a capsule or a cylinder.
 template <typename Rod>
 void describe_kind(Manifest& out, const Rod& rod) {
   out.add("radius [m]", rod.radius);

@@ -10,11 +10,11 @@
 namespace limber::contact {
 namespace {
 
-// Below this 1 + cos of the turn the least rotation has no axis.
+// Below this 1 + cos(angle) the smallest rotation has no axis.
 constexpr double kLeastCosine = 1e-6;
 
-// The bristle turned from the plane of its normal to that of `normal`, by the
-// least rotation, which keeps its length; s is tangent to the first.
+// The bristle rotated from the plane of its normal to that of `normal`, by the
+// smallest rotation, which keeps its length.
 Vector3 carry(const BristleMemory& memory, const Vector3& normal) {
   const Vector3& before = memory.normal_S;
   const double cosine = 1.0 + before.dot(normal);

@@ -42,8 +42,8 @@ double solve_series(double flat, double line) {
 }
 
 // x in (0, limit] of (x/flat)^n - (x/line)^(n+1) = 1. Up to the limit the left
-// side increases and is convex: from x = flat, where it is less, Newton's
-// method goes beyond x once, and from there decreases to it.
+// side increases and is convex: from x = flat, where it is smaller, Newton's
+// method passes x once, and then decreases to it.
 template <int n>
 double solve_difference(double flat, double line, double limit) {
   double x = std::min(flat, limit);
@@ -168,7 +168,7 @@ HertzLaw::Response HertzLaw::extend(double beyond) const {
   return response;
 }
 
-// The mean over both parts of the way.
+// The mean over both parts of the step.
 HertzLaw::StepResponse HertzLaw::evaluate_beyond(double d0, double d1) const {
   const double stiffness = -1.0 / parameters_.residual;
   const double limit = depth_limit_;

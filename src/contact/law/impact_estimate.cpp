@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The integral of sin(x) / f(x) by the double-exponential rule, which the
-// integrand's root at x = 0 does not slow down.
+// The integral of sin(x) / f(x) by the double-exponential rule, which converges
+// in spite of the integrand's root at x = 0.
 double integrate(const HertzLaw& law, double peak_energy) {
   constexpr double kStep = 0.125;
   constexpr int kHalfCount = 26;  // weights beyond are below round-off

@@ -10,14 +10,14 @@ namespace limber::contact {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// A pad of a smaller share of the depth's scale is neither pressed nor free.
+// Below this share of the depth's scale a pad is neither pressed nor free.
 constexpr double kNone = 1e-12;
 
 using Vector = PadLaw::Vector;
 using Matrix = PadLaw::Matrix;
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1, 0, PadLaw::kMost, 1>;
 
-// Pads that are pressed.
+// The set of pressed pads.
 struct Active {
   static Active of(const Flags& flags) {
     Active active;
@@ -30,7 +30,7 @@ struct Active {
   int count = 0;
 };
 
-// The forces of depths by a flexibility.
+// Solves for the forces at given depths.
 class Pressing {
  public:
   Pressing(const Matrix& C, const Vector& depth) : C_(C), depth_(depth) {}
@@ -39,7 +39,7 @@ class Pressing {
     active = depth_.array() > 0.0;
     if (!find_by_sets(active, force)) find_one_by_one(active, force);
   }
-  // The inverse among the active pads.
+  // The inverse for the active pads.
   void invert(const Flags& flags, Matrix& out) const {
     const Active active = Active::of(flags);
     if (active.count == 0) return;
@@ -63,7 +63,7 @@ class Pressing {
     return Eigen::LLT<Matrix>(C);
   }
 
-  // Forces of the active pads alone, of any sign.
+  // Forces of the active pads only, of any sign.
   [[nodiscard]] Vector solve(const Flags& flags) const {
     Vector force = Vector::Zero(depth_.size());
     const Active active = Active::of(flags);

@@ -9,8 +9,8 @@
 namespace limber::contact {
 namespace {
 
-// Cosine of the angle between a direction and an axis below which a cylinder's
-// end, or a capsule's, is turned to it [-].
+// Cosine of the angle between a direction and an axis from which on the end of
+// a cylinder or capsule faces the direction [-].
 constexpr double kEndOn = std::numbers::sqrt2 / 2.0;
 
 ConvexFace find_box_face(const PlacedShape& shape, const Box& box,
@@ -31,7 +31,7 @@ ConvexFace find_box_face(const PlacedShape& shape, const Box& box,
   return face;
 }
 
-// Farthest along n of the directions normal to an axis.
+// The direction normal to an axis that is farthest along n.
 Vector3 find_radial(const PlacedShape& shape, const Vector3& n) {
   const Vector3 axis = shape.X_WS.R.col(2);
   const Vector3 radial = n - n.dot(axis) * axis;

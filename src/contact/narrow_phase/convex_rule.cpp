@@ -13,10 +13,10 @@ namespace limber::contact {
 namespace {
 
 constexpr std::size_t kMostPoints = 4 * ConvexFace::kMostCorners;
-// Part of the depth by which corners may be less deep than the deepest point
-// before that counts, too [-].
+// Part of the depth by which corners may be shallower than the deepest point
+// before that becomes a feature as well [-].
 constexpr double kMissed = 0.1;
-// Shares up to this are round-off.
+// Shares up to this are round-off [-].
 constexpr double kNoShare = 1e-6;
 
 Segment make_segment(const ConvexFace& face) {
@@ -26,7 +26,7 @@ Segment make_segment(const ConvexFace& face) {
           0.5 * length};
 }
 
-// Between a face's corners along n [m].
+// Extent of a face's corners along n [m].
 double find_drop(const ConvexFace& face, const Vector3& n) {
   double low = n.dot(face.corners[0]);
   double high = low;
@@ -37,13 +37,13 @@ double find_drop(const ConvexFace& face, const Vector3& n) {
   return high - low;
 }
 
-// Points of both surfaces that are opposite each other.
+// Opposite points of both surfaces.
 struct Opposite {
   Vector3 on_A;
   Vector3 on_B;
 };
 
-// Those of the deepest point, apart along n by the depth.
+// The opposite points at the deepest place, separated along n by the depth.
 Opposite find_deepest(const Separation& at, const ConvexCore& core_A,
                       const ConvexCore& core_B, const ConvexFace& A,
                       const ConvexFace& B) {
@@ -65,7 +65,7 @@ Opposite find_deepest(const Separation& at, const ConvexCore& core_A,
   } else {
     const Vector3 on_A = core_A.find_support_point(n) + core_A.ball() * n;
     const Vector3 on_B = core_B.find_support_point(-n) - core_B.ball() * n;
-    // That of a rim, an edge or a corner rather than any of the face under it.
+    // The point of a rim, an edge or a corner, not of the face under it.
     const bool has_line = A.count == 2 || B.count == 2;
     const bool is_on_A =
         has_line ? A.count < B.count : find_drop(A, n) > find_drop(B, n);

@@ -12,8 +12,8 @@ namespace limber::contact {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Distance, of the sizes, below which the nearest points on a rim, which an
-// iteration finds, do not tell the direction between them [-].
+// Distance relative to the sizes below which the nearest points on a rim, found
+// by iteration, do not define the direction between them [-].
 constexpr double kClose = 1e-3;
 
 // Two unit vectors normal to a unit vector and to each other.
@@ -22,7 +22,7 @@ std::array<Vector3, 2> find_basis(const Vector3& u) {
   return {e, u.cross(e)};
 }
 
-// Keeps the direction of least depth of all that it is shown.
+// Keeps the direction of least depth of all candidates.
 class LeastDepth {
  public:
   LeastDepth(const ConvexCore& A, const ConvexCore& B)
@@ -34,7 +34,7 @@ class LeastDepth {
   [[nodiscard]] double evaluate(const Vector3& n) const {
     return n.dot(arm_) + A_.find_support(n) + B_.find_support(n);
   }
-  /// Of evaluate by n, which is constant along n [m].
+  /// Gradient of evaluate, which is constant along n [m].
   [[nodiscard]] Vector3 find_gradient(const Vector3& n) const {
     return A_.find_support_point(n) - B_.centre() +
            (B_.find_support_point(n) - B_.centre());
@@ -45,14 +45,14 @@ class LeastDepth {
     depth_ = depth;
     best_ = n;
   }
-  /// Both ways, of any length.
+  /// Tries n and -n, of any length.
   void try_both(const Vector3& n) {
     const double length = n.norm();
     if (!(length > 1e-9)) return;
     try_unit(n / length);
     try_unit(-n / length);
   }
-  /// All minima on the circle normal to u.
+  /// Tries all minima on the circle normal to u.
   void try_circle(const Vector3& u) {
     constexpr int kSamples = 32;
     const std::array<Vector3, 2> basis = find_basis(u);
@@ -69,8 +69,8 @@ class LeastDepth {
         return depths[static_cast<std::size_t>((k + kSamples) % kSamples)];
       };
       if (at(i) > at(i - 1) || at(i) > at(i + 1)) continue;
-      // By the sign of the derivative, exact to round-off, where the values
-      // themselves would tell half of the digits.
+      // Bisects the sign of the derivative, exact to round-off; values would
+      // give only half of the digits.
       double low = 2.0 * kPi * (i - 1) / kSamples;
       double high = 2.0 * kPi * (i + 1) / kSamples;
       constexpr int kCuts = 52;
@@ -82,14 +82,14 @@ class LeastDepth {
       try_unit(find_direction(0.5 * (low + high)));
     }
   }
-  /// A minimum among all directions, by compass search from the best of many,
-  /// then by Newton's method.
+  /// Tries a minimum among all directions, by compass search from the best of
+  /// many, then by Newton's method.
   void try_sphere() {
     constexpr int kSamples = 200;
     constexpr double kTurn = 2.399963229728653;  // golden angle
     Vector3 n = best_;
     double depth = depth_;
-    // Of the bodies, so that the answer turns with them.
+    // An axis of the bodies, so that the result rotates with them.
     const Vector3& axis = A_.segments()[0].axis;
     const Vector3 across = axis.cross(B_.segments()[0].axis);
     const Vector3 e1 = across.squaredNorm() > 1e-12 ? across.normalized()
@@ -123,7 +123,7 @@ class LeastDepth {
     try_unit(polish(n));
   }
 
-  /// Where the gradient is along n, near to a direction.
+  /// The stationary direction near to `start`.
   [[nodiscard]] Vector3 polish(const Vector3& start) const {
     constexpr int kMost = 12;
     Vector3 n = start;
@@ -151,7 +151,7 @@ class LeastDepth {
   [[nodiscard]] double depth() const { return depth_; }
 
  private:
-  // Of evaluate, across n.
+  // Gradient of evaluate normal to n.
   [[nodiscard]] Vector3 find_slope(const Vector3& n) const {
     const Vector3 gradient = find_gradient(n);
     return gradient - n.dot(gradient) * n;
@@ -165,7 +165,7 @@ class LeastDepth {
   Vector3 best_ = Vector3::UnitZ();
 };
 
-// Faces of a box and of a disc; two segments of one box span one of its faces.
+// Tries faces of a box and of a disc; two segments of a box span one face.
 void try_faces(const ConvexCore& shape, LeastDepth& least) {
   if (shape.segments().size() == 1 && !(shape.disc() > 0.0)) return;
   for (const ConvexCore::Segment& segment : shape.segments()) {

@@ -12,12 +12,12 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-// Distance, relative to the circumference, at which corners are one [-].
+// Distance, relative to the circumference, at which corners are merged [-].
 constexpr double kSame = 1e-6;
 // Distance from a line, relative to its length, at which a corner is on it [-].
 constexpr double kOnLine = 1e-12;
 
-// Edges are numbered as the corners that they start from, those of B after
+// Edges have the numbers of the corners that they start from, those of B after
 // A's.
 constexpr std::size_t kMostEdges = 2 * ConvexFace::kMostCorners;
 
@@ -48,7 +48,7 @@ struct Plane {
   }
 };
 
-// A face in that plane, anticlockwise, and its height above it.
+// A face in that plane, anticlockwise, and its height above the plane.
 class Cover {
  public:
   Cover(const ConvexFace& face, const Plane& plane)
@@ -66,7 +66,7 @@ class Cover {
     slope_ = -Vector2(normal.dot(plane.e1), normal.dot(plane.e2)) / along;
   }
 
-  // Corner i of the face as one goes around anticlockwise.
+  // Index of corner i in anticlockwise order.
   [[nodiscard]] std::size_t turn(std::size_t i) const {
     return is_turned_ ? face_.count - 1 - i : i;
   }
@@ -74,7 +74,7 @@ class Cover {
     return corners_[turn(i)];
   }
   [[nodiscard]] std::size_t count() const { return face_.count; }
-  // Of the face, above a place in the plane.
+  // The face's point above a place in the plane.
   [[nodiscard]] Vector3 lift(const Vector2& at) const {
     const Vector3 base = at.x() * plane_.e1 + at.y() * plane_.e2;
     const double height = plane_.n.dot(face_.corners[0]);
@@ -99,7 +99,7 @@ class Cover {
 Polygon cut(const Polygon& polygon, const Vector2& a, const Vector2& b,
             std::size_t number) {
   Polygon rest;
-  // A corner on the line is left of it, or round-off would choose.
+  // A corner on the line counts as left of it, independent of round-off.
   const double none = kOnLine * (b - a).squaredNorm();
   const auto find_side = [&](const Vector2& x) { return cross(b - a, x - a); };
   for (std::size_t i = 0; i < polygon.count; ++i) {
@@ -157,7 +157,7 @@ class Overlap {
       if (slope < 0.0) end = std::min(end, -here / slope);
       if (slope == 0.0 && here < 0.0) return false;
     }
-    // A line through a corner alone has one point, whatever round-off says.
+    // A line through a single corner has one point, independent of round-off.
     if (!(end - begin > kSame)) return false;
     put(first_slot, from + begin * way, 1.0);
     put(first_slot + 1, from + end * way, 1.0);
@@ -192,7 +192,7 @@ class Overlap {
     return true;
   }
 
-  // Where corners and edges coincide round-off must not choose.
+  // If corners and edges coincide the slot must not depend on round-off.
   [[nodiscard]] std::optional<std::size_t> find_slot_of_corner(
       const Vector2& at, double tolerance) const {
     for (std::size_t i = 0; i < A_.count(); ++i) {
@@ -206,7 +206,7 @@ class Overlap {
     return std::nullopt;
   }
 
-  // Of the corner between two edges.
+  // Slot of the corner between two edges.
   [[nodiscard]] std::size_t find_slot(std::size_t in, std::size_t out) const {
     const std::size_t n = A_.count();
     if (in < n && out < n) return A_.turn(out);

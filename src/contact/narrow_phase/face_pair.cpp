@@ -37,7 +37,7 @@ FacePlace add(const FacePlace& at, const Vector2& step) {
   return {at.u + step.x(), at.v + step.y()};
 }
 
-// Brings a place that round-off took over an edge back.
+// Returns a place that round-off has moved over an edge.
 FacePlace clamp(FacePlace at) {
   at.u = std::clamp(at.u, 0.0, 1.0);
   at.v = std::clamp(at.v, 0.0, 1.0);
@@ -51,7 +51,7 @@ FacePlace clamp(FacePlace at) {
   return at;
 }
 
-// How far a place may go, as a part of a step.
+// The fraction of a step that stays within the face.
 double find_room(const FacePlace& at, const Vector2& step) {
   const auto weights = at.weights();
   const std::array<double, 3> rates = {-step.x() - step.y(), step.x(),
@@ -63,8 +63,8 @@ double find_room(const FacePlace& at, const Vector2& step) {
   return std::max(room, 0.0);
 }
 
-// Columns: ways in (u, v) along which a place may go; zero ones for those that
-// it may not.
+// Columns: directions in (u, v) along which a place may move; zero for those
+// that are held.
 struct Ways {
   Matrix2 Z = Matrix2::Identity();
   [[nodiscard]] bool has(int i) const { return !Z.col(i).isZero(0.0); }
@@ -73,7 +73,7 @@ struct Ways {
 constexpr std::array<std::array<double, 2>, 3> kCornerPlaces = {
     {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
 
-// The corners whose weight is held at 0.
+// Corners whose weight is held at 0.
 using Held = std::array<bool, 3>;
 
 Ways find_ways(const Held& held) {
@@ -94,14 +94,14 @@ Ways find_ways(const Held& held) {
   return ways;
 }
 
-// Those of the edges and corners that a place is on.
+// The constraints of the edges and corners that a place is on.
 Held find_held_by(const FacePlace& at) {
   const auto weights = at.weights();
   return {weights[0] <= kOnEdge, weights[1] <= kOnEdge, weights[2] <= kOnEdge};
 }
 
-// Of these only those that a function with this gradient leads out of the face
-// at. @param gradient of what is to be least
+// Of these only the constraints that a descent along this gradient would
+// violate. @param gradient of the function to be minimised
 Held find_held_by(const FacePlace& at, const Vector2& gradient) {
   const auto weights = at.weights();
   const std::array<double, 3> slopes = {0.0, gradient.x(), gradient.y()};
@@ -114,7 +114,7 @@ Held find_held_by(const FacePlace& at, const Vector2& gradient) {
   return held;
 }
 
-// Holds what a step would lead out at once. @returns whether there is such.
+// Holds constraints that a step violates at once. @returns whether any is.
 bool hold(const FacePlace& at, const Vector2& step, Held& held) {
   const Held on = find_held_by(at);
   const std::array<double, 3> rates = {-step.x() - step.y(), step.x(),
@@ -134,7 +134,7 @@ Matrix4 join(const Ways& A, const Ways& B) {
   return Z;
 }
 
-// The least of |b + D n - a|^2 / 2 over both faces.
+// Minimises |b + D n - a|^2 / 2 over both faces.
 class OffsetDistance {
  public:
   OffsetDistance(const FacePatch& A, const FacePatch& B, const Vector3& offset)
@@ -195,7 +195,7 @@ class OffsetDistance {
     return 0.0;
   }
 
-  // Of the ways that are free. @returns whether H is positive definite there.
+  // Solves in the free directions. @returns whether H is positive definite.
   static bool solve(const Matrix4& Z, const Matrix4& H, const Vector4& gradient,
                     double ridge, Vector4& step) {
     Matrix4 reduced = Z.transpose() * H * Z;
@@ -214,8 +214,8 @@ class OffsetDistance {
   Vector3 offset_;
 };
 
-// Newton's method on places and normal, with the edges and corners held that
-// both places are on at the start.
+// Newton's method on places and normal, which stay on the edges and corners
+// that they are on at the start.
 class Stationary {
  public:
   enum class End { kWithin, kOutside, kFar, kSingular };
@@ -224,7 +224,7 @@ class Stationary {
              const Ways& ways_B)
       : A_(A), B_(B), ways_A_(ways_A), ways_B_(ways_B) {}
 
-  // Where it is `far`, out of both faces by more than that weight, it ends.
+  // Ends if a place is outside of its face by more than the weight `far`.
   End solve(FacePairPlace& out, double far) const {
     constexpr int kMostSteps = 12;
     constexpr double kSmallStep = 1e-11;
@@ -237,7 +237,7 @@ class Stationary {
       const double step = improve(a, b, n);
       if (!std::isfinite(step)) return End::kSingular;
       if (find_outside(a) > far || find_outside(b) > far) return End::kFar;
-      // Round-off does not let it come nearer.
+      // Round-off prevents further progress.
       const bool stays = step < kCloseStep && step >= last;
       last = step;
       if (step > kSmallStep && !stays) continue;
@@ -298,8 +298,8 @@ class Stationary {
   const Ways& ways_B_;
 };
 
-// Whether the overlap is largest there, and no saddle: the least distance of B
-// moved off by a little.
+// Whether the overlap has a maximum there, not a saddle: the least distance
+// after B is moved off slightly.
 bool is_largest(const FacePatch& A, const FacePatch& B, const FacePairPlace& at,
                 double offset) {
   const Vector3 arm =
@@ -319,7 +319,7 @@ bool turn_to_each_other(const FacePatch& A, const FacePatch& B,
          B.find_normal(at.on_B).normalized().dot(at.normal) < -kAway;
 }
 
-// With edges and corners that may hold either place.
+// Solves with the edges and corners that may hold either place.
 std::optional<FacePairPlace> find_held(const FacePatch& A, const FacePatch& B,
                                        const Vector3& normal, double offset) {
   constexpr int kMostTurns = 8;

@@ -13,8 +13,8 @@
 namespace limber::contact {
 namespace {
 
-// Angles between two faces up to which pads count in full, and from which on
-// they do not count, by their cosines [-].
+// Cosines of the angles between two faces up to which pads count fully, and
+// from which on they do not count [-].
 struct TiltRange {
   double all;
   double none;
@@ -23,41 +23,41 @@ struct TiltRange {
     return std::clamp((cosine - none) / (all - none), 0.0, 1.0);
   }
 };
-// 30 and 45 degrees: of pads that are all over the other face.
+// 30 and 45 degrees: for pads that are all over the other face.
 constexpr TiltRange kCoveredTilt{0.5 * std::numbers::sqrt3,
                                  0.5 * std::numbers::sqrt2};
-// 0.5 and 1 degree where the other face's rim is over pads: of a linear body,
-// whose face is pressed in by a hundredth of its width at most, only corners
-// and edges of faces that are tilted more touch.
+// 0.5 and 1 degree where the other face's rim is over pads: the face of a
+// linear body deforms by a hundredth of its width at most, so that at larger
+// tilts only corners and edges touch.
 constexpr TiltRange kRimTilt{0.99996192, 0.99984770};
-// Least cover of all pads from which on they begin to count as all over the
+// Smallest cover of all pads from which on they begin to count as all over the
 // other face [-].
 constexpr double kWithin = 0.9;
 // Shares up to this are round-off.
 constexpr double kNoShare = 1e-9;
-// A place between pads counts as far as it is deeper than the deepest pad, in
-// full from this part of its depth on [-].
+// A place between pads counts if it is deeper than the deepest pad, fully from
+// this part of its depth on [-].
 constexpr double kDeeper = 0.1;
-// Distance from the line between two pads' nodes, of a pad's radius, up to
-// which they stand for a place, and from one radius more on do not [-].
+// Distance from the line between two pads' nodes, relative to a pad's radius,
+// up to which the pads represent a place; one radius farther they do not [-].
 constexpr double kOfPad = 1.0;
-// Share from which on a pad stands for the places next to it [-].
+// Share from which on a pad represents the places next to it [-].
 constexpr double kCovered = 0.1;
 
 double find_radius(const flexbody::ContactPads& pads, Eigen::Index pad) {
   return std::sqrt(pads.area[pad] / std::numbers::pi);
 }
 
-// What a flat side has opposite to a point.
+// The part of a flat side opposite to a point.
 struct Opposite {
   Vector3 normal_W = Vector3::UnitZ();  // unit, outward [-]
   Vector3 p_W = Vector3::Zero();        // its point there, or on its rim [m]
   SurfacePlace place;
-  // Of what is behind it [m].
+  // Thickness of the body behind it [m].
   double thickness = std::numeric_limits<double>::infinity();
 };
 
-// A face of a box or an end of a cylinder: that which is turned against a
+// The face of a box or end of a cylinder that faces against a
 // direction.
 std::optional<Opposite> find_opposite(const PlacedShape& shape,
                                       const Vector3& p_W,
@@ -88,7 +88,7 @@ double sum_area(const Skin& skin) { return skin.surface().pads.area.sum(); }
 // Pads that are deeper are behind the other side, not in it.
 double find_width(const Skin& skin) { return std::sqrt(sum_area(skin)); }
 
-// A flat surface where its body is.
+// A flat surface at the pose of its body.
 struct FlatSide {
   FlatSide(const PlacedShape& shape_, const Skin& skin_)
       : shape(shape_),
@@ -102,7 +102,7 @@ struct FlatSide {
   Vector3 normal_W;  // of its mean plane, unit, outward [-]
 };
 
-// Of a flat surface that deforms. @param reach of points beyond its rim [m]
+// For a deformed flat surface. @param reach of points beyond its rim [m]
 std::optional<Opposite> find_opposite(const FlatSide& side, const Vector3& p_W,
                                       double reach) {
   const auto hit = side.skin.find_nearest(
@@ -112,7 +112,7 @@ std::optional<Opposite> find_opposite(const FlatSide& side, const Vector3& p_W,
                   hit->place};
 }
 
-// Part of a pad that is over the other side, by what its node is beyond the
+// Part of a pad over the other side, from the distance of its node beyond the
 // rim.
 double find_cover(double beyond, double radius) {
   return std::clamp(1.0 - beyond / radius, 0.0, 1.0);
@@ -136,7 +136,7 @@ class CoveredPads {
   // The largest share times depth, at least 0 [m].
   [[nodiscard]] double deepest() const { return deepest_; }
 
-  // How far they stand for a place: 1 on the line between two of them.
+  // How far they represent a place: 1 on the line between two of them.
   [[nodiscard]] double find_hold(const Vector3& x_B) const {
     double hold = 0.0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -167,8 +167,8 @@ class CoveredPads {
   double deepest_ = 0.0;  // [m]
 };
 
-// A pad of A and what is opposite to it on B. Of a pad whose node is beyond B's
-// rim the part that is over B counts: there the rim is on A's plane.
+// A pad of A and the opposite point of B. If the pad's node is beyond B's rim,
+// the part over B counts, where the rim is on A's plane.
 //
 // @param other B if it is a flat surface, too
 Meeting meet_pad(const FlatSide& A, std::size_t i, const PlacedShape& B,
@@ -186,7 +186,7 @@ Meeting meet_pad(const FlatSide& A, std::size_t i, const PlacedShape& B,
   const double beyond = (arm - height * found->normal_W).norm();
   const double cover = find_cover(beyond, radius);
   if (!(cover > kNoShare) || height > reach || -height > deepest) return {};
-  // Of the node over B's plane, and of B's rim over A's.
+  // Mean of the node over B's plane and B's rim over A's.
   const Vector3 normal = (1.0 - cover) * A.normal_W - cover * found->normal_W;
   const double depth = (1.0 - cover) * A.normal_W.dot(arm) - cover * height;
   const Vector3 middle = found->p_W + 0.5 * depth * normal;

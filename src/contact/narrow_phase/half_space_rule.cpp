@@ -14,10 +14,10 @@ namespace {
 
 using SkinPointer = std::shared_ptr<const Skin>;
 
-// Of a skin without pads, those that touch.
+// Largest number of touching nodes of a skin without pads.
 constexpr std::size_t kMostNodes = 64;
 
-// Points of a shape with a ball about each.
+// Points of a shape, with a ball about each.
 struct Features {
   static constexpr std::size_t kMost = 8;
   std::array<Vector3, kMost> centres = {};  // the shape's frame [m]
@@ -42,9 +42,9 @@ Features list_features(const Capsule& capsule, const Vector3& /*normal*/) {
   return features;
 }
 
-// The lowest point of each rim and the two a third of a turn from it. Lying,
-// the cylinder touches with the lowest ones alone; standing, with all, whose
-// net force and moment do not depend on where they are on the rim.
+// The lowest point of each rim and two more a third of a turn away. A lying
+// cylinder touches with the lowest ones only, a standing one with all, whose
+// net force and moment do not depend on their position on the rim.
 Features list_features(const Cylinder& cylinder, const Vector3& normal) {
   const double slope = std::hypot(normal.x(), normal.y());
   const double x = slope > 0.0 ? -normal.x() / slope : 1.0;
@@ -120,7 +120,7 @@ void meet_pads(const PlacedShape& A, const PlacedShape& B, const Skin& skin,
   }
 }
 
-// Of more nodes than `out` has room for the deepest.
+// If `out` has too little room, it gets the deepest nodes.
 void meet_skin(const PlacedShape& A, const PlacedShape& B, const Skin& skin,
                double reach, std::span<Meeting> out) {
   if (skin.pad_count() > 0) {

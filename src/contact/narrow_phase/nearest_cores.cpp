@@ -9,7 +9,7 @@
 namespace limber::contact {
 namespace {
 
-// Distance that counts as none, of the sizes [-].
+// Distance relative to the sizes that counts as zero [-].
 constexpr double kNone = 1e-10;
 
 struct Vertex {
@@ -18,7 +18,7 @@ struct Vertex {
   Vector3 x;  // on_B - on_A
 };
 
-// Weights of the nearest point to the origin, 0 of vertices that it does not
+// Weights of the point nearest to the origin, 0 for vertices that it does not
 // need.
 using Weights = std::array<double, 4>;
 
@@ -98,7 +98,7 @@ class Simplex {
     weights[i] = w_i;
     weights[j] = w_j;
     weights[k] = w_k;
-    // Of the point itself: round-off in a sliver must not call it nearer.
+    // From the point itself: round-off in a sliver must not make it nearer.
     best.take(weights, (w_i * x(i) + w_j * x(j) + w_k * x(k)).squaredNorm());
   }
   [[nodiscard]] bool holds_origin() const {
@@ -140,8 +140,8 @@ Vertex find_vertex(const ConvexCore& A, const ConvexCore& B,
   return vertex;
 }
 
-// From a direction; `along` is then that of the widest slab between both, of
-// width `width`.
+// Searches from a direction; `along` is then the normal of the widest slab
+// between both, of width `width`.
 struct Search {
   NearestOfCores points;
   double distance = std::numeric_limits<double>::infinity();

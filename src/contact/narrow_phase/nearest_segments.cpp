@@ -16,7 +16,7 @@ double project(const Segment& segment, const Vector3& point) {
   return clamp_to(segment, segment.axis.dot(point - segment.centre));
 }
 
-// Keeps the nearest of all pairs of points that it is shown.
+// Keeps the nearest of all candidate pairs of points.
 class Nearest {
  public:
   Nearest(const Segment& a, const Segment& b) : a_(a), b_(b) {}

@@ -14,7 +14,7 @@ namespace {
 
 using SkinPointer = std::shared_ptr<const Skin>;
 
-// A point of B's surface in B's frame, and the place that it is.
+// A point of B's surface in B's frame, and its place.
 struct Nearest {
   NearestPoint point;
   SurfacePlace place;
@@ -44,7 +44,7 @@ Segment place_segment(const PlacedShape& capsule) {
           std::get<Capsule>(capsule.shape.kind).half_length};
 }
 
-// Of axes that cross.
+// For axes that cross.
 Vector3 find_normal_of_crossing(const PlacedShape& A, const PlacedShape& B) {
   constexpr double kParallel = 1e-12;
   const Vector3 normal_W = A.X_WS.R.col(2).cross(B.X_WS.R.col(2));

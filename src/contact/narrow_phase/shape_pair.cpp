@@ -123,7 +123,7 @@ void ShapePair::meet_flat(const PlacedShape& padded, const PlacedShape& face,
                           const joints::PairBodies& bodies, double reach,
                           std::span<Meeting> out) const {
   const std::span<Meeting> pads = out.first(pad_count_);
-  // Those that do not touch yet stand for places that do, too.
+  // Pads that do not touch yet also represent places that do.
   meet_pads_on_face(padded, face, kInfinity, pads);
   const std::span<Meeting> others = out.subspan(pad_count_);
   const PlacedShape skin_A(skin_A_, bodies.A);
@@ -147,7 +147,7 @@ double ShapePair::find_flat_clearance(const PlacedShape& padded,
     meet_pads_on_face(padded, face, distance, pads);
     return std::min(distance, -find_deepest(pads));
   }
-  // Where pads stand for the place at which the surfaces touch.
+  // If pads represent the place at which the surfaces touch.
   const auto features = std::span(all).first(most_points_);
   meet_flat(padded, face, bodies, kInfinity, features);
   return -find_deepest(features);

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// What SkinPairSearch does between flat faces, which have no place of their own
-// where they are nearest: corners, and edges that cross.
+// SPDX-License-Identifier: BSD-3-Clause SkinPairSearch between flat
+// faces, which have no unique nearest place: corners, and edges that
+// cross.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,11 +13,11 @@ namespace limber::contact {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Slope beyond a corner or an edge up to which an end of a line counts that is
-// not its deepest [-].
+// Slope beyond a corner or an edge up to which the shallower end of a line
+// counts [-].
 constexpr double kLeans = 0.3;
-// Least cosine between what is across two edges and the mean of both faces'
-// normals, about, and of faces in parallel [-].
+// Smallest cosine between the normal of two edges and the mean of both faces'
+// normals, roughly, and for parallel faces [-].
 constexpr double kAbout = 0.5;
 constexpr double kAlmost = 0.98;
 
@@ -26,7 +26,7 @@ Vector3 find_way(const FacePatch& face, std::size_t edge) {
          face.find_point(kFaceCorners[edge]);
 }
 
-// Across two edges, unit; none where they are about parallel.
+// Unit normal of two edges; none if they are nearly parallel.
 std::optional<Vector3> find_across(const FacePatch& A, std::size_t edge_A,
                                    const FacePatch& B, std::size_t edge_B,
                                    const Vector3& about, double least_cosine) {
@@ -156,12 +156,12 @@ bool SkinPairSearch::is_genuine_of_flat(const Feature& feature) const {
       find_height(A_, p - depth * n) <= -kInside * depth) {
     return true;
   }
-  // At the rim of both a step to some side leads along A's face into B. Of the
-  // depth: the step, how deep it must lead, and how far from A's face [-].
+  // At the rim of both, a step to some side leads along A's face into B. Over
+  // the depth: the step, the depth reached, the distance from A's face [-].
   constexpr double kStep = 0.25;
   constexpr double kLeast = 0.1;
   constexpr double kMost = 0.7 * kStep;
-  // The first towards the middles of both faces.
+  // The first is towards the middles of both faces.
   constexpr std::array<double, 8> kTurns = {0.0,  1.0, -1.0, 2.0,
                                             -2.0, 3.0, -3.0, 4.0};
   constexpr double kTurn = 0.25 * std::numbers::pi;

@@ -10,17 +10,17 @@ namespace limber::contact {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Cosine between sides that are turned to each other, at most [-].
+// Largest cosine between normals of sides that face each other [-].
 constexpr double kFacing = -0.05;
-// The same of sides in parallel, and the bulge of flat ones, of an edge [-].
+// The same for parallel sides, and the bulge of flat ones over an edge [-].
 constexpr double kParallel = -0.995;
 constexpr double kFlatBulge = 0.01;
 constexpr double kExactlyFlat = 1e-6;
-// First overlap that is looked for, of an edge, and its growth [-].
+// First overlap to be looked for, relative to an edge, and its growth [-].
 constexpr double kFirstSlack = 0.1;
 constexpr double kMoreSlack = 4.0;
-// How far beyond their edges places of two faces may be nevertheless, of the
-// shorter edge [-].
+// Distance beyond their edges at which places of two faces are still accepted,
+// relative to the shorter edge [-].
 constexpr double kNearby = 0.2;
 constexpr double kShallow = 0.02;  // of an edge [-]
 
@@ -64,7 +64,7 @@ double SkinPairSearch::limit() const {
          slack_;
 }
 
-// Whether there may be an overlap deeper than what was looked for.
+// Whether there may be an overlap deeper than those looked for.
 bool SkinPairSearch::must_look_deeper() const {
   if (!has_overlap_) return false;
   double summit = -kInfinity;
@@ -79,7 +79,7 @@ void SkinPairSearch::run_to_overlap(double reach) {
   run(reach);
 }
 
-// Whether any overlap will do, and one was found.
+// Whether any overlap suffices, and one was found.
 bool SkinPairSearch::is_answered() const {
   return ends_at_overlap_ && deepest_.at.depth > kNoDepth * edge_;
 }
@@ -170,7 +170,7 @@ void SkinPairSearch::descend(double reach) {
       continue;
     }
     for (const Entry& child : split(entry)) stack[size++] = child;
-    // The nearer one first.
+    // The nearer one comes first.
     if (stack[size - 1].gap > stack[size - 2].gap) {
       std::swap(stack[size - 1], stack[size - 2]);
     }
@@ -219,7 +219,7 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
     if (cosine < kParallel) {
       look_at_corners(faces, normal);
       look_at_edges(faces, normal);
-      // Of flat faces there is nothing else.
+      // Flat faces need nothing else.
       if (is_flat(A, kExactlyFlat * edge_) &&
           is_flat(B, kExactlyFlat * edge_)) {
         return;
@@ -238,15 +238,15 @@ void SkinPairSearch::look_at(int face_A, const FacePatch& A, int face_B,
   if (is_summit(face_A, face_B, *at, kRises)) add(feature);
 }
 
-// Whether two faces are farther apart along `way`, a unit vector from A to B,
-// than what counts, and so are all of their places.
+// Whether all places of two faces are too far apart along `way`, a unit vector
+// from A to B, to count.
 bool SkinPairSearch::are_apart_along(const Vector3& way, const FacePatch& A,
                                      const FacePatch& B) const {
   return B.find_range(way).low - A.find_range(way).high >
          limit() + kSamePlace * edge_;
 }
 
-// Sides that are turned away from each other beyond a thin part are none that
+// The far sides of a thin part face away from each other and do not
 // overlap.
 bool SkinPairSearch::is_in_range(int face_A, int face_B, double depth) const {
   return depth <= slack_ && depth <= 0.5 * (A_.skin.measures(face_A).thickness +
@@ -259,14 +259,14 @@ bool SkinPairSearch::are_inner(int face_A, int face_B) const {
   return A.overshoot + B.overshoot <= kNearby * std::min(A.edge, B.edge);
 }
 
-// Of a point in A's frame above a surface, < 0 inside.
+// Height of a point in A's frame above a surface, < 0 inside.
 double SkinPairSearch::find_height(const DeformedSkin& over,
                                    const Vector3& p) const {
   const Vector3 at = &over == &A_ ? p : X_AB_.inverse() * p;
   const auto hit = over.skin.find_nearest(at, over.eta, kInfinity, kInfinity);
   if (!hit) return kInfinity;
   if (over.skin.is_closed()) return hit->nearest.distance;
-  // Beyond a border the face's plane goes on.
+  // Beyond a border the face's plane is extended.
   const SurfacePlace& place = hit->place;
   const Vector3 normal = over.skin.make_patch(place.face, over.eta, Pose{})
                              .find_normal({place.u, place.v});
@@ -283,7 +283,7 @@ bool SkinPairSearch::is_genuine(const Feature& feature) const {
   }
   const Vector3 half = 0.5 * depth * feature.at.normal;
   const Vector3 a = feature.middle + half;
-  // Above an edge or a corner their own sides are nearer than the depth.
+  // Above an edge or a corner its own sides are nearer than the depth.
   const auto find_least = [&](const DeformedSkin& in, const SurfacePlace& at,
                               const Vector3& out) {
     const double cosine = in.skin.find_least_cosine(at, in.eta, out);
@@ -320,8 +320,8 @@ SkinPairSearch::Feature SkinPairSearch::make_feature(
           .curvature = std::max(0.0, curvature)};
 }
 
-// What differs by round-off must not tell: a corner on a rim, or a place on an
-// edge of the mesh, would change its normal at every look.
+// The choice must not depend on round-off: a corner on a rim, or a place on an
+// edge of the mesh, would change its normal at every evaluation.
 SkinPairSearch::Feature SkinPairSearch::choose(const Feature& a,
                                                const Feature& b) const {
   const double deeper = b.at.depth - a.at.depth;
@@ -340,10 +340,10 @@ SkinPairSearch::Feature SkinPairSearch::choose(const Feature& a,
 }
 
 void SkinPairSearch::add(const Feature& feature) {
-  // Many of flat faces are shallow; of these only those that count are tested.
+  // Flat faces give many shallow features; only those that count are tested.
   if (feature.at.depth > kShallow * edge_ && !is_genuine(feature)) return;
   if (feature.at.depth > deepest_.at.depth) deepest_ = feature;
-  // Inner nodes of flat parts give way to their corners.
+  // Corners of flat parts come before inner nodes.
   const auto is_less = [](const Feature& a, const Feature& b) {
     return a.is_outer != b.is_outer ? b.is_outer : a.at.depth < b.at.depth;
   };

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// What SkinPairSearch takes of the features that it found: deep ones apart from
-// each other.
+// SPDX-License-Identifier: BSD-3-Clause Selection by
+// SkinPairSearch of the features found: deep and distinct
+// ones.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-// Of the area around a feature in which both overlap, enlarged a little; flat
-// parts count as round as the whole.
+// Radius of the area around a feature in which both overlap, slightly enlarged;
+// flat parts count as round as the whole.
 double SkinPairSearch::find_radius(const Feature& feature) const {
   constexpr double kLarger = 1.2;
   constexpr double kLeast = 0.25;  // of an edge
@@ -26,11 +26,11 @@ double SkinPairSearch::find_radius(const Feature& feature) const {
   return std::max(kLarger * std::sqrt(2.0 * depth / curvature), kLeast * edge_);
 }
 
-// Of a node within a flat part, or a place along an edge, that is no deeper
-// than the corners of these: none. It counts as far as it is deeper.
+// A node within a flat part, or a place along an edge, has no share unless it
+// is deeper than the corners of these.
 double SkinPairSearch::find_share(const Feature& feature) const {
   constexpr double kSameSide = 0.94;  // cosine of 20 degrees
-  // Of the depth: from which on it counts, and in full.
+  // Excess over the depth from which on it counts, and counts fully [-].
   constexpr double kDeeper = 0.3;
   constexpr double kMuchDeeper = 0.6;
   if (feature.is_outer) return 1.0;
@@ -52,7 +52,7 @@ double SkinPairSearch::find_share(const Feature& feature) const {
 std::size_t SkinPairSearch::select(std::span<Feature> out) const {
   constexpr double kWider = 1.5;
   constexpr double kNoShare = 1e-6;
-  // Of equally deep features those farther out count first.
+  // Of equally deep features the outer ones come first.
   constexpr double kOuter = 1e-3;
   Vector3 centre = Vector3::Zero();
   for (std::size_t i = 0; i < count_; ++i) centre += features_[i].middle;

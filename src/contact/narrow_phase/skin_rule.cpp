@@ -22,7 +22,7 @@ bool is_finite(const DeformedSkin& skin, const PlacedShape& shape) {
          shape.X_WB.p.allFinite() && shape.X_WB.R.allFinite();
 }
 
-// Of balls about both.
+// Distance of the balls about both.
 double find_far(const DeformedSkin& A, const DeformedSkin& B,
                 const Pose& X_AB) {
   const Skin::Ball ball_A = A.skin.find_ball(A.eta);
@@ -107,7 +107,7 @@ double find_skins_clearance(const PlacedShape& A, const PlacedShape& B) {
                                skin_B.skin.find_ball(skin_B.eta).radius);
   if (far > near) return far;
   SkinPairSearch search(skin_A, skin_B, X_AB);
-  // Near to the distance where that is long against the faces.
+  // Close to the distance if that is large compared with the faces.
   const double gap = search.find_box_gap();
   if (gap > std::max(skin_A.skin.mean_edge(), skin_B.skin.mean_edge())) {
     return gap;

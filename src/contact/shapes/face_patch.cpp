@@ -9,7 +9,7 @@
 namespace limber::contact {
 namespace {
 
-// Where the flat triangle a, a + ab, a + ac is nearest to p [@ericson2005,
+// The point of the flat triangle a, a + ab, a + ac nearest to p [@ericson2005,
 // sec. 5.1.5].
 FacePlace find_nearest_of_triangle(const Vector3& a, const Vector3& ab,
                                    const Vector3& ac, const Vector3& p) {
@@ -49,7 +49,7 @@ struct Parabola {
   }
 };
 
-// The place of the triangle where it is least, from a place in it.
+// Its minimum in the triangle, from a place in it.
 FacePlace minimise(const Parabola& model, const FacePlace& from) {
   const double determinant = model.h_uu * model.h_vv - model.h_uv * model.h_uv;
   const FacePlace inside{

@@ -7,8 +7,8 @@
 namespace limber::contact {
 namespace {
 
-// Of the sphere about `centre`; `direction` stands in for that of p where p is
-// the centre.
+// Nearest point of the sphere about `centre`; `direction` is used if p is the
+// centre.
 NearestPoint find_on_ball(const Vector3& centre, double radius,
                           const Vector3& p, const Vector3& direction) {
   const Vector3 arm = p - centre;

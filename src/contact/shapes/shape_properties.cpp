@@ -47,7 +47,7 @@ void check_kind(const ShapeKind& kind) {
              kind);
 }
 
-// Of the shape's points from the origin of its frame.
+// Largest distance of the shape's points from the origin of its frame.
 double find_size(const ShapeKind& kind, const joints::PairBody& body) {
   return std::visit(
       Overloaded{[](const Sphere& sphere) { return sphere.radius; },

@@ -62,7 +62,7 @@ flexbody::ContactSurface make_box(const Box& box, const Pose& X) {
 }
 
 // Quadratic faces over a grid of places (around, along), whose first and last
-// rows are one point each.
+// rows are single points.
 class CapsuleMaker {
  public:
   explicit CapsuleMaker(const Capsule& capsule) : capsule_(capsule) {}
@@ -81,8 +81,8 @@ class CapsuleMaker {
   }
 
  private:
-  // Rows of corners: a pole, kCap rings of each cap, between the caps the
-  // straight part, a pole.
+  // Rows of corners: a pole, kCap rings of each cap, the straight part between
+  // the caps, a pole.
   static constexpr int kAround = 32;
   static constexpr int kCap = 8;
   static constexpr int kRows = 2 * kCap + 1;

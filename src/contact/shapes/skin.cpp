@@ -180,7 +180,7 @@ void Skin::set_bounds() {
   };
   if (has_means()) {
     for (std::size_t n = 0; n < owners_.size(); ++n) {
-      // Of a control point, three times a node's.
+      // For a control point, three times that of a node.
       spread_ = std::max(spread_, 3.0 * sum_weights(static_cast<int>(n)));
     }
   }

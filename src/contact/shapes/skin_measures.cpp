@@ -30,7 +30,7 @@ bool may_meet(const SkinTree::Box& box, const Vector3& from, const Vector3& way,
   return first <= last;
 }
 
-// How far along a ray a flat triangle is; infinite: it misses [@moller1997].
+// Distance to a flat triangle along a ray; infinite if it misses [@moller1997].
 double find_way_to(const Vector3& a, const Vector3& b, const Vector3& c,
                    const Vector3& from, const Vector3& way) {
   const Vector3 ab = b - a;
@@ -162,8 +162,8 @@ std::size_t Skin::find_corner(int f, int node) const {
   return corners[0] == node ? 0 : corners[1] == node ? 1 : 2;
 }
 
-// Both meet at an angle there, and the face turns by as much only so far
-// beyond: that angle over the curvature across the edge.
+// Two faces meet at an angle, which the extended face reaches at this distance:
+// the angle over the curvature across the edge.
 double Skin::find_overshoot(int f, int edge, int other) const {
   constexpr double kSmooth = 1e-6;  // sine
   const FacePatch patch = make_undeformed_patch(f);
@@ -193,8 +193,8 @@ double Skin::find_overshoot(int f, int edge, int other) const {
   return longest;
 }
 
-// A node where sharp edges or borders meet is on an edge; unless these are two
-// that go on straight, it is a corner.
+// A node with sharp edges or borders is on an edge; unless these are two in a
+// straight line, it is a corner.
 void Skin::mark_rims() {
   constexpr double kStraight = 0.996;    // cosine of 5 degrees
   constexpr double kNoTurn = 0.9999995;  // of 1e-3 rad
@@ -215,8 +215,8 @@ void Skin::mark_rims() {
       add(b, a);
     }
   }
-  // Inner edges count twice. Of two ways |sum|^2 = 2 + 2 cos, from both faces 4
-  // times that.
+  // Inner edges count twice. For two directions |sum|^2 = 2 + 2 cos, from both
+  // faces 4 times that.
   const double straight = 8.0 * (1.0 - kStraight);
   const auto is_corner = [&](std::size_t node) {
     return counts[node] > 4 || sums[node].squaredNorm() > straight;
@@ -269,7 +269,7 @@ double Skin::find_thickness(int f, const FacePlace& from) const {
     for (const int g : tree_.find_faces(node)) {
       const Face& n = face(g);
       if (g == f) continue;
-      // Neighbours that rise inward are no other side.
+      // Neighbours that rise inward are not the opposite side.
       const Vector3 normal = (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0]));
       if (!(normal.dot(way) > 0.0)) continue;
       const double far = find_way_to(at(n[0]), at(n[1]), at(n[2]), p, way);
@@ -339,7 +339,7 @@ bool Skin::is_summit(const SurfacePlace& place, const ModalView& eta,
       }
       const FacePatch patch = deform_face(f, eta);
       const FacePlace at{there[1], there[2]};
-      // Towards the corner that the edge has not.
+      // Towards the corner opposite to the edge.
       if (rises(patch.find_tangent_u(at) * (kFaceCorners[far].u - at.u) +
                 patch.find_tangent_v(at) * (kFaceCorners[far].v - at.v))) {
         return false;

@@ -7,7 +7,7 @@
 namespace limber::contact {
 namespace {
 
-// Between the two edges of a face that start at one of its corners [rad].
+// Angle between the two edges of a face at one of its corners [rad].
 double find_angle(const FacePatch& patch, int corner) {
   const FacePlace& at = kFaceCorners[index(corner)];
   const Vector3 x_u = patch.find_tangent_u(at);

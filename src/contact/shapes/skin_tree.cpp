@@ -9,7 +9,7 @@ namespace {
 
 using Face = std::array<int, 6>;
 
-// A value per node, as columns: that of a face's control point.
+// From one value per node, as columns, the value of a face's control point.
 template <class Nodes>
 auto find_control(const Nodes& nodes, const Face& face, int i) {
   return (i < 3 ? nodes.col(face[index(i)]).eval()
@@ -23,7 +23,7 @@ int count_controls(const Face& face) { return face[3] < 0 ? 3 : 6; }
 
 }  // namespace
 
-// Bounds of control points' coordinates, a column a box: X, then each mode.
+// Bounds of control points' coordinates, one column per box: X, then each mode.
 struct SkinTree::Controls {
   const std::vector<Face>& faces;
   const Matrix3X& X;
@@ -121,7 +121,7 @@ void SkinTree::set_bounds(const Controls& controls) {
 }
 
 SkinTree::Box SkinTree::find_box(int i, const ModalView& eta) const {
-  // Round-off of sums must not let a face out of its box.
+  // Round-off of sums must not move a face out of its box.
   constexpr double kMargin = 1e-12;
   Box box = boxes_[index(i)];
   if (spread_ > 0.0) box.half.array() += spread_ * eta[eta.size() - 1];
