@@ -12,7 +12,7 @@ double find_restitution_damping(double restitution, double speed) {
   LIMBER_EXPECT(speed > 0.0 && std::isfinite(speed));
   const double e = restitution;
   if (e == 1.0) return 0.0;
-  // What the bounce leaves too fast (> 0) or too slow, for beta in (0, 1/e).
+  // Excess of the rebound's speed, for beta in (0, 1/e).
   const auto excess = [e](double beta) {
     return (1.0 + e) * beta - std::log1p(beta) + std::log1p(-e * beta);
   };

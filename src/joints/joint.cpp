@@ -23,7 +23,7 @@ Joint::Joint(Hold hold, std::vector<AxisCoordinate> coordinates,
     first_switch_.push_back(static_cast<std::size_t>(switches));
     switches += joints::switch_count(element.law);
   }
-  // The last element reads as many modes as a law may have.
+  // The last element may read as many switch modes as a law may have.
   LIMBER_EXPECT(switches + kMaxScalarSwitches <= kMaxSwitches);
 }
 

@@ -84,7 +84,7 @@ class Thickness {
   fem::BoxTree tree_;
 };
 
-/// What the faces at the corners tell of each.
+/// Measures of each corner from the faces there.
 struct Corners {
   VectorX edge;     ///< mean length of the edges [m]
   Matrix3X inside;  ///< mean centre of the faces [m]

@@ -8,7 +8,7 @@
 namespace limber::flexbody {
 namespace {
 
-/// What a basis and rigid motion do not answer of loads on patches.
+/// The part of loads on patches outside of a basis and rigid motion.
 class Leftover {
  public:
   Leftover(const MeshedBody& body, const ReducedBasis& basis)
@@ -23,8 +23,8 @@ class Leftover {
     }
   }
 
-  /// F of patches [begin, end) on the free nodes, 3n x k; clamped nodes pass
-  /// theirs on to the clamp.
+  /// F of patches [begin, end) on the free nodes, 3n x k; forces on clamped
+  /// nodes act on the clamp.
   [[nodiscard]] MatrixX list_loads(const std::vector<ContactPatch>& patches,
                                    std::size_t begin, std::size_t end) const {
     MatrixX F = MatrixX::Zero(body_.support.matrices.dof_count(),

@@ -36,7 +36,7 @@ std::vector<Vector3> list_corners(const fem::Surface& surface) {
   return corners;
 }
 
-// The farthest from all chosen ones first, with its distance.
+// Points, each farthest from the earlier ones, with its distance.
 struct Spread {
   std::vector<Vector3> places;
   std::vector<double> distances;
@@ -95,7 +95,7 @@ std::vector<std::size_t> find_nearest(const std::vector<Vector3>& places,
   return nearest;
 }
 
-// Of every pad the area that its nodes carry.
+// For every pad the area that each of its nodes carries.
 using Shares = std::vector<std::map<int, double>>;
 
 void add_shares(const fem::Mesh& mesh, const fem::SurfaceFace& face,
@@ -125,7 +125,7 @@ std::vector<ContactPatch> divide(const fem::Mesh& mesh,
                                  const Vector3& normal,
                                  const std::vector<Vector3>& places,
                                  VectorX& area) {
-  // Even, so that pads' borders amid a face are those of its cells.
+  // Even, so that borders of pads within a face are those of its cells.
   constexpr int kDivisions = 16;
   std::vector<fem::FaceTable> rules;
   for (const fem::FaceShape& shape : surface.shapes) {
@@ -175,7 +175,7 @@ VectorX find_residual(const MeshedBody& body, const ReducedBasis& basis,
   return residual;
 }
 
-/// A group's surface without what moves it.
+/// A group's surface without its modes.
 struct BareSurface {
   fem::Surface surface;
   Matrix3X normals;  // 3 x n

@@ -16,8 +16,8 @@
 namespace limber::flexbody {
 namespace {
 
-// Strains of this share of what their modes could have at most are round-off,
-// or vanish by symmetry.
+// Strains of this share of the largest that their modes could have are
+// round-off, or vanish by symmetry.
 constexpr double kNoStrain = 1e-9;
 
 Vector3 axial(const Matrix3& X) {
@@ -70,11 +70,11 @@ MatrixX make_strains(const fem::SecondOrderTerms& terms,
   return Q;
 }
 
-// Self-strains count from this share of the linear energy of their modes on,
-// where these rotate or strain as much at most, root-mean-square. Bending
-// beyond that strain gains energy of fourth degree by itself, which
-// displacements of third degree take away: without them a slender bar would
-// lock.
+// Self-strains count from this share of the linear energy of their modes
+// on, where these rotate or strain as much at most, root-mean-square.
+// Bending beyond that strain has an energy of fourth degree, which
+// displacements of third degree would remove: without them a slender bar
+// would lock.
 constexpr double kLeastSelfEnergy = 0.02;
 constexpr double kReferenceRotation = 0.1;  // [rad]
 constexpr double kReferenceStrain = 0.001;  // [-]
@@ -116,8 +116,8 @@ std::vector<int> choose_pairs(const VectorX& shares) {
   return chosen;
 }
 
-// Rows whose squares add up to the energy W of products, without those that do
-// not count. @param scale of the products
+// Rows whose squares add up to the energy W of products, significant ones only.
+// @param scale of the products
 MatrixX take_roots(const MatrixX& W, const VectorX& scale, Eigen::Index most) {
   const Eigen::SelfAdjointEigenSolver<MatrixX> shapes(scale.asDiagonal() * W *
                                                       scale.asDiagonal());
@@ -129,8 +129,8 @@ MatrixX take_roots(const MatrixX& W, const VectorX& scale, Eigen::Index most) {
          scale.cwiseInverse().asDiagonal();
 }
 
-// The energy of the pairs' strains that modal strains leave out, as squares of
-// the self-strains that count. Of slender bars none does. @param mean of Phi_P
+// The energy of the pairs' strains outside of the modal strains, as squares of
+// significant self-strains. Slender bars have none. @param mean of Phi_P
 MatrixX make_self_strains(const MeshedBody& body, const Recipe& recipe,
                           const fem::MeanDeformation& mean,
                           const MatrixX& Phi_P, const MatrixX& Theta,

@@ -43,7 +43,7 @@ void check_recipe(const Recipe& recipe) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-/// Names that no piece has would be left out of each.
+/// Names that no piece has would be missing in each.
 void check_names(const fem::Mesh& whole, const Recipe& recipe,
                  const std::vector<Interface>& interfaces) {
   for (const auto* names : {&recipe.clamped_groups, &recipe.rows.groups}) {
@@ -144,7 +144,7 @@ bool has_faces(const fem::Mesh& mesh, const std::string& group) {
   return false;
 }
 
-/// The recipe without what its piece does not have.
+/// The recipe restricted to the content of its piece.
 Recipe restrict_recipe(const Recipe& recipe, const fem::Mesh& mesh,
                        const std::vector<Interface>& interfaces) {
   Recipe own = recipe;

@@ -57,8 +57,8 @@ double calc_duration(const ExpectedImpact& impact, double own_mass) {
   return 3.2180 * std::pow(mass * mass / (k * k * impact.speed), 0.2);
 }
 
-// Of modes of which fewer periods fit into an impact all are needed; what the
-// basis leaves out deforms, but does not vibrate (docs/theory/contact_laws.md).
+// All modes with fewer periods in an impact are needed; the residual
+// flexibility deforms, but does not vibrate (docs/theory/contact_laws.md).
 constexpr double kPeriods = 2.0;
 
 // Largest lambda that impacts need [rad^2/s^2].

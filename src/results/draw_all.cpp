@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostFailures = 3;
 constexpr std::size_t kMostAtATime = 4;
 
-// What each picture said, by threads that take one after the other.
+// Results of all pictures, drawn by threads that take one after the other.
 class Drawing {
  public:
   explicit Drawing(const std::vector<Picture>& pictures)
@@ -68,7 +68,7 @@ std::vector<std::string> draw_all(const std::vector<Picture>& pictures) {
       helpers.emplace_back([&drawing] { drawing.work(); });
     }
   } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch)
-    // There are no more threads: those that there are draw all.
+    // No more threads are available: the existing ones draw all.
   }
   drawing.work();
   for (std::thread& helper : helpers) helper.join();

@@ -41,7 +41,7 @@ MatrixX column(const std::vector<double>& values) {
   return Eigen::Map<const VectorX>(values.data(), std::ssize(values));
 }
 
-/// @param file anything that takes named matrices and lists of texts
+/// @param file any writer of named matrices and lists of texts
 template <typename File>
 void add_all(File& file, const LinearRecord& record) {
   const dynamics::LinearModel& model = record.model;

@@ -251,7 +251,7 @@ class LinkNodes {
     }
     return u;
   }
-  /// Of the subtracted terms [m].
+  /// Size of the subtracted terms [m].
   [[nodiscard]] double scale() const {
     double scale = 0.0;
     for (const Part& part : parts_) {

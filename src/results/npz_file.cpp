@@ -28,7 +28,7 @@ std::string bytes_of(const double* values, Eigen::Index count) {
   return bytes;
 }
 
-/// Code points of UTF-8; a byte that is none becomes the mark for that.
+/// Code points of UTF-8; an invalid byte becomes the replacement character.
 std::vector<std::uint32_t> decode(const std::string& text) {
   constexpr std::uint32_t kUnknown = 0xFFFD;
   std::vector<std::uint32_t> points;
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> decode(const std::string& text) {
   return points;
 }
 
-/// What both the entry and the directory say of a member.
+/// Fields of a member that the entry and the directory share.
 void put_entry(std::string& out, const std::string& name,
                const std::string& data) {
   constexpr std::uint16_t kVersion = 20;

@@ -156,7 +156,7 @@ std::string shorten(const std::string& label) {
   return label.substr(0, kMostLetters - 2) + "..";
 }
 
-// Of the strip above the panels that holds the labels of marks [pixels].
+// Height of the strip above the panels for the labels of marks [pixels].
 double find_strip(const std::vector<Mark>& marks) {
   std::size_t longest = 0;
   for (const Mark& mark : marks) {
@@ -165,7 +165,7 @@ double find_strip(const std::vector<Mark>& marks) {
   return longest == 0 ? 0.0 : 26.0 + kLetter * static_cast<double>(longest);
 }
 
-// Where labels of places in increasing order go, so that none covers another
+// Positions of labels in increasing order, such that none covers another
 // [pixels].
 std::vector<double> spread_labels(const std::vector<double>& places) {
   std::vector<double> spread = places;

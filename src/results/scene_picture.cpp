@@ -76,7 +76,7 @@ Matrix3X find_magnified_rows(const SystemModel& model, std::size_t b,
   return rows;
 }
 
-// What moves with the frame of a body, or stands in the world (kWorld).
+// A solid fixed to the frame of a body, or to the world (kWorld).
 struct BodySolid {
   dynamics::BodyIndex body;
   Solid solid;  // frame of the body
@@ -201,7 +201,7 @@ Vector3 find_area(const std::array<Vector3, 3>& corners) {
   return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]);
 }
 
-// Whether the surface has an inside, and its triangles are seen from outside.
+// Whether the surface is closed, so that its triangles are seen from outside.
 bool is_closed(const Surface& surface) {
   constexpr double kNone = 1e-6;  // of its area [-]
   Vector3 sum = Vector3::Zero();
@@ -217,8 +217,8 @@ bool is_closed(const Surface& surface) {
   return sum.norm() < kNone * area && volume > 0.0;
 }
 
-// A block of the polygons of one shot, without those that are turned away from
-// the eye and hidden by others.
+// A block of the polygons of one shot, without those that face away from the
+// eye and are hidden by others.
 void add_block(GnuplotScript& script, const std::string& block,
                const Shot& shot, std::size_t stride, const Vector3& eye) {
   script.add(fmt::format("${} << EOD", block));
@@ -250,7 +250,7 @@ Bounds find_bounds(const std::vector<Shot>& shots) {
   return bounds;
 }
 
-// Of gnuplot's cube, so that it and its labels fit into the picture's height.
+// Scale of gnuplot's cube that fits it and its labels into the height.
 double find_scale(const Vector3& eye) {
   constexpr double kFits = 1.6;
   const double level = std::hypot(eye.x(), eye.y());

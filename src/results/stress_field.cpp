@@ -13,7 +13,7 @@
 namespace limber::results {
 namespace {
 
-/// Of six rows a node.
+/// Of six rows per node.
 double find_largest_von_mises(const VectorX& stress) {
   double largest = 0.0;
   for (Eigen::Index i = 0; i < stress.size(); i += 6) {

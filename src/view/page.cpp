@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the data go; src/view/page/index.html has it once.
+/// Place of the data; src/view/page/index.html contains it once.
 constexpr std::string_view kMark = "LIMBER-DATA-HERE";
 constexpr const char* kName = "view.html";
 

@@ -51,7 +51,7 @@ Quantised quantise(const VectorX& values) {
       values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
   // Below this, steps have too few bits.
   if (largest < std::numeric_limits<double>::min()) return result;
-  // What the page multiplies by is a double, too.
+  // The page's factor is a double as well.
   result.scale = largest / kMost;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     result.integers[static_cast<std::size_t>(i)] =

@@ -92,7 +92,7 @@ ComparisonSettings make_settings(const Options& options) {
   return settings;
 }
 
-/// What the file does not hold, because it is of the robot.
+/// Settings that the file does not contain, because they belong to the robot.
 std::string describe_robot_settings(const ComparisonSettings& settings) {
   std::string text;
   const auto sorted = scene::sort_settings(

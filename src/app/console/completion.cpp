@@ -12,7 +12,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Of the values that --help calls by this name.
+/// Words for the values that --help calls by this name.
 Words list_values(const std::string& type) {
   if (type == "LEVEL" || type == "LEVELS") return dynamics::fidelity_names();
   if (type == "INTEGRATOR") return dynamics::integrator_names();
@@ -35,7 +35,7 @@ Words join_equals(const Words& words) {
   return joined;
 }
 
-/// Where a command line stands after some words.
+/// Position in a command line after some words.
 struct Place {
   const CLI::App* command = nullptr;
   const CLI::Option* open = nullptr;  ///< whose value may come next
@@ -61,8 +61,8 @@ struct Place {
   }
 };
 
-/// `start` and the values that go on from the rest of the word; after a comma
-/// the next of a list.
+/// `start` and the values that complete the rest of the word; after a comma the
+/// next of a list.
 std::vector<Candidate> list_values(const CLI::Option& option,
                                    const std::string& start,
                                    const std::string& rest) {

@@ -21,7 +21,7 @@
 namespace limber::app {
 namespace {
 
-/// Of these, what they print is their result.
+/// Commands whose output is their result.
 constexpr std::array<std::string_view, 6> kAnswersOnScreen = {
     "cache", "frequencies", "info", "modes", "operate", "wobble"};
 

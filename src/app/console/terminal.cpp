@@ -31,7 +31,7 @@ double now() {
 
 bool is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-/// https://no-color.org; and terminals that know no colours.
+/// https://no-color.org, and terminals without colours.
 bool has_colour() {
   const auto read = [](const char* name) {
     const char* const text = std::getenv(name);

@@ -43,7 +43,7 @@ bool touches(const SystemModel& model, dynamics::BodyIndex body) {
 }
 
 /// Every flexible body at `uncoupled`, or at `nonlinear` with linear elasticity
-/// if products of modes move what touches on it.
+/// if products of modes move its contact surfaces.
 SystemModel lower_levels(SystemModel model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     dynamics::BodyModel& body = model.bodies[b];

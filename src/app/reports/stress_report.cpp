@@ -36,7 +36,7 @@ std::vector<Column> list_columns(const scene::BuiltScene& built) {
   return columns;
 }
 
-/// Of the output nearest to `time`.
+/// State of the output nearest to `time`.
 const dynamics::SystemState& find_nearest(const results::History& history,
                                           double time) {
   std::size_t nearest = 0;

@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-/// What the model counts from.
+/// The state that the model's deviations refer to.
 struct ReferenceState {
   dynamics::SystemState state;
   std::string about;  ///< "start", "equilibrium", "time"

@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-/// What a picture's title adds if energy was made or lost.
+/// Addition to a picture's title if energy was gained or lost.
 std::string describe_open(const Run& run) {
   const dynamics::EnergyRecord& energy = run.record.energy;
   const double share = dynamics::find_open_share(energy);
@@ -47,7 +47,7 @@ bool has_pictures(const Run& run) {
 void draw_run(const Run& run, const std::filesystem::path& folder) {
   const std::string& name = run.scene.scenario.name;
   const std::string level(to_string(run.scene.scenario.fidelity));
-  // The one that takes longest first.
+  // The slowest one first.
   std::vector<results::Picture> pictures = {[&] {
     return results::draw_scene(folder / "scene.png", name, run.built.model,
                                run.history, run.scenery);

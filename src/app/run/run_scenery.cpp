@@ -27,7 +27,7 @@ std::string read_whole(const std::filesystem::path& file) {
   return read_input(file, kText);
 }
 
-/// Triangles whose corners at one place are one.
+/// Triangles with corners at the same place merged.
 results::SolidShape read_mesh(const scene::MeshGeometry& geometry) {
   results::SolidShape form{"mesh", Vector3::Zero(), {}, {}};
   std::map<std::array<double, 3>, std::uint32_t> known;
@@ -47,7 +47,7 @@ results::SolidShape read_mesh(const scene::MeshGeometry& geometry) {
   return form;
 }
 
-/// Nothing of what has no shape here.
+/// Nothing for geometry without a shape here.
 std::optional<results::SolidShape> describe(const scene::Geometry& geometry) {
   using Form = std::optional<results::SolidShape>;
   const auto make = [](const char* kind, const Vector3& size) -> Form {

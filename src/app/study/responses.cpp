@@ -20,7 +20,7 @@ namespace {
 using Parts = std::vector<std::string>;
 using Value = std::optional<double>;
 
-// Lists whose length is known after a run alone.
+// Lists whose length is known only after a run.
 bool is_open_list(const Json& node) { return node.is_array(); }
 
 Parts split(const std::string& path) { return scene::split_path(path); }
@@ -182,7 +182,7 @@ Value to_number(const std::string& text) {
   return value;
 }
 
-/// A formula's value with these variables; none if it needs one without value.
+/// A formula's value with these variables; none if it uses one without value.
 Value evaluate(const std::string& formula, std::map<std::string, Value> known) {
   std::map<std::string, double> values;
   for (const auto& [name, value] : known) values[name] = value.value_or(NAN);
@@ -206,7 +206,7 @@ Parts list_variables(const Study& study, std::size_t response) {
   return names;
 }
 
-/// Says what is wrong with one response; empty: nothing.
+/// Describes the error of one response; empty if it is valid.
 class Check {
  public:
   Check(const Study& study, const scene::Scene& scene, const Run& start)
@@ -294,7 +294,7 @@ class Check {
   std::size_t index_ = 0;
 };
 
-/// A run that has its start alone, for the names in its summary.
+/// A run with its start only, for the names in its summary.
 Run make_start(const scene::Scene& scene, const scene::BuiltScene& built) {
   Run run;
   run.scene = scene;

@@ -42,7 +42,7 @@ std::vector<std::string> list_columns(const Study& study) {
   return columns;
 }
 
-/// Of all that is read back: factors are those of the design.
+/// Digest of all values that are read back; factors are those of the design.
 std::string digest_of(const StudyRow& row) {
   Digest digest;
   digest.add(row.run);
@@ -108,7 +108,7 @@ class StudyFile::Database {
     void bind(int i, const std::optional<double>& value) {
       value ? bind(i, *value) : bind_nothing(i);
     }
-    /// Not an overload: a number that is no count would be cut to one.
+    /// Not an overload: it would truncate a number that is not a count.
     void bind_count(int i, std::size_t value) {
       sqlite3_bind_int64(handle_, i, static_cast<sqlite3_int64>(value));
     }
@@ -167,7 +167,7 @@ StudyFile::StudyFile(const fs::path& file, const StudyRecord& record)
   try {
     database_ = std::make_unique<Database>(file, true);
     database_->run("PRAGMA synchronous = NORMAL");
-    // A file of a process that was killed while it made the tables has none.
+    // A process that was killed while it made the tables leaves none.
     database_->is_empty() ? create() : check(record);
   } catch (...) {
     database_.reset();

@@ -108,7 +108,7 @@ void draw_study(const Study& study, const std::vector<StudyRow>& rows,
   std::vector<results::Picture> pictures;
   std::vector<StudyColumn> all = factors;
   all.insert(all.end(), responses.begin(), responses.end());
-  // The one that takes longest begins.
+  // The slowest one first.
   pictures.emplace_back(
       [&] { return draw_matrix(folder / "matrix.png", study.name, all); });
   for (const StudyColumn& response : responses) {

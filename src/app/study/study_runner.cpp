@@ -53,7 +53,7 @@ void describe_values(Manifest& out, const Factor& factor) {
   }
 }
 
-/// Writes what a response is.
+/// Writes the description of a response.
 struct ResponseDescription {
   Manifest& out;
   void operator()(const ProbeResponse& probe) const {

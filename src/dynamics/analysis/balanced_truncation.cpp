@@ -19,8 +19,8 @@ namespace {
 using Index = Eigen::Index;
 using Complex = std::complex<double>;
 
-/// What an eigenvalue's motion does, beyond round-off. That of a coordinate and
-/// its rate, both zero, is the root of round-off.
+/// Decay of an eigenvalue's motion, beyond round-off. For a coordinate and its
+/// rate, both zero, round-off is its square root.
 struct Decay {
   explicit Decay(const MatrixX& A)
       : noise(100.0 * std::numeric_limits<double>::epsilon() * A.norm()),
@@ -41,7 +41,7 @@ struct Decay {
   double least;  ///< [1/s]
 };
 
-/// A, B and C of one of two parts that do not act on each other.
+/// A, B and C of one of two decoupled parts.
 struct Part {
   MatrixX A;
   MatrixX B;

@@ -14,7 +14,7 @@ namespace {
 
 /// A sudden force drives a mode to twice its static response.
 constexpr double kSudden = 2.0;
-/// Of the buckling load: nearer to it the estimate does not tell apart [-].
+/// Share of the buckling load that the estimate cannot resolve [-].
 constexpr double kNearBuckling = 0.1;
 
 void check_setting(const std::optional<double>& value, const char* what,
@@ -106,8 +106,8 @@ double find_missing(const BodyPeaks& peaks) {
   return peaks.is_held ? 0.25 : 0.6;
 }
 
-/// Damped oscillation is forgotten. @param time in which a phase shifts, an
-/// integral of what is at most `largest` [s] @param rate of damping [1/s]
+/// Damped oscillation has no later phase. @param time in which a phase shifts,
+/// an integral of values up to `largest` [s] @param rate of damping [1/s]
 double find_remembered(double time, double largest, double rate) {
   return rate > 0.0 ? std::min(time, 2.0 * largest / rate) : time;
 }
@@ -129,7 +129,7 @@ double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
   return bent + std::min(phase, 2.0) * oscillation;
 }
 
-/// Error of `nonlinear`: a mode of stretch is stiffer by three times the mean
+/// Error of `nonlinear`: an axial mode is stiffer by three times the mean
 /// strain, which shifts its phase.
 double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
@@ -146,7 +146,7 @@ double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
 /// "1.2e-06 m".
 std::string metres(double value) { return fmt::format("{:.2g} m", value); }
 
-/// Whether an error is one that the user neglects, or a small share of the
+/// Whether the user neglects an error, or it is a small share of the
 /// deformation.
 bool is_negligible(double error, const BodyPeaks& peaks,
                    const LevelLimits& limits) {
@@ -154,7 +154,7 @@ bool is_negligible(double error, const BodyPeaks& peaks,
          std::max(limits.displacement, kLargestShare * peaks.total.value);
 }
 
-/// Why linear elasticity does not do, or not even `nonlinear`.
+/// Why linear elasticity is insufficient, or even `nonlinear`.
 std::string explain_nonlinear(const BodyPeaks& peaks, const LevelLimits& limits,
                               const LevelAdvice& advice) {
   std::string text;

@@ -115,7 +115,7 @@ void LevelSurvey::include(const SystemModel& source, const SystemState& state) {
     state_.etadot.segment(to.offset, to.modes) =
         state.etadot.segment(from.offset, from.modes);
   }
-  // Nothing of the scene acts before its start.
+  // Nothing acts before the start of the scene.
   if (count_ > 0 && std::binary_search(jumps_.begin(), jumps_.end(), state.t)) {
     include(state_, Side::left);
   }
@@ -180,7 +180,7 @@ void LevelSurvey::include_rotation(const SystemState& state,
 void LevelSurvey::include_axial_load(const SystemState& state, Side side,
                                      Watch& watch) const {
   if (watch.is_unreduced) return;
-  // Bending follows the mean over its own time, no single step.
+  // Bending follows the mean over its own period, not a single step.
   const auto [now, mean_strain] = watch.axial.calc_state(state, side, terms_);
   const double strain = std::abs(mean_strain);
   const double time = state.t - watch.last_time;

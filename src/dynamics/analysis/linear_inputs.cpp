@@ -16,13 +16,13 @@ namespace {
 using Index = Eigen::Index;
 using Kind = joints::AxisCoordinate::Kind;
 
-/// What one kind of source is called where names are equal.
+/// Prefix for the names of one kind of source where names are equal.
 struct Named {
   std::string kind;
   LinearInput input;
 };
 
-/// A model on which nothing acts but the load that is put in.
+/// A model without loads except the one to be added.
 SystemModel without_loads(const SystemModel& model) {
   SystemModel alone = model;
   alone.loads.clear();

@@ -49,7 +49,7 @@ VectorX find_scale(const MatrixX& S, Index free) {
   return scale;
 }
 
-/// Q' S Q, without the round-off that is known to be one.
+/// Q' S Q, without entries known to be round-off.
 MatrixX find_stiffness(const SteadyMotion& steady) {
   const PrincipalBasis& basis = steady.basis;
   MatrixX S = steady.motion.project_stiffness(basis.Q);

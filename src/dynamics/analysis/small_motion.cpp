@@ -171,7 +171,7 @@ class Derivatives {
     }
   }
 
-  // Points that are coupled count with a bound of all their stiffness.
+  // Coupled points count with a bound of all their stiffness.
   void add_pair_stiffness() {
     for (const joints::PairResponse& response : terms_.pairs.responses) {
       for (std::size_t p = 0; p < response.points().size(); ++p) {
@@ -181,7 +181,7 @@ class Derivatives {
     }
   }
 
-  // The motion of a point by x is what a unit force there does on x.
+  // The motion of a point by x is the work of a unit force there on x.
   void fill_pair_motions(Index row) {
     VectorX forces(count_unknowns(model_));
     for_each_point([&](const Pair& pair, const joints::PairPoint& point) {
@@ -209,9 +209,9 @@ class Derivatives {
     return forces;
   }
 
-  // By each coordinate, velocities changing by `velocity` times the positions:
-  // all terms without stiffness that are not yet in M and D, laws as
-  // ResidualDerivative has them, the frames asked for.
+  // Changes by each coordinate, with velocities changing by `velocity` times
+  // the positions: all terms without stiffness that are not yet in M and D,
+  // laws as in ResidualDerivative, and the requested frames.
   struct Changes {
     MatrixX residual;
     MatrixX laws;
@@ -349,7 +349,7 @@ VectorX root_of_diagonal(const Square& K) {
   return K.diagonal().cwiseAbs().cwiseSqrt();
 }
 
-// A tangent that is not positive may have zeros on its diagonal alone.
+// A tangent that is not positive may have zeros on its diagonal only.
 MatrixX find_held_modes(const MatrixX& K) {
   const VectorX scale = root_of_diagonal(K);
   const VectorX largest = K.cwiseAbs().rowwise().maxCoeff().cwiseSqrt();

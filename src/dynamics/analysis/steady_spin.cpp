@@ -160,7 +160,7 @@ class Spin {
       right.segment(motion.modes[b], model_.bodies[b].modes) =
           -residual.segment(row + 6, model_.bodies[b].modes);
     }
-    // Of one size, so that stiff couplers leave soft modes their digits.
+    // Scaled to one size: soft modes keep their digits beside stiff couplers.
     const VectorX scale =
         S.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     S = (scale.asDiagonal() * S * scale.asDiagonal()).eval();

@@ -23,8 +23,8 @@ using joints::RelativeMotion;
 
 constexpr double kClosed = 1e-6;  // share of the size; [rad]
 
-/// How far a joint's frames are from where it holds them, and how fast they
-/// leave it.
+/// Distance of a joint's frames from their constrained position, and its
+/// rate.
 struct Gap {
   double distance;  ///< [m]
   double turn;      ///< [rad]
@@ -39,7 +39,7 @@ Gap find_gap(const joints::Joint& joint, const RelativeMotion& motion) {
   const Matrix6 K = std::visit(
       [&](const auto& hold) { return hold.evaluate(motion).stiffness; },
       joint.hold());
-  // Of a velocity only its held part stores energy.
+  // Only the constrained part of a velocity stores energy.
   const auto held_part = [](const Matrix3& k, double stiffness,
                             const Vector3& v) {
     if (stiffness == 0.0) return 0.0;

@@ -166,7 +166,7 @@ void ContactLog::add_deep(const std::vector<ContactRecord>& records,
   }
 }
 
-// Once a pair, of touches without a common normal (Touching::begin_touch).
+// Once per pair, for touches without a common normal (Touching::begin_touch).
 void ContactLog::add_unmet(const std::vector<ContactRecord>& records,
                            std::vector<std::string>& warnings) const {
   std::set<std::string> said;
@@ -181,7 +181,7 @@ void ContactLog::add_unmet(const std::vector<ContactRecord>& records,
   }
 }
 
-// Of the smaller body of a pair, from its origin [m].
+// Extent of the smaller body of a pair, from its origin [m].
 double ContactLog::find_extent(const std::string& pair) const {
   const auto found =
       std::find_if(model_.pairs.begin(), model_.pairs.end(),

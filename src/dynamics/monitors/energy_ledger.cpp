@@ -38,7 +38,7 @@ double find_noise(const CouplerTerms& coupler, double reach) {
   return (force + k * d) * d + (moment + k_turn * kEpsilon) * kEpsilon;
 }
 
-// Of a pair's forces on what moves.
+// Power of a pair's forces on moving bodies.
 double find_power(const joints::PairResponse& pair) {
   double power = 0.0;
   for (const joints::PairPoint& point : pair.points()) {

@@ -10,7 +10,7 @@
 namespace limber::dynamics {
 namespace {
 
-// Smaller shares of the drift do not tell where it comes from [-].
+// Smaller shares of the drift do not show its origin [-].
 constexpr double kNamedShare = 0.1;
 
 // "12 % of the energy ... are lost by t = ...".

@@ -13,7 +13,7 @@
 namespace limber::dynamics {
 namespace {
 
-// Of all impacts of each pair [s].
+// Shortest of all impacts of each pair [s].
 std::map<std::string, double> find_shortest(
     const std::vector<ContactRecord>& records) {
   std::map<std::string, double> shortest;

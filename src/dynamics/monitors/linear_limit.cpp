@@ -18,7 +18,7 @@ namespace {
 constexpr double kLarge = 0.1;     // of the body's size: gives a warning
 constexpr double kAbsurd = 1.0;    // of it: gives an error
 constexpr double kHarmless = 0.5;  // of the lowest frequency
-// Beyond it second order in the modes is off by a percent [rad].
+// Above this the error of second order in the modes exceeds a percent [rad].
 constexpr double kLargeTurn = 0.4;
 
 // The mode that moves points most.
@@ -51,7 +51,7 @@ double find_largest_share(const flexbody::ModalElasticity& elasticity,
   return solver.eigenvalues().maxCoeff();
 }
 
-// What holds for small deformations only.
+// The theory that holds for small deformations only.
 std::string name_limit(const BodyModel& body) {
   if (body.fidelity == Fidelity::nonlinear) {
     return "motion of second order in a body's modes";
@@ -61,7 +61,7 @@ std::string name_limit(const BodyModel& body) {
              : "motion that is linear in a body's modes";
 }
 
-// What a body does beyond the critical speed of its undeformed shape.
+// Behaviour of a body beyond the critical speed of its undeformed shape.
 const char* tell_beyond(const flexbody::ModalElasticity& elasticity) {
   return flexbody::is_linear(elasticity)
              ? "its deformation grows without bound; level full includes the "

@@ -18,7 +18,7 @@ constexpr int kMostSearches = 6;
 constexpr double kClose = 1e-3;
 // A parabola may be low by this share of its addition.
 constexpr double kParabolaError = 0.5;
-// Relative to the range of three values: most that is added to the largest.
+// Relative to the range of three values: limit of the addition to the largest.
 constexpr double kMostAdded = 0.5;
 
 // Relative to the largest value: smaller changes are ignored.

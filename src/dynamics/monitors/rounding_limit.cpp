@@ -21,7 +21,7 @@ double find_radius_of_gyration(const BodyModel& body) {
   return std::sqrt(moments.maxCoeff() / body.mass);
 }
 
-// The body whose position loses most of its size.
+// The body whose position is rounded most, relative to its size.
 struct Rounding {
   std::size_t body = 0;
   double distance = 0.0;  // from the world's origin [m]

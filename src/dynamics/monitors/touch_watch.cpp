@@ -14,29 +14,29 @@
 namespace limber::dynamics {
 namespace {
 
-// Steps of conservative advancement through one step of time, at most.
+// Largest number of advancements through one step of time.
 constexpr int kMostLooks = 1000;
 // Factor on the speeds at a step's ends that bounds those between them [-].
 constexpr double kSpeedMargin = 1.5;
-// Way in a step, relative to that at the present rate, that counts as none [-].
+// Motion in a step that counts as zero, over that at the present rate [-].
 constexpr double kNoWay = 1e-4;
 constexpr double kLeastWay = 1e-12;  // [m]
-// Fraction of a step between looks at two that part, and, at most, at two whose
-// boxes meet but whose surfaces face each other nowhere [-].
+// Fraction of a step between looks at separating bodies, and the largest one
+// for bodies whose boxes meet but whose surfaces nowhere face each other [-].
 constexpr double kLeastAdvance = 1.0 / 64.0;
 constexpr double kMostAdvance = 1.0 / 4.0;
-// Number of looks after which conservative advancement goes on by parts, and
-// these of the smaller body's size, at most [-].
+// Number of evaluations after which conservative advancement continues by
+// parts, and the largest part, relative to the smaller body's size [-].
 constexpr int kPatience = 100;
 constexpr double kPartOfSize = 0.05;
 
-// Touches that last longer, in T_c, are no impacts [-].
+// Touches of a longer duration, in T_c, are not impacts [-].
 constexpr double kRest = 8.0;
-// Steps of an impact that is shorter than them.
+// Number of steps for an impact that is shorter than one.
 constexpr int kStepsOfCoarseImpact = 3;
-// Way in one step relative to the bodies' size there, at most [-].
+// Largest motion in one step, relative to the bodies' size there [-].
 constexpr double kMostWay = 0.25;
-// Depth from which two cannot have parted within a step, likewise [-].
+// Depth from which two bodies cannot separate within a step, likewise [-].
 constexpr double kInseparable = 2.0 * kMostWay;
 
 bool has_place(const joints::PairTouch& touch) {
@@ -112,7 +112,7 @@ double TouchWatch::bisect(const SystemState& before, const SystemState& after,
   return high;
 }
 
-// Fraction of a step between looks at two that are close; 0: to be found by
+// Fraction of a step between evaluations of two close bodies; 0: to be found by
 // conservative advancement.
 double TouchWatch::find_least_advance(Watched& watched,
                                       const SystemState& before,
@@ -121,14 +121,14 @@ double TouchWatch::find_least_advance(Watched& watched,
   if (!has_place(touch)) {
     return std::clamp(part_of_size, kLeastAdvance, kMostAdvance);
   }
-  // The rate where two have just left each other may be that of a feature that
-  // is no longer the nearest.
+  // Just after a leave the rate may belong to a feature that is no longer the
+  // nearest.
   const bool parts = watched.since == before.t || touch.rate <= 0.0;
   return parts ? kLeastAdvance : 0.0;
 }
 
-// By conservative advancement; where that crawls, as of bodies that pass each
-// other closely, by parts of the way in which neither passes through the other.
+// By conservative advancement; where that is slow, as for bodies that pass
+// closely, by parts of the motion in which neither passes through the other.
 std::optional<double> TouchWatch::find_touch_share(Watched& watched,
                                                    const SystemState& before,
                                                    const SystemState& after) {
@@ -164,7 +164,7 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
     share += sure;
     interpolate(model_, before, after, share, within_);
     clearance = find_clearance(watched, within_);
-    // Two that have just left each other are still close.
+    // Two bodies that have just separated are still close.
     const bool overlaps =
         clearance <= 0.0 && find_touch(watched, within_).depth > 0.0;
     if (clearance > none || overlaps) least = 0.0;
@@ -172,8 +172,8 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   return share;
 }
 
-// A pair that has just touched may still be apart by round-off of the place
-// where it did, but goes on to approach.
+// A pair that has just touched may still be apart by the round-off of its
+// places, but continues to approach.
 bool TouchWatch::has_left(Watched& watched, const SystemState& after) {
   const joints::PairTouch touch = find_touch(watched, after);
   return !(touch.depth > 0.0) && touch.rate <= 0.0;
@@ -215,7 +215,7 @@ void TouchWatch::find_ways(const SystemState& before,
   }
 }
 
-// Whether a pair cannot touch on its ways from `before` on.
+// Whether a pair cannot touch in its motion from `before` on.
 bool TouchWatch::is_clear(Watched& watched, const SystemState& before) {
   if (watched.is_touching) return false;
   const Pair& pair = model_.pairs[watched.pair];
@@ -235,7 +235,7 @@ void TouchWatch::mark_apart(SystemState& state) const {
   }
 }
 
-// T_c of the shortest touch that counts [s].
+// T_c of the shortest touch that fulfils the predicate [s].
 template <typename Predicate>
 double TouchWatch::find_shortest(const Predicate& counts) const {
   double shortest = std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ void TravelBound::include(BodyIndex body, const joints::TouchReach& reach) {
   Reach& all = reaches_[index(body)];
   all.is_member = true;
   const Eigen::Index count = reach.modes.size();
-  // Of an unreduced body, how far its surface goes per displacement of a node.
+  // For an unreduced body, motion of its surface per displacement of a node.
   if (count > 0 && count != all.modes.size()) {
     all.extent = std::max(all.extent, reach.modes[count - 1]);
     return;

@@ -10,7 +10,7 @@ constexpr double kErrorShare = 0.01;
 constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
-// Share by which a correction may miss the last one reversed [-].
+// Relative difference of a correction from the reversed previous one [-].
 constexpr double kReversed = 0.1;
 // Largest correction between two faces, of the step's motion [-].
 constexpr double kBetweenFaces = 1e-3;

@@ -10,7 +10,7 @@
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
 
-/// What ResidualDerivative has of pairs.
+/// ResidualDerivative: the terms of pairs.
 namespace limber::dynamics {
 namespace {
 
@@ -110,9 +110,9 @@ void ResidualDerivative::change_force(
   r.segment<3>(row + 3) -= d_arm_B.cross(force_B) + arm_B.cross(d_force_B);
 }
 
-// Arms and axes that turn with a constant force, the dampers' velocities less
-// those that NewtonMatrix takes for them, and all motion of unreduced bodies,
-// which it takes for the world.
+// Rotation of arms and axes under a constant force, the dampers' velocities
+// minus those in NewtonMatrix, and all motion of unreduced bodies, which
+// NewtonMatrix treats as the world.
 void ResidualDerivative::change_pairs(const VectorX& x, VectorX& r) const {
   const auto is_full = [this](BodyIndex b) {
     return b != kWorld && model_.bodies[index(b)].full >= 0;

@@ -71,7 +71,7 @@ bool PairTangents::knows(const SystemTerms& terms) const {
   return true;
 }
 
-// Unreduced bodies count as the world: ResidualDerivative has their motion.
+// Unreduced bodies count as the world; their motion: ResidualDerivative.
 std::vector<BodyPair> PairTangents::active(const SystemModel& model) const {
   std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < counts_.size(); ++i) {

@@ -18,8 +18,8 @@ constexpr int kLeastSteps = 16;
 // Largest number of steps: shorter ones are below the resolution of the time.
 constexpr double kMostSteps = 1e12;
 
-// Of one controller, each of which is a breakpoint; and how far they are apart,
-// in the shortest time that can be told.
+// Largest number of samples of one controller, each of which is a breakpoint;
+// and their least distance, relative to the resolution of the time.
 constexpr double kMostSamples = 1e7;
 constexpr double kFewestSame = 100.0;
 
@@ -46,7 +46,7 @@ bool has_longer_steps(const SimulationSettings& settings, double from,
 }
 
 // Breakpoints within pulses that steps would not resolve. Steps to a tolerance
-// always get them: an impulse that all passes miss alike is in no estimate.
+// always get them: an impulse that all passes miss is in no estimate.
 std::vector<double> find_inner_times(const TimeFunction& function,
                                      const SimulationSettings& settings) {
   const auto* pulse = std::get_if<Pulse>(&function);

@@ -24,7 +24,7 @@ namespace {
                                    controller.name, t, what));
 }
 
-// Runs foreign code. What it throws ends the run, unless it is asked to end.
+// Runs foreign code. Its exceptions end the run as errors, except Interrupted.
 template <typename Work>
 void call(const ControllerModel& controller, double t, const std::string& what,
           const Work& work) {

@@ -21,8 +21,8 @@ constexpr double kSame = 1e-9;
 // least reduction of its length from one to the next [-].
 constexpr int kMostRepeats = 12;
 constexpr double kLeastReduction = 0.999;
-// Most that a step may gain in an impact that it does not resolve, and in a
-// touch that goes on, of the energy before it [-].
+// Largest gain of a step in an impact that it does not resolve, and in an
+// ongoing touch, relative to the energy before it [-].
 constexpr double kMostGain = 1e-3;
 constexpr double kMostGainInTouch = 1e-2;
 
@@ -76,10 +76,10 @@ void EventStepper::add_last() {
   totals_.dissipated += last_.dissipated;
 }
 
-// An impact that the step does not resolve is damped, or it would gain energy;
-// what that loses is dissipated. Where it gains nevertheless, or one that is
-// resolved badly does, the step fails; so does one that is longer than an
-// impact where two touch on.
+// An impact that the step does not resolve is damped, since it would gain
+// energy; the loss counts as dissipated. If it still gains energy, or a badly
+// resolved one does, the step fails; so does a step longer than an impact in an
+// ongoing touch.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   const double steps = touches_.find_steps_of_impact(h, state.t);
   const bool damps = integrator_->damp(steps < TouchWatch::kFewestSteps);
@@ -189,8 +189,8 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   touches_.accept(before_, state);
 }
 
-// A place of contact that appears deep between two that were apart, as at edges
-// that lie along each other, would bring energy with it.
+// A place of contact that appears deep between two bodies that were apart, as
+// at edges alongside each other, would add energy.
 void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
   if (touches_.is_touching(index)) return;
   const joints::TouchReading touch = touches_.read(index, state);
@@ -207,7 +207,7 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
       touch.energy));
 }
 
-// Two that are deep in each other cannot part in a step.
+// Two bodies deep in each other cannot separate in a step.
 void EventStepper::check_leave(std::size_t index, SystemState& state) {
   const double depth = touches_.find_lost_depth(index, before_, state);
   if (!(depth > 0.0)) return;
@@ -220,9 +220,9 @@ void EventStepper::check_leave(std::size_t index, SystemState& state) {
       model_.pairs[touches_.pair_of(index)].name, t, depth));
 }
 
-// A step that ends deep in a contact, or after it, tells its beginning badly:
-// shorter ones tell better, until one ends there. One that ends before it is
-// taken as it is; the next goes on.
+// A step that ends deep in a contact, or after it, gives a poor estimate of its
+// beginning: shorter ones improve it, until one ends there. A step that ends
+// before the contact is accepted, and the next one continues.
 void EventStepper::settle_touch(const TouchWatch::Crossing& crossing,
                                 SystemState& state, double nominal_h) {
   double share = crossing.share;

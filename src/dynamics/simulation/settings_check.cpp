@@ -15,8 +15,8 @@
 namespace limber::dynamics {
 namespace {
 
-// Shortest step, relative to the time at the start [-]. Relative to the time
-// that is left, the number of steps limits it.
+// Shortest step, relative to the time at the start [-]. Relative to the
+// duration, the number of steps limits it.
 constexpr double kShortest = 1e-11;
 
 void check_controllers(const SystemModel& model, const SystemState& state,
@@ -38,7 +38,7 @@ void check_controllers(const SystemModel& model, const SystemState& state,
   }
 }
 
-// @param what it is: begins the message
+// @param what name of the step: begins the message
 void check_step(const std::string& what, double step, double start) {
   if (!(step > 0.0) || !std::isfinite(step)) {
     throw InputError(fmt::format("{} is {:g} s; expected > 0", what, step));

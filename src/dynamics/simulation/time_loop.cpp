@@ -95,7 +95,7 @@ double TimeLoop::find_share(double t) const {
          count_steps(settings_, start_, end);
 }
 
-// What has blown up tells of no cause.
+// A state after a blow-up does not show its cause.
 bool TimeLoop::is_sound(const SystemState& state) const {
   try {
     return !watch_.is_too_much(calc_energy(model_, state).total());
@@ -215,7 +215,7 @@ void TimeLoop::visit_within(const SystemState& begin, const SystemState& state,
   }
 }
 
-// Samples at the start, of which no step has to know: it begins there.
+// Samples at the start, before the first step.
 void TimeLoop::begin(SystemState& state) {
   sampling_.skip_until(state);
   take_samples(state);

@@ -149,7 +149,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   }
   count_step(before);
   watch_step(state, events);
-  // An output there shows what was written.
+  // An output there contains the new inputs.
   if (breakpoints_[next_].is_sample && mark - state.t <= kSame * h_) {
     state.t = mark;
     take_samples(state);

@@ -23,14 +23,14 @@ auto name_errors(const std::string& what, const Work& work) {
   }
 }
 
-// Neither a mass that moves nor an interface that gives way.
+// Whether it has neither a moving mass nor a flexible interface.
 bool is_fixed(const CouplerSide& side) {
   return std::isinf(side.mass) && !side.flexibility;
 }
 
 }  // namespace
 
-// Where a joint is on a body, and what carries it there.
+// Place of a joint on a body, and the interface that carries it.
 struct SystemBuilder::Mount {
   Pose X_BF;
   std::optional<flexbody::InterfaceTable> table;

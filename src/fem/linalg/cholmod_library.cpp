@@ -31,7 +31,7 @@ void find(void* library, const char* name, Function& function) {
 }
 
 CholmodLibrary load() {
-  // Its BLAS is for all to see: SerialBlas looks for it by name.
+  // Its BLAS is globally visible: SerialBlas looks it up by name.
   void* const library = dlopen(find_name().c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (library == nullptr) refuse();
   CholmodLibrary found;

@@ -131,8 +131,8 @@ class Separation {
     return owners_;
   }
 
-  /// Whether an element of a group belongs to piece p, which has its nodes.
-  /// One on the border of pieces belongs to that whose face it is.
+  /// Whether an element of a group belongs to piece p, which has its nodes. One
+  /// on the border of pieces belongs to the piece with this face.
   [[nodiscard]] bool is_owned(const PhysicalGroup& group, int p,
                               const int* nodes, int count,
                               std::size_t tag) const {

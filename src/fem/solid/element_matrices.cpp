@@ -38,7 +38,7 @@ ElementGradients calc_gradients(const ReferenceElement& element,
 
 namespace {
 
-/// Stress and moduli at a point.
+/// Stress and moduli at a quadrature point.
 struct Moduli {
   Matrix3 S, A;
   LameConstants<double> lame;

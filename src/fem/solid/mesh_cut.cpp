@@ -21,7 +21,7 @@
 namespace limber::fem {
 namespace {
 
-/// The lowest mode of diffusion, and the length of the way that it goes.
+/// The lowest mode of diffusion, and the length that it measures.
 struct LengthField {
   VectorX f;            ///< per node [-]
   double length = 0.0;  ///< [m]
@@ -65,7 +65,7 @@ LengthField find_length_field(const Mesh& mesh) {
   const SparseMatrix& M = matrices.M_s;
   const SparseMatrix L = find_laplacian(matrices);
   const double size = mesh.size().maxCoeff();
-  // Below the eigenvalue of any way through the body, for fast convergence.
+  // Below the eigenvalue for any path through the body, for fast convergence.
   const double shift = 1e-4 * std::pow(std::numbers::pi / size, 2);
   const SparseMatrix shifted =
       L + shift * SparseMatrix(M.triangularView<Eigen::Lower>());
@@ -127,8 +127,8 @@ std::vector<OrderedElement> order_elements(const Mesh& mesh, const VectorX& f) {
   return elements;
 }
 
-/// Number of ordered elements before the cut nearest to the volume `target`:
-/// where f makes the largest step within `window`, less what it is off.
+/// Number of ordered elements before the cut near the volume `target`: where f
+/// has the largest step within `window`, minus a penalty for the distance.
 std::size_t place_cut(const std::vector<OrderedElement>& elements,
                       double target, double window) {
   std::size_t best = 0;
@@ -208,8 +208,8 @@ std::vector<std::pair<std::size_t, std::size_t>> find_neighbours(
   return neighbours;
 }
 
-/// Gives elements that are joined to their piece by an edge or less to the
-/// piece next to them, as unstructured meshes have some at every cut.
+/// Gives elements that share no face with their piece to the adjacent piece;
+/// unstructured meshes have some at every cut.
 /// @throws InputError if they are more than a small share
 void absorb_islands(const Mesh& mesh, int count, ElementLabels& labels) {
   constexpr double kSmall = 0.1;  // of a piece's elements

@@ -60,7 +60,7 @@ MatrixX gather(const MatrixX& Phi, const std::vector<int>& nodes) {
   return own;
 }
 
-// Of a law.
+// Constants of a law.
 struct Solid {
   LameConstants<double> lame;
   Elasticity law;
@@ -93,8 +93,8 @@ void fill(const MatrixX& own, const Matrix3X& gradients,
 // Factors of the products of components in a double contraction.
 const Vector6 kContraction{{1.0, 1.0, 1.0, 2.0, 2.0, 2.0}};
 
-// At the points of an element, six rows a point of tensors and one of norms;
-// fields' have the factors of the integral.
+// At the points of an element, six rows per point of tensors and one of norms;
+// those of fields contain the factors of the integral.
 class PointTensors {
  public:
   PointTensors(Eigen::Index points, Eigen::Index fields, Eigen::Index pairs)

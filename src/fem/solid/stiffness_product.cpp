@@ -20,7 +20,7 @@ using Real = long double;
 using InverseMap =
     Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
-// Of products of several columns at once, C at most.
+// Largest number C of columns multiplied at once.
 constexpr int kColumns = 8;
 template <int C>
 using Columns = Eigen::Array<double, C, 1>;

@@ -6,7 +6,7 @@
 namespace limber::flexbody {
 namespace {
 
-// Names what a kind has forgotten.
+// Names the function that a kind lacks.
 template <typename... Kinds>
 constexpr bool check(const std::variant<Kinds...>* /*any*/) {
   return ([]<typename Kind>(const Kind* /*kind*/) {

@@ -32,7 +32,7 @@ void check_paired(const std::vector<int>& paired, Eigen::Index modes) {
   }
 }
 
-// Pairs that are treated at once, without memory of the heap.
+// Number of pairs treated at once, without allocation.
 constexpr Eigen::Index kChunk = 512;
 using Chunk = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kChunk, 1>;
 // Rows of D that are multiplied at once.
@@ -154,7 +154,7 @@ QuadraticStrain::Paired QuadraticStrain::find_strains(const Block& block,
     for (Eigen::Index k = 0; k < products.size(); ++k) {
       products[k] = p[i[k]] * p[j[k]];
     }
-    // Without the start of a general product, which costs more than this one.
+    // Without the overhead of a general product, which is larger.
     e.noalias() += block.Q.middleRows(first, products.size())
                        .transpose()
                        .lazyProduct(products);
@@ -171,8 +171,8 @@ void QuadraticStrain::add_force(const Block& block, const Paired& p,
   for (Eigen::Index first = 0; first < block.Q.rows(); first += kChunk) {
     weights.setZero(std::min(kChunk, block.Q.rows() - first));
     const auto Q = block.Q.middleRows(first, weights.size());
-    // Column by column, as they are in memory: a product by rows would wait for
-    // it.
+    // Column by column, as in memory: a product by rows would wait for
+    // memory.
     Eigen::Index r = 0;
     for (; r + 3 < w.size(); r += 4) {
       weights += w[r] * Q.col(r) + w[r + 1] * Q.col(r + 1) +

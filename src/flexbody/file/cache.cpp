@@ -20,13 +20,13 @@ namespace {
 
 // Increment when the reduction changes, to invalidate old entries.
 constexpr int kReductionVersion = 4;
-// The same of contact surfaces, for bodies that have any.
+// The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 2;
-// The same of second-order kinematics.
+// The same for second-order kinematics.
 constexpr int kManifoldVersion = 3;
-// The same of stress modes.
+// The same for stress modes.
 constexpr int kStressVersion = 1;
-// The same of the cuts of meshes.
+// The same for the cuts of meshes.
 constexpr int kPieceVersion = 1;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {

@@ -49,7 +49,7 @@ fs::path read_origin(const fs::path& body) {
   }
 }
 
-/// One file of the folder: an item, a part of one, or no matter of ours.
+/// One file of the folder: an item, a part of one, or a file of others.
 std::optional<CacheItem> read_item(const fs::path& file) {
   const std::string name = file.filename().string();
   const std::string key = name.substr(0, name.find('.'));

@@ -59,7 +59,7 @@ Drive::Drive(const Parameters& parameters) : parameters_(parameters) {
   check_limits(p);
 }
 
-// What the signal asks for; inputs are held to the limit of speed here.
+// Command of the signal; inputs are clipped to the speed limit here.
 SignalValue Drive::find_command(const Instant& now) const {
   const Parameters& p = parameters_;
   SignalValue command = joints::evaluate(p.signal, now);

@@ -136,7 +136,7 @@ void add_points(GnuplotScript& script, const std::string& block,
   script.add("EOD");
 }
 
-// Many points are smaller, so that they do not hide one another.
+// Many points are drawn smaller, so that they do not hide each other.
 double find_size(double size, std::size_t points) {
   constexpr double kFew = 200.0;
   return size *
@@ -218,7 +218,7 @@ std::string draw_matrix(const std::filesystem::path& file,
     }
   }
   if (shown.size() < 2) return "";
-  // Each two once: below the diagonal.
+  // Each pair once: below the diagonal.
   const std::size_t last = shown.size() - 1;
   GnuplotScript script = begin(file, title, {last, last}, 210, kMatrixMargins);
   script.add("set xtics rotate by -35 font 'sans,8'");

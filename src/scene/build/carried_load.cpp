@@ -21,8 +21,8 @@ double find_largest(const std::vector<double>& values) {
   return largest;
 }
 
-// Bound on what a controller writes; 0 without limits, as nothing is known
-// then.
+// Bound on a controller's output; 0 without limits, since it is then
+// unknown.
 double find_bound(const Scenario& scenario, int input) {
   const dynamics::PidParameters& pid = scenario.controllers[index(input)].pid;
   const double bound = std::max(std::abs(pid.lower), std::abs(pid.upper));

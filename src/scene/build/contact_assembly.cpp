@@ -58,7 +58,7 @@ bool has_surface(const flexbody::ReducedBody& body, const std::string& name) {
                      });
 }
 
-// Rigid but for what its material gives way near the surface.
+// Rigid except for the local deformation of its material near the surface.
 void make_rigid_pads(flexbody::ContactSurface& surface) {
   flexbody::ContactPads& pads = surface.pads;
   if (pads.count() == 0) return;
@@ -188,8 +188,8 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
   return sides;
 }
 
-// At level `rigid` there are no modes, nor what they leave out; at `nonlinear`
-// their products are further ones.
+// At level `rigid` there are neither modes nor residual flexibility; at
+// `nonlinear` their products are additional modes.
 std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     const BodyPlan& plan, const std::string& surface) {
   const dynamics::Fidelity level = scene_.scenario.level_of(

@@ -16,7 +16,7 @@ constexpr double kFixed = std::numeric_limits<double>::infinity();
 
 using Material = std::optional<contact::SurfaceMaterial>;
 
-/// A body as others meet it.
+/// A body that strikes the link.
 struct Striker {
   double mass = kFixed;  // [kg]
   Vector3 v_W = Vector3::Zero();
@@ -60,7 +60,7 @@ Striker describe(const Scene& scene, const std::vector<LinkMotion>& motions,
           .radius = find_radius(obstacle.geometry)};
 }
 
-// The stiffest of the link's, whose impacts are the shortest.
+// The stiffest of the link's materials, with the shortest impacts.
 Material find_own_material(const FlexibleLink& flexible) {
   Material own;
   for (const flexbody::MaterialRegion& region : flexible.materials) {

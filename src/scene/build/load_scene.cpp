@@ -61,8 +61,8 @@ void apply(const Overrides& overrides, Scene& scene) {
   }
 }
 
-// Probes of stress of links without it: an error of the file, but of a level of
-// the command line, for all links, no more than a warning.
+// Probes of stress on links without it: an error of the file, but only a
+// warning if the command line sets the level of all links.
 void check_stress(const Overrides& overrides, Scene& scene) {
   Scenario& scenario = scene.scenario;
   std::vector<std::string> problems;
@@ -86,7 +86,7 @@ void check_stress(const Overrides& overrides, Scene& scene) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-// Problems that do not name the setting which made them may come from any.
+// Problems that do not name the setting that caused them may come from any.
 std::vector<std::string> name_settings(std::vector<std::string> problems,
                                        const std::vector<Setting>& settings) {
   constexpr std::size_t kMostNamed = 8;

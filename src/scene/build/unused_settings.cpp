@@ -178,7 +178,7 @@ class Judge {
                                      : "";
   }
 
-  /// Whether the scenario chooses what of a basis the path is.
+  /// Whether the scenario overrides the part of a basis at the path.
   [[nodiscard]] bool has_own_basis(const std::string& link,
                                    const std::string& path) const {
     const auto own = scenario_.basis_of_link.find(link);

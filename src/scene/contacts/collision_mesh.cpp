@@ -23,7 +23,7 @@ std::string describe(const Vector3& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z());
 }
 
-/// Gives points that are as good as the same one number.
+/// Gives the same number to points that nearly coincide.
 class Corners {
  public:
   Corners(const Vector3& low, double same) : low_(low), same_(same) {}

@@ -38,7 +38,7 @@ std::filesystem::path find_assimp(const std::filesystem::path& file) {
       file.string()));
 }
 
-/// What the program turned so that y is up, turned back.
+/// Reverts the program's rotation to y up.
 void turn_back(const std::string& text, std::string& stl) {
   const bool was_x = text.find(">X_UP<") != std::string::npos;
   const bool was_z = text.find(">Z_UP<") != std::string::npos;

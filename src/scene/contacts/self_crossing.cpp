@@ -17,7 +17,7 @@ struct Box {
   Vector3 high;
 };
 
-// Splits faces by their middles, and looks at the pairs whose boxes meet.
+// Splits faces by their middles, and checks the pairs whose boxes meet.
 class CrossingFinder {
  public:
   CrossingFinder(const std::vector<Vector3>& points,
@@ -119,7 +119,7 @@ class CrossingFinder {
     });
   }
 
-  // Of an edge of f with g.
+  // Crossing of an edge of f with g.
   [[nodiscard]] std::optional<Vector3> find_crossing(const Face& f,
                                                      const Face& g) const {
     const Vector3& a = at(g[0]);

@@ -21,7 +21,7 @@ double find_limit(const PlacedPair& pair, const contact::Meeting& meeting) {
   return meeting.curvature > 0.0 ? kMostShare / meeting.curvature : kMostDepth;
 }
 
-/// Where two overlap most; none if they do not.
+/// The deepest overlap of two shapes; none if they do not overlap.
 std::optional<contact::Meeting> find_overlap(const PlacedPair& pair,
                                              const joints::PairBodies& bodies) {
   contact::Meetings meetings(pair.shapes.most_points());

@@ -163,7 +163,7 @@ class PairFinder {
     return pairs;
   }
 
-  /// All bodies with shapes that a name or pattern stands for.
+  /// All bodies with shapes that match a name or pattern.
   [[nodiscard]] std::vector<Toucher> find_bodies(
       const std::string& name) const {
     const bool exact = is_known(name);

@@ -144,7 +144,7 @@ class Outputs {
          system_.modes.middleRows(body.offset, body.modes));
   }
 
-  // Of the stress by the modes, at this state.
+  // Derivative of the stress by the modes, at this state.
   [[nodiscard]] MatrixX find_slopes(const StressProbe& probe,
                                     const dynamics::BodyModel& body) const {
     MatrixX slopes = probe.Sigma_L.leftCols(body.modes);

@@ -94,7 +94,7 @@ double find_depth(const ContactProbe& probe, const dynamics::SystemModel& model,
   return depth;
 }
 
-/// Of all pairs of shapes; the place is that of the one with the largest force.
+/// Sums over all pairs of shapes; the place is that of the largest force.
 TouchReading read(const ContactProbe& probe, const dynamics::SystemModel& model,
                   const dynamics::SystemState& state) {
   TouchReading sum;

@@ -26,7 +26,7 @@ Course find_course(const CouplerProbe& probe) {
   return is_motion ? Course::motion : Course::values;
 }
 
-// No parabola goes through what jumps, such as places, when bodies touch.
+// A parabola does not fit quantities that jump, such as places of contact.
 Course find_course(const ContactProbe& probe) {
   switch (probe.spec.quantity) {
     case ContactQuantity::place:

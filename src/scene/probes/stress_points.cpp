@@ -38,7 +38,7 @@ std::set<std::size_t> find_surface(const ReducedBody& body) {
   return rows;
 }
 
-// Of selections that need no interface; else none.
+// Rows of selections that need no interface; else none.
 std::set<std::size_t> select_rows(const ReducedBody& body,
                                   const StressPlace& place) {
   const auto select = [&](const auto& one) -> std::set<std::size_t> {

@@ -34,7 +34,7 @@ void append_principal(const StressProbe& probe, const VectorX& all,
   values.push_back(largest);
 }
 
-// Of all points, in the axes of the link as it has moved.
+// Stress at all points, in the present axes of the link.
 void calc_full(const StressProbe& probe, const dynamics::SystemModel& model,
                const dynamics::BodyModel& body,
                const dynamics::SystemState& state) {

@@ -8,7 +8,7 @@
 namespace limber::scene {
 namespace {
 
-/// Gives a robot's names its own name.
+/// Adds a robot's name to the names in it.
 class Renamer {
  public:
   Renamer(const std::string& name, bool has_world)
@@ -48,8 +48,8 @@ class Renamer {
     }
   }
 
-  // An interface that a link does not name is called like the joint in its
-  // file, and stays so.
+  // An interface that a link does not name has the name of the joint in its
+  // file, which is kept.
   void keep_interfaces(Robot& robot) const {
     for (const Joint& joint : robot.joints) {
       for (const int side : {joint.parent, joint.child}) {

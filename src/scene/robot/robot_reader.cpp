@@ -161,7 +161,7 @@ void read_standard_part(const std::string& xml, Robot& robot,
                         Problems& problems) {
   LogCapture capture;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(xml);
-  // The reason, and then of what it is part, outwards: one error.
+  // The reason, and then the enclosing elements, outwards: one error.
   if (!capture.errors.empty()) {
     std::vector<std::string> texts;
     for (const std::string& text : capture.errors) texts.push_back(echo(text));

@@ -182,8 +182,8 @@ class Setter {
     return element;
   }
 
-  /// URDF's elements may hold what other programs read, so that a slip would
-  /// be without effect.
+  /// URDF's elements may contain data of other programs, so that a misspelt
+  /// name would have no effect.
   void check_urdf(const Known& known) const {
     std::string path;
     Parts all;

@@ -69,7 +69,7 @@ ContactSpec read_contact(TomlTable& table, const ContactOptions& otherwise) {
   return contact;
 }
 
-/// A notice of the contacts that leave a value out, if there are any.
+/// A notice of the contacts without a value, if there are any.
 template <typename Leaves>
 void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
                   const char* key, const char* means,

@@ -35,7 +35,7 @@ void read_full(TomlTable& table, Scenario& scenario) {
   full.mass = read_name(table, "mass", full.mass, &flexbody::parse_nodal_mass);
 }
 
-/// TOML takes a key with a dot for a table in a table.
+/// TOML reads a key with a dot as a table in a table.
 void fail_unquoted(TomlTable& table, const std::string& robot,
                    const toml::table& inner) {
   const std::string name(inner.begin()->first.str());

@@ -9,7 +9,7 @@ bool is_pattern(std::string_view name) {
   return name.find_first_of("*?") != std::string_view::npos;
 }
 
-// Only the last `*` may have to take more: what earlier ones took is enough.
+// Only the last `*` may have to match more: the match of earlier ones is final.
 bool matches(std::string_view pattern, std::string_view name) {
   constexpr std::size_t kNone = std::string_view::npos;
   std::size_t p = 0;

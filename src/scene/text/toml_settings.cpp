@@ -94,8 +94,8 @@ class Setter {
 
   void note(const std::string& part) { place_ += part + "\n"; }
 
-  /// Goes from the node before part i into it; false if it must be made, and
-  /// then the rest of the path is made, too.
+  /// Descends from the node before part i into it; false if it does not exist,
+  /// and then the rest of the path is made as well.
   bool enter(std::size_t i) {
     if (toml::table* table = node_->as_table()) {
       toml::node* next = table->get(parts_[i]);
