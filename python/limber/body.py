@@ -11,7 +11,7 @@ from .errors import LimberWarning
 def reduce(mesh, *, youngs_modulus, poisson_ratio, density, interfaces=(),
            clamps=(), modes=10, rows=("boundary",), size=0.0, order=0, unit=1.0,
            second_order=False, stress=False):
-    """Reduces a mesh or geometry to a body that needs no mesh any more.
+    """Reduces a mesh or geometry to a body that no longer needs the mesh.
 
     ``youngs_modulus`` [Pa], ``poisson_ratio`` [-], ``density`` [kg/m^3];
     ``interfaces``: groups of the mesh that become interfaces; ``clamps``: that

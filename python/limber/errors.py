@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Limber raises. Each says what is wrong, where, and what would fix it."""
+"""Exceptions of Limber. Each states what is wrong, where, and how to fix it."""
 
 
 class InputError(ValueError):
     """A file, key or value is wrong.
 
-    ``problems`` lists all that is wrong with it, a text each.
+    ``problems`` lists all of its errors, one text each.
     """
 
     def __init__(self, *texts):
@@ -16,8 +16,8 @@ class InputError(ValueError):
 class NumericalError(ArithmeticError):
     """A computation cannot continue.
 
-    ``run`` is the :class:`limber.Run` until there, if there is one; a Python
-    exception that is the reason, as one in a controller, is ``__cause__``.
+    ``run`` is the :class:`limber.Run` up to then, if there is one; if a Python
+    exception is the reason, as in a controller, it is ``__cause__``.
     """
 
     run = None
@@ -26,16 +26,16 @@ class NumericalError(ArithmeticError):
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C ended a computation between two steps.
 
-    ``run`` is the :class:`limber.Run` until there, if there is one. In a
-    notebook it is still at hand as ``sys.last_value.run``.
+    ``run`` is the :class:`limber.Run` up to then, if there is one. In a notebook
+    it is still available as ``sys.last_value.run``.
     """
 
     run = None
 
 
 class ContractError(Exception):
-    """A programming error of the caller, as an index of another model."""
+    """A programming error of the caller, such as an index of another model."""
 
 
 class LimberWarning(UserWarning):
-    """What the command prints as a warning."""
+    """A warning, as the command prints it."""

@@ -40,13 +40,13 @@ class LinearModel:
 
     @property
     def input_names(self):
-        """Of each column of B and D, m texts: loads, drives, and what
-        controllers write."""
+        """Names of the columns of B and D, m texts: loads, drives, and outputs of
+        controllers."""
         return [name for name, _, _ in self._made.inputs]
 
     @property
     def input_units(self):
-        """Of each input, m texts."""
+        """Units of the inputs, m texts."""
         return [unit for _, unit, _ in self._made.inputs]
 
     @property
@@ -56,12 +56,12 @@ class LinearModel:
 
     @property
     def output_names(self):
-        """Of each row of C and D, p texts: columns of probes, "tip.ux"."""
+        """Names of the rows of C and D, p texts: columns of probes, "tip.ux"."""
         return [name for name, _, _ in self._made.outputs]
 
     @property
     def output_units(self):
-        """Of each output, p texts."""
+        """Units of the outputs, p texts."""
         return [unit for _, unit, _ in self._made.outputs]
 
     @property
@@ -71,22 +71,22 @@ class LinearModel:
 
     @property
     def state_names(self):
-        """Of each state, n texts; of a reduced model "kept1", ..., "balanced1"."""
+        """Names of the states, n texts; of a reduced model "kept1", ..., "balanced1"."""
         return [name for name, _, _ in self._made.states]
 
     @property
     def state_units(self):
-        """Of each state, n texts."""
+        """Units of the states, n texts."""
         return [unit for _, unit, _ in self._made.states]
 
     @property
     def time(self):
-        """Of the reference [s]."""
+        """Time of the reference [s]."""
         return self._made.time
 
     @property
     def about(self):
-        """What the model counts from: "start", "equilibrium" or "time"."""
+        """Reference of the model: "start", "equilibrium" or "time"."""
         return self._made.about
 
     @property
@@ -96,12 +96,12 @@ class LinearModel:
 
     @property
     def axes_angular_velocity(self):
-        """Of the axes from which vectors of the world are seen, (3,) [rad/s]."""
+        """Angular velocity of the axes of world vectors, (3,) [rad/s]."""
         return self._made.axes_angular_velocity
 
     @property
     def open_loops(self):
-        """Names of controllers, which are not in the model."""
+        """Names of controllers, which are not part of the model."""
         return self._made.open_loops
 
     @property
@@ -111,25 +111,25 @@ class LinearModel:
 
     @property
     def kept_states(self):
-        """Of a reduced model the number of states of motion that does not
-        decay, its first ones; None of others."""
+        """For a reduced model, number of states of motion that does not decay,
+        which come first; None for others."""
         return self._made.kept
 
     @property
     def hankel_singular_values(self):
-        """Of a reduced model, of all motion that decays, descending, (k,)
-        [output's / input's]; None of others."""
+        """For a reduced model, those of decaying motion, descending, (k,)
+        [output's / input's]; None for others."""
         return self._made.hankel
 
     @property
     def error_bound(self):
-        """Of a reduced model: by how much at most, at any frequency, the gain
-        from inputs to outputs differs [output's / input's]; None of others."""
+        """For a reduced model, upper bound of the error in gain from inputs to
+        outputs at any frequency [output's / input's]; None for others."""
         return self._made.bound
 
     @property
     def warnings(self):
-        """What the command prints as warnings."""
+        """Warnings of the command."""
         return self._made.warnings
 
     def save(self, file):

@@ -42,7 +42,7 @@ class BodyMotion:
 
 
 class Named(collections.abc.Mapping):
-    """A dictionary by name that is filled when it is asked."""
+    """A dictionary by name that is filled on demand."""
 
     def __init__(self, kind, names, find):
         self._kind = kind
@@ -73,9 +73,8 @@ class Named(collections.abc.Mapping):
 class Run:
     """A finished run of T outputs.
 
-    Arrays are views: of the times and energies where the run recorded them, of
-    probes and motion as gathered once. They keep the run alive, and are
-    read-only.
+    Arrays are read-only views, which keep the run alive: of the recorded times
+    and energies, and of probes and motion gathered at first use.
     """
 
     def __init__(self, recorded):
@@ -139,7 +138,7 @@ class Run:
 
     @property
     def summary(self):
-        """What ``limber run`` writes to summary.json, as a dictionary."""
+        """The content of summary.json of ``limber run``, as a dictionary."""
         return self._recorded.summary
 
     @property
@@ -154,7 +153,7 @@ class Run:
 
     @property
     def completed(self):
-        """Whether it reached its end."""
+        """Whether the run reached its end."""
         return self._recorded.failure is None
 
     def save(self, folder, pictures=False, xdmf=False):
@@ -230,7 +229,7 @@ class StaticRun(Run):
 
     @property
     def summary(self):
-        """What ``limber static`` writes to summary.json, as a dictionary."""
+        """The content of summary.json of ``limber static``, as a dictionary."""
         return self._summary
 
     @property
@@ -240,7 +239,7 @@ class StaticRun(Run):
 
 
 def finish(run):
-    """Tells the warnings of a run, and raises what ended it early."""
+    """Issues the warnings of a run, and raises the exception that ended it early."""
     for text in run.warnings:
         warnings.warn(text, errors.LimberWarning, stacklevel=3)
     failure = run._recorded.failure

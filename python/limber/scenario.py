@@ -41,17 +41,17 @@ class Controller:
     ``name``: of a ``[[controller]]`` of the scenario, which has its sample
     times, and the loads and drives that follow it.
 
-    ``law(t, measured, memory)`` is called at every sample, and returns what is
-    written (a number): time [s], what is measured, (n,) [its units], and what
-    it keeps from sample to sample, (k,), which it changes in place.
+    ``law(t, measured, memory)`` is called at every sample, and returns the output
+    (a number): time [s], measurements, (n,) [their units], and memory from sample
+    to sample, (k,), which it changes in place.
 
-    ``memory``: the start of that, k numbers, perhaps none: ``[]``. It is part
-    of the run's state, so that runs to a tolerance, which repeat samples, go
-    back to it. Without it the law is called as ``law(t, measured)`` and may
-    keep what it likes by itself; a run to a tolerance then refuses it.
+    ``memory``: its initial value, k numbers, possibly none: ``[]``. It is part of
+    the run's state, so that runs to a tolerance, which repeat samples, can restore
+    it. Without it the law is called as ``law(t, measured)`` and may have memory of
+    its own; a run to a tolerance then refuses it.
 
-    ``measures``: columns of probes, as ``["tip.ux"]``; by default what the
-    scenario's controller measures. ``period`` [s]: by default the scenario's.
+    ``measures``: columns of probes, as ``["tip.ux"]``; by default those of the
+    scenario's controller. ``period`` [s]: by default the scenario's.
     """
 
     def __init__(self, name, law, memory=None, measures=None, period=None):
@@ -64,7 +64,7 @@ class Controller:
 
 
 def _identify(law):
-    """What tells one law from another."""
+    """Identity of a law."""
     name = f"{getattr(law, '__module__', '')}.{getattr(law, '__qualname__', law)}"
     try:
         return name + "\n" + inspect.getsource(law)
@@ -76,8 +76,8 @@ class Scenario:
     """A scenario and its robot, checked; see :func:`load`.
 
     Keys are set by their dotted paths: ``scenario["time.step"] = 1e-4``, and
-    removed by ``del scenario["time.steps"]``. What does not fit raises
-    InputError, and leaves the scenario as it was.
+    removed by ``del scenario["time.steps"]``. An invalid value
+    raises InputError, and leaves the scenario unchanged.
     """
 
     def __init__(self, file, set=None, unset=(), fidelity=None):
@@ -98,21 +98,21 @@ class Scenario:
                      + _to_settings(values))
 
     def _change(self, settings):
-        """The last one of each path counts."""
+        """Changes keys; the last value of each path counts."""
         settings = [(path, value) for i, (path, value) in enumerate(settings)
                     if all(path != later for later, _ in settings[i + 1:])]
         self._scene = _core.load(self._file, settings, self._fidelity)
         self._settings = settings
 
     def copy(self):
-        """Another one, whose keys change on their own."""
+        """An independent copy."""
         made = object.__new__(Scenario)
         made.__dict__.update(self.__dict__)
         return made
 
     @property
     def settings(self):
-        """What was set, [(path, TOML), ...]; None: removed."""
+        """Keys that were set, [(path, TOML), ...]; None: removed."""
         return list(self._settings)
 
     @property
@@ -137,7 +137,7 @@ class Scenario:
 
     @property
     def end_time(self):
-        """Of a run [s]."""
+        """End time of a run [s]."""
         return self._scene.describe()["end_time"]
 
     def __repr__(self):
@@ -151,16 +151,16 @@ class Scenario:
         folder of reduced bodies. ``progress(what, fraction)`` is called every
         few milliseconds.
 
-        Other Python threads go on meanwhile. Ctrl-C raises Interrupted, and a
-        computation that cannot continue NumericalError; both have the
-        :class:`Run` until there as ``run``. Warnings are LimberWarning.
+        Other Python threads continue meanwhile. Ctrl-C raises Interrupted, and a
+        computation that cannot continue NumericalError; both have the :class:`Run`
+        up to then as ``run``. Warnings are LimberWarning.
         """
         recorded = _core.run(self._scene, _path(cache), judge, list(controllers),
                              progress)
         return finish(Run(recorded))
 
     def static(self, method=None, cache=None):
-        """Equilibrium under what acts at the start, as ``limber static``.
+        """Equilibrium under the loads at the start, as ``limber static``.
 
         ``method``: "newton" or "relaxation", by default the scenario's.
         Returns a :class:`StaticRun`, which has one output.
@@ -190,7 +190,7 @@ class Scenario:
         names of loads, drives and controllers, ``outputs``: names of probes or
         their columns, both by default all, in the model's order. ``states``: a
         number of states n, to which the model is reduced by balanced
-        truncation. Controllers are not in it: their loops are open.
+        truncation. Controllers are not part of it: their loops are open.
 
         Returns a :class:`LinearModel`, with matrices of shapes (n, n), (n, m),
         (p, n) and (p, m) for m inputs and p outputs.
@@ -198,7 +198,7 @@ class Scenario:
         return self._linearize(at, inputs, outputs, states, cache)
 
     def _linearize(self, at, inputs, outputs, states, cache):
-        """What both ways to ask for it do; warnings are of their caller's line."""
+        """Common part of both functions; warnings refer to the caller's line."""
         made = LinearModel(_core.linearize(
             self._scene, at, _names(inputs), _names(outputs), states, _path(cache)))
         for text in made.warnings:

@@ -79,21 +79,21 @@ class Study:
 
         ``executor``: any of ``concurrent.futures``: a process pool, Dask's
         ``client.get_executor()``, ``mpi4py.futures.MPIPoolExecutor()``. Its
-        workers need this Limber and the files of the study under the same
-        paths; one that does not have them as they are here is refused. By
-        default as many threads as processors.
+        workers need this version of Limber and the files of the study under the
+        same paths; a worker with other ones is refused. By default as many threads
+        as processors.
 
         ``out``: folder of ``study.sqlite``, by default ``out/NAME``. Rows are
-        written as they finish, by this process alone, so that each is there
-        once, whatever happens to workers or to this process; the same call
-        goes on with the others.
+        written as they finish, only by this process, so that each exists once,
+        whatever happens to workers or to this process; the same call continues with
+        the others.
 
         A run whose worker was lost is made again, three times at most.
 
         ``progress(done, runs)`` is called after each.
 
         Returns :class:`StudyResults`. Ctrl-C raises Interrupted; finished runs
-        stay. Raises RuntimeError if the executor lost runs each time.
+        are kept. Raises RuntimeError if the executor lost runs each time.
         """
         folder = pathlib.Path("out") / self.name if out is None else pathlib.Path(out)
         folder.mkdir(parents=True, exist_ok=True)
@@ -225,7 +225,7 @@ _ATTEMPTS = 3
 
 @functools.lru_cache(maxsize=4)
 def _plan(task):
-    """Once a process, so that its runs share bodies."""
+    """The study's plan, made once per process, so that its runs share bodies."""
     return _core.StudyPlan(task.text, task.file, task.cache)
 
 
@@ -234,9 +234,9 @@ def _digest(plan):
 
 
 def make_row(task, digest, run, attempt=0):
-    """One run, in a worker's process. Returns its row, or None if ended by a
-    signal. ``attempt`` is for executors that know work by its arguments (Dask):
-    a run that was lost is other work the next time."""
+    """Makes one run in a worker's process. Returns its row, or None if ended by a
+    signal. ``attempt`` distinguishes a repeated run for executors that identify
+    work by its arguments (Dask)."""
     del attempt
     plan = _plan(task)
     found = _digest(plan)
