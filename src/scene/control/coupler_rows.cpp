@@ -120,7 +120,8 @@ CouplerRows find_joint_rows(const CouplerProbe& probe,
       out.by_state.row(i) = quantity == CouplerQuantity::coordinate ? z : rate;
     }
   }
-  if (is_effort) {  // drives' wrenches are sums along the gradients
+  if (is_effort && out.by_input.cols() > 0) {
+    // Drives' wrenches are sums along the gradients.
     out.by_input = gradients.colPivHouseholderQr().solve(link.wrench_by_input);
   }
   return out;
