@@ -22,17 +22,6 @@
 #include "limber/mesher/sandbox.hpp"
 #include "limber/mesher/trace.hpp"
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-// Gmsh 4.8 releases by `delete` what it allocated by `new[]`. The environment
-// of this program is empty, so the option that lets it pass is built in.
-extern "C" const char* __asan_default_options();
-extern "C" const char* __asan_default_options() {
-  return "alloc_dealloc_mismatch=0";
-}
-#endif
-#endif
-
 namespace {
 
 using limber::fem::MeshReply;
