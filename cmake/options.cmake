@@ -52,6 +52,7 @@ if(LIMBER_SANITIZE)
     -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
     $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/overflow.ignore>)
+  target_compile_definitions(limber_options INTERFACE LIMBER_SANITIZED)
   target_link_options(limber_options INTERFACE -fsanitize=${limber_sanitizers})
 endif()
 # libFuzzer follows the paths that an input takes.

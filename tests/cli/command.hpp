@@ -4,17 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "support/sanitized.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace limber::test {
-
-/// Whether the command is built with sanitizers: these take terabytes of
-/// address space, and do not live within limits.
-#ifdef LIMBER_SANITIZED
-inline constexpr bool kIsSanitized = true;
-#else
-inline constexpr bool kIsSanitized = false;
-#endif
 
 struct CommandResult {
   int status = -1;     ///< exit status

@@ -19,14 +19,6 @@
 #include "limber/common/process/child_process.hpp"
 #include "limber/common/process/helper_program.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LIMBER_IS_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define LIMBER_IS_SANITIZED 1
-#endif
-#endif
-
 namespace limber::fem {
 namespace {
 
@@ -34,8 +26,8 @@ constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
 constexpr double kSeconds = 300.0;
 constexpr const char* kName = "limber-mesh";
 
-// The mesher is built as this library is.
-#ifdef LIMBER_IS_SANITIZED
+// The mesher is built as this library is, and sanitizers take terabytes.
+#ifdef LIMBER_SANITIZED
 constexpr bool kIsAddressSpaceLimited = false;
 #else
 constexpr bool kIsAddressSpaceLimited = true;

@@ -13,6 +13,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
+#include "support/sanitized.hpp"
 #include "unit/fem/meshes.hpp"
 
 /// A geometry is a program of whoever wrote it. Here are those that do harm.
@@ -113,6 +114,7 @@ TEST(Mesher, EndsWhatTakesTooLong) {
 }
 
 TEST(Mesher, EndsWhatTakesTooMuchMemory) {
+  if (test::kIsSanitized) GTEST_SKIP() << "sets limits";
   EXPECT_THAT(
       find_error(kBox + "Transfinite Curve {1:12} = 200000000;\n", 60.0, 1.0),
       AllOf(HasSubstr("the 1 GiB of memory"), HasSubstr("LIMBER_MESH_MEMORY")));
