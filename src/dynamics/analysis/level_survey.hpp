@@ -110,8 +110,8 @@ class LevelSurvey {
     PeakDisplacement total;
     PeakDisplacement deformation;
     AxialLoad axial;
-    double last_share = 0.0;       ///< of the buckling load
-    double last_strain = 0.0;      ///< magnitude of the mean strain
+    double last_share = 0.0;       ///< of the buckling load [-]
+    double last_strain = 0.0;      ///< magnitude of the mean strain [-]
     bool is_observed = false;      ///< source computes its modes
     bool misses_inertial = false;  ///< but without inertial forces on them
     bool is_unreduced = false;     ///< source has its nodes and other forces

@@ -30,8 +30,8 @@ struct LinearSystem {
   Imbalance imbalance;    ///< of the reference
   double change = 0.0;    ///< of the coefficients while it rotates by 1 rad [-]
   Eigen::Index free = 0;  ///< coordinates of free motion
-  MatrixX A;
-  MatrixX B;
+  MatrixX A;              ///< [1/s]
+  MatrixX B;              ///< [state's / s / input's]
   std::vector<LinearSignal> states;
   std::vector<LinearInput> inputs;
   MatrixX links;              ///< motion [m, rad]

@@ -10,8 +10,8 @@ namespace limber::dynamics {
 
 /// A = U T U*, T upper triangular, U unitary.
 struct SchurForm {
-  Eigen::MatrixXcd U;
-  Eigen::MatrixXcd T;
+  Eigen::MatrixXcd U;  ///< [-]
+  Eigen::MatrixXcd T;  ///< [A's]
 };
 
 /// @param comes_first which eigenvalues come first on T's diagonal

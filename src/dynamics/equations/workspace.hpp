@@ -85,8 +85,8 @@ struct ProductTerms {
   /// Forces on products, of points, nodal loads and gravity; included in
   /// modal_force [kg^-1 m^-1 N].
   VectorX force;
-  VectorX eta;
-  VectorX etadot;
+  VectorX eta;     ///< of modes, then products [kg^1/2 m; kg m^2]
+  VectorX etadot;  ///< likewise [kg^1/2 m/s; kg m^2/s]
 };
 
 /// Which wrench couplers exert on their bodies.

@@ -23,7 +23,7 @@ namespace limber::fem {
 struct SecondOrderTerms {
   MatrixX loads;   ///< 3N x p (p + 1) / 2: g [N for fields in m]
   MatrixX strain;  ///< p x p (p + 1) / 2: c, row r [J for fields in m]
-  MatrixX scale;   ///< the same with int |S_r| |H_i| |H_j| dV: bounds c
+  MatrixX scale;   ///< the same with int |S_r| |H_i| |H_j| dV: bounds c [as c]
 };
 /// @param materials one per region of the mesh
 /// @param Phi 3N x p
