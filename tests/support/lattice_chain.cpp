@@ -48,10 +48,13 @@ void LatticeChain::add(Fidelity fidelity, int modes,
   });
 }
 
-void LatticeChain::join(double stiffness, double damping) {
-  builder.add_coupler("joint" + std::to_string(ends_.size()),
-                      make_bushing(stiffness, damping),
-                      ends_[ends_.size() - 2].second, ends_.back().first);
+void LatticeChain::join(double stiffness, double damping, int count) {
+  for (int i = 0; i < count; ++i) {
+    builder.add_coupler(
+        "joint" + std::to_string(ends_.size()) + "." + std::to_string(i),
+        make_bushing(stiffness / count, damping / count),
+        ends_[ends_.size() - 2].second, ends_.back().first);
+  }
 }
 
 void LatticeChain::join_world(double stiffness, double damping) {

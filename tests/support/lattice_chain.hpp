@@ -28,8 +28,9 @@ class LatticeChain {
   void add(Fidelity fidelity, int modes = kAllModes,
            const ModalDamping& damping = {});
 
-  /// Connects the last added body to the previous one.
-  void join(double stiffness, double damping);
+  /// Connects the last added body to the previous one, by `count` bushings that
+  /// share stiffness and damping equally.
+  void join(double stiffness, double damping, int count = 1);
   void join_world(double stiffness, double damping);
   [[nodiscard]] AttachmentIndex last_end() const { return ends_.back().second; }
 

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <numeric>
-#include <set>
+#include <optional>
+
+#include "limber/common/index.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -12,6 +15,8 @@ namespace {
 // Bodies with few links are eliminated, which is more accurate.
 constexpr double kMany = 8.0;
 constexpr double kWorthIt = 2.0;
+// The blocks of a hub and of all its ancestors are joined.
+constexpr int kDeepest = 4;
 
 bool is_cheaper_as_hub(double links, double blocks) {
   const double as_block = links * links * links / 3.0;
@@ -20,35 +25,81 @@ bool is_cheaper_as_hub(double links, double blocks) {
   return links >= kMany && as_block > kWorthIt * as_hub;
 }
 
-}  // namespace
+class HubChoice {
+ public:
+  explicit HubChoice(const LinkGraph& graph) : graph_(graph) {}
 
-std::vector<int> choose_hubs(const std::vector<std::vector<int>>& links_of_body,
-                             const std::vector<int>& blocks_of_body) {
-  const auto links_of = [&](int b) -> const std::vector<int>& {
-    return links_of_body[static_cast<std::size_t>(b)];
-  };
-  std::vector<int> bodies(links_of_body.size());
-  std::iota(bodies.begin(), bodies.end(), 0);
-  std::stable_sort(bodies.begin(), bodies.end(), [&](int a, int b) {
-    return links_of(a).size() > links_of(b).size();
-  });
-  std::set<int> taken;
-  std::vector<int> hubs;
-  for (const int b : bodies) {
-    const std::vector<int>& links = links_of(b);
-    const int blocks = blocks_of_body[static_cast<std::size_t>(b)];
+  void consider(int body) {
+    const std::vector<int>& links = graph_.links_of_body[index(body)];
+    const int blocks = graph_.blocks[index(body)];
     if (blocks == 0 || !is_cheaper_as_hub(static_cast<double>(links.size()),
                                           static_cast<double>(blocks))) {
-      continue;
+      return;
     }
-    if (std::any_of(links.begin(), links.end(),
-                    [&](int link) { return taken.count(link) > 0; })) {
-      continue;
+    int parent = -1;
+    if (graph_.moves[index(body)]) {
+      const std::map<int, int> sharing = count_shared(links);
+      if (!sharing.empty()) {
+        const std::optional<int> chosen = choose_parent(sharing);
+        if (!chosen) return;
+        parent = *chosen;
+      }
+      for (const int link : links) {
+        hubs_of_link_[link].push_back(static_cast<int>(hubs.size()));
+      }
     }
-    taken.insert(links.begin(), links.end());
-    hubs.push_back(b);
+    depths_.push_back(parent < 0 ? 0 : depths_[index(parent)] + 1);
+    roots_.push_back(parent < 0 ? static_cast<int>(hubs.size())
+                                : roots_[index(parent)]);
+    hubs.push_back({body, parent});
   }
-  return hubs;
+
+  std::vector<Hub> hubs;
+
+ private:
+  // Hubs that the links end on, with how many of them.
+  [[nodiscard]] std::map<int, int> count_shared(
+      const std::vector<int>& links) const {
+    std::map<int, int> count;
+    for (const int link : links) {
+      const auto found = hubs_of_link_.find(link);
+      if (found == hubs_of_link_.end()) continue;
+      for (const int hub : found->second) ++count[hub];
+    }
+    return count;
+  }
+
+  // The one that shares most; none if they belong to several trees.
+  [[nodiscard]] std::optional<int> choose_parent(
+      const std::map<int, int>& sharing) const {
+    const int root = roots_[index(sharing.begin()->first)];
+    std::optional<int> best;
+    for (const auto& [hub, count] : sharing) {
+      if (roots_[index(hub)] != root) return std::nullopt;
+      if (depths_[index(hub)] >= kDeepest) continue;
+      if (!best || count > sharing.at(*best)) best = hub;
+    }
+    return best;
+  }
+
+  const LinkGraph& graph_;
+  std::map<int, std::vector<int>> hubs_of_link_;
+  std::vector<int> depths_;
+  std::vector<int> roots_;
+};
+
+}  // namespace
+
+std::vector<Hub> choose_hubs(const LinkGraph& graph) {
+  std::vector<int> bodies(graph.links_of_body.size());
+  std::iota(bodies.begin(), bodies.end(), 0);
+  std::stable_sort(bodies.begin(), bodies.end(), [&](int a, int b) {
+    return graph.links_of_body[index(a)].size() >
+           graph.links_of_body[index(b)].size();
+  });
+  HubChoice choice(graph);
+  for (const int body : bodies) choice.consider(body);
+  return choice.hubs;
 }
 
 }  // namespace limber::dynamics

@@ -5,16 +5,30 @@
 
 namespace limber::dynamics {
 
-/// Bodies with so many links that NewtonMatrix keeps their increments as
-/// unknowns: eliminating a body of n links gives a dense block of n unknowns of
-/// six, n^3 / 3 products of blocks to factor; keeping it n b^2 + b^3 / 3, b its
-/// own blocks of six. No two of them share a link: without an eliminated body
-/// between them, its stiffness would lose their inertia to round-off.
-/// @param links_of_body of each body the links that end on it, repeats allowed
-/// @param blocks_of_body of each body b; 0 for one to be eliminated
-/// @returns their indices, the one with most links first
-[[nodiscard]] std::vector<int> choose_hubs(
-    const std::vector<std::vector<int>>& links_of_body,
-    const std::vector<int>& blocks_of_body);
+/// Couplers and transmissions (links) by the bodies that they end on.
+struct LinkGraph {
+  int links = 0;
+  std::vector<std::vector<int>> links_of_body;  ///< repeats allowed
+  std::vector<int> blocks;     ///< of six; 0 if the body cannot be kept
+  std::vector<int> sizes;      ///< of each body: rigid motion and modes
+  std::vector<bool> moves;     ///< whether the body has rigid motion
+  std::vector<bool> grounded;  ///< whether the link ends in the world, too
+};
+
+/// A body with so many links that NewtonMatrix keeps its increments as
+/// unknowns.
+struct Hub {
+  int body = 0;
+  int parent = -1;  ///< index of an earlier hub that it moves relative to
+};
+
+/// Eliminating a body of n links gives a dense block of n unknowns of six, n^3
+/// / 3 products of blocks to factor; keeping it n b^2 + b^3 / 3, b its own
+/// blocks. Two hubs that share links are expressed relative to each other, or
+/// the stiffness between them would lose their inertia to round-off: one is
+/// the parent of the other, or they have a common ancestor. A body that shares
+/// links with hubs of two such trees is eliminated.
+/// @returns the one with most links first
+[[nodiscard]] std::vector<Hub> choose_hubs(const LinkGraph& graph);
 
 }  // namespace limber::dynamics

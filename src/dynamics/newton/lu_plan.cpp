@@ -2,7 +2,6 @@
 #include "limber/dynamics/newton/lu_plan.hpp"
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/newton/hubs.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -45,8 +44,11 @@ LuPlan plan_lu(const LinkGraph& graph, const std::vector<BodyPair>& pairs) {
   LuPlan plan;
   plan.rows = graph.links;
   plan.kept_of_body.assign(graph.links_of_body.size(), -1);
-  for (const int b : choose_hubs(graph.links_of_body, graph.blocks)) {
-    keep(graph, b, false, plan);
+  const std::vector<Hub> hubs = choose_hubs(graph);
+  std::vector<int> first_rows;
+  for (const Hub& hub : hubs) {
+    first_rows.push_back(plan.rows);
+    keep(graph, hub.body, false, plan);
   }
   const int first_early = plan.rows;
   for (const auto& [a, b] : pairs) {
@@ -68,6 +70,7 @@ LuPlan plan_lu(const LinkGraph& graph, const std::vector<BodyPair>& pairs) {
     join_bodies(plan.kept[index(plan.kept_of_body[index(a)])],
                 plan.kept[index(plan.kept_of_body[index(b)])], edges);
   }
+  plan.transports = HubTransports(graph, hubs, first_rows, plan.rows, edges);
   plan.lu = BlockLu(plan.rows, edges, first_early);
   return plan;
 }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "limber/dynamics/newton/block_lu.hpp"
+#include "limber/dynamics/newton/hub_transports.hpp"
+#include "limber/dynamics/newton/hubs.hpp"
 
 namespace limber::dynamics {
 
@@ -17,19 +19,12 @@ struct KeptBody {
   bool is_early = false;  ///< before the links, as if it were eliminated
 };
 
-/// Couplers and transmissions (links) by the bodies that they end on.
-struct LinkGraph {
-  int links = 0;
-  std::vector<std::vector<int>> links_of_body;  ///< repeats allowed
-  std::vector<int> blocks;  ///< of each body; 0 if it cannot be kept
-  std::vector<int> sizes;   ///< of each body: rigid motion and modes
-};
-
 /// Unknowns of the block LU: six a link, then those of kept bodies.
 struct LuPlan {
   std::vector<KeptBody> kept;
   std::vector<int> kept_of_body;  ///< index into kept, -1: eliminated
   int rows = 0;
+  HubTransports transports;
   BlockLu lu;
 };
 
@@ -37,7 +32,8 @@ struct LuPlan {
 using BodyPair = std::pair<int, int>;
 
 /// Hubs are kept, after their links, and bodies of `pairs`, if they are none,
-/// before their links, so that no stiff link loses their inertia to round-off.
+/// before their links, so that no stiff link loses their inertia to round-off;
+/// hubs that share links move relative to each other.
 /// Pattern: links that share an eliminated body, kept bodies with their links,
 /// and the bodies of a pair.
 [[nodiscard]] LuPlan plan_lu(const LinkGraph& graph,

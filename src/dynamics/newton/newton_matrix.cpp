@@ -25,6 +25,7 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   rows_.resize(links);
   wrenches_.resize(links);
   gaps_.resize(links);
+  grounded_.resize(links, false);
   bodies_.reserve(model.bodies.size());
   for (const BodyModel& body : model.bodies) bodies_.emplace_back(body);
   const auto add_pair = [&](int link, CouplerIndex coupler, int term) {
@@ -59,7 +60,9 @@ LinkGraph NewtonMatrix::make_graph(const SystemModel& model, int links) const {
       .links = links,
       .links_of_body = std::vector<std::vector<int>>(ends_of_body_.size()),
       .blocks = {},
-      .sizes = {}};
+      .sizes = {},
+      .moves = {},
+      .grounded = grounded_};
   for (const End& end : ends_) {
     graph.links_of_body[index(end.body)].push_back(end.link);
   }
@@ -67,6 +70,7 @@ LinkGraph NewtonMatrix::make_graph(const SystemModel& model, int links) const {
     const BodyModel& body = model.bodies[b];
     graph.blocks.push_back(body.full < 0 ? bodies_[b].block_count() : 0);
     graph.sizes.push_back(6 + body.modes);
+    graph.moves.push_back(body.has_rigid_motion());
   }
   return graph;
 }
@@ -75,7 +79,10 @@ void NewtonMatrix::add_end(const SystemModel& model, int link,
                            CouplerIndex coupler, int term,
                            AttachmentIndex attachment, bool is_M) {
   const BodyIndex b = model.attachments[index(attachment)].body;
-  if (b == kWorld) return;
+  if (b == kWorld) {
+    grounded_[index(link)] = true;
+    return;
+  }
   const BodyModel& body = model.bodies[index(b)];
   End end{.link = link,
           .coupler = coupler,
@@ -196,11 +203,23 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
   }
   for (const KeptBody& kept : plan_.kept) assemble_kept(kept);
   pairs_.add(model, terms, end_terms, c.velocity, plan_);
+  plan_.transports.update(
+      [&](int body) { return find_place(terms, body); },
+      [&](int body) { return find_place(end_terms, body); });
+  plan_.transports.transform(plan_.lu);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int row = static_cast<int>(i);
     plan_.lu.scale_row(row, scaled_stiffness_[i]);
     plan_.lu.block(row, row) += rows_[i];
   }
+}
+
+// From one of the attachments on the body.
+HubTransports::Place NewtonMatrix::find_place(const SystemTerms& terms,
+                                              int body) const {
+  const End& end = ends_[index(ends_of_body_[index(body)].front())];
+  const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
+  return {motion.R_WB, motion.p_WF - motion.R_WB * motion.arm_B};
 }
 
 // Its share of A, which is known only once it is eliminated.
@@ -364,7 +383,9 @@ void NewtonMatrix::solve(const SystemModel& model, const SystemTerms& terms,
     }
   };
   for_kept([](double& unknown, double& x) { unknown = x; });
+  plan_.transports.transform_right(unknowns_);
   plan_.lu.solve(unknowns_);
+  plan_.transports.restore(unknowns_);
   for_kept([](double& unknown, double& x) { x = unknown; });
   std::copy_n(unknowns_.begin(), wrenches_.size(), wrenches_.begin());
   for (const End& end : ends_) {

@@ -32,11 +32,12 @@ namespace limber::dynamics {
 ///            so many couplers that their dense block would be larger than the
 ///            body's, a hub, is not eliminated: its increments are additional
 ///            unknowns, with K_c G_cb x_b in the couplers' rows and its own
-///            equation as a row. So are, before all couplers, bodies of
-///            pairs that have points: their tangent (PairTangents) joins both
-///            bodies' blocks. A transmission is a coupler with any number of
-///            ends and one unknown, the first of six; its other five rows are
-///            the identity.
+///            equation as a row; those of a hub that shares couplers with
+///            another are relative to it (HubTransports). So are, before all
+///            couplers, bodies of pairs that have points: their tangent
+///            (PairTangents) joins both bodies' blocks. A transmission is a
+///            coupler with any number of ends and one unknown, the first of
+///            six; its other five rows are the identity.
 /// Source     docs/decisions, "Coupler wrenches as Newton's unknowns".
 /// Limits     neglects what ResidualDerivative adds: geometric stiffness of
 ///            couplers and loads, and derivatives of inertial forces by modes
@@ -139,6 +140,8 @@ class NewtonMatrix {
   }
   void assemble(const SystemModel& model, const SystemTerms& terms,
                 const SystemTerms& end_terms, const Coefficients& c);
+  [[nodiscard]] HubTransports::Place find_place(const SystemTerms& terms,
+                                                int body) const;
   void add_compliances(const KeptBody& kept);
   void assemble_kept(const KeptBody& kept);
   [[nodiscard]] std::string describe_singular(const SystemModel& model,
@@ -154,6 +157,7 @@ class NewtonMatrix {
   std::vector<Matrix6> scaled_stiffness_;  // T K
   std::vector<Vector6> wrenches_;
   std::vector<Vector6> gaps_;
+  std::vector<bool> grounded_;  // links that end in the world, too
   LinkGraph graph_;
   LuPlan plan_;
   PairTangents pairs_;

@@ -159,7 +159,14 @@ TEST(CoupledModes, OfABodyWithManyCouplersMoveAsThoseThatElasticityLeaves) {
   const MatrixX basis = testing::make_basis(8, 6);
   std::vector<int> links(kCouplers);
   std::iota(links.begin(), links.end(), 0);
-  ASSERT_EQ(choose_hubs({links}, {3}), std::vector<int>{0});
+  ASSERT_EQ(choose_hubs({.links = kCouplers,
+                         .links_of_body = {links},
+                         .blocks = {3},
+                         .sizes = {14},
+                         .moves = {true},
+                         .grounded = std::vector<bool>(kCouplers, true)})
+                .size(),
+            1U);
   for (const IntegratorKind kind :
        {IntegratorKind::generalized_alpha, IntegratorKind::energy_conserving}) {
     SimulationSettings settings;

@@ -2,15 +2,18 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/energy.hpp"
-#include "limber/dynamics/newton/hubs.hpp"
+#include "limber/dynamics/newton/lu_plan.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
+#include "support/lattice_chain.hpp"
 
 /// Bodies with so many couplers that Newton's matrix keeps their motion among
 /// its unknowns. Hinges in one place are one hinge as stiff as all.
@@ -65,6 +68,11 @@ Panels make_panels(bool is_free, int count, double stiffness) {
   return panels;
 }
 
+// The round-off of the hinges' stiffness, 0.01 N/m of 1e14, acts on the panel.
+double bound_error(double stiffness) {
+  return std::max(1e-10, 1e-20 * stiffness);
+}
+
 TEST(ManyCouplers, InOnePlaceAreOneAsStiffAsAllHoweverStiff) {
   for (const bool is_free : {false, true}) {
     for (const double stiffness : {1e4, 1e8, 1e12, 1e14}) {
@@ -77,9 +85,7 @@ TEST(ManyCouplers, InOnePlaceAreOneAsStiffAsAllHoweverStiff) {
       }
       const BodyState& one = ends[0].bodies[0];
       const BodyState& many = ends[1].bodies[0];
-      // Relative to the world only the hinges deflect: the round-off of their
-      // stiffness, 0.01 N/m of 1e14, acts on the panel.
-      const double error = is_free || stiffness < 1e13 ? 1e-10 : 1e-6;
+      const double error = bound_error(stiffness);
       EXPECT_LT((many.p_WB - one.p_WB).norm(), error);
       EXPECT_LT(one.quat_WB.angularDistance(many.quat_WB), error);
     }
@@ -140,30 +146,203 @@ TEST(ManyCouplers, OfManyBodiesTendToIdealOnesAndKeepMomenta) {
   EXPECT_NEAR(std::log10(changes[1] / changes[2]), 2.0, 0.1);
 }
 
-TEST(Hubs, AreBodiesOfManyLinksAndShareNone) {
+/// A free chain of panels, neighbours joined by hinges in one place.
+Panels make_chain(int bodies, int count, double stiffness) {
+  SystemBuilder builder;
+  for (int i = 0; i < bodies; ++i) {
+    builder.add_rigid_body(fmt::format("panel {}", i), make_inertia(2.0 + i));
+    if (i == 0) continue;
+    for (int k = 0; k < count; ++k) {
+      builder.add_coupler(fmt::format("hinge {} {}", i, k),
+                          make_hinge(stiffness / count),
+                          builder.attach_frame("a", BodyIndex(i - 1), {}),
+                          builder.attach_frame("b", BodyIndex(i),
+                                               {Matrix3::Identity(), kStart}));
+    }
+  }
+  Panels panels{builder.build(), {}};
+  panels.state = make_state(panels.model);
+  for (int i = 1; i < bodies; ++i) {
+    panels.state.bodies[index(i)].p_WB = -i * kStart;
+  }
+  const Vector3 w = Vector3(1.0, 2.0, 2.0) / 3.0;
+  panels.state.bodies[0].w_WB_B = w;
+  return panels;
+}
+
+// Of seven panels the last is eliminated, which is below too many others.
+TEST(ManyCouplers, OfAChainInOnePlaceAreOneAsStiffAsAll) {
+  for (const int bodies : {3, 7}) {
+    for (const double stiffness : {1e4, 1e8, 1e12}) {
+      std::vector<SystemState> ends;
+      std::vector<long> iterations;
+      for (const int count : {1, 40}) {
+        Panels panels = make_chain(bodies, count, stiffness);
+        iterations.push_back(simulate(panels.model, panels.state,
+                                      {.end_time = 0.5, .step = 0.01}, {})
+                                 .newton_iterations);
+        ends.push_back(panels.state);
+      }
+      EXPECT_LT(find_distance(ends[0], ends[1]), bound_error(stiffness));
+      EXPECT_LE(iterations[1], iterations[0] + iterations[0] / 10);
+    }
+  }
+}
+
+// The two lattices have the same modes, so that they can bend together.
+TEST(ManyCouplers, OfFlexibleBodiesInOnePlaceAreOneAsStiffAsAll) {
+  for (const double stiffness : {1e4, 1e8, 1e12}) {
+    std::vector<SystemState> ends;
+    std::vector<long> iterations;
+    for (const int count : {1, 40}) {
+      testing::LatticeChain chain;
+      chain.add(Fidelity::coupled);
+      chain.add(Fidelity::coupled);
+      chain.join(stiffness, 0.0, count);
+      const SystemModel model = chain.build();
+      SystemState state = chain.place(model, 0.0, {0.3, -0.5, 0.4}, 1e-4);
+      iterations.push_back(
+          simulate(model, state,
+                   {.integrator = IntegratorKind::energy_conserving,
+                    .end_time = 0.1,
+                    .step = 1e-3},
+                   {})
+              .newton_iterations);
+      ends.push_back(state);
+    }
+    EXPECT_LE(iterations[1], iterations[0] + iterations[0] / 10);
+    EXPECT_LT(find_distance(ends[0], ends[1]), bound_error(stiffness));
+    EXPECT_LT((ends[0].eta - ends[1].eta).norm(), 1e-7 * ends[0].eta.norm())
+        << stiffness;
+  }
+}
+
+LinkGraph make_graph(const std::vector<std::vector<int>>& links_of_body,
+                     const std::vector<int>& blocks) {
+  LinkGraph graph{.links = 0,
+                  .links_of_body = links_of_body,
+                  .blocks = blocks,
+                  .sizes = {},
+                  .moves = std::vector<bool>(blocks.size(), true),
+                  .grounded = {}};
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    graph.sizes.push_back(6 * blocks[b]);
+    for (const int link : links_of_body[b]) {
+      graph.links = std::max(graph.links, link + 1);
+    }
+  }
+  graph.grounded.resize(index(graph.links), false);
+  return graph;
+}
+
+/// Rigid bodies in a row, with so many links between each and the next.
+LinkGraph make_row(const std::vector<int>& counts) {
+  std::vector<std::vector<int>> links(counts.size() + 1);
+  int link = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (int k = 0; k < counts[i]; ++k, ++link) {
+      links[i].push_back(link);
+      links[i + 1].push_back(link);
+    }
+  }
+  return make_graph(links, std::vector<int>(links.size(), 1));
+}
+
+/// (body, its parent's body or -1), as chosen.
+std::vector<std::pair<int, int>> find_hubs(const LinkGraph& graph) {
+  const std::vector<Hub> hubs = choose_hubs(graph);
+  std::vector<std::pair<int, int>> bodies;
+  for (const Hub& hub : hubs) {
+    bodies.emplace_back(hub.body,
+                        hub.parent < 0 ? -1 : hubs[index(hub.parent)].body);
+  }
+  return bodies;
+}
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+
+TEST(Hubs, AreBodiesOfManyLinks) {
   std::vector<int> all(20);
   std::iota(all.begin(), all.end(), 0);
   const std::vector<int> few = {0, 1, 2};
-  const std::vector<int> more(all.begin(), all.begin() + 19);
-  using ::testing::ElementsAre;
-  using ::testing::IsEmpty;
-  EXPECT_THAT(choose_hubs({few, all}, {1, 1}), ElementsAre(1));
-  EXPECT_THAT(choose_hubs({more, all, few}, {1, 1, 1}), ElementsAre(1));
-  EXPECT_THAT(choose_hubs({more, all}, {1, 0}), ElementsAre(0));
-  EXPECT_THAT(choose_hubs({few, all}, {1, 11}), IsEmpty());  // 60 modes
+  const auto find = [](const std::vector<std::vector<int>>& links,
+                       const std::vector<int>& blocks) {
+    return find_hubs(make_graph(links, blocks));
+  };
+  EXPECT_THAT(find({few, all}, {1, 1}), ElementsAre(Pair(1, -1)));
+  EXPECT_THAT(find({all}, {0}), IsEmpty());
+  EXPECT_THAT(find({few, all}, {1, 11}), IsEmpty());  // 60 modes
+}
+
+TEST(Hubs, ThatShareLinksHaveACommonAncestor) {
+  EXPECT_THAT(find_hubs(make_row({20, 20})),
+              ElementsAre(Pair(1, -1), Pair(0, 1), Pair(2, 1)));
+  EXPECT_THAT(find_hubs(make_row({20, 20, 20, 20, 20, 20})),
+              ElementsAre(Pair(1, -1), Pair(2, 1), Pair(3, 2), Pair(4, 3),
+                          Pair(5, 4), Pair(0, 1)));
+}
+
+TEST(Hubs, AreNotBodiesBetweenTwoTrees) {
+  EXPECT_THAT(find_hubs(make_row({30, 20, 20, 30})),
+              ElementsAre(Pair(1, -1), Pair(3, -1), Pair(0, 1), Pair(4, 3)));
+}
+
+TEST(Hubs, HaveNoParentInABodyThatIsClamped) {
+  LinkGraph graph = make_row({20, 20});
+  graph.moves[1] = false;
+  EXPECT_THAT(find_hubs(graph),
+              ElementsAre(Pair(1, -1), Pair(0, -1), Pair(2, -1)));
 }
 
 // Twice n b^2 + b^3 / 3 against n^3 / 3: 362 and 333 products of blocks for ten
 // links and 18 modes, 394 and 444 for eleven.
 TEST(Hubs, AreBodiesThatCostLessThanHalfOfTheirEliminatedLinks) {
-  using ::testing::ElementsAre;
-  using ::testing::IsEmpty;
   std::vector<int> links(10);
   std::iota(links.begin(), links.end(), 0);
-  EXPECT_THAT(choose_hubs({links}, {4}), IsEmpty());
+  EXPECT_THAT(choose_hubs(make_graph({links}, {4})), IsEmpty());
   links.push_back(10);
-  EXPECT_THAT(choose_hubs({links}, {4}), ElementsAre(0));
-  EXPECT_THAT(choose_hubs({links}, {5}), IsEmpty());
+  EXPECT_THAT(find_hubs(make_graph({links}, {4})), ElementsAre(Pair(0, -1)));
+  EXPECT_THAT(choose_hubs(make_graph({links}, {5})), IsEmpty());
+}
+
+TEST(Hubs, NeedSpaceInProportionToTheLinksBetweenThem) {
+  const auto count = [](int links) {
+    return plan_lu(make_row({links, links}), {}).lu.stored_blocks();
+  };
+  EXPECT_LE(count(400), 4 * count(100));
+  EXPECT_LT(count(100), 1200U);  // 40 000 in dense blocks
+}
+
+// The velocity of a point that moves with a turning frame.
+TEST(HubTransports, MoveABodyWithItsParent) {
+  const Vector3 p(0.3, -0.7, 1.1);
+  const Vector3 p_parent(-0.2, 0.5, 0.4);
+  const Matrix3 R(Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 2.0) / 3.0));
+  const Matrix3 R_parent(
+      Eigen::AngleAxisd(-1.2, Vector3(2.0, -1.0, 2.0) / 3.0));
+  const Vector3 shift(0.4, 0.1, -0.6);
+  const Vector3 turn(-0.5, 0.8, 0.2);
+  Vector6 x;
+  x << shift, turn;
+  const Vector6 moved =
+      HubTransports::transport({R, p}, {R_parent, p_parent}) * x;
+  constexpr double kStep = 1e-5;
+  const auto place = [&](double by) {
+    const Matrix3 turned(
+        Eigen::AngleAxisd(by * turn.norm(), R_parent * turn.normalized()));
+    const Vector3 at = p_parent + by * shift + turned * (p - p_parent);
+    return std::pair<Matrix3, Vector3>(turned * R, at);
+  };
+  const auto [R_after, p_after] = place(kStep);
+  const auto [R_before, p_before] = place(-kStep);
+  const Vector3 velocity = (p_after - p_before) / (2.0 * kStep);
+  const Eigen::AngleAxisd between(R_before.transpose() * R_after);
+  EXPECT_LT((moved.head<3>() - velocity).norm(), 1e-9);
+  EXPECT_LT((moved.tail<3>() - between.angle() / (2.0 * kStep) * between.axis())
+                .norm(),
+            1e-9);
 }
 
 }  // namespace
