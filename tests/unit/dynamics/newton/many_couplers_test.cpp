@@ -190,6 +190,61 @@ TEST(ManyCouplers, OfAChainInOnePlaceAreOneAsStiffAsAll) {
 }
 
 // The two lattices have the same modes, so that they can bend together.
+/// Three free panels, each joined to both others, and one beyond; one is
+/// pushed off.
+Panels make_ring(int count, double stiffness) {
+  SystemBuilder builder;
+  const std::vector<Vector3> places = {
+      {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.5, 1.0, 0.0}, {0.5, 0.3, 1.0}};
+  for (int i = 0; i < 4; ++i) {
+    builder.add_rigid_body(fmt::format("panel {}", i), make_inertia(2.0 + i));
+  }
+  for (const auto& [a, b] :
+       {std::pair{0, 1}, std::pair{1, 2}, std::pair{0, 2}, std::pair{2, 3}}) {
+    const Vector3 half = 0.5 * (places[index(b)] - places[index(a)]);
+    for (int k = 0; k < count; ++k) {
+      builder.add_coupler(
+          fmt::format("joint {} {} {}", a, b, k),
+          joints::make_joint_bushing(
+              joints::JointKind::fixed, Vector3::UnitX(),
+              {.translational_stiffness = stiffness / count,
+               .rotational_stiffness = 0.1 * stiffness / count,
+               .translational_damping = 0.0,
+               .rotational_damping = 0.0}),
+          builder.attach_frame("a", BodyIndex(a), {Matrix3::Identity(), half}),
+          builder.attach_frame("b", BodyIndex(b),
+                               {Matrix3::Identity(), -half}));
+    }
+  }
+  Panels panels{builder.build(), {}};
+  panels.state = make_state(panels.model);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    panels.state.bodies[i].p_WB = places[i];
+  }
+  panels.state.bodies[1].v_WB_W = Vector3(0.1, -0.2, 0.3);
+  return panels;
+}
+
+TEST(ManyCouplers, OfARingInOnePlaceAreOneAsStiffAsAll) {
+  for (const double stiffness : {1e4, 1e8, 1e12}) {
+    std::vector<SystemState> ends;
+    std::vector<long> iterations;
+    for (const int count : {1, 40}) {
+      Panels panels = make_ring(count, stiffness);
+      iterations.push_back(
+          simulate(panels.model, panels.state,
+                   {.integrator = IntegratorKind::energy_conserving,
+                    .end_time = 0.2,
+                    .step = 1e-3},
+                   {})
+              .newton_iterations);
+      ends.push_back(panels.state);
+    }
+    EXPECT_LT(find_distance(ends[0], ends[1]), bound_error(stiffness));
+    EXPECT_LE(iterations[1], iterations[0] + iterations[0] / 10);
+  }
+}
+
 TEST(ManyCouplers, OfFlexibleBodiesInOnePlaceAreOneAsStiffAsAll) {
   for (const double stiffness : {1e4, 1e8, 1e12}) {
     std::vector<SystemState> ends;
