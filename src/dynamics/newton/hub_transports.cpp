@@ -87,10 +87,10 @@ HubTransports::HubTransports(const LinkGraph& graph,
   }
 }
 
-Matrix6 HubTransports::transport(const Place& body, const Place& parent) {
+Matrix6 HubTransports::transport(const Pose& body, const Pose& parent) {
   Matrix6 T = Matrix6::Identity();
-  T.topRightCorner<3, 3>() = -skew(body.p_WB - parent.p_WB) * parent.R_WB;
-  T.bottomRightCorner<3, 3>() = body.R_WB.transpose() * parent.R_WB;
+  T.topRightCorner<3, 3>() = -skew(body.p - parent.p) * parent.R;
+  T.bottomRightCorner<3, 3>() = body.R.transpose() * parent.R;
   return T;
 }
 

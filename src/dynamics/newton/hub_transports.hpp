@@ -4,7 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/common/pose.hpp"
+#include "limber/common/types.hpp"
 #include "limber/dynamics/newton/block_lu.hpp"
 #include "limber/dynamics/newton/hubs.hpp"
 
@@ -30,13 +31,8 @@ class HubTransports {
                 const std::vector<int>& first_rows, int row_count,
                 std::vector<std::pair<int, int>>& edges);
 
-  /// A body's place [-], [m].
-  struct Place {
-    Matrix3 R_WB;
-    Vector3 p_WB;
-  };
-  /// Sets T. @param find_acting, find_moving the Place of a body where
-  /// wrenches act and where their laws are evaluated
+  /// Sets T. @param find_acting, find_moving the pose of a body in the world
+  /// where wrenches act and where their laws are evaluated
   template <typename FindActing, typename FindMoving>
   void update(const FindActing& find_acting, const FindMoving& find_moving) {
     for (Transport& t : transports_) {
@@ -51,8 +47,8 @@ class HubTransports {
   /// x := U x.
   void restore(std::vector<Vector6>& x) const;
 
-  [[nodiscard]] static Matrix6 transport(const Place& body,
-                                         const Place& parent);
+  /// T for poses in the world.
+  [[nodiscard]] static Matrix6 transport(const Pose& body, const Pose& parent);
 
  private:
   struct Transport {

@@ -25,7 +25,8 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
   rows_.resize(links);
   wrenches_.resize(links);
   gaps_.resize(links);
-  grounded_.resize(links, false);
+  graph_.links = static_cast<int>(links);
+  graph_.grounded.resize(links, false);
   bodies_.reserve(model.bodies.size());
   for (const BodyModel& body : model.bodies) bodies_.emplace_back(body);
   const auto add_pair = [&](int link, CouplerIndex coupler, int term) {
@@ -49,30 +50,24 @@ NewtonMatrix::NewtonMatrix(const SystemModel& model)
     }
     ++link;
   }
-  graph_ = make_graph(model, link);
+  finish_graph(model);
   plan_ = plan_lu(graph_, {});
   compliances_.resize(links, Matrix6::Zero());
   unknowns_.resize(index(plan_.rows));
 }
 
-LinkGraph NewtonMatrix::make_graph(const SystemModel& model, int links) const {
-  LinkGraph graph{
-      .links = links,
-      .links_of_body = std::vector<std::vector<int>>(ends_of_body_.size()),
-      .blocks = {},
-      .sizes = {},
-      .moves = {},
-      .grounded = grounded_};
+// All but what add_end() knows.
+void NewtonMatrix::finish_graph(const SystemModel& model) {
+  graph_.links_of_body.resize(ends_of_body_.size());
   for (const End& end : ends_) {
-    graph.links_of_body[index(end.body)].push_back(end.link);
+    graph_.links_of_body[index(end.body)].push_back(end.link);
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
-    graph.blocks.push_back(body.full < 0 ? bodies_[b].block_count() : 0);
-    graph.sizes.push_back(6 + body.modes);
-    graph.moves.push_back(body.has_rigid_motion());
+    graph_.blocks.push_back(body.full < 0 ? bodies_[b].block_count() : 0);
+    graph_.sizes.push_back(6 + body.modes);
+    graph_.moves.push_back(body.has_rigid_motion());
   }
-  return graph;
 }
 
 void NewtonMatrix::add_end(const SystemModel& model, int link,
@@ -80,7 +75,7 @@ void NewtonMatrix::add_end(const SystemModel& model, int link,
                            AttachmentIndex attachment, bool is_M) {
   const BodyIndex b = model.attachments[index(attachment)].body;
   if (b == kWorld) {
-    grounded_[index(link)] = true;
+    graph_.grounded[index(link)] = true;
     return;
   }
   const BodyModel& body = model.bodies[index(b)];
@@ -203,9 +198,8 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
   }
   for (const KeptBody& kept : plan_.kept) assemble_kept(kept);
   pairs_.add(model, terms, end_terms, c.velocity, plan_);
-  plan_.transports.update(
-      [&](int body) { return find_place(terms, body); },
-      [&](int body) { return find_place(end_terms, body); });
+  plan_.transports.update([&](int body) { return find_pose(terms, body); },
+                          [&](int body) { return find_pose(end_terms, body); });
   plan_.transports.transform(plan_.lu);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int row = static_cast<int>(i);
@@ -215,8 +209,7 @@ void NewtonMatrix::assemble(const SystemModel& model, const SystemTerms& terms,
 }
 
 // From one of the attachments on the body.
-HubTransports::Place NewtonMatrix::find_place(const SystemTerms& terms,
-                                              int body) const {
+Pose NewtonMatrix::find_pose(const SystemTerms& terms, int body) const {
   const End& end = ends_[index(ends_of_body_[index(body)].front())];
   const AttachmentMotion& motion = terms.attachments[index(end.attachment)];
   return {motion.R_WB, motion.p_WF - motion.R_WB * motion.arm_B};

@@ -134,14 +134,13 @@ class NewtonMatrix {
   // G of an end on a reduced body.
   void calc_modal_rows(const SystemModel& model, const SystemTerms& terms,
                        End& end) const;
-  [[nodiscard]] LinkGraph make_graph(const SystemModel& model, int links) const;
+  void finish_graph(const SystemModel& model);
   [[nodiscard]] bool is_kept(const End& end) const {
     return plan_.kept_of_body[static_cast<std::size_t>(end.body)] >= 0;
   }
   void assemble(const SystemModel& model, const SystemTerms& terms,
                 const SystemTerms& end_terms, const Coefficients& c);
-  [[nodiscard]] HubTransports::Place find_place(const SystemTerms& terms,
-                                                int body) const;
+  [[nodiscard]] Pose find_pose(const SystemTerms& terms, int body) const;
   void add_compliances(const KeptBody& kept);
   void assemble_kept(const KeptBody& kept);
   [[nodiscard]] std::string describe_singular(const SystemModel& model,
@@ -157,7 +156,6 @@ class NewtonMatrix {
   std::vector<Matrix6> scaled_stiffness_;  // T K
   std::vector<Vector6> wrenches_;
   std::vector<Vector6> gaps_;
-  std::vector<bool> grounded_;  // links that end in the world, too
   LinkGraph graph_;
   LuPlan plan_;
   PairTangents pairs_;
