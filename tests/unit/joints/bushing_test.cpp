@@ -121,5 +121,28 @@ TEST(Bushing, AFreeAxisFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
   }
 }
 
+// The slider's spring and damper pull against each other, each with 1e9 N.
+TEST(Bushing, AFreeTranslationFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
+  constexpr double kStiffness = 1e14;
+  for (const Vector3& along : {Vector3(1, 2, 2), Vector3(-3, 1, 7)}) {
+    const Vector3 axis = along.normalized();
+    const Vector3 tilt = axis.unitOrthogonal();
+    const Bushing slider =
+        make_joint_bushing(JointKind::prismatic, axis,
+                           {.translational_stiffness = kStiffness,
+                            .rotational_stiffness = kStiffness,
+                            .translational_damping = 1e-3 * kStiffness,
+                            .rotational_damping = 1e-3 * kStiffness});
+    for (double angle = 0.0; angle < 6.0; angle += 0.1) {
+      RelativeMotion motion;
+      const Vector3 side = exp_rotation(angle * axis) * tilt;
+      motion.p_FM_F = 1e-5 * side;
+      motion.v_FM_F = -1e-2 * side;
+      const Vector3 force = slider.evaluate(motion).wrench.head<3>();
+      EXPECT_LT(std::abs(force.dot(axis)), 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limber::joints

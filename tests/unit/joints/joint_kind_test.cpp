@@ -183,5 +183,23 @@ TEST(JointKind, ASpringWindsUpThroughWholeTurns) {
   }
 }
 
+// Beside its axis the gradient of an angle is not of length one.
+TEST(JointKind, AtItsTargetVelocityATiltedHingeTurnsAsItsDriveCommands) {
+  const Vector3 axis(0.0, 0.6, 0.8);
+  const Joint joint = make_joint(JointKind::revolute, axis, Vector3::Zero(), {},
+                                 {{0, Drive({.mode = DriveMode::velocity,
+                                             .signal = {ConstantSignal{2.5}},
+                                             .damping = 3.0})}});
+  for (const double tilt : {0.0, 0.4, 1.2}) {
+    RelativeMotion motion;
+    motion.R_FM =
+        exp_rotation(tilt * Vector3::UnitX()) * exp_rotation(0.7 * axis);
+    motion.w_FM_F = joint.find_target_velocity(motion, {}, {}).tail<3>();
+    const double rate = evaluate(joint.coordinates()[0], motion, 0.0).rate;
+    EXPECT_NEAR(rate, 2.5, 1e-14);
+    EXPECT_LT(joint.evaluate(motion, {}, {}).wrench.norm(), 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace limber::joints

@@ -109,5 +109,11 @@ TEST(Drive, ACommandAtItsLimitIsTaken) {
                          .max_effort = 8.0}));
 }
 
+TEST(Drive, AnEffortCommandsNoSpeed) {
+  EXPECT_NO_THROW(Drive({.mode = DriveMode::effort,
+                         .signal = {ConstantSignal{8.0}},
+                         .max_speed = 1e-3}));
+}
+
 }  // namespace
 }  // namespace limber::joints

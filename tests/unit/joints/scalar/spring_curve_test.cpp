@@ -91,6 +91,10 @@ TEST(ScalarSpring, ASlackLineNeitherPullsNorStores) {
   }
 }
 
+TEST(ScalarSpring, ALinePullsAsSoonAsItIsTaut) {
+  EXPECT_NEAR(line().evaluate({1.0 + 1e-6, 0.0}).force, -1e-4, 1e-13);
+}
+
 TEST(ScalarSpring, ALineHeldTautGoesOnWhereItBecomesSlack) {
   const SwitchModes taut{SwitchMode::on, SwitchMode::off};
   for (const double s : {-1e-3, 1e-3}) {
