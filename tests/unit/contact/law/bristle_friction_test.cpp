@@ -122,6 +122,24 @@ TEST(BristleFriction, EvaluationsChangeNoMemory) {
   EXPECT_EQ(first.next.s_S, again.next.s_S);
 }
 
+// mu = 0.3 + 0.2 exp(-(v / 0.2)^2), differentiated by hand.
+TEST(BristleFriction, SlidingFollowsStribecksCurveHoweverSlow) {
+  const BristleFriction friction(
+      {.limit = {.sliding = 0.3, .excess = 0.2, .speed = 0.2},
+       .stiffness = 1e5,
+       .damping = 40.0});
+  for (const double v : {1e-6, 1e-3, 0.05, 0.4}) {
+    const BristleResponse r =
+        friction.evaluate({}, {.normal_S = Vector3::UnitZ(),
+                               .increment_S = {0.1, 0.0, 0.0},
+                               .velocity_S = {v, 0.0, 0.0},
+                               .normal_force = 100.0});
+    const double bump = 20.0 * std::exp(-25.0 * v * v);
+    EXPECT_LT((r.force_S + Vector3(30.0 + bump, 0.0, 0.0)).norm(), 1e-12);
+    EXPECT_NEAR(r.by_velocity(0, 0), 50.0 * v * bump, 1e-12 * 50.0 * v * bump);
+  }
+}
+
 TEST(BristleFriction, DerivativesAreConsistentWithTheReturn) {
   for (const double excess : {0.0, 0.2}) {
     DrawContact draw(8);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "limber/common/rotation.hpp"
@@ -21,8 +22,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHalf = 0.01;  // [m]
 constexpr int kCells = 2;       // a pad on each of 3 x 3 nodes
 
-Shape make_sheet() {
-  auto sheet = testing::make_sheet_surface(kHalf, kCells, false,
+Shape make_sheet(double half = kHalf) {
+  auto sheet = testing::make_sheet_surface(half, kCells, false,
                                            [](double, double) { return 0.0; });
   const Eigen::Index n = sheet.x_B.cols();
   sheet.pads.normal_B = Vector3::UnitZ();
@@ -30,11 +31,11 @@ Shape make_sheet() {
   sheet.pads.Phi_B = MatrixX::Zero(3 * n, 0);
   sheet.pads.flexibility = MatrixX::Identity(n, n);
   sheet.pads.area.resize(n);
-  const double cell = 2.0 * kHalf / kCells;
+  const double cell = 2.0 * half / kCells;
   for (Eigen::Index i = 0; i < n; ++i) {
     double area = cell * cell;
     for (int axis = 0; axis < 2; ++axis) {
-      if (std::abs(sheet.x_B(axis, i)) > 0.9 * kHalf) area *= 0.5;
+      if (std::abs(sheet.x_B(axis, i)) > 0.9 * half) area *= 0.5;
     }
     sheet.pads.area[i] = area;
   }
@@ -199,6 +200,34 @@ TEST(FlatPair, FindsACornerBetweenPads) {
   EXPECT_NEAR(deepest, -lowest, 1e-3 * std::abs(lowest));
   EXPECT_GT(share, 0.9);
   EXPECT_EQ(pair.find_clearance({joints::PairBody{}, above.body()}), 0.0);
+}
+
+// Small tilted boxes over some of the pads, with corners between them.
+TEST(FlatPair, OfAHundredTimesTheSizeMeetsAlike) {
+  constexpr double kScale = 100.0;
+  const Shape sheet = make_sheet();
+  const Shape large_sheet = make_sheet(kScale * kHalf);
+  std::mt19937 random(3);
+  const auto draw = [&] { return testing::draw_point(random, 1.0); };
+  int partly = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3 half_size = kHalf * (0.5 * Vector3::Ones() + 0.3 * draw());
+    const Placed above{exp_rotation(0.1 * draw()),
+                       0.8 * kHalf * draw().cwiseProduct(Vector3(1, 1, 0)) +
+                           0.98 * half_size.z() * Vector3::UnitZ()};
+    const auto small = meet({sheet, Shape{Box{half_size}, {}}}, above);
+    const auto large = meet({large_sheet, Shape{Box{kScale * half_size}, {}}},
+                            {above.R, kScale * above.p});
+    ASSERT_EQ(small.size(), large.size());
+    for (std::size_t k = 0; k < small.size(); ++k) {
+      EXPECT_NEAR(small[k].share, large[k].share, 1e-9);
+      if (small[k].depth == Meeting{}.depth) continue;
+      EXPECT_NEAR(kScale * small[k].depth, large[k].depth, 1e-12);
+      EXPECT_LT((kScale * small[k].p_W - large[k].p_W).norm(), 1e-12);
+      if (k > 9 && small[k].share > 0.0 && small[k].share < 1.0) ++partly;
+    }
+  }
+  EXPECT_GT(partly, 30);
 }
 
 TEST(FlatPair, TellsItsClearance) {

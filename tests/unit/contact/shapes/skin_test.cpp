@@ -52,6 +52,23 @@ TEST(Skin, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
   }
 }
 
+TEST(Skin, OfABoxIsAsThickBehindAFaceAsTheBox) {
+  const Vector3 half_size(0.3, 0.5, 0.8);
+  for (const int cells : {1, 2, 3}) {
+    const auto surface = testing::make_box_surface(half_size, cells, false);
+    const Skin skin(surface);
+    for (std::size_t f = 0; f < skin.face_count(); ++f) {
+      const auto& nodes = surface.faces[f];
+      const Vector3 a = surface.x_B.col(nodes[0]);
+      const Vector3 normal = (surface.x_B.col(nodes[1]) - a)
+                                 .cross(surface.x_B.col(nodes[2]) - a)
+                                 .normalized();
+      EXPECT_NEAR(skin.measures(static_cast<int>(f)).thickness,
+                  2.0 * std::abs(normal.dot(half_size)), 1e-14);
+    }
+  }
+}
+
 TEST(Skin, ResidualIsLinearBetweenCorners) {
   auto surface = testing::make_ball_surface(1.0, 0, true);
   surface.residual.setConstant(100.0);  // of middle nodes, which do not count
