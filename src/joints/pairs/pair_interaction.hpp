@@ -137,7 +137,7 @@ class Touching;
 /// go. Immutable; one virtual call a pair and evaluation.
 ///
 /// Equation   d energy / dt + dissipation = -sum_i force_i . (v_B - v_A)_i
-/// Limits     bodies at level `full` have no pairs.
+/// Limits     at level `full` eta are displacements of the nodes [m].
 class PairInteraction {
  public:
   PairInteraction() = default;

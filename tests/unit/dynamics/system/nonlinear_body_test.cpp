@@ -224,6 +224,33 @@ TEST(NonlinearBody, TakesLoadsByTheDerivativesOfItsInterface) {
   }
 }
 
+TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
+  const BentBody bent;
+  SystemBuilder builder;
+  const BodyIndex body = add(bent, builder);
+  const AttachmentIndex tip = builder.attach_interface(
+      "tip", body, bent.tip, {Matrix3::Identity(), bent.tip.p_B});
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  int near = 0;
+  int far = 0;
+  for (double scale = 0.0; scale < 10.0; scale += 0.1) {
+    state.eta << 0.02, -0.03, 0.05, 0.04;
+    state.eta *= scale;
+    const double turn =
+        Eigen::AngleAxisd(find_frame_motion(model, state, tip).X_WF.R).angle();
+    const auto told = describe_large_turn(model, state, 0);
+    EXPECT_EQ(told.has_value(), turn > 0.4) << turn;
+    if (turn > 0.4) {
+      EXPECT_THAT(*told, HasSubstr(fmt::format("turned by {:.3g} rad", turn)));
+    }
+    ++(turn > 0.4 ? far : near);
+    if (turn > 2.0) break;
+  }
+  EXPECT_GT(near, 3);
+  EXPECT_GT(far, 3);
+}
+
 TEST(NonlinearBody, MovesItsNodesToSecondOrder) {
   const BentBody bent;
   SystemBuilder builder;
