@@ -41,6 +41,12 @@ Chain make_chain(const ChainOptions& options) {
   return chain;
 }
 
+dynamics::SystemModel make_uncoupled_chain(int bodies) {
+  return make_chain(
+             {.bodies = bodies, .fidelity = dynamics::Fidelity::uncoupled})
+      .builder.build();
+}
+
 Chain make_loaded_chain(double stiffness, double damping,
                         const dynamics::TimeFunction& load) {
   Chain chain = make_chain({.bodies = 3,

@@ -29,6 +29,8 @@ struct Chain {
 };
 
 Chain make_chain(const ChainOptions& options);
+/// The model alone, at level uncoupled.
+dynamics::SystemModel make_uncoupled_chain(int bodies);
 
 /// Three flexible bodies on hinges, under gravity and a load that rotates with
 /// the last one.

@@ -87,18 +87,23 @@ TEST(Bushing, AnAxisWithoutStiffnessStaysFreeBesideACoupling) {
   }
 }
 
+constexpr double kStiffness = 1e14;
+
+// With a free axis, and dampers a thousandth of its springs.
+Bushing make_stiff(JointKind kind, const Vector3& axis) {
+  return make_joint_bushing(kind, axis,
+                            {.translational_stiffness = kStiffness,
+                             .rotational_stiffness = kStiffness,
+                             .translational_damping = 1e-3 * kStiffness,
+                             .rotational_damping = 1e-3 * kStiffness});
+}
+
 // Springs and dampers of a skew hinge pull against each other, each at 1e9.
 TEST(Bushing, AFreeAxisFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
   const Vector3 axis = Vector3(1, 2, 2) / 3.0;
   const Vector3 tilt = Vector3(2, 1, -2) / 3.0;
-  constexpr double kStiffness = 1e14;
   constexpr double kFreeDamping = 5.0;
-  const Bushing hinge =
-      make_joint_bushing(JointKind::revolute, axis,
-                         {.translational_stiffness = kStiffness,
-                          .rotational_stiffness = kStiffness,
-                          .translational_damping = 1e-3 * kStiffness,
-                          .rotational_damping = 1e-3 * kStiffness});
+  const Bushing hinge = make_stiff(JointKind::revolute, axis);
   const Bushing slider =
       make_joint_bushing(JointKind::prismatic, axis,
                          {.translational_stiffness = kStiffness,
@@ -123,16 +128,10 @@ TEST(Bushing, AFreeAxisFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
 
 // The slider's spring and damper pull against each other, each with 1e9 N.
 TEST(Bushing, AFreeTranslationFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
-  constexpr double kStiffness = 1e14;
   for (const Vector3& along : {Vector3(1, 2, 2), Vector3(-3, 1, 7)}) {
     const Vector3 axis = along.normalized();
     const Vector3 tilt = axis.unitOrthogonal();
-    const Bushing slider =
-        make_joint_bushing(JointKind::prismatic, axis,
-                           {.translational_stiffness = kStiffness,
-                            .rotational_stiffness = kStiffness,
-                            .translational_damping = 1e-3 * kStiffness,
-                            .rotational_damping = 1e-3 * kStiffness});
+    const Bushing slider = make_stiff(JointKind::prismatic, axis);
     for (double angle = 0.0; angle < 6.0; angle += 0.1) {
       RelativeMotion motion;
       const Vector3 side = exp_rotation(angle * axis) * tilt;

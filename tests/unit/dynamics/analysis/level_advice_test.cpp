@@ -12,16 +12,10 @@
 namespace limber::dynamics {
 namespace {
 
+using ::limber::testing::make_uncoupled_chain;
 using ::testing::HasSubstr;
 
 constexpr double kRoundoff = 1e-12;
-
-SystemModel make_chain_model(int bodies) {
-  limber::testing::ChainOptions options;
-  options.bodies = bodies;
-  options.fidelity = Fidelity::uncoupled;
-  return limber::testing::make_chain(options).builder.build();
-}
 
 /// Peaks of the first of `bodies`, spun for a second at `Omega`.
 BodyPeaks spin(const SystemModel& model, const Vector3& w_B) {
@@ -39,7 +33,7 @@ BodyPeaks spin(const SystemModel& model, const Vector3& w_B) {
 
 // Lambda^-1 J1^T (w w): four times as much at twice the speed.
 TEST(LevelSurvey, FindsInertialDisplacementInTheSquareOfTheSpeed) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const BodyPeaks slow = spin(model, {0.1, 0.0, 0.2});
   const BodyPeaks fast = spin(model, {0.2, 0.0, 0.4});
   EXPECT_GT(slow.inertial.value, 0.0);
@@ -53,7 +47,7 @@ TEST(LevelSurvey, FindsInertialDisplacementInTheSquareOfTheSpeed) {
 }
 
 TEST(LevelAdvice, RisesWithTheSpeed) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-6, 1.0, std::nullopt};
   Fidelity before = Fidelity::rigid;
   for (const double Omega : {0.0, 1e-4, 1e-2, 1.0, 100.0}) {
@@ -68,7 +62,7 @@ TEST(LevelAdvice, RisesWithTheSpeed) {
 }
 
 TEST(LevelAdvice, NamesTheNumbersThatDecide) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const BodyPeaks peaks = spin(model, {1e-3, 0.0, 0.0});
   const LevelLimits limits{1e-5, 1.0, std::nullopt};
   EXPECT_THAT(advise(model.bodies[0], peaks, limits).reason,
@@ -76,7 +70,7 @@ TEST(LevelAdvice, NamesTheNumbersThatDecide) {
 }
 
 TEST(LevelAdvice, TakesInertialForcesInWhereTheyExceedTheForceLimit) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   BodyPeaks peaks = spin(model, {1e-4, 0.0, 0.0});
   LevelLimits limits{1.0, 1.0, 5.0};
   EXPECT_EQ(advise(model.bodies[0], peaks, limits).level, Fidelity::rigid);
@@ -87,7 +81,7 @@ TEST(LevelAdvice, TakesInertialForcesInWhereTheyExceedTheForceLimit) {
 }
 
 TEST(LevelAdvice, KnowsTheEndOfTheLinearRange) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const BodyPeaks peaks = spin(model, {1.0, 0.0, 0.0});
   const double u = peaks.deformation.value;
   const auto is_beyond = [&](double limit) {
@@ -107,7 +101,7 @@ BodyPeaks bend(const SystemModel& model) {
 }
 
 TEST(LevelAdvice, AsksForNonlinearWhereAxialLoadStiffens) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};
   BodyPeaks peaks = bend(model);
   const auto level = [&] {
@@ -131,7 +125,7 @@ TEST(LevelAdvice, AsksForNonlinearWhereAxialLoadStiffens) {
 
 // A mean strain of 1e-3 for a second: phase 1.5 * omega * 1e-3 s.
 TEST(LevelAdvice, AsksForFullWhereTheStretchRunsAhead) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};
   BodyPeaks peaks = bend(model);
   const double omega =
@@ -155,7 +149,7 @@ TEST(LevelAdvice, AsksForFullWhereTheStretchRunsAhead) {
 
 // A share of 0.01 for 10 s: phase 0.5 * 0.25 * 0.01 * 10 s * 50 rad/s.
 TEST(LevelAdvice, AsksForNonlinearWhereAnOscillationRunsAhead) {
-  SystemModel model = make_chain_model(1);
+  SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};
   BodyPeaks peaks = bend(model);
   peaks.tension.value = 0.01;
@@ -172,7 +166,7 @@ TEST(LevelAdvice, AsksForNonlinearWhereAnOscillationRunsAhead) {
 }
 
 TEST(LevelAdvice, AsksForMoreWhereInterfacesTurn) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const LevelLimits limits{1e-9, 1.0, std::nullopt};
   BodyPeaks peaks = bend(model);
   peaks.turn.value = 0.3;
@@ -189,7 +183,7 @@ TEST(LevelAdvice, AsksForMoreWhereInterfacesTurn) {
 
 // No load rotates it.
 TEST(LevelAdvice, OfAClampedBodyIsAtMostUncoupled) {
-  SystemModel model = make_chain_model(1);
+  SystemModel model = make_uncoupled_chain(1);
   auto clamped =
       std::make_shared<flexbody::ReducedBody>(*model.bodies[0].reduced);
   clamped->clamped = true;

@@ -14,18 +14,13 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kRoundoff = 1e-12;
+using ::limber::testing::make_uncoupled_chain;
 
-SystemModel make_chain_model(int bodies) {
-  limber::testing::ChainOptions options;
-  options.bodies = bodies;
-  options.fidelity = Fidelity::uncoupled;
-  return limber::testing::make_chain(options).builder.build();
-}
+constexpr double kRoundoff = 1e-12;
 
 // Each coupler's end carries all that lies beyond it.
 TEST(Reaches, OfAChainAreTheDiametersBeyond) {
-  const SystemModel model = make_chain_model(4);
+  const SystemModel model = make_uncoupled_chain(4);
   const double diameter = model.bodies[0].reduced->size.norm();
   const std::vector<double> reaches = find_reaches(model);
   ASSERT_EQ(reaches.size(), 8U);  // root and tip of each body
@@ -51,7 +46,7 @@ TEST(Reaches, OfWhatTheWorldHoldsAreNone) {
 }
 
 TEST(DisplacementMeasure, IsTheLargestNodesOfItsOwnBody) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const flexbody::ReducedBody& body = *model.bodies[0].reduced;
   const VectorX eta = VectorX::LinSpaced(body.mode_count(), -1.0, 2.0);
   double largest = 0.0;
@@ -65,7 +60,7 @@ TEST(DisplacementMeasure, IsTheLargestNodesOfItsOwnBody) {
 
 // A flexible body moves the bodies that it carries by its interface's rotation.
 TEST(DisplacementMeasure, GrowsWithWhatTheBodyCarries) {
-  const SystemModel model = make_chain_model(2);
+  const SystemModel model = make_uncoupled_chain(2);
   std::vector<double> reaches = find_reaches(model);
   reaches[1] = 1000.0;  // m: far more than the body's own bending
   const Attachment& tip = model.attachments[1];
@@ -81,7 +76,7 @@ TEST(DisplacementMeasure, GrowsWithWhatTheBodyCarries) {
 }
 
 TEST(DisplacementMeasure, OfOneModeIsThatModesSizeWhateverIsCarried) {
-  const SystemModel model = make_chain_model(2);
+  const SystemModel model = make_uncoupled_chain(2);
   for (const double reach : {0.0, 0.05, 0.3, 20.0}) {
     const std::vector<double> reaches(model.attachments.size(), reach);
     const DisplacementMeasure measure(model, BodyIndex(0), reaches);
@@ -95,7 +90,7 @@ TEST(DisplacementMeasure, OfOneModeIsThatModesSizeWhateverIsCarried) {
 }
 
 TEST(PeakDisplacement, PassesOverNoneThatIsAThousandthLarger) {
-  const SystemModel model = make_chain_model(3);
+  const SystemModel model = make_uncoupled_chain(3);
   const DisplacementMeasure measure(model, BodyIndex(1), find_reaches(model));
   PeakDisplacement peak(measure);
   std::mt19937 random(7);
@@ -113,7 +108,7 @@ TEST(PeakDisplacement, PassesOverNoneThatIsAThousandthLarger) {
 // One mode at 12 samples a period, none of them at a crest: the largest of
 // them is low by 1 - cos(pi / 12) = 3.4 %.
 TEST(PeakDisplacement, OfAnOscillationIsThatBetweenItsSamples) {
-  const SystemModel model = make_chain_model(1);
+  const SystemModel model = make_uncoupled_chain(1);
   const DisplacementMeasure measure(model.bodies[0]);
   PeakDisplacement peak(measure);
   const VectorX crest = VectorX::Unit(measure.mode_sizes().size(), 0);

@@ -8,15 +8,13 @@
 
 #include <memory>
 #include <random>
-#include <span>
-#include <string_view>
-#include <vector>
 
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
+#include "support/coupled_springs.hpp"
 #include "support/differences.hpp"
 #include "support/elastic_kinds.hpp"
 #include "support/linked_bodies.hpp"
@@ -325,59 +323,6 @@ TEST(ResidualDerivative, OfPairsAndLoadsOnPointsIsThatOfDifferences) {
   }
 }
 
-/// Springs in the direction of every point's displacement by every other's.
-class CoupledSprings final : public joints::PairInteraction {
- public:
-  CoupledSprings(int modes_A, int modes_B, unsigned seed) {
-    Random random(seed);
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      places_.push_back({random.vector(), make_modes(random, modes_A)});
-      places_.push_back({random.vector(), make_modes(random, modes_B)});
-    }
-    stiffness_ = 50.0 * random.vector(81).reshaped(9, 9);
-  }
-
-  [[nodiscard]] std::string_view kind() const override { return "coupled"; }
-  void describe_parameters(Manifest& /*out*/) const override {}
-  [[nodiscard]] std::size_t most_points() const override { return kPoints; }
-  [[nodiscard]] bool couples_points() const override { return true; }
-  void check(int /*modes_A*/, int /*modes_B*/) const override {}
-  void evaluate(const joints::PairBodies& bodies, const Instant& /*now*/,
-                std::span<const double> /*memory*/,
-                joints::PairResponse& out) const override {
-    VectorX line(3 * kPoints);
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      joints::PairPoint& point = out.add();
-      point.on_A = places_[2 * i];
-      point.on_B = places_[2 * i + 1];
-      line.segment<3>(row(i)) = find_position(bodies.B, point.on_B) -
-                                find_position(bodies.A, point.on_A);
-    }
-    const VectorX force = -stiffness_ * line;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      joints::PairPoint& point = out.points()[i];
-      point.force_W = force.segment<3>(row(i));
-      point.stiffness = stiffness_.block<3, 3>(row(i), row(i));
-      for (std::size_t j = 0; j < kPoints; ++j) {
-        if (j == i) continue;
-        out.coupling(i, j) = stiffness_.block<3, 3>(row(i), row(j));
-      }
-    }
-  }
-
- private:
-  static constexpr std::size_t kPoints = 3;
-  static Eigen::Index row(std::size_t i) {
-    return 3 * static_cast<Eigen::Index>(i);
-  }
-  static Matrix3X make_modes(Random& random, int modes) {
-    return 0.3 * random.vector(3 * modes).reshaped(3, modes);
-  }
-
-  std::vector<joints::PairPlace> places_;  // on A and on B
-  MatrixX stiffness_;
-};
-
 TEST(ResidualDerivative, OfPairsWhosePointsAreCoupledIsThatOfDifferences) {
   Margin margin;
   double rest = 0.0;
@@ -388,8 +333,8 @@ TEST(ResidualDerivative, OfPairsWhosePointsAreCoupledIsThatOfDifferences) {
       const auto modes_of = [&](BodyIndex body) {
         return body == kWorld ? 0 : model.bodies[index(body)].modes;
       };
-      pair.law = std::make_shared<CoupledSprings>(modes_of(pair.body_A),
-                                                  modes_of(pair.body_B), seed);
+      pair.law = std::make_shared<testing::CoupledSprings>(
+          modes_of(pair.body_A), modes_of(pair.body_B), seed);
     }
     paired.state.eta = 0.3 * Random(seed).vector(model.modal_count);
     compare(model, make_point(model, paired.state, seed), seed + 50, margin,

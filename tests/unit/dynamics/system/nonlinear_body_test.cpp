@@ -224,22 +224,28 @@ TEST(NonlinearBody, TakesLoadsByTheDerivativesOfItsInterface) {
   }
 }
 
-TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
-  const BentBody bent;
+/// The body alone, with its tip.
+struct BentArm {
+  BentBody bent;
   SystemBuilder builder;
-  const BodyIndex body = add(bent, builder);
-  const AttachmentIndex tip = builder.attach_interface(
+  BodyIndex body = add(bent, builder);
+  AttachmentIndex tip = builder.attach_interface(
       "tip", body, bent.tip, {Matrix3::Identity(), bent.tip.p_B});
-  const SystemModel model = builder.build();
-  SystemState state = make_state(model);
+  SystemModel model = builder.build();
+};
+
+TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
+  const BentArm arm;
+  SystemState state = make_state(arm.model);
   int near = 0;
   int far = 0;
   for (double scale = 0.0; scale < 10.0; scale += 0.1) {
     state.eta << 0.02, -0.03, 0.05, 0.04;
     state.eta *= scale;
     const double turn =
-        Eigen::AngleAxisd(find_frame_motion(model, state, tip).X_WF.R).angle();
-    const auto told = describe_large_turn(model, state, 0);
+        Eigen::AngleAxisd(find_frame_motion(arm.model, state, arm.tip).X_WF.R)
+            .angle();
+    const auto told = describe_large_turn(arm.model, state, 0);
     EXPECT_EQ(told.has_value(), turn > 0.4) << turn;
     if (turn > 0.4) {
       EXPECT_THAT(*told, HasSubstr(fmt::format("turned by {:.3g} rad", turn)));
@@ -252,24 +258,19 @@ TEST(NonlinearBody, TellsOfAnInterfaceThatTurnsTooFar) {
 }
 
 TEST(NonlinearBody, MovesItsNodesToSecondOrder) {
-  const BentBody bent;
-  SystemBuilder builder;
-  const BodyIndex body = add(bent, builder);
-  const AttachmentIndex tip = builder.attach_interface(
-      "tip", body, bent.tip, {Matrix3::Identity(), bent.tip.p_B});
-  const SystemModel model = builder.build();
-  SystemState state = make_state(model);
+  const BentArm arm;
+  SystemState state = make_state(arm.model);
   state.eta << 0.02, -0.03, 0.05, 0.04;
   MatrixX u(3 * 24, 1);
-  calc_node_deformations(model, body, {&state, 1}, u);
+  calc_node_deformations(arm.model, arm.body, {&state, 1}, u);
   Vector3 mean = Vector3::Zero();
   for (int n = 6; n < 12; ++n) mean += u.block<3, 1>(3 * n, 0) / 6.0;
   const Vector3 moved =
-      find_frame_motion(model, state, tip).X_WF.p - bent.tip.p_B;
+      find_frame_motion(arm.model, state, arm.tip).X_WF.p - arm.bent.tip.p_B;
   EXPECT_LT((mean - moved).norm(), 1e-15);
   MatrixX p(3 * 24, 1);
-  calc_node_positions(model, body, {&state, 1}, p);
-  const VectorX from = bent.body.reduced.rows.x_B.reshaped();
+  calc_node_positions(arm.model, arm.body, {&state, 1}, p);
+  const VectorX from = arm.bent.body.reduced.rows.x_B.reshaped();
   EXPECT_LT((p.col(0) - from - u.col(0)).norm(), 1e-15);
 }
 
