@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 
 /// Short names for the Eigen types that every layer uses.
 namespace limber {
@@ -15,5 +16,7 @@ using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using VectorX = Eigen::VectorXd;
 using MatrixX = Eigen::MatrixXd;
 using Quaternion = Eigen::Quaterniond;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace limber

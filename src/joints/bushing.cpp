@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 
@@ -29,10 +29,7 @@ void check_semidefinite(const Matrix& m, const std::string& what) {
   if ((m - m.transpose()).cwiseAbs().maxCoeff() > kRoundoff * scale) {
     throw InputError(fmt::format("bushing: {} is not symmetric", what));
   }
-  const double lowest =
-      Eigen::SelfAdjointEigenSolver<Matrix>(m, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .minCoeff();
+  const double lowest = dense::find_eigenvalues(m).minCoeff();
   if (lowest < -kRoundoff * scale) {
     throw InputError(fmt::format(
         "bushing: {} has a negative eigenvalue {:g}; it would supply energy",
@@ -75,7 +72,7 @@ Matrix3 normalised(const Matrix3& matrix) {
 }
 
 double find_largest(const Matrix3& stiffness) {
-  return stiffness.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return dense::find_eigenvalues(stiffness).maxCoeff();
 }
 
 // Checks the parameters before they are used.
@@ -90,9 +87,9 @@ const Bushing::Parameters& check(const Bushing::Parameters& p) {
 }  // namespace
 
 Bushing::PrincipalForm::PrincipalForm(const Matrix3& m) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(m);
-  values = solver.eigenvalues();
-  axes = solver.eigenvectors();
+  const auto form = dense::find_eigenpairs(m);
+  values = form.values;
+  axes = form.vectors;
   const double least = kFree * values.cwiseAbs().maxCoeff();
   values = (values.array().abs() <= least).select(0.0, values);
 }

@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/reduction/krylov.hpp"
 
@@ -89,7 +88,7 @@ Eigen::MatrixXcd DepartureModel::calc_response(std::complex<double> s) const {
   Eigen::MatrixXcd dynamic = s * C.cast<std::complex<double>>();
   dynamic.diagonal() += basis.lambda.cast<std::complex<double>>();
   dynamic.diagonal().array() += s * s;
-  return dynamic.partialPivLu().solve(Q.cast<std::complex<double>>());
+  return dense::solve(dynamic, Q.cast<std::complex<double>>());
 }
 
 DepartureModel make_departure_model(const MeshedBody& body,

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/fem/solid/second_order.hpp"
@@ -119,13 +119,12 @@ std::vector<int> choose_pairs(const VectorX& shares) {
 // Rows whose squares add up to the energy W of products, significant ones only.
 // @param scale of the products
 MatrixX take_roots(const MatrixX& W, const VectorX& scale, Eigen::Index most) {
-  const Eigen::SelfAdjointEigenSolver<MatrixX> shapes(scale.asDiagonal() * W *
-                                                      scale.asDiagonal());
-  const VectorX& shares = shapes.eigenvalues();  // increasing
+  const auto [shares, shapes] = dense::find_eigenpairs(
+      MatrixX(scale.asDiagonal() * W * scale.asDiagonal()));
   const Eigen::Index count =
       std::min<Eigen::Index>((shares.array() > kLeastSelfEnergy).count(), most);
   return shares.tail(count).cwiseSqrt().asDiagonal() *
-         shapes.eigenvectors().rightCols(count).transpose() *
+         shapes.rightCols(count).transpose() *
          scale.cwiseInverse().asDiagonal();
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/reduction/static_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/flexbody/model/force_directions.hpp"
 #include "limber/reduction/krylov.hpp"
 #include "limber/reduction/load_cases.hpp"
@@ -54,15 +54,14 @@ MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
   if (found.Q.cols() == 0) return MatrixX(nodal.forces.rows(), 0);
   const MatrixX X = body.inverse.solve(found.Q);
   const MatrixX S = found.Q.transpose() * X;
-  const Eigen::SelfAdjointEigenSolver<MatrixX> compliance(0.5 *
-                                                          (S + S.transpose()));
-  const MatrixX A_T =
-      compliance.eigenvectors() *
-      compliance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const auto compliance =
+      dense::find_eigenpairs(MatrixX(0.5 * (S + S.transpose())));
+  const MatrixX A_T = compliance.vectors *
+                      compliance.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   const MatrixX weight = found.R * found.R.transpose() * A_T;
-  const Eigen::SelfAdjointEigenSolver<MatrixX> principal(A_T.transpose() *
-                                                         weight);
-  const VectorX energy = principal.eigenvalues().reverse().cwiseMax(0.0);
+  const auto principal =
+      dense::find_eigenpairs(MatrixX(A_T.transpose() * weight));
+  const VectorX energy = principal.values.reverse().cwiseMax(0.0);
   const double least = kForceTolerance * kForceTolerance * energy[0];
   const Eigen::Index directions = (energy.array() > least).count();
   const Eigen::Index taken = std::min(directions, kMostForceModes);
@@ -71,8 +70,7 @@ MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
   if (taken < directions)
     record.left_out =
         std::sqrt(energy.tail(energy.size() - taken).sum() / energy.sum());
-  return X * (weight *
-              principal.eigenvectors().rowwise().reverse().leftCols(taken));
+  return X * (weight * principal.vectors.rowwise().reverse().leftCols(taken));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <set>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
@@ -15,9 +15,9 @@ namespace {
 void check_clamp(const fem::Mesh& mesh, const std::vector<int>& clamped) {
   const Matrix3X x = mesh.x(Eigen::all, clamped);
   const Matrix3X d = x.colwise() - Vector3(x.rowwise().mean());
-  const Eigen::JacobiSVD<MatrixX> svd(MatrixX(d * d.transpose()));
+  const Vector3 moments = dense::find_eigenvalues(Matrix3(d * d.transpose()));
   constexpr double kLine = 1e-12;  // squared, of the body's size
-  if (svd.singularValues()[1] > kLine * mesh.size().squaredNorm()) return;
+  if (moments[1] > kLine * mesh.size().squaredNorm()) return;
   throw InputError(fmt::format(
       "{}: the clamped groups hold {} nodes on one line, about which the body "
       "can still turn. Clamp a surface, or hold the body by couplers.",

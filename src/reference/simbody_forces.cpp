@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <utility>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::reference {
@@ -39,8 +39,8 @@ struct Motion {
   Vec3 v;  ///< of Mo relative to the coincident point of F's body
 };
 
-Motion find_motion(const SimbodyFrame& F, const SimbodyFrame& M,
-                   const State& state) {
+Motion find_relative_motion(const SimbodyFrame& F, const SimbodyFrame& M,
+                            const State& state) {
   Motion motion;
   motion.X_GF = find_pose(F, state);
   motion.X_GM = find_pose(M, state);
@@ -72,11 +72,11 @@ ChordalBushing::ChordalBushing(const SimbodyFrame& F, const SimbodyFrame& M,
       Ct_(to_simtk(law.translational_damping)),
       Cr_(to_simtk(law.rotational_damping)) {
   const Matrix3& Kr = law.rotational_stiffness;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(
-      0.5 * Kr.trace() * Matrix3::Identity() - Kr);
-  strength_ = to_simtk(Vector3(principal.eigenvalues()));
+  const auto principal = dense::find_eigenpairs(
+      Matrix3(0.5 * Kr.trace() * Matrix3::Identity() - Kr));
+  strength_ = to_simtk(principal.values);
   for (int i = 0; i < 3; ++i) {
-    axes_[i] = to_simtk(Vector3(principal.eigenvectors().col(i)));
+    axes_[i] = to_simtk(Vector3(principal.vectors.col(i)));
   }
 }
 
@@ -84,7 +84,7 @@ void ChordalBushing::calcForce(const State& state,
                                SimTK::Vector_<SpatialVec>& body_forces,
                                SimTK::Vector_<Vec3>& /*particle_forces*/,
                                SimTK::Vector& /*mobility_forces*/) const {
-  const Motion motion = find_motion(F_, M_, state);
+  const Motion motion = find_relative_motion(F_, M_, state);
   const Transform& X_GF = motion.X_GF;
   const Rotation R_FM = ~X_GF.R() * motion.X_GM.R();
 
@@ -116,7 +116,7 @@ void CrossBushing::calcForce(const State& state,
                              SimTK::Vector_<SpatialVec>& body_forces,
                              SimTK::Vector_<Vec3>& /*particle_forces*/,
                              SimTK::Vector& /*mobility_forces*/) const {
-  const Motion motion = find_motion(F_, M_, state);
+  const Motion motion = find_relative_motion(F_, M_, state);
   const Vec3 gap = motion.X_GM.p() - motion.X_GF.p();
   const Vec3 a = motion.X_GF.R() * to_simtk(law_.axis_F);
   const Vec3 b = motion.X_GM.R() * to_simtk(law_.axis_M);
@@ -167,7 +167,7 @@ void CoordinateSpring::calcForce(const State& state,
                                  SimTK::Vector_<SpatialVec>& body_forces,
                                  SimTK::Vector_<Vec3>& /*particle_forces*/,
                                  SimTK::Vector& /*mobility_forces*/) const {
-  const Motion motion = find_motion(F_, M_, state);
+  const Motion motion = find_relative_motion(F_, M_, state);
   const Vec3 e = to_simtk(element_.coordinate.axis);
   Vec3 along = e;  // dz/dt is the rate along this
   if (is_angle()) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/reference/stiffening.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::reference {
@@ -13,10 +13,7 @@ namespace {
 /// unchanged.
 Matrix3 stiffen_damping(const Matrix3& stiffness, const Matrix3& damping,
                         double factor) {
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(stiffness, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .maxCoeff();
+  const double largest = dense::find_eigenvalues(stiffness).maxCoeff();
   if (!(largest > 0.0)) return damping;
   const Matrix3 held = stiffness / largest;
   return damping + (std::sqrt(factor) - 1.0) * held * damping * held;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/results/motion_shapes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "limber/common/dense/symmetric_eigen.hpp"
 
 namespace limber::results {
 namespace {
@@ -23,9 +24,8 @@ MatrixX take_snapshots(const std::function<VectorX(std::size_t)>& column,
 
 /// Left singular vectors whose singular values matter, largest first.
 MatrixX find_shapes(const MatrixX& snapshots) {
-  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(snapshots.transpose() *
-                                                      snapshots);
-  const VectorX& squares = solver.eigenvalues();  // increasing
+  const auto [squares, directions] =
+      dense::find_eigenpairs(MatrixX(snapshots.transpose() * snapshots));
   const Eigen::Index n = squares.size();
   const double least =
       squares[n - 1] * kShapeTolerance * kShapeTolerance * 1e-2;
@@ -33,7 +33,7 @@ MatrixX find_shapes(const MatrixX& snapshots) {
   for (Eigen::Index k = n - 1; k >= 0 && shapes.cols() < kMostShapes; --k) {
     if (!(squares[k] > least)) break;
     shapes.conservativeResize(Eigen::NoChange, shapes.cols() + 1);
-    VectorX shape = snapshots * solver.eigenvectors().col(k);
+    VectorX shape = snapshots * directions.col(k);
     const auto known = shapes.leftCols(shapes.cols() - 1);
     shape -= known * (known.transpose() * shape);
     shapes.rightCols<1>() = shape.normalized();

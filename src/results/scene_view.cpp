@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/results/scene_view.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <set>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 
 namespace limber::results {
@@ -98,8 +98,7 @@ ViewAngles find_view(const std::vector<Matrix3X>& shots) {
   }
   const Matrix3 seen = normalise(motion) + 0.5 * normalise(extent);
   if (!(seen.trace() > 0.0) || !seen.allFinite()) return {};
-  Vector3 eye =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(seen).eigenvectors().col(0);
+  Vector3 eye = dense::find_eigenpairs(seen).vectors.col(0);
   const bool is_level = std::abs(eye.z()) < 1e-3;
   if (is_level ? eye.y() > 0.0 : eye.z() < 0.0) eye = -eye;
   constexpr double kTurn = 15.0;

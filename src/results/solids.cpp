@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/results/solids.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "limber/common/dense/symmetric_eigen.hpp"
 
 namespace limber::results {
 namespace {
@@ -96,13 +97,12 @@ Solid place_solid(Solid solid, const Pose& X_BS) {
 }
 
 Solid make_ellipsoid(double mass, const Matrix3& inertia) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
-  const Vector3& J = principal.eigenvalues();
+  const auto [J, principal] = dense::find_eigenpairs(inertia);
   Vector3 axes =
       (5.0 / mass * (0.5 * J.sum() - J.array())).max(0.0).sqrt().matrix();
   constexpr double kThinnest = 0.02;  // of a thin rod, so that it can be seen
   axes = axes.cwiseMax(kThinnest * std::max(axes.maxCoeff(), 1e-9));
-  Matrix3 R = principal.eigenvectors();
+  Matrix3 R = principal;
   if (R.determinant() < 0.0) R.col(0) = -R.col(0);
   Solid solid = revolve(make_arc(1.0, 0.0));
   solid.x = R * (axes.asDiagonal() * solid.x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/law/pad_law.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Below this share of the depth's scale a pad is neither pressed nor free.
 constexpr double kNone = 1e-12;
 
@@ -180,9 +180,10 @@ MatrixX calc_half_space_compliance(const Matrix3X& places, const VectorX& area,
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < k; ++j) {
       const double r = (places.col(i) - places.col(j)).norm();
-      C(i, j) =
-          i == j ? 16.0 / (3.0 * kPi * kPi * modulus * std::sqrt(area[i] / kPi))
-                 : 1.0 / (kPi * modulus * r);
+      C(i, j) = i == j
+                    ? 16.0 / (3.0 * std::numbers::pi * std::numbers::pi *
+                              modulus * std::sqrt(area[i] / std::numbers::pi))
+                    : 1.0 / (std::numbers::pi * modulus * r);
     }
   }
   return C;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/axial_load.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 #include <vector>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/system/body_model.hpp"
@@ -30,10 +30,7 @@ double find_held_eigenvalue(const BodyModel& body, const VectorX& lambda,
   M += a.Psi_B.transpose() * body.J0 * a.Psi_B;
   M.diagonal().array() += 1.0;
   const MatrixX scaled = scale.asDiagonal() * M * scale.asDiagonal();
-  return 1.0 /
-         Eigen::SelfAdjointEigenSolver<MatrixX>(scaled, Eigen::EigenvaluesOnly)
-             .eigenvalues()
-             .maxCoeff();
+  return 1.0 / dense::find_eigenvalues(scaled).maxCoeff();
 }
 
 // s_k = a' int x phi_k' dm a of each mode, from J1 = tr(S) 1 - S, S = int x
@@ -76,9 +73,8 @@ AxialLoad::AxialLoad(const SystemModel& model, BodyIndex body_index)
   }
   frequency_ = std::sqrt(lowest);
   S0_ = 0.5 * body.J0.trace() * Matrix3::Identity() - body.J0;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> own(S0_);
-  axes_ = own.eigenvectors();
-  const Vector3 S = own.eigenvalues();
+  const auto [S, axes] = dense::find_eigenpairs(S0_);
+  axes_ = axes;
   for (int k = 0; k < 3; ++k) {
     if (S[k] < kLong * S[2]) continue;
     loads_[k] = (is_held_ ? kClampedBeam : kFreeBeam) * lowest * S[k];

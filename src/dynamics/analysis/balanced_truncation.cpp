@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/qr.hpp"
+#include "limber/common/dense/singular_values.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/analysis/schur_form.hpp"
 
@@ -53,8 +53,7 @@ struct Part {
 MatrixX find_real_basis(const Eigen::MatrixXcd& Z) {
   MatrixX parts(Z.rows(), 2 * Z.cols());
   parts << Z.real(), Z.imag();
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(parts);
-  return qr.householderQ() * MatrixX::Identity(Z.rows(), Z.cols());
+  return dense::find_pivoted_q(parts, 0.0).Q.leftCols(Z.cols());
 }
 
 /// Splits a model by invariant subspaces: first motion that does not decay.
@@ -73,9 +72,8 @@ std::pair<Part, Part> separate(const LinearModel& model, const SchurForm& form,
   MatrixX V(n, n);
   V << find_real_basis(form.U.leftCols(kept)),
       find_real_basis(form.U.leftCols(kept) * X + form.U.rightCols(rest));
-  const Eigen::PartialPivLU<MatrixX> inverse(V);
-  const MatrixX A = inverse.solve(model.A * V);
-  const MatrixX B = inverse.solve(model.B);
+  const MatrixX A = dense::solve(V, MatrixX(model.A * V));
+  const MatrixX B = dense::solve(V, model.B);
   const MatrixX C = model.C * V;
   constexpr double kSeparate = 1e-6;
   if (!(A.topRightCorner(kept, rest).norm() +
@@ -98,10 +96,7 @@ MatrixX find_gramian_root(const MatrixX& A, const MatrixX& B) {
       form.U * find_gramian_factor(form.T, form.U.adjoint() * B);
   MatrixX parts(2 * n, n);  // P = L L*, and real
   parts << L.real().transpose(), L.imag().transpose();
-  const Eigen::HouseholderQR<MatrixX> qr(parts);
-  MatrixX root = MatrixX::Zero(n, n);
-  root.triangularView<Eigen::Lower>() = qr.matrixQR().topRows(n).transpose();
-  return root;
+  return dense::find_r(parts).transpose();
 }
 
 std::string describe_kept(const SchurForm& form, const Decay& decays) {
@@ -138,7 +133,7 @@ void check(const LinearModel& model, const SchurForm& form, const Decay& decays,
   }
 }
 
-std::vector<LinearSignal> name_states(Index kept, Index n) {
+std::vector<LinearSignal> name_truncated_states(Index kept, Index n) {
   std::vector<LinearSignal> states;
   for (Index i = 0; i < n; ++i) {
     states.push_back({i < kept ? fmt::format("kept{}", i + 1)
@@ -148,14 +143,15 @@ std::vector<LinearSignal> name_states(Index kept, Index n) {
   return states;
 }
 
-LinearModel join(const LinearModel& of, const Part& kept, const Part& rest) {
+LinearModel join_parts(const LinearModel& of, const Part& kept,
+                       const Part& rest) {
   const Index k = kept.A.rows();
   const Index r = rest.A.rows();
   LinearModel model{MatrixX::Zero(k + r, k + r),
                     MatrixX(k + r, of.B.cols()),
                     MatrixX(of.C.rows(), k + r),
                     of.D,
-                    name_states(k, k + r),
+                    name_truncated_states(k, k + r),
                     of.inputs,
                     of.outputs};
   model.A.topLeftCorner(k, k) = kept.A;
@@ -185,20 +181,18 @@ TruncatedModel truncate_balanced(const LinearModel& model, Index states) {
   const auto [still, part] = separate(model, form, kept);
   const MatrixX X = find_gramian_root(part.A, part.B);
   const MatrixX Y = find_gramian_root(part.A.transpose(), part.C.transpose());
-  const Eigen::JacobiSVD<MatrixX, Eigen::NoQRPreconditioner> svd(
-      Y.transpose() * X, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const auto svd = dense::find_singular_form(MatrixX(Y.transpose() * X));
   constexpr double kNothing = 1e-13;  // of the largest
-  out.hankel = svd.singularValues();
+  out.hankel = svd.values;
   const double least = out.hankel.size() > 0 ? kNothing * out.hankel[0] : 0.0;
   const Index r =
       std::min<Index>(states - kept, (out.hankel.array() > least).count());
   out.bound = 2.0 * out.hankel.tail(out.hankel.size() - r).sum();
   const VectorX root = out.hankel.head(r).cwiseSqrt().cwiseInverse();
-  const MatrixX to = X * svd.matrixV().leftCols(r) * root.asDiagonal();
-  const MatrixX from =
-      (Y * svd.matrixU().leftCols(r) * root.asDiagonal()).transpose();
-  out.model =
-      join(model, still, {from * part.A * to, from * part.B, part.C * to});
+  const MatrixX to = X * svd.V.leftCols(r) * root.asDiagonal();
+  const MatrixX from = (Y * svd.U.leftCols(r) * root.asDiagonal()).transpose();
+  out.model = join_parts(model, still,
+                         {from * part.A * to, from * part.B, part.C * to});
   return out;
 }
 

@@ -12,8 +12,6 @@
 namespace limber::dynamics {
 namespace {
 
-/// A sudden force drives a mode to twice its static response.
-constexpr double kSudden = 2.0;
 /// Share of the buckling load that the estimate cannot resolve [-].
 constexpr double kNearBuckling = 0.1;
 
@@ -48,7 +46,8 @@ double bound_coriolis(const BodyModel& body, const BodyPeaks& peaks, int k,
 /// Effect of rotation on the modes' oscillation in `time` [s]: excitation of
 /// mode k by mode l, limited by the difference of their frequencies, and
 /// frequency shifts.
-VectorX find_drift(const BodyModel& body, const BodyPeaks& peaks, double time) {
+VectorX find_modal_drift(const BodyModel& body, const BodyPeaks& peaks,
+                         double time) {
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
   const VectorX omega = lambda.cwiseSqrt();
   const double Omega = peaks.Omega.value;
@@ -92,7 +91,7 @@ VectorX bound_forces(const BodyModel& body, const BodyPeaks& peaks) {
 double find_modal_error(const BodyModel& body, const BodyPeaks& peaks) {
   if (peaks.Omega.value == 0.0) return 0.0;
   const VectorX drift =
-      find_drift(body, peaks, peaks.angle / peaks.Omega.value);
+      find_modal_drift(body, peaks, peaks.angle / peaks.Omega.value);
   const VectorX answer =
       bound_forces(body, peaks)
           .cwiseQuotient(require_eigenvalues(body, "advice on levels"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/system/body_model.hpp"
@@ -11,8 +12,6 @@
 namespace limber::dynamics {
 namespace {
 
-/// A sudden load drives a mode to twice its static response.
-constexpr double kSudden = 2.0;
 constexpr std::size_t kMostPoints = 4096;  // of a track
 
 std::vector<double> find_jumps(const SystemModel& model) {
@@ -78,8 +77,7 @@ LevelSurvey::Watch::Watch(const SystemModel& model, BodyIndex index_of_body,
   // A body held by couplers does not rotate alone about its slenderest axis.
   compliance = J0_inverse;
   if (is_held(model, body)) {
-    compliance = Matrix3::Identity() /
-                 b.J0.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+    compliance = Matrix3::Identity() / dense::find_eigenvalues(b.J0).maxCoeff();
   }
 }
 

@@ -19,6 +19,9 @@ struct RotationPoint {
   double Omega = 0.0;  ///< [rad/s]
 };
 
+/// A sudden load drives a mode to twice its static response [-].
+inline constexpr double kSudden = 2.0;
+
 /// Peaks of one flexible body's motion. Displacements are the largest anywhere
 /// by DisplacementMeasure, unless stated otherwise. All are magnitudes.
 struct BodyPeaks {

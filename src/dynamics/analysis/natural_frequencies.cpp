@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "limber/common/dense/general_eigen.hpp"
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/steady_linearisation.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
@@ -83,14 +84,11 @@ VectorX find_orbits(const Orbit& orbit, const Eigen::MatrixXcd& u) {
   const std::complex<double> i(0.0, 1.0);
   const Eigen::MatrixXcd around = u.adjoint() * (i * (orbit.around * u));
   const Eigen::MatrixXcd all = u.adjoint() * (orbit.all * u);
-  const Eigen::MatrixXcd L = all.llt().matrixL();
-  const auto lower = L.triangularView<Eigen::Lower>();
-  const Eigen::MatrixXcd half = lower.solve(around);
-  const Eigen::MatrixXcd form = lower.solve(half.adjoint());
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(form,
-                                                         Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .reverse();
+  const Eigen::MatrixXcd L = dense::find_cholesky(all);
+  const Eigen::MatrixXcd half = dense::solve_lower(L, around);
+  const Eigen::MatrixXcd form =
+      dense::solve_lower(L, Eigen::MatrixXcd(half.adjoint()));
+  return dense::find_eigenvalues(form).reverse();
 }
 
 /// Modes of one eigenvalue, within round-off, share their orbits.
@@ -125,8 +123,8 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
   if (first.A.rows() == 0) return;
   const Vector3 spin = find_fastest_spin(state);
   const bool turns = !spin.isZero(0.0);
-  const Eigen::EigenSolver<MatrixX> eigen(first.A, turns);
-  const auto& values = eigen.eigenvalues();
+  const auto eigen = dense::find_general_eigenpairs(first.A, turns);
+  const auto& values = eigen.values;
   const double least = std::max(kNothing * values.cwiseAbs().maxCoeff(),
                                 kOfTheSpin * spin.norm());
   Index coasting = c.basis.free - c.basis.drift;  // free velocities
@@ -143,9 +141,9 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
     }
   }
   if (around.empty()) return;
-  const Eigen::MatrixXcd all = eigen.eigenvectors();
   add_orbits(make_orbit(model, state, c, spin, first.Q),
-             all.bottomRows(first.Q.cols())(Eigen::all, columns), around);
+             eigen.vectors.bottomRows(first.Q.cols())(Eigen::all, columns),
+             around);
   found.modes.insert(found.modes.end(), around.begin(), around.end());
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/principal_basis.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/qr.hpp"
+#include "limber/common/dense/singular_values.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 
@@ -17,9 +16,7 @@ using Index = Eigen::Index;
 /// Columns orthogonal to Q's of full rank.
 MatrixX find_complement(const MatrixX& Q) {
   if (Q.cols() == 0) return MatrixX::Identity(Q.rows(), Q.rows());
-  const Eigen::HouseholderQR<MatrixX> qr(Q);
-  const MatrixX all = qr.householderQ() * MatrixX::Identity(Q.rows(), Q.rows());
-  return all.rightCols(Q.rows() - Q.cols());
+  return dense::find_q(Q, Q.rows()).rightCols(Q.rows() - Q.cols());
 }
 
 /// Null space of the rows, normalised to unit length.
@@ -28,14 +25,13 @@ MatrixX find_null_space(MatrixX rows) {
   rows.rowwise().normalize();
   const Index n = rows.cols();
   if (rows.rows() == 0) return MatrixX::Identity(n, n);
-  Eigen::ColPivHouseholderQR<MatrixX> qr(rows.transpose());
-  qr.setThreshold(kDependent);
-  const MatrixX all = qr.householderQ() * MatrixX::Identity(n, n);
-  return all.rightCols(n - qr.rank());
+  const auto [Q, rank] = dense::find_pivoted_q(rows.transpose(), kDependent);
+  return Q.rightCols(n - rank);
 }
 
 /// Translations of all bodies together, if nothing ties them to the world.
-MatrixX find_drift(const SystemModel& model, const SmallMotion& motion) {
+MatrixX find_free_translations(const SystemModel& model,
+                               const SmallMotion& motion) {
   std::size_t free = 0;
   for (const auto& group : find_free_groups(model)) free += group.size();
   MatrixX drift(motion.size(), 0);
@@ -54,14 +50,13 @@ PrincipalBasis find_principal_basis(const SystemModel& model,
   constexpr double kNothing = 1e-9;
   constexpr double kSafety = 10.0;  // of round-off
   const Index n = motion.size();
-  const Eigen::LLT<MatrixX> mass(motion.M);
-  LIMBER_EXPECT(mass.info() == Eigen::Success);
+  const auto L = dense::find_cholesky(motion.M);  // M = L L'
+  LIMBER_EXPECT(L.has_value());
   const MatrixX to_x =
-      mass.matrixU().solve(MatrixX::Identity(n, n));  // M = U' U
-  MatrixX drift = find_drift(model, motion);
+      dense::solve_lower_transposed(*L, MatrixX::Identity(n, n));
+  MatrixX drift = find_free_translations(model, motion);
   if (drift.cols() > 0) {  // separate: momentum is conserved
-    const Eigen::HouseholderQR<MatrixX> qr(mass.matrixU() * drift);
-    drift = qr.householderQ() * MatrixX::Identity(n, drift.cols());
+    drift = dense::find_q(L->transpose() * drift, drift.cols());
   }
   const MatrixX holds = motion.find_holds() * to_x;
   MatrixX rows(holds.rows() + drift.cols(), n);
@@ -72,19 +67,19 @@ PrincipalBasis find_principal_basis(const SystemModel& model,
   if (open.cols() > 0) {
     const MatrixX rest = to_x.transpose() * motion.rest * to_x;
     const MatrixX noise = to_x.transpose() * motion.noise * to_x * open;
-    const Eigen::BDCSVD<MatrixX> svd(rest * open, Eigen::ComputeFullV);
+    const auto svd = dense::find_right_singular_form(rest * open);
     const double least = kNothing * rest.norm() + kSafety * noise.norm();
-    const Index resisted = (svd.singularValues().array() > least).count();
+    const Index resisted = (svd.values.array() > least).count();
     const Index loose = open.cols() - resisted;
     free.conservativeResize(n, drift.cols() + loose);
-    free.rightCols(loose) = open * svd.matrixV().rightCols(loose);
+    free.rightCols(loose) = open * svd.V.rightCols(loose);
   }
   if (free.cols() == n) return {to_x * free, n, drift.cols()};
   const MatrixX other = to_x * find_complement(free);
   const MatrixX S = motion.project_stiffness(other);
-  const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(0.5 * (S + S.transpose()));
+  const auto eigen = dense::find_eigenpairs(MatrixX(0.5 * (S + S.transpose())));
   PrincipalBasis basis{MatrixX(n, n), free.cols(), drift.cols()};
-  basis.Q << to_x * free, other * eigen.eigenvectors();
+  basis.Q << to_x * free, other * eigen.vectors;
   return basis;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/schur_form.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Jacobi>
 #include <cmath>
 
+#include "limber/common/dense/general_eigen.hpp"
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
@@ -29,11 +30,11 @@ void exchange(SchurForm& form, Index k) {
 SchurForm find_schur_form(
     const MatrixX& A,
     const std::function<bool(const std::complex<double>&)>& comes_first) {
-  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<Complex>());
-  if (schur.info() != Eigen::Success) {
+  auto schur = dense::find_complex_schur(A.cast<Complex>());
+  if (!schur) {
     throw NumericalError("the eigenvalues of the linear model do not converge");
   }
-  SchurForm form{schur.matrixU(), schur.matrixT()};
+  SchurForm form{std::move(schur->U), std::move(schur->T)};
   if (!comes_first) return form;
   Index first = 0;
   for (Index i = 0; i < form.T.rows(); ++i) {
@@ -60,7 +61,8 @@ Eigen::MatrixXcd find_gramian_factor(const Eigen::MatrixXcd& T,
     const Eigen::MatrixXcd shifted =
         T.topLeftCorner(j, j) +
         std::conj(value) * Eigen::MatrixXcd::Identity(j, j);
-    L.col(j).head(j) = shifted.triangularView<Eigen::Upper>().solve(
+    L.col(j).head(j) = dense::solve_upper(
+        shifted,
         -(T.col(j).head(j) * L(j, j) + alpha * (left.topRows(j) * direction)));
     left.topRows(j) -= alpha * L.col(j).head(j) * direction.adjoint();
   }
@@ -75,8 +77,8 @@ Eigen::MatrixXcd solve_sylvester(const Eigen::MatrixXcd& T1,
   for (Index k = 0; k < T2.cols(); ++k) {
     const Eigen::MatrixXcd shifted =
         T1 - T2(k, k) * Eigen::MatrixXcd::Identity(n, n);
-    X.col(k) = shifted.triangularView<Eigen::Upper>().solve(
-        R.col(k) + X.leftCols(k) * T2.col(k).head(k));
+    X.col(k) = dense::solve_upper(shifted,
+                                  R.col(k) + X.leftCols(k) * T2.col(k).head(k));
   }
   return X;
 }

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
@@ -334,12 +334,12 @@ MatrixX find_held(const Square& K, const VectorX& scale) {
       (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
   const Square scaled =
       inverse.asDiagonal() * (0.5 * (K + K.transpose())) * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(scaled);
+  const auto eigen = dense::find_eigenpairs(scaled);
   MatrixX held(n, 0);
   for (Index i = 0; i < n; ++i) {
-    if (std::abs(eigen.eigenvalues()[i]) <= kRoundoff) continue;
+    if (std::abs(eigen.values[i]) <= kRoundoff) continue;
     held.conservativeResize(n, held.cols() + 1);
-    held.rightCols<1>() = scale.asDiagonal() * eigen.eigenvectors().col(i);
+    held.rightCols<1>() = scale.asDiagonal() * eigen.vectors.col(i);
   }
   return held;
 }

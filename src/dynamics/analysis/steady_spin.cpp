@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/equations/equations.hpp"
@@ -164,8 +164,8 @@ class Spin {
     const VectorX scale =
         S.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     S = (scale.asDiagonal() * S * scale.asDiagonal()).eval();
-    const VectorX x =
-        scale.cwiseProduct(S.partialPivLu().solve(scale.cwiseProduct(right)));
+    const VectorX scaled = scale.cwiseProduct(right);
+    const VectorX x = scale.cwiseProduct(dense::solve(S, scaled));
     VectorX correction = VectorX::Zero(residual.size());
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const Index row = first_row(model_.bodies[b], b);

@@ -3,16 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "limber/common/dense/symmetric_eigen.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 double find_largest(const Matrix3& stiffness) {
-  return stiffness.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return dense::find_eigenvalues(stiffness).maxCoeff();
 }
 
 // Size of an attachment's body, measured from the attachment [m].

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/kinematics.hpp"
 #include "limber/dynamics/system/body_model.hpp"
@@ -15,9 +15,9 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kLarge = 0.1;     // of the body's size: gives a warning
-constexpr double kAbsurd = 1.0;    // of it: gives an error
-constexpr double kHarmless = 0.5;  // of the lowest frequency
+constexpr double kLarge = 0.1;  // of the body's size: gives a warning
+constexpr double kAbsurdDeformation = 1.0;  // of it: gives an error
+constexpr double kHarmless = 0.5;           // of the lowest frequency
 // Above this the error of second order in the modes exceeds a percent [rad].
 constexpr double kLargeTurn = 0.4;
 
@@ -40,15 +40,12 @@ double find_largest_share(const flexbody::ModalElasticity& elasticity,
   } else {
     MatrixX K(B.rows(), B.cols());
     flexbody::calc_elastic_tangent(elasticity, VectorX::Zero(B.rows()), K);
-    const Eigen::SelfAdjointEigenSolver<MatrixX> own(K);
+    const auto own = dense::find_eigenpairs(K);
     const MatrixX to_unit =
-        own.eigenvectors() *
-        own.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+        own.vectors * own.values.cwiseSqrt().cwiseInverse().asDiagonal();
     scaled = to_unit.transpose() * B * to_unit;
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(scaled,
-                                                      Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
+  return dense::find_eigenvalues(scaled).maxCoeff();
 }
 
 // The theory that holds for small deformations only.
@@ -159,7 +156,7 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
       body.size, mode + 1,
       std::sqrt(flexbody::rest_stiffness(model.elasticity)[mode]) /
           (2.0 * std::numbers::pi));
-  if (!(deformation <= kAbsurd * body.size)) {
+  if (!(deformation <= kAbsurdDeformation * body.size)) {
     const auto soft =
         describe_softening(model, state.bodies[body.index].w_WB_B);
     throw NumericalError(

@@ -3,21 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-constexpr double kVisible = 1e-7;  // of a body's size: gives a warning
-constexpr double kAbsurd = 1e-4;   // of it: gives an error
+constexpr double kVisible = 1e-7;         // of a body's size: gives a warning
+constexpr double kAbsurdRounding = 1e-4;  // of it: gives an error
 
 double find_radius_of_gyration(const BodyModel& body) {
-  const Vector3 moments = body.J0.selfadjointView<Eigen::Lower>().eigenvalues();
+  const Vector3 moments = dense::find_eigenvalues(body.J0);
   return std::sqrt(moments.maxCoeff() / body.mass);
 }
 
@@ -42,8 +42,9 @@ Rounding find_largest_rounding(const SystemModel& model,
   return largest;
 }
 
-std::string describe(const SystemModel& model, const SystemState& state,
-                     const Rounding& rounding) {
+std::string describe_rounding(const SystemModel& model,
+                              const SystemState& state,
+                              const Rounding& rounding) {
   return fmt::format(
       "body '{}' at t = {:.9g} s is {:.3g} m from the origin of the world, "
       "where positions are rounded to {:.2g} m, {:.2g} of its radius of "
@@ -61,7 +62,7 @@ std::optional<std::string> describe_rounding(const SystemModel& model,
   return fmt::format(
       "{}: deformations are off by as much, and forces of joints by that times "
       "their stiffness; an origin near the bodies would help",
-      describe(model, state, rounding));
+      describe_rounding(model, state, rounding));
 }
 
 bool add_rounding_warning(const SystemModel& model, const SystemState& state,
@@ -73,9 +74,10 @@ bool add_rounding_warning(const SystemModel& model, const SystemState& state,
 
 void check_rounding(const SystemModel& model, const SystemState& state) {
   const Rounding rounding = find_largest_rounding(model, state);
-  if (rounding.share <= kAbsurd) return;
+  if (rounding.share <= kAbsurdRounding) return;
   throw InputError(fmt::format("{}; expected at most {:.2g} of it",
-                               describe(model, state, rounding), kAbsurd));
+                               describe_rounding(model, state, rounding),
+                               kAbsurdRounding));
 }
 
 }  // namespace limber::dynamics

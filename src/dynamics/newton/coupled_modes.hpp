@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/LU>
-
+#include "limber/common/dense/lu_factors.hpp"
 #include "limber/common/types.hpp"
 
 namespace limber::dynamics {
@@ -35,10 +34,10 @@ class CoupledModes {
   static constexpr int kSolvesByFactors = 16;
 
   MatrixX A_;
-  Eigen::PartialPivLU<MatrixX> lu_;
+  dense::LuFactors factors_;
   MatrixX inverse_;
   int solves_ = 0;  // since the factors were made
-  VectorX scratch_;
+  VectorX product_;
 };
 
 }  // namespace limber::dynamics

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/newton/full_factor.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
 
@@ -111,9 +110,9 @@ void FullFactor::set_rigid_motion(const FullModel& full,
   };
   multiply_mass();
   const MatrixX inertia = rigid_.transpose() * rigid_momenta_;
-  const MatrixX L = inertia.llt().matrixL();
-  L.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
-      rigid_);
+  const auto L = dense::find_cholesky(inertia);
+  LIMBER_EXPECT(L.has_value());
+  dense::divide_by_lower_transposed(*L, rigid_);
   multiply_mass();
 }
 
@@ -140,7 +139,7 @@ void FullFactor::add_damping(const FullModel& full,
   const MatrixX UtV = full.damped_modes.transpose() * V_;
   const MatrixX C = (velocity * full.damping).asDiagonal();
   const MatrixX small = MatrixX::Identity(C.rows(), C.cols()) + C * UtV;
-  V_ *= small.partialPivLu().solve(C).eval();
+  V_ *= dense::solve(small, C);
 }
 
 void FullFactor::solve_columns(const FullModel& full,

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
@@ -16,7 +16,7 @@
 namespace limber::dynamics {
 namespace {
 
-std::string to_text(const Vector3& v) {
+std::string format_vector(const Vector3& v) {
   return fmt::format("({:g}, {:g}, {:g})", v[0], v[1], v[2]);
 }
 
@@ -80,20 +80,18 @@ void check_inertia(const std::string& what, double mass,
                     "xy, xz, yz each appear twice",
                     what));
   }
-  const Vector3 principal =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Vector3 principal = dense::find_eigenvalues(inertia);
   if (!(principal.minCoeff() > 0.0)) {
     throw InputError(fmt::format(
         "{}: its inertia has the principal moments {} kg m^2; expected all > 0",
-        what, to_text(principal)));
+        what, format_vector(principal)));
   }
   if (principal[0] + principal[1] < (1.0 - kPrinted) * principal[2]) {
     throw InputError(fmt::format(
         "{}: its inertia has the principal moments {} kg m^2, the largest more "
         "than the sum of the others, which no mass has. Look at units, and "
         "whether it is about the centre of mass",
-        what, to_text(principal)));
+        what, format_vector(principal)));
   }
 }
 

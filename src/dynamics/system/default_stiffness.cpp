@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/system/default_stiffness.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
+
 namespace limber::dynamics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Largest principal flexibility of the 3 x 3 block at `first`; infinite if
 /// the side is rigid.
@@ -17,10 +16,7 @@ double find_flexibility(const CouplerSide& side, int first) {
   if (!side.flexibility) return kInfinity;
   const Matrix3 block = side.flexibility->block<3, 3>(first, first);
   const Matrix3 symmetric = 0.5 * (block + block.transpose());
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(symmetric, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .maxCoeff();
+  const double largest = dense::find_eigenvalues(symmetric).maxCoeff();
   return largest > 0.0 ? largest : kInfinity;
 }
 

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 #include <string>
 
+#include "limber/common/dense/singular_values.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
@@ -24,13 +24,13 @@ constexpr double kTilt = 1e-4;
 /// Orthonormal basis of the directions in which `matrix`, symmetric and
 /// positive semi-definite, is not zero.
 Matrix3X find_range(const Matrix3& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(matrix);
-  const double largest = eigen.eigenvalues()[2];
+  const auto eigen = dense::find_eigenpairs(matrix);
+  const double largest = eigen.values[2];
   Matrix3X range(3, 0);
   for (int k = 0; k < 3; ++k) {
-    if (!(eigen.eigenvalues()[k] > kNothing * largest)) continue;
+    if (!(eigen.values[k] > kNothing * largest)) continue;
     range.conservativeResize(3, range.cols() + 1);
-    range.rightCols<1>() = eigen.eigenvectors().col(k);
+    range.rightCols<1>() = eigen.vectors.col(k);
   }
   return range;
 }
@@ -39,13 +39,13 @@ Matrix3X find_range(const Matrix3& matrix) {
 Matrix3X find_required(const Matrix3X& missing, const Matrix3X& required) {
   if (missing.cols() == 0 || required.cols() == 0) return Matrix3X(3, 0);
   const MatrixX overlap = required.transpose() * missing;
-  const Eigen::JacobiSVD<MatrixX> svd(overlap, Eigen::ComputeFullV);
-  const Eigen::Index count = (svd.singularValues().array() > kTilt).count();
-  return missing * svd.matrixV().leftCols(count);
+  const auto svd = dense::find_singular_form(overlap);
+  const Eigen::Index count = (svd.values.array() > kTilt).count();
+  return missing * svd.V.leftCols(count);
 }
 
 /// A direction, normalised in sign and rounded.
-std::string to_text(const Vector3& direction) {
+std::string format_direction(const Vector3& direction) {
   Eigen::Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
   const Vector3 e = direction[largest] < 0.0 ? Vector3(-direction) : direction;
@@ -63,7 +63,7 @@ std::string describe_nodes(const InterfaceTable& table) {
   if (table.rotation_rank() == 2) {
     return fmt::format(
         "its {} nodes are on one line along {}", table.node_count,
-        to_text(find_complement(table.rotation_axes).leftCols<1>()));
+        format_direction(find_complement(table.rotation_axes).leftCols<1>()));
   }
   if (table.node_count == 1) return "it is one node";
   return fmt::format("its {} nodes are at one point", table.node_count);
@@ -71,9 +71,9 @@ std::string describe_nodes(const InterfaceTable& table) {
 
 std::string describe_directions(const Matrix3X& directions) {
   if (directions.cols() == 3) return "any direction";
-  if (directions.cols() == 1) return to_text(directions.col(0));
+  if (directions.cols() == 1) return format_direction(directions.col(0));
   return "directions normal to " +
-         to_text(find_complement(directions).leftCols<1>());
+         format_direction(find_complement(directions).leftCols<1>());
 }
 
 }  // namespace

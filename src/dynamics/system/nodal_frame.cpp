@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/system/nodal_frame.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 #include <numeric>
 
+#include "limber/common/dense/singular_values.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 
@@ -15,9 +15,9 @@ namespace {
 constexpr double kThin = 1e-6;  // of the body's size
 
 // Principal second moments of a set, the smallest first, and their axes.
-using Moments = Eigen::SelfAdjointEigenSolver<Matrix3>;
-Moments find_moments(const Matrix3X& d, const VectorX& weights) {
-  return Moments(Matrix3(d * weights.asDiagonal() * d.transpose()));
+dense::Eigenpairs3 find_moments(const Matrix3X& d, const VectorX& weights) {
+  return dense::find_eigenpairs(
+      Matrix3(d * weights.asDiagonal() * d.transpose()));
 }
 
 double find_size(const flexbody::FullBody& body) {
@@ -91,10 +91,7 @@ void calc_rotation(const NodalFrame& frame, const ConstNodes& u_H,
 }  // namespace
 
 Matrix3 find_polar_rotation(const Matrix3& A) {
-  const Eigen::JacobiSVD<Matrix3> svd(
-      A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3 U = svd.matrixU();
-  const Matrix3& V = svd.matrixV();
+  auto [values, U, V] = dense::find_singular_form(A);
   if (U.determinant() * V.determinant() < 0.0) U.col(2) = -U.col(2);
   return U * V.transpose();
 }
@@ -111,14 +108,14 @@ NodalFrame make_nodal_frame(const flexbody::FullBody& body,
   frame.mean_B = frame.d_B * set.weights;
   frame.d_B.colwise() -= frame.mean_B;
   frame.arm_B = origin_B - frame.mean_B;
-  const Moments moments = find_moments(frame.d_B, frame.weights);
+  const dense::Eigenpairs3 moments = find_moments(frame.d_B, frame.weights);
   const double thin = std::pow(kThin * find_size(body), 2);
-  if (moments.eigenvalues()[1] > thin) {
+  if (moments.values[1] > thin) {
     frame.turns = true;
     frame.turning = frame.nodes;
     frame.y_B = frame.d_B * frame.weights.asDiagonal();
-  } else if (moments.eigenvalues()[2] > thin) {
-    const Vector3 line = moments.eigenvectors().col(2);
+  } else if (moments.values[2] > thin) {
+    const Vector3 line = moments.vectors.col(2);
     frame.lever = frame.weights.cwiseProduct(frame.d_B.transpose() * line);
     frame.line_B = frame.d_B * frame.lever;
     turn_with_body(body, frame);

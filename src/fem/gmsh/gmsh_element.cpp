@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/reference_element.hpp"
 
@@ -149,7 +150,8 @@ MatrixX affine_residual(const ReferenceElement& element) {
   MatrixX A(element.dimension + 1, element.node_count);
   A.row(0).setOnes();
   A.bottomRows(element.dimension) = element.node_uvw.topRows(element.dimension);
-  const MatrixX inverse = A.transpose() * (A * A.transpose()).inverse();
+  const MatrixX inverse =
+      A.transpose() * dense::find_inverse(A * A.transpose());
   return MatrixX::Identity(element.node_count, element.node_count) -
          inverse * A;
 }

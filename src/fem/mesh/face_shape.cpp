@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/mesh/face_shape.hpp"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "limber/common/dense/linear_solve.hpp"
 
 namespace limber::fem {
 namespace {
@@ -97,7 +98,7 @@ FaceShape::FaceShape(const ReferenceElement& element, std::size_t face)
       V(k, j) = power(places_(0, k), powers_(0, j)) *
                 power(places_(1, k), powers_(1, j));
   inverse_ = MatrixX::Zero(places_.cols(), used);
-  inverse_.topRows(used) = V.transpose().inverse();
+  inverse_.topRows(used) = dense::find_inverse(V.transpose());
 }
 
 FaceTable FaceShape::tabulate(const MatrixX& places) const {

@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/fem/solid/stiffness_product.hpp"
 
 namespace limber::fem {
@@ -17,8 +16,8 @@ struct PrincipalPositions {
 
 PrincipalPositions find_principal(const Matrix3X& x) {
   const Matrix3X d = x.colwise() - Vector3(x.rowwise().mean());
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(d * d.transpose());
-  PrincipalPositions principal{axes.eigenvectors().transpose() * d, {}};
+  const auto axes = dense::find_eigenpairs(Matrix3(d * d.transpose()));
+  PrincipalPositions principal{axes.vectors.transpose() * d, {}};
   principal.extent = principal.x.cwiseAbs().rowwise().maxCoeff();
   return principal;
 }

@@ -4,12 +4,12 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
 #include <limits>
 #include <random>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::fem {
@@ -25,9 +25,9 @@ Eigenmodes polish(const ElasticInverse& inverse, const MatrixX& X) {
   const MatrixX V = inverse.project_motion(X);
   const MatrixX M = V.transpose() * multiply_mass(full.M_s, V);
   const MatrixX K = V.transpose() * multiply_stiffness(full, V);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> ritz(
-      0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
-  return {ritz.eigenvalues(), V * ritz.eigenvectors()};
+  const auto ritz = dense::find_eigenpairs(0.5 * (K + K.transpose()),
+                                           0.5 * (M + M.transpose()));
+  return {ritz.values, V * ritz.vectors};
 }
 
 /// Small models: all eigenpairs at once, none can be missed. Each is accurate
@@ -37,12 +37,12 @@ Eigenmodes solve_dense(const ElasticInverse& inverse, Eigen::Index count) {
   const MatrixX lower = MatrixX(full.K);
   const MatrixX K = lower.selfadjointView<Eigen::Lower>();
   const MatrixX M = dense_mass(full.M_s);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(K, M);
+  const auto all = dense::find_eigenpairs(K, M);
   const Eigen::Index rigid = inverse.rigid_count();
-  Eigenmodes modes{solver.eigenvalues().segment(rigid, count),
-                   solver.eigenvectors().middleCols(rigid, count)};
+  Eigenmodes modes{all.values.segment(rigid, count),
+                   all.vectors.middleCols(rigid, count)};
   constexpr double kEnough = 1e-6;  // of the highest eigenvalue: ten digits
-  const double highest = solver.eigenvalues()[M.cols() - 1];
+  const double highest = all.values[M.cols() - 1];
   const Eigen::Index low = (modes.lambda.array() < kEnough * highest).count();
   if (low == 0) return modes;
   const Eigenmodes polished = polish(inverse, modes.Phi.leftCols(low));

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 #include <vector>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/linalg/factor_cost.hpp"
@@ -40,19 +40,19 @@ double estimate_first_eigenvalue(const StructuralMatrices& matrices,
   V -= R * (MR.transpose() * V);
   const MatrixX M = V.transpose() * multiply_mass(matrices.M_s, V);
   const MatrixX K = V.transpose() * multiply_stiffness(matrices.K, V);
-  const Eigen::SelfAdjointEigenSolver<MatrixX> mass(M);
+  const auto mass = dense::find_eigenpairs(M);
   // Linear fields include rotations, which the projection removes, so M is
   // singular here: keep the independent part.
   constexpr double kIndependent = 1e-6;
-  const double largest = mass.eigenvalues()[M.cols() - 1];
+  const double largest = mass.values[M.cols() - 1];
   Eigen::Index dependent = 0;
-  while (mass.eigenvalues()[dependent] < kIndependent * largest) ++dependent;
+  while (mass.values[dependent] < kIndependent * largest) ++dependent;
   const Eigen::Index kept = M.cols() - dependent;
   const MatrixX T =
-      mass.eigenvectors().rightCols(kept) *
-      mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+      mass.vectors.rightCols(kept) *
+      mass.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const MatrixX reduced = T.transpose() * K * T;
-  return Eigen::SelfAdjointEigenSolver<MatrixX>(reduced).eigenvalues()[0];
+  return dense::find_eigenvalues(reduced)[0];
 }
 
 /// A small part of the first eigenvalue: refinement gains about two digits a

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/solid/matrices.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/stiffness_product.hpp"
 
@@ -60,15 +59,15 @@ MassProperties calc_mass_properties(const SparseMatrix& M_s,
 MatrixX make_rigid_modes(const SparseMatrix& M_s, const Matrix3X& x) {
   const MassProperties body = calc_mass_properties(M_s, x);
   const Matrix3 inertia = body.S0.trace() * Matrix3::Identity() - body.S0;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
+  const auto principal = dense::find_eigenpairs(inertia);
   MatrixX R = MatrixX::Zero(3 * x.cols(), 6);
   for (Eigen::Index n = 0; n < x.cols(); ++n) {
     const Vector3 offset = x.col(n) - body.center;
     for (int axis = 0; axis < 3; ++axis) {
       R(3 * n + axis, axis) = 1.0 / std::sqrt(body.mass);
       R.block<3, 1>(3 * n, 3 + axis) =
-          Vector3(principal.eigenvectors().col(axis)).cross(offset) /
-          std::sqrt(principal.eigenvalues()[axis]);
+          Vector3(principal.vectors.col(axis)).cross(offset) /
+          std::sqrt(principal.values[axis]);
     }
   }
   return R;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/fem/linalg/cholesky.hpp"
@@ -47,8 +47,8 @@ SparseMatrix find_laplacian(const StructuralMatrices& unit) {
 /// Nodes' places along the longest axis of the body's second moments.
 VectorX project_on_longest_axis(const Mesh& mesh, const SparseMatrix& M_s) {
   const MassProperties body = calc_mass_properties(M_s, mesh.x);
-  const Eigen::SelfAdjointEigenSolver<Matrix3> moments(body.S0);
-  Vector3 axis = moments.eigenvectors().col(2);
+  const auto moments = dense::find_eigenpairs(body.S0);
+  Vector3 axis = moments.vectors.col(2);
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   if (axis[largest] < 0.0) axis = -axis;
@@ -192,7 +192,7 @@ class Parts {
   std::vector<std::size_t> parent_;
 };
 
-std::vector<std::pair<std::size_t, std::size_t>> find_neighbours(
+std::vector<std::pair<std::size_t, std::size_t>> find_node_pairs(
     const Mesh& mesh) {
   std::vector<std::size_t> first;
   std::size_t count = 0;
@@ -214,7 +214,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_neighbours(
 void absorb_islands(const Mesh& mesh, int count, ElementLabels& labels) {
   constexpr double kSmall = 0.1;  // of a piece's elements
   constexpr int kMostRounds = 10;
-  const auto neighbours = find_neighbours(mesh);
+  const auto neighbours = find_node_pairs(mesh);
   const std::size_t total = labels.size();
   for (int round = 0; round < kMostRounds; ++round) {
     Parts parts(labels, neighbours);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/solid/skin.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 
@@ -29,10 +29,8 @@ MatrixX calc_face_area(const ReferenceElement& element, std::size_t face,
 void widen(const Matrix3& H, LargestGradient& largest) {
   const Matrix3 strain = 0.5 * (H + H.transpose());
   const Vector3 turn(H(2, 1) - H(1, 2), H(0, 2) - H(2, 0), H(1, 0) - H(0, 1));
-  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(
-      strain, Eigen::EigenvaluesOnly);
-  largest.strain =
-      std::max(largest.strain, principal.eigenvalues().cwiseAbs().maxCoeff());
+  largest.strain = std::max(
+      largest.strain, dense::find_eigenvalues(strain).cwiseAbs().maxCoeff());
   largest.rotation = std::max(largest.rotation, 0.5 * turn.norm());
 }
 

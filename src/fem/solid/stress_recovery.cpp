@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/fem/solid/stress_recovery.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "limber/common/dense/qr.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/solid/element_matrices.hpp"
@@ -71,7 +71,8 @@ struct ElementStress {
 };
 
 // Hooke's law for the strain sym(h).
-Vector6 calc_stress(const LameConstants<double>& lame, const Matrix3& h) {
+Vector6 calc_linear_stress(const LameConstants<double>& lame,
+                           const Matrix3& h) {
   const double volumetric = lame.lambda * h.trace();
   Vector6 stress;
   stress << volumetric + 2.0 * lame.mu * h(0, 0),
@@ -125,7 +126,7 @@ ElementStress calc_element_stress(const ReferenceElement& element,
     add_products(second.paired, fields, H);
     for (Eigen::Index k = 0; k < all; ++k) {
       stress.at.col(q).segment<6>(6 * k) =
-          calc_stress(lame, H.middleRows<3>(3 * k));
+          calc_linear_stress(lame, H.middleRows<3>(3 * k));
     }
     if (second.law != Elasticity::st_venant_kirchhoff) {
       add_curvature(second, lame, H, fields, stress.at.col(q));
@@ -306,7 +307,7 @@ MatrixX make_stress_fit(const ReferenceElement& element,
   const MatrixX at_points =
       roots.asDiagonal() * evaluate(terms, element.node_uvw * rule.shape);
   const MatrixX coefficients =
-      at_points.colPivHouseholderQr().solve(MatrixX(roots.asDiagonal()));
+      dense::solve_least_squares(at_points, MatrixX(roots.asDiagonal()));
   return evaluate(terms, element.node_uvw) * coefficients;
 }
 

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/elasticity/elasticity_checks.hpp"
 
@@ -28,9 +28,7 @@ FullStiffness::FullStiffness(Parameters parameters)
     throw InputError("the stiffness matrix is not symmetric");
   }
   K = (0.5 * (K + K.transpose())).eval();
-  const VectorX values =
-      Eigen::SelfAdjointEigenSolver<MatrixX>(K, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const VectorX values = dense::find_eigenvalues(K);
   if (!(values.minCoeff() >= -kRoundoff * values.cwiseAbs().maxCoeff())) {
     throw InputError(fmt::format(
         "the stiffness matrix has the eigenvalue {:g} rad^2/s^2; expected all "

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
@@ -51,10 +52,7 @@ Vector3 euler_load(const Matrix3& S1) {
 
 /// Spectral radius of a symmetric matrix.
 double spectral_radius(const Matrix3& symmetric) {
-  return symmetric.selfadjointView<Eigen::Lower>()
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
+  return dense::find_eigenvalues(symmetric).cwiseAbs().maxCoeff();
 }
 
 /// Largest |L v| for |v| = 1.

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "limber/common/dense/qr.hpp"
 #include "limber/common/errors.hpp"
 
 namespace limber::flexbody {
@@ -64,18 +64,16 @@ VectorX find_weights(const std::vector<double>& times) {
   return weights / (t[intervals] - t[0]);
 }
 
-MatrixX solve_least_squares(const MatrixX& A, const MatrixX& b) {
-  Eigen::ColPivHouseholderQR<MatrixX> solver;
-  solver.setThreshold(1.0 / kMostAmplification);
-  solver.compute(A);
-  if (solver.rank() < A.cols()) {
+MatrixX find_coefficients(const MatrixX& A, const MatrixX& b) {
+  auto [x, rank] = dense::solve_least_squares(A, b, 1.0 / kMostAmplification);
+  if (rank < A.cols()) {
     throw InputError(fmt::format(
         "load table: its times are too unevenly spaced for {} harmonics, of "
         "which they determine only {} of {} coefficients; ask for fewer "
         "harmonics or fill the gaps",
-        (A.cols() - 1) / 2, solver.rank(), A.cols()));
+        (A.cols() - 1) / 2, rank, A.cols()));
   }
-  return solver.solve(b);
+  return x;
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ FourierSeries fit_fourier_series(const LoadTable& table, int harmonics) {
       root.asDiagonal() *
       make_waves(find_angles(table.times, start, period), harmonics);
   const MatrixX b = root.asDiagonal() * table.values.transpose();
-  const MatrixX x = solve_least_squares(A, b);
+  const MatrixX x = find_coefficients(A, b);
 
   FourierSeries series{start, period, {}, {}, {}};
   series.cosine.resize(table.values.rows(), harmonics + 1);

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/singular_values.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/model/multiply_mass.hpp"
 
@@ -37,20 +37,17 @@ struct Eigenpairs {
 Eigenpairs find_eigenpairs(const MatrixX& stiffness) {
   constexpr double kWide = 1e6;  // above it ten digits are not guaranteed
   const MatrixX K = 0.5 * (stiffness + stiffness.transpose());
-  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(K);
-  const VectorX& lambda = solver.eigenvalues();
+  const auto [lambda, vectors] = dense::find_eigenpairs(K);
   const Eigen::Index last = lambda.size() - 1;
-  if (lambda[0] * kWide > lambda[last]) return {lambda, solver.eigenvectors()};
-  const Eigen::LLT<MatrixX> cholesky(K);
-  if (cholesky.info() != Eigen::Success)
+  if (lambda[0] * kWide > lambda[last]) return {lambda, vectors};
+  const auto L = dense::find_cholesky(K);
+  if (!L)
     throw NumericalError(fmt::format(
         "reduced basis: eigenvalues from {:.3g} to {:.3g} rad^2/s^2; expected "
         "all positive. A vector without stiffness is in the basis.",
         lambda[0], lambda[last]));
-  const Eigen::JacobiSVD<MatrixX> factor(cholesky.matrixL(),
-                                         Eigen::ComputeThinU);
-  return {factor.singularValues().reverse().cwiseAbs2(),
-          factor.matrixU().rowwise().reverse()};
+  const auto factor = dense::find_singular_form(*L);
+  return {factor.values.reverse().cwiseAbs2(), factor.U.rowwise().reverse()};
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/flexbody/model/interface_motion.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 
@@ -25,18 +24,17 @@ InterfaceMotion::InterfaceMotion(std::vector<int> nodes, VectorX weights,
   const Matrix3X own = x(Eigen::all, nodes_);
   p_ = own * weights;
   const Matrix3X d = own.colwise() - p_;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> moments(
-      calc_second_moment(d, weights));
+  const auto moments = dense::find_eigenpairs(calc_second_moment(d, weights));
   constexpr double kPoint = 1e-6;  // of the body's size
   constexpr double kLine = 1e-8;   // of the largest moment
-  const double largest = moments.eigenvalues()[2];
+  const double largest = moments.values[2];
   const bool is_point = largest < std::pow(kPoint * body_size, 2);
   Matrix3 inverse = Matrix3::Zero();
   axes_.resize(3, 0);
   for (int k = 0; k < 3 && !is_point; ++k) {
-    if (moments.eigenvalues()[k] < kLine * largest) continue;
-    const Vector3 axis = moments.eigenvectors().col(k);
-    inverse += axis * axis.transpose() / moments.eigenvalues()[k];
+    if (moments.values[k] < kLine * largest) continue;
+    const Vector3 axis = moments.vectors.col(k);
+    inverse += axis * axis.transpose() / moments.values[k];
     axes_.conservativeResize(3, ++rank_);
     axes_.col(rank_ - 1) = axis;
   }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/flexbody/model/stress_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "limber/common/dense/symmetric_eigen.hpp"
 
 namespace limber::flexbody {
 namespace {
@@ -27,9 +28,7 @@ double calc_von_mises(const Vector6& s) {
 }
 
 double calc_max_principal(const Vector6& stress) {
-  return Eigen::SelfAdjointEigenSolver<Matrix3>(to_tensor(stress),
-                                                Eigen::EigenvaluesOnly)
-      .eigenvalues()[2];
+  return dense::find_eigenvalues(to_tensor(stress))[2];
 }
 
 Vector6 turn_stress(const Vector6& stress_B, const Matrix3& R_BL) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/scene/control/coupler_rows.hpp"
 
-#include <Eigen/QR>
 #include <utility>
 #include <variant>
 
+#include "limber/common/dense/qr.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
@@ -122,7 +122,7 @@ CouplerRows find_joint_rows(const CouplerProbe& probe,
   }
   if (is_effort && out.by_input.cols() > 0) {
     // Drives' wrenches are sums along the gradients.
-    out.by_input = gradients.colPivHouseholderQr().solve(link.wrench_by_input);
+    out.by_input = dense::solve_least_squares(gradients, link.wrench_by_input);
   }
   return out;
 }
