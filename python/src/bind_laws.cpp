@@ -175,10 +175,6 @@ void bind_scalars(py::module_& m) {
            py::arg("pulls_only") = false);
 }
 
-std::string name_type(const py::object& object) {
-  return py::str(py::type::of(object).attr("__name__"));
-}
-
 ScalarLaw to_scalar_law(const py::object& given) {
   if (py::isinstance<ScalarSpring>(given)) return given.cast<ScalarSpring>();
   if (py::isinstance<Friction>(given)) return given.cast<Friction>();

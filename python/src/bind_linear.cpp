@@ -24,7 +24,8 @@ std::vector<std::string> read_names(const char* what, const Names& names) {
   return *names;
 }
 
-std::variant<app::Reference, double> read_reference(const py::object& at) {
+std::variant<app::Reference, double> read_time_or_reference(
+    const py::object& at) {
   if (py::isinstance<py::str>(at)) {
     return app::parse_reference(at.cast<std::string>());
   }
@@ -47,7 +48,7 @@ std::shared_ptr<LinearRun> linearize(const scene::Scene& scene,
                                      const std::optional<int>& states,
                                      const fs::path& cache) {
   const app::LinearRequest request = {
-      read_reference(at),
+      read_time_or_reference(at),
       {read_names("inputs", inputs), read_names("outputs", outputs)},
       read_states(states)};
   return run_alone([&](const Progress& watch) {
@@ -56,12 +57,12 @@ std::shared_ptr<LinearRun> linearize(const scene::Scene& scene,
   });
 }
 
-const LinearRun& run_of(const py::object& self) {
+const LinearRun& linear_run_of(const py::object& self) {
   return self.cast<const LinearRun&>();
 }
 
 const dynamics::LinearModel& model_of(const py::object& self) {
-  return run_of(self).record.model;
+  return linear_run_of(self).record.model;
 }
 
 /// [(name, unit, value), ...]
@@ -73,7 +74,7 @@ py::list list_signals(const Signals& signals) {
   return list;
 }
 
-void save(const LinearRun& run, const fs::path& file) {
+void save_linear_model(const LinearRun& run, const fs::path& file) {
   const py::gil_scoped_release release;
   const auto lock = app::lock_libraries();
   results::check_linear_model_ending(file);
@@ -122,8 +123,10 @@ void bind_linear(py::module_& m) {
           })
       .def_property_readonly("hankel",
                              [](const py::object& self) -> py::object {
-                               if (!run_of(self).truncated) return py::none();
-                               return view_of(run_of(self).record.hankel, self);
+                               if (!linear_run_of(self).truncated)
+                                 return py::none();
+                               return view_of(linear_run_of(self).record.hankel,
+                                              self);
                              })
       .def_property_readonly("bound",
                              [](const LinearRun& run) -> py::object {
@@ -133,7 +136,8 @@ void bind_linear(py::module_& m) {
       .def_property_readonly(
           "axes_angular_velocity",
           [](const py::object& self) {
-            return view_of(run_of(self).record.axes_angular_velocity, self);
+            return view_of(linear_run_of(self).record.axes_angular_velocity,
+                           self);
           })
       .def_property_readonly(
           "time", [](const LinearRun& run) { return run.record.time; })
@@ -146,7 +150,7 @@ void bind_linear(py::module_& m) {
           [](const LinearRun& run) { return run.linear.open_loops; })
       .def_property_readonly(
           "warnings", [](const LinearRun& run) { return run.record.warnings; })
-      .def("save", &save, py::arg("file"));
+      .def("save", &save_linear_model, py::arg("file"));
   m.def("linearize", &linearize, py::arg("scene"), py::arg("at"),
         py::arg("inputs"), py::arg("outputs"), py::arg("states"),
         py::arg("cache"));

@@ -129,8 +129,8 @@ py::object describe_failure(const RecordedRun& recorded) {
   }
 }
 
-void save(const RecordedRun& run, const fs::path& folder, bool pictures,
-          bool xdmf) {
+void save_run(const RecordedRun& run, const fs::path& folder, bool pictures,
+              bool xdmf) {
   const py::gil_scoped_release release;
   const auto lock = app::lock_libraries();
   const app::OutputFolder out(folder);
@@ -174,7 +174,7 @@ void bind_run(py::module_& m) {
       .def_property_readonly(
           "seconds",
           [](const RecordedRun& run) { return run.run.statistics.seconds; })
-      .def("save", &save, py::arg("folder"), py::arg("pictures"),
+      .def("save", &save_run, py::arg("folder"), py::arg("pictures"),
            py::arg("xdmf"));
   m.def("write_page", &write_page, py::arg("page"), py::arg("results"));
 }

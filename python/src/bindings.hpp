@@ -7,6 +7,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <string>
+
 /// The module limber._core: what the library and the command do, as Python
 /// sees it. What is convenient in Python is written in Python, in
 /// python/limber.
@@ -26,5 +28,10 @@ void bind_laws(py::module_& m);
 void bind_system(py::module_& m);
 void bind_builder(py::module_& m);
 void bind_simulator(py::module_& m);
+
+/// The name of the object's class.
+[[nodiscard]] inline std::string name_type(const py::object& object) {
+  return py::str(py::type::of(object).attr("__name__"));
+}
 
 }  // namespace limber::python

@@ -16,7 +16,7 @@ namespace limber::python {
 namespace {
 
 /// Keeps a function; released with the GIL held.
-std::shared_ptr<py::function> hold(const py::function& function) {
+std::shared_ptr<py::function> hold_function(const py::function& function) {
   return {new py::function(function), [](py::function* held) {
             const py::gil_scoped_acquire gil;
             delete held;
@@ -39,10 +39,6 @@ void call(const Work& work) {
     const std::string words = py::str(error.value());
     throw std::runtime_error(type + (words.empty() ? "" : ": " + words));
   }
-}
-
-std::string name_type(const py::object& object) {
-  return py::str(py::type::of(object).attr("__name__"));
 }
 
 /// Numbers that a law returned: one, or one for each input.
@@ -71,7 +67,7 @@ void fill(const py::object& given, std::span<double> written) {
 class PythonLaw final : public dynamics::Controller {
  public:
   PythonLaw(const py::function& law, bool has_memory, std::string identity)
-      : law_(hold(law)),
+      : law_(hold_function(law)),
         has_memory_(has_memory),
         identity_(std::move(identity)) {}
 
@@ -110,16 +106,17 @@ std::shared_ptr<const dynamics::Controller> make_python_law(
 
 dynamics::Measurement make_python_measurement(const std::string& name,
                                               const py::function& measure) {
-  return {name, "Python function " + name,
-          [held = hold(measure)](const dynamics::SystemModel& /*model*/,
-                                 const dynamics::SystemState& state) {
-            double value = 0.0;
-            call([&] {
-              // A copy, as Python may keep it.
-              value = (*held)(py::cast(state)).cast<double>();
-            });
-            return value;
-          }};
+  return {
+      name, "Python function " + name,
+      [held = hold_function(measure)](const dynamics::SystemModel& /*model*/,
+                                      const dynamics::SystemState& state) {
+        double value = 0.0;
+        call([&] {
+          // A copy, as Python may keep it.
+          value = (*held)(py::cast(state)).cast<double>();
+        });
+        return value;
+      }};
 }
 
 }  // namespace limber::python

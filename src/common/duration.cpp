@@ -20,4 +20,9 @@ std::string with_duration(std::string_view what, double seconds, double least) {
   return fmt::format("{}{}{}", what, kDurationMark, to_duration(seconds));
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
 }  // namespace limber

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,8 @@ inline constexpr std::string_view kDurationMark = ", about ";
 /// @param seconds, least [s]
 [[nodiscard]] std::string with_duration(std::string_view what, double seconds,
                                         double least = 60.0);
+
+/// [s]
+[[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point start);
 
 }  // namespace limber

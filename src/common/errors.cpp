@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cerrno>
+#include <system_error>
+
 namespace limber {
 
 InputError::InputError(const std::string& problem)
@@ -12,6 +15,8 @@ InputError::InputError(const std::string& problem)
 InputError::InputError(std::vector<std::string> problems)
     : std::runtime_error(fmt::format("{}", fmt::join(problems, "\n"))),
       problems_(std::move(problems)) {}
+
+std::string describe_errno() { return std::generic_category().message(errno); }
 
 namespace detail {
 void fail_contract(const char* expression, const char* file, int line) {

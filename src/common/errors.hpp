@@ -25,6 +25,9 @@ class InputError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
+/// What the C library's errno says, as text.
+[[nodiscard]] std::string describe_errno();
+
 /// A computation that cannot continue: no convergence, a singular matrix, a
 /// value that is not finite. Exit status 3; results so far are kept.
 class NumericalError : public std::runtime_error {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "limber/common/errors.hpp"
@@ -21,7 +20,6 @@ namespace {
 using joints::PairBodies;
 using joints::PairBody;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Features whose depths differ by at most this share of the shapes' size, such
 // as the corners of a box that lands flat, begin to touch together [-].
 constexpr double kTogether = 1e-9;

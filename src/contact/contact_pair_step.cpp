@@ -2,7 +2,6 @@
 // energy-conserving scheme.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "limber/contact/contact_pair.hpp"
 #include "limber/contact/feature_slots.hpp"
@@ -14,7 +13,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Below this share of the change of depth the motion along the normal does not
 // determine the force [-].
 constexpr double kLeastWay = 0.1;

@@ -8,14 +8,14 @@ namespace {
 
 // Names the function that a law lacks.
 template <typename... Laws>
-constexpr bool check(const std::variant<Laws...>* /*any*/) {
+constexpr bool check_kinds(const std::variant<Laws...>* /*any*/) {
   return ([]<typename Law>(const Law* /*law*/) {
     static_assert(CouplerLawKind<Law>, "joints/coupler_law_kind.hpp");
     return true;
   }(static_cast<const Laws*>(nullptr)) &&
           ...);
 }
-static_assert(check(static_cast<const CouplerLaw*>(nullptr)));
+static_assert(check_kinds(static_cast<const CouplerLaw*>(nullptr)));
 
 }  // namespace
 

@@ -30,7 +30,7 @@ Magnitudes find_difference(const BodyState& a, const BodyState& b) {
 }
 
 /// Displacement from the start, and speeds.
-Magnitudes find_motion(const BodyState& start, const BodyState& now) {
+Magnitudes find_magnitudes(const BodyState& start, const BodyState& now) {
   return {(now.p_WB - start.p_WB).norm(),
           find_angle(start.quat_WB, now.quat_WB), now.v_WB_W.norm(),
           now.w_WB_B.norm()};
@@ -50,7 +50,7 @@ void measure_simbody(const std::vector<Snapshot>& snapshots,
   for (const Snapshot& now : snapshots) {
     for (std::size_t b = 0; b < now.frames.size(); ++b) {
       take_larger(verification.motion,
-                  find_motion(start.frames[b], now.frames[b]));
+                  find_magnitudes(start.frames[b], now.frames[b]));
     }
     verification.energy =
         std::max(verification.energy, now.kinetic + now.coupler);

@@ -27,17 +27,17 @@ constexpr double kRoundoff = 1e-13;
 constexpr std::size_t kBlock = 64;
 
 /// Sums of squares over the points of one field, a column a time.
-struct Field {
+struct NodalField {
   VectorX difference;
   VectorX reference;
   double points = 0.0;
   double scale = 0.0;  ///< size of the subtracted terms [m]
 
-  explicit Field(std::size_t times)
+  explicit NodalField(std::size_t times)
       : difference(VectorX::Zero(static_cast<Eigen::Index>(times))),
         reference(difference) {}
 
-  void add(const Field& other) {
+  void add(const NodalField& other) {
     difference += other.difference;
     reference += other.reference;
     points += other.points;
@@ -53,9 +53,9 @@ struct Field {
 };
 
 struct Fields {
-  Field displacement;
-  Field rigid;
-  Field deformation;
+  NodalField displacement;
+  NodalField rigid;
+  NodalField deformation;
 
   explicit Fields(std::size_t times)
       : displacement(times), rigid(times), deformation(times) {}
@@ -146,7 +146,7 @@ class Comparer {
     fields_.rigid.scale = start_.p.norm();
     if (body.clamped) return;  // it cannot move
     const Cloud cloud = find_cloud(body);
-    Field& rigid = fields_.rigid;
+    NodalField& rigid = fields_.rigid;
     rigid.points = 1.0;
     for (Eigen::Index j = 0; j < rigid.reference.size(); ++j) {
       const auto at = static_cast<std::size_t>(j);
@@ -162,7 +162,7 @@ class Comparer {
   void compare_nodes(const BodyModel& body) {
     const Eigen::Index nodes = body.reduced->rows.x_B.cols();
     const double size = body.reduced->size.norm() + fields_.rigid.scale;
-    for (Field* field : {&fields_.displacement, &fields_.deformation}) {
+    for (NodalField* field : {&fields_.displacement, &fields_.deformation}) {
       field->points = static_cast<double>(nodes);
       field->scale = size;
     }
@@ -177,7 +177,7 @@ class Comparer {
     const auto columns = static_cast<Eigen::Index>(count);
     MatrixX u(3 * nodes, columns);
     MatrixX u_ref(3 * nodes, columns);
-    const auto take = [&](Field& field) {
+    const auto take = [&](NodalField& field) {
       const auto at = static_cast<Eigen::Index>(first);
       field.reference.segment(at, columns) = u_ref.colwise().squaredNorm();
       u -= u_ref;
@@ -291,7 +291,7 @@ Fields compare_pieces(const Motion& motion, const Motion& reference,
     }
   }
   Fields fields(reference.states.size());
-  Field& field = fields.displacement;
+  NodalField& field = fields.displacement;
   field.points = static_cast<double>(own_rows.size()) / 3.0;
   field.scale = other.scale();
   for (std::size_t first = 0; first < reference.states.size();

@@ -14,7 +14,7 @@ namespace limber::results {
 namespace {
 
 // Palette for colour-blind readers (Okabe and Ito, 2008).
-constexpr std::array<const char*, 7> kColours = {
+constexpr std::array<const char*, 7> kProbeColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7",
     "#E69F00", "#56B4E9", "#000000"};
 constexpr int kWidth = 1200;
@@ -24,7 +24,8 @@ constexpr int kHeaderHeight = 110;
 constexpr std::size_t kMostPoints = 4000;
 
 std::string style(std::size_t i) {
-  return fmt::format("lc rgb '{}' dt {} lw {}", kColours[i % kColours.size()],
+  return fmt::format("lc rgb '{}' dt {} lw {}",
+                     kProbeColours[i % kProbeColours.size()],
                      i < 2 ? 1 : i % 5 + 1, i == 0 ? 2.2 : 1.8);
 }
 
@@ -75,8 +76,8 @@ std::string plot_peak(const std::string& block, const Series& series,
   return fmt::format(
       ", ${}p using 1:2:3 with labels point pt 6 ps 1.3 lc rgb '{}' font "
       "'sans,10' {} offset {},0.4 notitle",
-      block, kColours[s % kColours.size()], is_late ? "right" : "left",
-      is_late ? -1 : 1);
+      block, kProbeColours[s % kProbeColours.size()],
+      is_late ? "right" : "left", is_late ? -1 : 1);
 }
 
 // A panel whose values are round-off relative to the others (or all zero) shows
@@ -153,7 +154,7 @@ constexpr std::size_t kMostLetters = 36;
 
 std::string shorten(const std::string& label) {
   if (label.size() <= kMostLetters) return label;
-  return label.substr(0, kMostLetters - 2) + "..";
+  return fmt::format("{:.{}}..", label, kMostLetters - 2);
 }
 
 // Height of the strip above the panels for the labels of marks [pixels].

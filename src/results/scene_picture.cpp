@@ -23,8 +23,8 @@ using dynamics::SystemState;
 
 // More triangles than this take gnuplot too long.
 constexpr std::size_t kMostTriangles = 250000;
-constexpr std::array<const char*, 4> kColours = {"#9a9a9a", "#0072B2",
-                                                 "#D55E00", "#009E73"};
+constexpr std::array<const char*, 4> kShotColours = {"#9a9a9a", "#0072B2",
+                                                     "#D55E00", "#009E73"};
 
 struct Bounds {
   Vector3 lower = Vector3::Constant(1e300);
@@ -299,7 +299,7 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
   std::string plot = "splot ";
   for (std::size_t s = 0; s < shots.size(); ++s) {
     const std::string block = fmt::format("s{}", s);
-    const char* colour = kColours[s % kColours.size()];
+    const char* colour = kShotColours[s % kShotColours.size()];
     add_block(script, block, shots[s], stride, eye);
     plot += fmt::format(
         "{}${} with polygons fs transparent solid {} fc rgb '{}' notitle, "

@@ -16,14 +16,14 @@ using reference::Magnitudes;
 using reference::StiffnessTrend;
 using reference::Verification;
 
-double find_relative(const Verification& result, const Agreement& run) {
+double find_relative_motion(const Verification& result, const Agreement& run) {
   return reference::find_relative(run.largest, result.motion);
 }
 
 std::vector<double> list_relative(const StiffeningReport& report) {
   std::vector<double> all;
   for (const Verification& result : report.study.results) {
-    all.push_back(find_relative(result, result.runs.back()));
+    all.push_back(find_relative_motion(result, result.runs.back()));
   }
   return all;
 }
@@ -52,8 +52,8 @@ StiffnessTrend find_trend(const StiffeningReport& report) {
 double find_step_share(const StiffeningReport& report, std::size_t floor) {
   const Verification& result = report.study.results[floor];
   if (result.runs.size() < 2) return 0.0;
-  return find_relative(result, result.runs[result.runs.size() - 2]) /
-         find_relative(result, result.runs.back());
+  return find_relative_motion(result, result.runs[result.runs.size() - 2]) /
+         find_relative_motion(result, result.runs.back());
 }
 
 /// Whether halving the step divides a difference by about 4, or by less.
@@ -90,7 +90,7 @@ std::string describe(const StiffeningReport& report) {
                             report.study.ended);
 }
 
-std::string row(const std::string& name, const Magnitudes& m) {
+std::string stiffening_row(const std::string& name, const Magnitudes& m) {
   return fmt::format("{:>14} {:>12.3g} {:>12.3g} {:>14.3g} {:>12.3g}", name,
                      m.position, m.rotation, m.velocity, m.angular_velocity);
 }
@@ -105,11 +105,12 @@ std::string table(const StiffeningReport& report) {
   for (std::size_t i = 0; i < report.study.results.size(); ++i) {
     text += fmt::format(
         "{} {:>12.3g} {:>6}\n",
-        row(fmt::format("x {:g}", report.factors[i]),
-            report.study.results[i].runs.back().largest),
+        stiffening_row(fmt::format("x {:g}", report.factors[i]),
+                       report.study.results[i].runs.back().largest),
         relative[i], i == 0 ? "" : fmt::format("{:.3f}", trend.orders[i - 1]));
   }
-  return text + row("largest motion", report.study.results.front().motion) +
+  return text +
+         stiffening_row("largest motion", report.study.results.front().motion) +
          "\n\n";
 }
 

@@ -52,7 +52,7 @@ Json to_json(const Verification& result, std::size_t i) {
   return json;
 }
 
-std::string row(const std::string& name, const Magnitudes& m) {
+std::string verification_row(const std::string& name, const Magnitudes& m) {
   const auto cell = [](double x) {
     return std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-");
   };
@@ -67,11 +67,11 @@ std::string body_table(const Verification& result) {
       "{:<24} {:>14} {:>14} {:>14} {:>14}\n", "largest difference",
       "position [m]", "angle [rad]", "velocity [m/s]", "spin [rad/s]");
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    text += row(result.bodies[b], run.bodies[b]);
+    text += verification_row(result.bodies[b], run.bodies[b]);
   }
-  text += row("all bodies", run.largest);
-  text += row("largest motion", result.motion);
-  text += row("relative", divide(run.largest, result.motion));
+  text += verification_row("all bodies", run.largest);
+  text += verification_row("largest motion", result.motion);
+  text += verification_row("relative", divide(run.largest, result.motion));
   return text + fmt::format(
                     "energy: largest difference {:.3g} J of {:.3g} J "
                     "(kinetic and in couplers)\n",

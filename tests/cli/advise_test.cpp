@@ -7,11 +7,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::advise_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kBeam = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
 const std::string kArm =
@@ -190,4 +190,4 @@ TEST(Run, WarnsBeyondTheLinearRange) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::advise_test

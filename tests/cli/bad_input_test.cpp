@@ -7,11 +7,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::bad_input_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const std::string kMaterial =
     " --youngs-modulus 200e9 --poisson-ratio 0.3 --density 8000 ";
@@ -364,4 +364,4 @@ TEST(BadInput, UnknownSubcommand) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::bad_input_test

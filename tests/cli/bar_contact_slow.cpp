@@ -10,7 +10,7 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::bar_contact_slow {
 namespace {
 
 using nlohmann::json;
@@ -82,4 +82,4 @@ TEST(BarAtLongSteps, GainsNoEnergyInATouchThatGoesOn) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::bar_contact_slow

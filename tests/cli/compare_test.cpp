@@ -13,12 +13,12 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::compare_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 /// The report's beam, pushed at its end for 10 ms in its own axes.
 struct Push {
@@ -257,4 +257,4 @@ TEST(Compare, RefusesBadAxesWithOneLine) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::compare_test

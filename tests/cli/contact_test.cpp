@@ -14,11 +14,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::contact_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// The ball of examples/ball_on_link.toml, R = 10 mm at 1 m/s, on the bar.
 void write_ball(const Workspace& place, const std::string& more,
@@ -102,7 +102,7 @@ TEST(BallOnLink, HasAutomaticModesThatAnswerTheImpact) {
   const json& impact = summary["contacts"][0];
   EXPECT_NEAR(impact["peak_force"].get<double>() / 1692.6, 1.0, 0.02);
   EXPECT_THAT(summary["warnings"].dump(),
-              testing::Not(HasSubstr("periods of which fit")));
+              ::testing::Not(HasSubstr("periods of which fit")));
   const int modes = summary["modes"].get<int>();
   EXPECT_GT(modes, 20);
   EXPECT_LT(modes, 40);
@@ -226,7 +226,7 @@ TEST(BallOnLink, TellsIfItsBasisIsTooSmallForTheImpact) {
       EXPECT_THAT(result.errors, words);
       EXPECT_THAT(warnings, words);
     } else {
-      EXPECT_THAT(warnings, testing::Not(HasSubstr("modes of body")));
+      EXPECT_THAT(warnings, ::testing::Not(HasSubstr("modes of body")));
     }
     const CommandResult advice =
         place.limber("advise ball.toml --json --out a");
@@ -265,4 +265,4 @@ TEST(BallOnLink, LeavesASurfaceInTheFileOfItsBody) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::contact_test

@@ -12,12 +12,12 @@
 #include "cli/command.hpp"
 #include "cli/shell.hpp"
 
-namespace limber::test {
+namespace limber::test::controller_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kInertia = 0.4;
 constexpr double kPeriod = 0.02;
@@ -221,4 +221,4 @@ TEST_F(AController, ThatChangedIsNamedWhenARunIsResumed) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::controller_test

@@ -6,11 +6,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::failing_run_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Explicit steps over a thousand times too long for the beam's tenth mode, so
 /// that they are not divided, and a push after 0.5 s of rest.
@@ -65,4 +65,4 @@ TEST(FailingRun, DrawsNoPicturesWhereNoneAreWanted) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::failing_run_test

@@ -10,11 +10,11 @@
 #include "cli/stress_answers.hpp"
 
 /// A slender bar that bends far, at level nonlinear.
-namespace limber::test {
+namespace limber::test::far_bending_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // A slender bar on a stiff joint, bent across by a fifth of its length. That it
 // keeps its length is in products of modes alone: without their stress there
@@ -105,4 +105,4 @@ TEST(SavedBodyAtLevelNonlinear, TellsThatALawChangesNothing) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::far_bending_test

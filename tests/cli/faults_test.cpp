@@ -8,13 +8,13 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::faults_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::AnyOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
 
 // A single body on a spring: no mesh, so it starts at once.
 void write_robot(const Workspace& place) {
@@ -198,8 +198,9 @@ TEST(Results, ThatCannotBeWrittenAreSavedElsewhere) {
   ASSERT_EQ(saved.size(), 1U);
   EXPECT_THAT(result.errors,
               AllOf(HasSubstr("results.h5"), HasSubstr(saved[0])));
-  EXPECT_THAT(list_files(place.folder() / "tmp" / saved[0]),
-              testing::ElementsAre("probes.csv", "results.h5", "summary.json"));
+  EXPECT_THAT(
+      list_files(place.folder() / "tmp" / saved[0]),
+      ::testing::ElementsAre("probes.csv", "results.h5", "summary.json"));
   const auto mode = fs::status(place.folder() / "tmp" / saved[0]).permissions();
   EXPECT_EQ(mode, fs::perms::owner_all);
 }
@@ -278,8 +279,8 @@ TEST(Results, OfAnEarlierRunGoAndFilesOfTheUserStay) {
   ASSERT_EQ(place.limber("run s.toml --out o").status, 0);  // no pictures
   EXPECT_THAT(
       list_files(place.folder() / "o"),
-      testing::ElementsAre(".limber-files", "notes.txt", "probe_mine.png",
-                           "probes.csv", "results.h5", "summary.json"));
+      ::testing::ElementsAre(".limber-files", "notes.txt", "probe_mine.png",
+                             "probes.csv", "results.h5", "summary.json"));
 }
 
 TEST(Results, OfRunsThatAnEarlierCompareKeptGo) {
@@ -303,7 +304,8 @@ TEST(Results, OfRunsThatAnEarlierCompareKeptGo) {
 
   ASSERT_EQ(place.limber("run s.toml --out o").status, 0);
   EXPECT_FALSE(fs::exists(out / "coupled-0.001s"));
-  EXPECT_THAT(list_files(out / "reference"), testing::ElementsAre("notes.txt"));
+  EXPECT_THAT(list_files(out / "reference"),
+              ::testing::ElementsAre("notes.txt"));
   EXPECT_TRUE(fs::exists(out / "mine/results.h5"));
 }
 
@@ -380,4 +382,4 @@ TEST(Stack, ThatIsShortIsReportedAndDoesNotOverflow) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::faults_test

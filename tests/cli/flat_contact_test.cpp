@@ -11,7 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/impact_run.hpp"
 
-namespace limber::test {
+namespace limber::test::flat_contact_test {
 namespace {
 
 using nlohmann::json;
@@ -161,4 +161,4 @@ TEST_F(FlatEnds, OfTwoRodsThatCoverEachOtherByHalfGainNoEnergy) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::flat_contact_test

@@ -10,13 +10,13 @@
 #include "places.hpp"
 
 /// `limber frequencies`.
-namespace limber::test {
+namespace limber::test::frequencies_test {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int kBadInput = 2;
 
@@ -106,4 +106,4 @@ TEST(Frequencies, OfAWholeMeshAreRefusedWithTheTrueReason) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::frequencies_test

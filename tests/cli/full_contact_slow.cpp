@@ -8,7 +8,7 @@
 
 #include "cli/impact_run.hpp"
 
-namespace limber::test {
+namespace limber::test::full_contact_slow {
 namespace {
 
 using nlohmann::json;
@@ -81,4 +81,4 @@ TEST(FullContactRun, OfTwoFlexibleLinksIsThatOfTheirModes) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::full_contact_slow

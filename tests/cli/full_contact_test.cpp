@@ -8,7 +8,7 @@
 #include "cli/impact_run.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::full_contact_test {
 namespace {
 
 using nlohmann::json;
@@ -50,4 +50,4 @@ TEST(FullContactRun, OfABallOnACornerOfFacesTakesFewIterations) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::full_contact_test

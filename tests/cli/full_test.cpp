@@ -11,11 +11,11 @@
 #include "places.hpp"
 
 /// Level `full` from the command line: the report's beam of 579 nodes.
-namespace limber::test {
+namespace limber::test::full_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct SceneText {
   std::string modulus = "200e9";
@@ -192,4 +192,4 @@ TEST(FullRun, RefusesASavedReducedBody) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::full_test

@@ -13,14 +13,14 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::habits_test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const char* const kScenario =
     "robot = '" LIMBER_SOURCE_DIR
@@ -179,7 +179,7 @@ TEST_F(Habits, BashCompletes) {
                    "complete -p limber\n");
   const CommandResult result = shell(in_folder() + "bash t.bash");
   EXPECT_THAT(result.out,
-              AllOf(testing::StartsWith("--resume\nnonlinear\nrigid "),
+              AllOf(::testing::StartsWith("--resume\nnonlinear\nrigid "),
                     HasSubstr("-F _limber limber")));
 }
 
@@ -229,7 +229,7 @@ TEST_F(TheCache, ListsBodiesWithSizeAgeAndMesh) {
   ASSERT_EQ(items.size(), 2U);
   for (const json& item : items) {
     EXPECT_THAT(item["mesh"].get<std::string>(),
-                testing::EndsWith("meshes/rod.geo"));
+                ::testing::EndsWith("meshes/rod.geo"));
     EXPECT_GT(item["bytes"], 0);
     EXPECT_LT(item["age"], 600);
     if (item["kind"] != "body") continue;
@@ -328,4 +328,4 @@ TEST_F(TheCache, AsksWhatToClean) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::habits_test

@@ -15,10 +15,10 @@
 #include "places.hpp"
 
 /// No command runs what a geometry orders, and none ends by it.
-namespace limber::test {
+namespace limber::test::harmful_geometry_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kMaterial =
     " --youngs-modulus 200e9 --poisson-ratio 0.3 --density 8000 ";
@@ -147,4 +147,4 @@ TEST(HarmfulGeometry, IsHeldByLimitsThatTheUserSets) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::harmful_geometry_test

@@ -6,7 +6,7 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::json_test {
 namespace {
 
 using nlohmann::json;
@@ -131,4 +131,4 @@ TEST(Json, OfInfoListsARobotsCouplers) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::json_test

@@ -8,13 +8,13 @@
 #include "cli/command.hpp"
 
 /// `limber linearize`. What is in its files: read_linear_model.py.
-namespace limber::test {
+namespace limber::test::linearize_test {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const char* const kRobot = R"(<robot name='r'><link name='world'/>
 <link name='rotor'><inertial><mass value='2'/><inertia ixx='0.3' iyy='0.3'
@@ -151,4 +151,4 @@ TEST_F(Linearize, ReducesToTheStatesThatMatter) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::linearize_test

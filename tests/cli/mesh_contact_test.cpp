@@ -13,7 +13,7 @@
 #include "cli/collision_link.hpp"
 #include "cli/command.hpp"
 
-namespace limber::test {
+namespace limber::test::mesh_contact_test {
 namespace {
 
 using nlohmann::json;
@@ -131,4 +131,4 @@ TEST(MeshOnABox, GainsNoEnergyAtLongSteps) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::mesh_contact_test

@@ -11,11 +11,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::modes_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const char* const kBeam = LIMBER_SOURCE_DIR "/tests/data/beam/beam579_v22.msh";
 constexpr double kClamped = 0.0;  ///< z of the group "root" [m]
@@ -167,4 +167,4 @@ TEST_F(Modes, RefuseAForceFileForAnotherSupport) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::modes_test

@@ -9,7 +9,7 @@
 
 #include "cli/impact_run.hpp"
 
-namespace limber::test {
+namespace limber::test::nonlinear_contact_slow {
 namespace {
 
 using nlohmann::json;
@@ -92,4 +92,4 @@ TEST(NonlinearContactRun, OfALinkThatBendsFarIsThatOfItsMesh) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::nonlinear_contact_slow

@@ -11,11 +11,11 @@
 #include "places.hpp"
 
 /// `limber operate`: the report's beam, 40 000 kg, 5 m along z, nu = 0.
-namespace limber::test {
+namespace limber::test::operate_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kModulus = 200e9;
 constexpr double kDensity = 8000.0;
@@ -107,4 +107,4 @@ TEST(Operate, RefusesWhatDoesNotGoTogetherByOneLine) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::operate_test

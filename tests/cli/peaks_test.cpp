@@ -9,12 +9,12 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::peaks_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The report's beam under a push that begins at once and stays.
 void write_push(const Workspace& place, double output_interval,
@@ -153,4 +153,4 @@ TEST(LevelWarning, IsGivenWhereNoLinkIsFlexible) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::peaks_test

@@ -8,12 +8,12 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::pieces_slow {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 json read_summary(const Workspace& place) {
   return json::parse(read_text(place.folder() / "o/summary.json"));
@@ -40,7 +40,7 @@ TEST(LinkInPieces, IsStruckAsTheWholeAndSaysSoWhereItIsCut) {
   strike("");
   const json whole = read_summary(place)["contacts"];
   EXPECT_THAT(strike("--set basis.pieces=2").errors,
-              testing::Not(HasSubstr("at a cut")));
+              ::testing::Not(HasSubstr("at a cut")));
   const json cut = read_summary(place)["contacts"];
   ASSERT_EQ(whole.size(), 1U);
   ASSERT_EQ(cut.size(), 1U);
@@ -58,4 +58,4 @@ TEST(LinkInPieces, IsStruckAsTheWholeAndSaysSoWhereItIsCut) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::pieces_slow

@@ -10,11 +10,11 @@
 
 #include "cli/command.hpp"
 
-namespace limber::test {
+namespace limber::test::pieces_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr int kBadInput = 2;
 
@@ -161,4 +161,4 @@ TEST(LinkInPieces, RefusesAProbeOfTheLargestStressOfAll) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::pieces_test

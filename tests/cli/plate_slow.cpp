@@ -11,7 +11,7 @@
 
 #include "cli/command.hpp"
 
-namespace limber::test {
+namespace limber::test::plate_slow {
 namespace {
 
 using nlohmann::json;
@@ -88,4 +88,4 @@ TEST(PlateAtLevelNonlinear, BendsAsTheWholeMeshDoes) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::plate_slow

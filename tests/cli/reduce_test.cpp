@@ -7,11 +7,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::reduce_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class Reduce : public ::testing::Test {
  protected:
@@ -77,4 +77,4 @@ TEST_F(Reduce, RefusesToChooseByNothing) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::reduce_test

@@ -14,7 +14,7 @@
 #include "limber/common/files/hdf5_file.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::resume_slow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ TEST(KilledRun, GoesOnToTheSameResultsFromTwentyRandomMoments) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::resume_slow

@@ -10,7 +10,7 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ TEST(TwoRunsOfOneScene, LeaveTheSameResultsToTheByte) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::resume_test

@@ -7,10 +7,10 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::settings_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string make_scenario(double force, double duration) {
   return "robot = '" LIMBER_SOURCE_DIR
@@ -110,4 +110,4 @@ TEST(Settings, OfARobotWithoutEffectAreTold) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::settings_test

@@ -8,7 +8,7 @@
 
 #include "cli/command.hpp"
 
-namespace limber::test {
+namespace limber::test::shapes_contact_test {
 namespace {
 
 using nlohmann::json;
@@ -80,4 +80,4 @@ TEST(BlockOnABox, LeapsBackAsItsRestitutionSays) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::shapes_contact_test

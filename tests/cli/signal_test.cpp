@@ -11,13 +11,13 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::signal_test {
 namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::seconds;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 // A pendulum over so many steps of 10 microseconds.
 void write_pendulum(const Workspace& place, double duration) {
@@ -148,4 +148,4 @@ TEST(TwoRuns, InOneFolderAreOneAndAnError) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::signal_test

@@ -9,11 +9,11 @@
 #include "cli/command.hpp"
 
 /// A steel blade of 1 m x 20 mm x 4 mm through every command.
-namespace limber::test {
+namespace limber::test::slender_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kLength = 1.0, kWidth = 0.02, kThickness = 0.004;  // m
 constexpr double kModulus = 210e9, kDensity = 7850.0;
@@ -124,4 +124,4 @@ TEST_F(Blade, SwingsOnAJoint) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::slender_test

@@ -12,7 +12,7 @@
 #include "places.hpp"
 
 /// A geometry's second file changes between two runs, the first does not.
-namespace limber::test {
+namespace limber::test::stale_cache_test {
 namespace {
 
 using nlohmann::json;
@@ -153,7 +153,7 @@ bool makes_no_mesh(const Workspace& place) {
   const CommandResult result =
       place.limber("run bar.toml --out out --cache cache --json");
   if (result.status == 2) {
-    EXPECT_THAT(result.errors, testing::HasSubstr("meshing did not end"));
+    EXPECT_THAT(result.errors, ::testing::HasSubstr("meshing did not end"));
     return false;
   }
   return json::parse(result.out)["bodies_cached"] == 1;
@@ -227,7 +227,7 @@ TEST_F(Cached, BodyOfAGeometryThatGrowsWithTheClockIsRefusedAtLevelFull) {
   const CommandResult result =
       place_.limber("run bar.toml --out out --cache cache --fidelity full");
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.errors, testing::HasSubstr("two different meshes"));
+  EXPECT_THAT(result.errors, ::testing::HasSubstr("two different meshes"));
 }
 
 /// A thin tube whose curved elements come out inverted.
@@ -277,7 +277,7 @@ TEST(StraightEdges, AreReportedByEveryCommandThatMakesAMesh) {
     const CommandResult result = place.limber(line);
     EXPECT_EQ(result.status, 0) << result.errors;
     EXPECT_THAT(result.out + result.errors,
-                testing::HasSubstr("all edges were made straight"))
+                ::testing::HasSubstr("all edges were made straight"))
         << line;
   }
 }
@@ -291,8 +291,8 @@ TEST(CacheFolder, WithoutAHomeIsAskedFor) {
                            "' run bar.toml --out out >stdout.txt 2>stderr.txt";
   EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 2);
   EXPECT_THAT(read_text(place.folder() / "stderr.txt"),
-              testing::HasSubstr("--cache"));
+              ::testing::HasSubstr("--cache"));
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::stale_cache_test

@@ -12,12 +12,12 @@
 #include "places.hpp"
 
 /// `limber static`, and runs that start from an equilibrium.
-namespace limber::test {
+namespace limber::test::static_test {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 constexpr int kBadInput = 2;
 
@@ -317,4 +317,4 @@ TEST(Static, BladeInSteadyRotationHasTheClosedFormFrequencies) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::static_test

@@ -15,11 +15,11 @@
 
 /// Stress of probes and of `[output] stress`: a steel bar of bricks along x,
 /// 1 m x 0.1 m x 0.05 m, held at x = 0.
-namespace limber::test {
+namespace limber::test::stress_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kLength = 1.0;
 constexpr double kForce = 1000.0;
@@ -380,4 +380,4 @@ TEST(Stress, IsComparedBetweenLevelsThatHaveIt) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::stress_test

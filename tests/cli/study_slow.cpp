@@ -12,7 +12,7 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::study_slow {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -70,4 +70,4 @@ TEST(AStudyOfStruckArms, KilledAtTenRandomMomentsHasTheSameTableToTheBit) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::study_slow

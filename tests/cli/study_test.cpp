@@ -13,13 +13,13 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::study_test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const char* const kRobot = R"(<robot name='r'><link name='world'/>
 <link name='sled'><inertial><mass value='3'/><inertia ixx='0.1' iyy='0.1'
@@ -368,4 +368,4 @@ TEST_F(AStudy, IsRefusedBeforeAnyRun) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::study_test

@@ -7,11 +7,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::unused_keys_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kMaterial =
     " --youngs-modulus 200e9 --poisson-ratio 0.3 --density 8000 ";
@@ -176,4 +176,4 @@ TEST(ContradictoryOptions, AreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::unused_keys_test

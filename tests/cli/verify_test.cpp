@@ -8,7 +8,7 @@
 #include "cli/shell.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::verify_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(VerifyCommand, SaysThatItWasBuiltWithoutSimbody) {
 #endif
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::verify_test

@@ -18,12 +18,12 @@
 #include "limber/results/scenery.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::view_test {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 constexpr const char* kScenario =
     "robot = 'beam.urdf'\n[output]\npictures = false\n"
@@ -50,7 +50,7 @@ void run(const Workspace& place, const std::string& more = "") {
 }
 
 void expect_refused(const Workspace& place, const std::string& arguments,
-                    const testing::Matcher<std::string>& why) {
+                    const ::testing::Matcher<std::string>& why) {
   const CommandResult result = place.limber(arguments);
   EXPECT_EQ(result.status, 2) << result.errors;
   EXPECT_THAT(result.errors, why);
@@ -325,4 +325,4 @@ TEST(Export, OfRigidLinksHasNoModes) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::view_test

@@ -8,11 +8,11 @@
 #include "cli/command.hpp"
 #include "places.hpp"
 
-namespace limber::test {
+namespace limber::test::wobble_test {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr int kNodes = 579;
 
@@ -146,4 +146,4 @@ TEST_F(Wobble, RefusesASolverThatDoesNotFitTheSupport) {
 }
 
 }  // namespace
-}  // namespace limber::test
+}  // namespace limber::test::wobble_test

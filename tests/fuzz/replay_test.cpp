@@ -11,7 +11,7 @@
 #include "places.hpp"
 #include "unit/flexbody/files.hpp"
 
-namespace limber::fuzz {
+namespace limber::fuzz::replay_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -44,4 +44,4 @@ INSTANTIATE_TEST_SUITE_P(Readers, Corpus, ::testing::ValuesIn(all_readers()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace limber::fuzz
+}  // namespace limber::fuzz::replay_test

@@ -12,7 +12,7 @@
 #include "unit/results/temporary_folder.hpp"
 
 /// The shipped models, rigid, struck as in their examples, by Simbody and us.
-namespace limber::reference {
+namespace limber::reference::shipped_models_slow {
 namespace {
 
 const std::filesystem::path kExamples = LIMBER_SOURCE_DIR "/examples";
@@ -102,4 +102,4 @@ TEST(CaptureArm, StiffeningConvergesToSimbodysHingesAtFirstOrder) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::shipped_models_slow

@@ -15,7 +15,7 @@
 
 /// The capture arm of examples/struck_finger.toml at a step of 1 ms, its joints
 /// from soft to stiffer than any material.
-namespace limber {
+namespace limber::arm_stiffness_slow {
 namespace {
 
 /// The example with every joint's stiffness replaced [N/m], [N m/rad].
@@ -66,4 +66,4 @@ TEST_F(CaptureArm, RunsAtOneMillisecondInFourNewtonIterationsAtAnyStiffness) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::arm_stiffness_slow

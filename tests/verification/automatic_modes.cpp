@@ -13,7 +13,7 @@
 #include "verification/shear_load.hpp"
 
 /// Eigenmodes chosen by the load cases of a recipe, on the report's beam.
-namespace limber {
+namespace limber::automatic_modes {
 namespace {
 
 using flexbody::AutomaticModes;
@@ -21,9 +21,9 @@ using flexbody::ModeMeasure;
 using test::beam;
 using test::recipe_of;
 using test::select_modes;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// 500 N on each node of the loaded edge in x, and in z.
 MatrixX shear_and_stretch() {
@@ -205,4 +205,4 @@ TEST(AutomaticModes, WithoutAnythingToChooseByAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::automatic_modes

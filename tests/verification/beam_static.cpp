@@ -11,7 +11,7 @@
 
 /// The report's beam clamped at its root, 500 N across its tip: the
 /// static-deformation mode of the load alone is the exact solution.
-namespace limber {
+namespace limber::beam_static {
 namespace {
 
 /// Displacement of the tip's area mean along x per 500 N.
@@ -65,4 +65,4 @@ TEST(ClampedBeam, SagsUnderItsWeightAsTimoshenkosTheorySays) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::beam_static

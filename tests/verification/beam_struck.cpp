@@ -17,7 +17,7 @@
 
 /// The report's beam hit for 10 ms, against an explicit finite-element run of
 /// the whole mesh (tests/data/beam/impact.csv).
-namespace limber {
+namespace limber::beam_struck {
 namespace {
 
 using Row = std::array<double, 10>;  ///< t, u of A, B, C [s, m]
@@ -146,4 +146,4 @@ TEST_F(StruckBeam, MovesFarBeyondWhatItIsComparedTo) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::beam_struck

@@ -15,7 +15,7 @@
 
 /// The report's beam tumbles freely: ten modes, no damping, no load. What must
 /// stay, stays.
-namespace limber {
+namespace limber::beam_tumbling {
 namespace {
 
 using dynamics::EnergyBalance;
@@ -135,4 +135,4 @@ TEST_F(TumblingBeam, DoesNotDriftUnderGeneralizedAlphaOver100000Steps) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::beam_tumbling

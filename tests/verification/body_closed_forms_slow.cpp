@@ -19,7 +19,7 @@
 /// Free bodies whose frequencies are known without finite elements. The error
 /// of an eigenvalue on elements of order p falls as h^(2p) (Strang, Fix, An
 /// Analysis of the Finite Element Method, ch. 6), and from above.
-namespace limber {
+namespace limber::body_closed_forms_slow {
 namespace {
 
 const fem::ElasticMaterial kSteel{210e9, 0.3, 7850.0};
@@ -180,4 +180,4 @@ TEST(FreeBeam, FrequenciesConvergeToTheRitzSolution) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::body_closed_forms_slow

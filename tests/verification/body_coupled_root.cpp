@@ -16,7 +16,7 @@
 /// stiff coupler, a force across its tip; reduced against full. The table is
 /// for interfaces whose nodes weigh the same: by area, free-free eigenmodes
 /// alone give 0.678 and 1.307 (10), 0.816 and 1.145 (20) instead.
-namespace limber {
+namespace limber::body_coupled_root {
 namespace {
 
 /// [N/m], [N m/rad]: 1e4 times the beam's own axial stiffness.
@@ -109,4 +109,4 @@ TEST(BodyHeldByItsRoot, MatchesTheDesignsTableOfBases) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::body_coupled_root

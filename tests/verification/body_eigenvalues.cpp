@@ -5,7 +5,7 @@
 #include "places.hpp"
 #include "verification/body_reference.hpp"
 
-namespace limber {
+namespace limber::body_eigenvalues {
 namespace {
 
 /// The reference's printed digits and both programs' roundoff.
@@ -29,7 +29,7 @@ struct Case {
   std::string mesh;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.file; }
-class BodyEigenvalues : public testing::TestWithParam<Case> {};
+class BodyEigenvalues : public ::testing::TestWithParam<Case> {};
 
 TEST_P(BodyEigenvalues, MatchTheIndependentProgramFree) {
   const auto body = flexbody::reduce(test::beam_recipe(GetParam().file));
@@ -48,9 +48,9 @@ TEST_P(BodyEigenvalues, MatchTheIndependentProgramClamped) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Beam, BodyEigenvalues,
-                         testing::Values(Case{"beam579_v41.msh", "beam579"},
-                                         Case{"beam579_v22.msh", "beam579"},
-                                         Case{"beam5k_v41.msh", "beam5k"}),
+                         ::testing::Values(Case{"beam579_v41.msh", "beam579"},
+                                           Case{"beam579_v22.msh", "beam579"},
+                                           Case{"beam5k_v41.msh", "beam5k"}),
                          [](const auto& named) {
                            const std::string& file = named.param.file;
                            const std::string stem =
@@ -94,4 +94,4 @@ TEST(BodyBasis, IsOrthonormalAndFreeOfRigidMotion) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::body_eigenvalues

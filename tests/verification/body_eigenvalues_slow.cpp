@@ -4,7 +4,7 @@
 #include "limber/reduction/reduce.hpp"
 #include "verification/body_reference.hpp"
 
-namespace limber {
+namespace limber::body_eigenvalues_slow {
 namespace {
 
 TEST(BodyEigenvaluesLarge, MatchTheIndependentProgramAt30000Nodes) {
@@ -22,4 +22,4 @@ TEST(BodyEigenvaluesLarge, MatchTheIndependentProgramAt30000Nodes) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::body_eigenvalues_slow

@@ -6,7 +6,7 @@
 #include "verification/body_reference.hpp"
 
 /// Which rows a reduced body stores must not affect anything else.
-namespace limber {
+namespace limber::body_rows {
 namespace {
 
 flexbody::ReducedBody reduce_with(const std::vector<std::string>& rows) {
@@ -56,4 +56,4 @@ TEST(BodyRows, OfAnUnknownGroupAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::body_rows

@@ -10,7 +10,7 @@
 
 /// The report's boundary approach at level `coupled`: a beam that spins and is
 /// struck moves bitwise the same, whichever rows are stored.
-namespace limber {
+namespace limber::body_rows_coupled {
 namespace {
 
 /// Everything that a run gives, output by output.
@@ -140,4 +140,4 @@ TEST(BodyRowsOfACoupledRun, ShowTheSameDeformationWhereTheyAreKept) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::body_rows_coupled

@@ -9,7 +9,7 @@
 #include "verification/beam_scene.hpp"
 
 /// A spring between the world and the beam's tip, named in several ways.
-namespace limber {
+namespace limber::connector_ends {
 namespace {
 
 constexpr double kMass = 40000.0;   // [kg]
@@ -126,4 +126,4 @@ TEST(ConnectorEnds, NearestNodeAndItsTagAreOneEnd) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::connector_ends

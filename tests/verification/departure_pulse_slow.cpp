@@ -13,7 +13,7 @@
 /// The report's beam loaded at its tip by sin^4(pi t / T). Slow because the
 /// full linear model is all modes of the mesh: a dense eigenproblem of 1737
 /// unknowns.
-namespace limber {
+namespace limber::departure_pulse_slow {
 namespace {
 
 using flexbody::ReducedBasis;
@@ -130,4 +130,4 @@ TEST_P(SmoothPulse, FourEigenmodesBeatFourKrylovVectorsIfItIsShort) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::departure_pulse_slow

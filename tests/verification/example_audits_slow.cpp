@@ -18,7 +18,7 @@
 
 /// The energy of every scenario in examples/, each in full and at its own
 /// level: initial + work of loads and drives = final + dissipated.
-namespace limber {
+namespace limber::example_audits_slow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST(ExampleAudit, OfFrictionThatHoldsClosesInProportionToTheStepAtLeast) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::example_audits_slow

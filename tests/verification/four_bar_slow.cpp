@@ -16,7 +16,7 @@
 
 /// examples/four_bar.toml against the closed form of the rigid linkage and
 /// formulas for its rod as a beam.
-namespace limber {
+namespace limber::four_bar_slow {
 namespace {
 
 using dynamics::Fidelity;
@@ -243,4 +243,4 @@ TEST_F(FourBarsRod, SlowsTheCrankByTheEnergyOfItsBending) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::four_bar_slow

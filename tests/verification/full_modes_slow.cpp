@@ -8,7 +8,7 @@
 #include "verification/full_beam.hpp"
 
 /// The whole mesh of the reference beam, small motion and large bending.
-namespace limber {
+namespace limber::full_modes_slow {
 namespace {
 
 using dynamics::IntegratorKind;
@@ -84,4 +84,4 @@ TEST(FullBeamStatic, SettlesWhereTheReferenceIsBentByAFifthOfItsLength) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::full_modes_slow

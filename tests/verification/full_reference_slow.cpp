@@ -17,7 +17,7 @@
 
 /// The whole mesh in large rotation against an explicit fourth-order run of
 /// another program: displacements of three corners, energies, momenta.
-namespace limber {
+namespace limber::full_reference_slow {
 namespace {
 
 using dynamics::EnergyBalance;
@@ -239,4 +239,4 @@ TEST_F(FullBeam, EstimatedStableStepIsTheOneThatBisectionFinds) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::full_reference_slow

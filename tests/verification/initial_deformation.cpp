@@ -12,14 +12,14 @@
 #include "verification/shear_load.hpp"
 
 /// Bodies that start deformed and moving.
-namespace limber {
+namespace limber::initial_deformation {
 namespace {
 
 using flexbody::ReducedBody;
 using test::beam;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Of products of M-norms with sums of a thousand terms.
 constexpr double kRoundoff = 1e-11;
@@ -271,4 +271,4 @@ TEST(InitialDeformation, OfASavedBodyMustBeProjectedBeforeItsRowsAreDropped) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::initial_deformation

@@ -14,7 +14,7 @@
 #include "verification/body_reference.hpp"
 
 /// The motion of an interface against the rigid motion that its nodes make.
-namespace limber {
+namespace limber::interface_averages {
 namespace {
 
 using flexbody::Interface;
@@ -136,4 +136,4 @@ TEST(InterfaceAverage, OfAPlaneFollowsAFiniteRotationAtLevelFull) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::interface_averages

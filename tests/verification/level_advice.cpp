@@ -18,7 +18,7 @@
 
 /// The advice on the report's beam, against the true errors of the levels: the
 /// largest distance of any node from its position at `coupled`, at any time.
-namespace limber {
+namespace limber::level_advice {
 namespace {
 
 using dynamics::Fidelity;
@@ -222,4 +222,4 @@ TEST_F(AdviceOnBeam, FindsTheStretchOfAPull) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::level_advice

@@ -11,7 +11,7 @@
 #include "verification/shear_load.hpp"
 
 /// Nodal forces as a source of static-deformation modes, and Krylov terms.
-namespace limber {
+namespace limber::load_modes {
 namespace {
 
 using flexbody::MeshedBody;
@@ -151,4 +151,4 @@ TEST(KrylovTerms, StayIndependentWherePlainPowersDoNot) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::load_modes

@@ -17,7 +17,7 @@
 
 /// What eigenmodes and static-deformation modes of the loads miss of the free
 /// beam's deformation, against all modes; linear and exact in time.
-namespace limber {
+namespace limber::load_modes_slow {
 namespace {
 
 constexpr Eigen::Index kVectors = 16;
@@ -186,4 +186,4 @@ TEST(LoadModes, CannotNorCanAnyBasisOfSixteenVectorsForLoadsThatJump) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::load_modes_slow

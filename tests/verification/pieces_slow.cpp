@@ -18,7 +18,7 @@
 
 /// A link in pieces against level `full` of the same mesh, and against the link
 /// in one piece where it bends little.
-namespace limber {
+namespace limber::pieces_slow {
 namespace {
 
 using dynamics::Fidelity;
@@ -190,4 +190,4 @@ TEST_F(Pieces, BendAsAnArcInItsPlaneAndOutOfIt) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::pieces_slow

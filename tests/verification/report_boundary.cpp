@@ -16,7 +16,7 @@
 #include "verification/body_reference.hpp"
 
 /// The alpha-Omega decision boundary of the report's section 5.4, ten modes.
-namespace limber {
+namespace limber::report_boundary {
 namespace {
 
 /// The allowance: inner nodes of the report's mesh sit elsewhere.
@@ -170,4 +170,4 @@ TEST_F(ReportBoundaryOfBeam, DisplacementBoundHoldsAndTheReportsIsSafe) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::report_boundary

@@ -15,7 +15,7 @@
 /// at Omega about x and is given alpha about x by a couple on its end faces.
 /// The error of `uncoupled` is the largest root mean square difference in
 /// deformation from `coupled` over all nodes. bench/report has the whole sweep.
-namespace limber {
+namespace limber::report_boundary_dots {
 namespace {
 
 using dynamics::Fidelity;
@@ -114,4 +114,4 @@ TEST(ReportBoundaryDots, AtFiveTimesTheBoundaryTheyDifferByMore) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::report_boundary_dots

@@ -5,7 +5,7 @@
 #include "limber/flexbody/modal/mode_selection.hpp"
 
 /// Mode selection on the report's own printed numbers.
-namespace limber {
+namespace limber::report_modes {
 namespace {
 
 // Table 2, right (complex forcing): values of ten modes and the total of all.
@@ -18,11 +18,11 @@ TEST(ReportComplexForcing, NeedsModesOneThreeAndFourByItsTable) {
   const VectorX total = VectorX::Constant(1, 1.17e-05);
   const flexbody::ModeSelection selection =
       flexbody::select_modes(masses, total);
-  EXPECT_THAT(selection.modes, testing::ElementsAre(0, 2, 3));
+  EXPECT_THAT(selection.modes, ::testing::ElementsAre(0, 2, 3));
   // 27.87 + 14.85 + 49.24, to the digits of the values.
   EXPECT_NEAR(selection.reached[0], 0.9196, 0.005);
   EXPECT_NEAR((masses[0] + masses[1] + masses[3]) / total[0], 0.7781, 0.005);
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::report_modes

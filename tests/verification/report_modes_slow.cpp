@@ -18,7 +18,7 @@
 /// 500 N along x on each of the five nodes of the edge x = 0 at its free end.
 /// Slow because the report's percentages are of all modes: a dense
 /// eigenproblem of 1626 unknowns.
-namespace limber {
+namespace limber::report_modes_slow {
 namespace {
 
 /// Half a point of a hundred: the allowance.
@@ -282,4 +282,4 @@ TEST_F(ReportShearTest, AugmentationBeatsAModeOfTheBasisUnderASmoothLoad) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::report_modes_slow

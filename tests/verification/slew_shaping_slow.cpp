@@ -18,7 +18,7 @@
 /// examples/slew.toml: the hub is driven through half a turn by a trapezoidal
 /// rate, as it is and shaped at the first natural frequency; and
 /// examples/damped_slew.toml, the same with feedback.
-namespace limber {
+namespace limber::slew_shaping_slow {
 namespace {
 
 using joints::ShaperKind;
@@ -119,4 +119,4 @@ TEST_F(Slew, WithFeedbackLeavesLessThanATenthOfTheVibration) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::slew_shaping_slow

@@ -11,7 +11,7 @@
 
 /// The beam clamped at its root and bent by a fifth of its length: 4e8 N of
 /// dead traction across its tip. tests/data/beam/static.csv, nlgeom.
-namespace limber {
+namespace limber::solid_static_slow {
 namespace {
 
 struct Bent {
@@ -69,4 +69,4 @@ TEST(SolidStatic, ALoadBeyondAllReasonEndsWithTheShareReached) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::solid_static_slow

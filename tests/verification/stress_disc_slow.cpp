@@ -14,7 +14,7 @@
 #include "limber/reduction/operating_states.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::stress_disc_slow {
 namespace {
 
 constexpr double kInner = 0.1;    // [m]
@@ -114,4 +114,4 @@ TEST(StressOfAThickDisc, InSpinIsTheClosedFormAtAllNodes) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::stress_disc_slow

@@ -23,7 +23,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct AdviseOptions {
   std::string scenario;
   SettingOptions settings_given;
   std::optional<std::string> fidelity;
@@ -33,7 +33,7 @@ struct Options {
   bool json = false;
 };
 
-scene::Scene load(const Options& options) {
+scene::Scene load_advise_scene(const AdviseOptions& options) {
   scene::Scene scene = scene::load_scene(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   dynamics::AdviceSettings& advice = scene.scenario.advice;
@@ -76,8 +76,8 @@ Json summarize(const scene::Scene& scene, const std::vector<BodyLevel>& levels,
   return json;
 }
 
-void advise(const Options& options) {
-  const scene::Scene scene = load(options);
+void advise(const AdviseOptions& options) {
+  const scene::Scene scene = load_advise_scene(options);
   const OutputFolder folder(
       find_results_folder(options.out, scene.scenario.name + "-advise"));
   const std::vector<BodyLevel> levels = advise_scene(scene, options.cache);
@@ -100,7 +100,7 @@ void advise(const Options& options) {
 }  // namespace
 
 void add_advise(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AdviseOptions>();
   CLI::App* command = app.add_subcommand(
       "advise", "Recommend a level of fidelity for every flexible link");
   add_scenario(*command, options->scenario);

@@ -24,7 +24,7 @@ using flexbody::CacheContents;
 using flexbody::CacheItem;
 using Units = std::vector<std::pair<std::string, double>>;
 
-struct Options {
+struct CacheOptions {
   std::string cache;
   std::string older_than;
   std::string keep;
@@ -37,7 +37,7 @@ const Units kTimes = {
     {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"w", 604800.0}};
 const Units kSizes = {{"B", 1.0}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}};
 
-fs::path find_folder(const Options& options) {
+fs::path find_cache_folder(const CacheOptions& options) {
   return options.cache.empty() ? flexbody::default_cache_folder()
                                : fs::path(options.cache);
 }
@@ -59,7 +59,7 @@ double parse_with_unit(const std::string& option, const std::string& text,
 }
 
 /// In the largest unit of which it has one.
-std::string to_text(double value, const Units& units) {
+std::string with_unit(double value, const Units& units) {
   auto unit = units.begin();
   while (std::next(unit) != units.end() && value >= std::next(unit)->second) {
     ++unit;
@@ -80,7 +80,7 @@ const char* to_string(CacheItem::Kind kind) {
   }
 }
 
-Json to_json(const CacheItem& item) {
+Json describe_item(const CacheItem& item) {
   Json json{{"kind", to_string(item.kind)},
             {"file", item.files.front().string()},
             {"bytes", item.bytes},
@@ -93,9 +93,9 @@ Json to_json(const CacheItem& item) {
   return json;
 }
 
-Json to_json(const std::vector<CacheItem>& items) {
+Json list_items(const std::vector<CacheItem>& items) {
   Json json = Json::array();
-  for (const CacheItem& item : items) json.push_back(to_json(item));
+  for (const CacheItem& item : items) json.push_back(describe_item(item));
   return json;
 }
 
@@ -105,21 +105,21 @@ std::uintmax_t add_sizes(const std::vector<CacheItem>& items) {
   return bytes;
 }
 
-std::string to_text(const CacheItem& item) {
+std::string format_item(const CacheItem& item) {
   const bool is_body = item.kind == CacheItem::Kind::body;
   return fmt::format(
       "{:<20} {:>6} {:>8} {:>10} {:>10}  {}\n",
       is_body ? item.name : fmt::format("({})", to_string(item.kind)),
       is_body ? fmt::format("{}", item.modes) : "",
       is_body ? fmt::format("{}", item.nodes) : "",
-      to_text(static_cast<double>(item.bytes), kSizes),
-      to_text(std::max(item.age, 0.0), kTimes), item.mesh.string());
+      with_unit(static_cast<double>(item.bytes), kSizes),
+      with_unit(std::max(item.age, 0.0), kTimes), item.mesh.string());
 }
 
 std::string count(const std::vector<CacheItem>& items) {
   return fmt::format("{} {}, {}", items.size(),
                      items.size() == 1 ? "entry" : "entries",
-                     to_text(static_cast<double>(add_sizes(items)), kSizes));
+                     with_unit(static_cast<double>(add_sizes(items)), kSizes));
 }
 
 std::string describe_others(std::size_t others) {
@@ -129,28 +129,29 @@ std::string describe_others(std::size_t others) {
                      others == 1 ? "is" : "are", others == 1 ? "is" : "are");
 }
 
-void list(const Options& options) {
-  const fs::path folder = find_folder(options);
+void list(const CacheOptions& options) {
+  const fs::path folder = find_cache_folder(options);
   const CacheContents contents = flexbody::read_cache(folder);
   if (options.json) {
     const Json json{{"folder", folder.string()},
                     {"bytes", add_sizes(contents.items)},
-                    {"items", to_json(contents.items)},
+                    {"items", list_items(contents.items)},
                     {"others", contents.others}};
-    fmt::print("{}\n", app::to_text(json));
+    fmt::print("{}\n", to_text(json));
     return;
   }
   if (!contents.items.empty()) {
     fmt::print("{:<20} {:>6} {:>8} {:>10} {:>10}  {}\n", "body", "modes",
                "nodes", "size", "unused for", "mesh");
   }
-  for (const CacheItem& item : contents.items) fmt::print("{}", to_text(item));
+  for (const CacheItem& item : contents.items)
+    fmt::print("{}", format_item(item));
   fmt::print("{} in {}{}\n", count(contents.items), folder.string(),
              describe_others(contents.others));
 }
 
 /// Those that the options choose; `items` begins with the longest unused.
-std::vector<CacheItem> choose(const Options& options,
+std::vector<CacheItem> choose(const CacheOptions& options,
                               const std::vector<CacheItem>& items) {
   if (options.all) return items;
   std::vector<CacheItem> chosen;
@@ -171,7 +172,7 @@ std::vector<CacheItem> choose(const Options& options,
   return chosen;
 }
 
-void clean(const Options& options) {
+void clean(const CacheOptions& options) {
   const int given = int{options.all} + int{!options.older_than.empty()} +
                     int{!options.keep.empty()};
   if (given != 1) {
@@ -179,17 +180,17 @@ void clean(const Options& options) {
         "limber cache clean needs one of --all, --older-than TIME and --keep "
         "SIZE");
   }
-  const fs::path folder = find_folder(options);
+  const fs::path folder = find_cache_folder(options);
   const CacheContents contents = flexbody::read_cache(folder);
   const std::vector<CacheItem> chosen = choose(options, contents.items);
   if (!options.dry_run) flexbody::remove_from_cache(folder, chosen);
   if (options.json) {
     const Json json{{"folder", folder.string()},
-                    {"removed", to_json(chosen)},
+                    {"removed", list_items(chosen)},
                     {"bytes", add_sizes(chosen)},
                     {"dry_run", options.dry_run},
                     {"others", contents.others}};
-    fmt::print("{}\n", app::to_text(json));
+    fmt::print("{}\n", to_text(json));
     return;
   }
   fmt::print("{} {} from {}{}\n", count(chosen),
@@ -197,11 +198,11 @@ void clean(const Options& options) {
              describe_others(contents.others));
 }
 
-using Command = void (*)(const Options&);
+using Command = void (*)(const CacheOptions&);
 
 CLI::App* add_command(CLI::App& cache, const char* name, const char* what,
                       Command run, Action& action,
-                      const std::shared_ptr<Options>& options) {
+                      const std::shared_ptr<CacheOptions>& options) {
   CLI::App* command = cache.add_subcommand(name, what);
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
@@ -213,7 +214,7 @@ CLI::App* add_command(CLI::App& cache, const char* name, const char* what,
 }  // namespace
 
 void add_cache(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CacheOptions>();
   CLI::App* cache =
       app.add_subcommand("cache", "List or clean the folder of reduced bodies");
   cache->require_subcommand(1);

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompareOptions {
   std::string scenario;
   SettingOptions settings;
   std::vector<std::string> levels;
@@ -46,7 +46,7 @@ struct Options {
   bool json = false;
 };
 
-Axes make_axes(const Options& options) {
+Axes make_axes(const CompareOptions& options) {
   Axes axes = options.axes;
   for (const std::string& name : options.levels) {
     axes.levels.push_back(dynamics::parse_fidelity(name));
@@ -54,7 +54,7 @@ Axes make_axes(const Options& options) {
   return axes;
 }
 
-ReferenceWish make_wish(const Options& options) {
+ReferenceWish make_wish(const CompareOptions& options) {
   ReferenceWish wish = options.wish;
   if (!options.reference.empty()) {
     wish.level = dynamics::parse_fidelity(options.reference);
@@ -65,7 +65,7 @@ ReferenceWish make_wish(const Options& options) {
   return wish;
 }
 
-std::optional<Demand> make_demand(const Options& options) {
+std::optional<Demand> make_demand(const CompareOptions& options) {
   if (options.tolerance.empty() && !options.measure.empty()) {
     throw InputError(
         "--measure says which error --tolerance applies to; give --tolerance, "
@@ -77,7 +77,7 @@ std::optional<Demand> make_demand(const Options& options) {
   return Demand{parse_tolerance(options.tolerance), measure};
 }
 
-ComparisonSettings make_settings(const Options& options) {
+ComparisonSettings make_settings(const CompareOptions& options) {
   ComparisonSettings settings;
   settings.scenario = options.scenario;
   settings.folder = find_results_folder(
@@ -201,7 +201,7 @@ std::set<std::string> find_run_folders(const ComparisonPlan& plan,
   return names;
 }
 
-void compare(const Options& options) {
+void compare(const CompareOptions& options) {
   const Axes axes = make_axes(options);
   const ReferenceWish wish = make_wish(options);
   const std::optional<Demand> demand = make_demand(options);
@@ -230,7 +230,7 @@ void compare(const Options& options) {
   }
 }
 
-void add_axes(CLI::App& command, Options& options) {
+void add_axes(CLI::App& command, CompareOptions& options) {
   add_list(command, "--fidelity", options.levels,
            "Levels, as in rigid,coupled (default: rigid to coupled, up to "
            "the reference's)")
@@ -248,7 +248,7 @@ void add_axes(CLI::App& command, Options& options) {
            make_positive());
 }
 
-void add_reference(CLI::App& command, Options& options) {
+void add_reference(CLI::App& command, CompareOptions& options) {
   command.add_option("--reference", options.reference,
                      "Level of the reference (default: the costliest with a "
                      "reduced basis; `full` takes whole meshes)");
@@ -266,7 +266,7 @@ void add_reference(CLI::App& command, Options& options) {
                      "(default: the scenario's)");
 }
 
-void add_demand(CLI::App& command, Options& options) {
+void add_demand(CLI::App& command, CompareOptions& options) {
   command.add_option("--tolerance", options.tolerance,
                      "Largest error, as in 1% or 0.01: choose the cheapest run "
                      "that meets it and write it as chosen.toml");
@@ -278,7 +278,7 @@ void add_demand(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand(
       "compare",
       "Simulate a scenario at several levels, bases and steps; measure what "

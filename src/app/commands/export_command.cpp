@@ -17,7 +17,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string results;
   std::string out;
   double magnification = 1.0;
@@ -38,7 +38,7 @@ void check_data_file(const std::filesystem::path& file,
       file.string(), data.string()));
 }
 
-void export_results(const Options& options) {
+void export_results(const ExportOptions& options) {
   const std::filesystem::path file = options.out;
   const bool is_xdmf = file.extension() == ".xdmf";
   if (!is_xdmf && file.extension() != ".glb") {
@@ -65,7 +65,7 @@ void export_results(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand(
       "export", "Write results as an animated glTF 2.0 scene or for ParaView");
   command

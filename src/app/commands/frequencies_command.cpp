@@ -17,7 +17,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct FrequenciesOptions {
   std::string scenario;
   SettingOptions settings_given;
   std::optional<std::string> fidelity;
@@ -26,7 +26,7 @@ struct Options {
   bool json = false;
 };
 
-void find(const Options& options) {
+void report_frequencies(const FrequenciesOptions& options) {
   const scene::Scene scene = scene::load_scene(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   FrequencyReport report =
@@ -49,7 +49,7 @@ void find(const Options& options) {
 }  // namespace
 
 void add_frequencies(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FrequenciesOptions>();
   CLI::App* command = app.add_subcommand(
       "frequencies",
       "Natural frequencies of a scenario's whole system about its start, held "
@@ -63,8 +63,9 @@ void add_frequencies(CLI::App& app, Action& action) {
       ->check(make_positive());
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
-  command->callback(
-      [&action, options] { action = [options] { find(*options); }; });
+  command->callback([&action, options] {
+    action = [options] { report_frequencies(*options); };
+  });
 }
 
 }  // namespace limber::app

@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct InfoOptions {
   std::string file;
   std::optional<double> unit;
   bool json = false;
@@ -31,7 +31,7 @@ std::string extension_of(const std::filesystem::path& file) {
   return extension;
 }
 
-Json describe(const Options& options) {
+Json describe(const InfoOptions& options) {
   if (!std::filesystem::exists(options.file)) {
     throw InputError(fmt::format("{}: no such file", options.file));
   }
@@ -63,7 +63,7 @@ Json describe(const Options& options) {
 }  // namespace
 
 void add_info(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand(
       "info", "Describe a mesh, reduced body, scenario, robot or results file");
   command->add_option("file", options->file, "File")->required();

@@ -21,7 +21,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct LinearizeOptions {
   std::string scenario;
   SettingOptions settings_given;
   std::optional<std::string> fidelity;
@@ -33,7 +33,7 @@ struct Options {
   bool json = false;
 };
 
-LinearRun find(const Options& options) {
+LinearRun find_linear_run(const LinearizeOptions& options) {
   results::check_linear_model_ending(options.file);
   const LinearRequest request = {parse_reference(options.at), options.selection,
                                  options.states};
@@ -45,7 +45,7 @@ LinearRun find(const Options& options) {
   return run;
 }
 
-Json to_json(const std::vector<dynamics::LinearSignal>& signals) {
+Json list_signals(const std::vector<dynamics::LinearSignal>& signals) {
   Json json = Json::array();
   for (const dynamics::LinearSignal& signal : signals) {
     json.push_back({{"name", signal.name},
@@ -55,7 +55,8 @@ Json to_json(const std::vector<dynamics::LinearSignal>& signals) {
   return json;
 }
 
-void print_json(const Options& options, const LinearRun& found) {
+void print_linear_json(const LinearizeOptions& options,
+                       const LinearRun& found) {
   const results::LinearRecord& record = found.record;
   Json json = Json::object();
   json["scenario"] = options.scenario;
@@ -63,8 +64,8 @@ void print_json(const Options& options, const LinearRun& found) {
   json["time"] = record.time;
   json["states"] = record.model.states.size();
   json["states_in_all"] = found.linear.model.states.size();
-  json["inputs"] = to_json(record.model.inputs);
-  json["outputs"] = to_json(record.model.outputs);
+  json["inputs"] = list_signals(record.model.inputs);
+  json["outputs"] = list_signals(record.model.outputs);
   json["axes_angular_velocity"] = record.axes_angular_velocity;
   json["open_loops"] = found.linear.open_loops;
   if (found.truncated) {
@@ -115,7 +116,8 @@ void print_truncation(const dynamics::TruncatedModel& truncated,
   }
 }
 
-void print(const Options& options, const LinearRun& found) {
+void print_linear_model(const LinearizeOptions& options,
+                        const LinearRun& found) {
   const results::LinearRecord& record = found.record;
   fmt::print(
       "Linear model of {} about the {}, t = {:g} s: {} states, {} of "
@@ -145,21 +147,21 @@ void print(const Options& options, const LinearRun& found) {
   fmt::print("model in {}\n", options.file);
 }
 
-void linearize(const Options& options) {
-  const LinearRun found = find(options);
+void linearize(const LinearizeOptions& options) {
+  const LinearRun found = find_linear_run(options);
   results::write_linear_model(options.file, found.record);
   print_warnings(found.record.warnings);
   if (options.json) {
-    print_json(options, found);
+    print_linear_json(options, found);
   } else {
-    print(options, found);
+    print_linear_model(options, found);
   }
 }
 
 }  // namespace
 
 void add_linearize(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LinearizeOptions>();
   CLI::App* command = app.add_subcommand(
       "linearize",
       "Linear model (A, B, C, D) of a scenario's system: inputs are its loads, "

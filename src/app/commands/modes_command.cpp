@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct ModesOptions {
   MeshOptions mesh;
   std::vector<std::string> clamps;
   std::vector<std::string> forces;
@@ -28,7 +28,7 @@ struct Options {
   bool json = false;
 };
 
-void add_static_modes(const Options& options, flexbody::Recipe& recipe) {
+void add_static_modes(const ModesOptions& options, flexbody::Recipe& recipe) {
   const bool has_source =
       !options.forces.empty() || !options.interfaces.empty();
   if (options.static_terms && !has_source) {
@@ -51,7 +51,7 @@ void add_static_modes(const Options& options, flexbody::Recipe& recipe) {
   }
 }
 
-void find_modes(const Options& options) {
+void find_modes(const ModesOptions& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
   recipe.basis.eigenmodes = options.count;
@@ -73,7 +73,7 @@ void find_modes(const Options& options) {
 }  // namespace
 
 void add_modes(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ModesOptions>();
   CLI::App* command = app.add_subcommand(
       "modes",
       "Eigenmodes of a mesh (.msh) or geometry (.geo, .step), and what each "

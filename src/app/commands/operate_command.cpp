@@ -22,7 +22,7 @@ namespace {
 /// GROUP FX FY FZ
 using LoadWords = std::tuple<std::string, double, double, double>;
 
-struct Options {
+struct OperateOptions {
   MeshOptions mesh;
   std::vector<std::string> clamps;
   std::string state = "accelerating";
@@ -39,7 +39,7 @@ Vector3 to_vector(const std::vector<double>& values) {
                         : Vector3(values[0], values[1], values[2]);
 }
 
-OperatingRequest make_request(const Options& options) {
+OperatingRequest make_request(const OperateOptions& options) {
   OperatingRequest request = options.request;
   request.kind = parse_operating_kind(options.state);
   request.axis = to_vector(options.axis);
@@ -91,7 +91,7 @@ void write(const OperatingAnswer& answer, const std::string& title,
   if (!why_none.empty()) print_warnings({why_none});
 }
 
-void operate(const Options& options) {
+void operate(const OperateOptions& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
   const OperatingRequest request = make_request(options);
@@ -114,7 +114,7 @@ void operate(const Options& options) {
 }  // namespace
 
 void add_operate(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<OperateOptions>();
   CLI::App* command = app.add_subcommand(
       "operate",
       "Deformation of a mesh in steady motion: constant acceleration, "

@@ -21,7 +21,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct ReduceOptions {
   MeshOptions mesh;
   std::string output;
   std::vector<std::string> clamps;
@@ -37,7 +37,7 @@ struct Options {
   bool json = false;
 };
 
-flexbody::Recipe make_recipe(const Options& options) {
+flexbody::Recipe make_recipe(const ReduceOptions& options) {
   flexbody::Recipe recipe = make_recipe(options.mesh);
   recipe.clamped_groups = options.clamps;
   apply(options.modes, recipe.basis);
@@ -83,7 +83,8 @@ void warn(const flexbody::ReducedBody& body) {
     print_warnings(describe_losses(*field, "initial velocity"));
 }
 
-void print_json(const flexbody::ReducedBody& body, const std::string& file) {
+void print_body_json(const flexbody::ReducedBody& body,
+                     const std::string& file) {
   Json json = Json{{"file", file},
                    {"nodes", body.mesh_nodes},
                    {"modes", body.mode_count()},
@@ -98,7 +99,7 @@ void print_text(const flexbody::ReducedBody& body, const std::string& file) {
   if (body.selection) fmt::print("{}\n", summarize(*body.selection));
 }
 
-void reduce(const Options& options) {
+void reduce(const ReduceOptions& options) {
   const flexbody::Recipe recipe = make_recipe(options);
   const flexbody::MeshAtHand mesh =
       make_reducer(make_progress_bar()).make_mesh(recipe.mesh);
@@ -108,7 +109,7 @@ void reduce(const Options& options) {
   warn(body);
   flexbody::write_body(body, options.output);
   if (options.json) {
-    print_json(body, options.output);
+    print_body_json(body, options.output);
   } else {
     print_text(body, options.output);
   }
@@ -117,7 +118,7 @@ void reduce(const Options& options) {
 }  // namespace
 
 void add_reduce(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReduceOptions>();
   CLI::App* command = app.add_subcommand(
       "reduce", "Reduce a mesh to a body that needs no mesh any more");
   add_mesh_options(*command, options->mesh);

@@ -23,7 +23,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string scenario;
   std::string from;
   SettingOptions settings_given;
@@ -37,15 +37,15 @@ struct Options {
   bool views = false;
 };
 
-std::filesystem::path find_folder(const Options& options,
-                                  const scene::Scenario& scenario) {
+std::filesystem::path find_run_folder(const RunOptions& options,
+                                      const scene::Scenario& scenario) {
   if (options.out.empty() && !scenario.output.folder.empty()) {
     return scenario.output.folder;
   }
   return find_results_folder(options.out, scenario.name);
 }
 
-StudiedRun find_run(const Options& options) {
+StudiedRun find_run(const RunOptions& options) {
   if (!options.scenario.empty()) {
     throw InputError("--from has a scenario of its own; leave the other out");
   }
@@ -62,7 +62,7 @@ scene::Overrides merge(scene::Overrides studied,
   return studied;
 }
 
-void run(const Options& options) {
+void run_scenario(const RunOptions& options) {
   scene::Overrides overrides =
       to_overrides(options.settings_given, options.fidelity);
   std::string scenario = options.scenario;
@@ -77,7 +77,7 @@ void run(const Options& options) {
   }
   scene::Scene scene = scene::load_scene(scenario, overrides);
   if (!name.empty()) scene.scenario.name = name;
-  const OutputFolder folder(find_folder(options, scene.scenario));
+  const OutputFolder folder(find_run_folder(options, scene.scenario));
   DeferredSignals signals;
   const CheckpointPlan checkpoints = {
       folder.path() / "checkpoint.bin",
@@ -106,7 +106,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
   add_scenario(*command, options->scenario)->required(false);
   command->add_option("--from", options->from,
@@ -127,7 +127,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_flag("--view", options->views,
                     "Write a page that shows the motion in a browser");
   command->callback(
-      [&action, options] { action = [options] { run(*options); }; });
+      [&action, options] { action = [options] { run_scenario(*options); }; });
 }
 
 }  // namespace limber::app

@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct StaticOptions {
   std::string scenario;
   SettingOptions settings_given;
   std::optional<std::string> fidelity;
@@ -29,12 +29,12 @@ struct Options {
   bool xdmf = false;
 };
 
-scene::Scene load(const Options& options) {
+scene::Scene load_static_scene(const StaticOptions& options) {
   return scene::load_scene(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
 }
 
-dynamics::EquilibriumMethod find_method(const Options& options,
+dynamics::EquilibriumMethod find_method(const StaticOptions& options,
                                         const scene::Scenario& scenario) {
   if (!options.method.empty()) {
     return dynamics::parse_equilibrium_method(options.method);
@@ -42,7 +42,8 @@ dynamics::EquilibriumMethod find_method(const Options& options,
   return scenario.equilibrium.value_or(dynamics::EquilibriumMethod::newton);
 }
 
-void print(const StaticRun& run, const std::filesystem::path& folder) {
+void print_static_run(const StaticRun& run,
+                      const std::filesystem::path& folder) {
   fmt::print("equilibrium in {} load steps, {} Newton iterations",
              run.found.load_steps, run.found.newton_iterations);
   if (run.found.relaxation_steps > 0) {
@@ -57,8 +58,8 @@ void print(const StaticRun& run, const std::filesystem::path& folder) {
   fmt::print("results in {}\n", folder.string());
 }
 
-void find(const Options& options) {
-  const scene::Scene scene = load(options);
+void report_equilibrium(const StaticOptions& options) {
+  const scene::Scene scene = load_static_scene(options);
   const OutputFolder folder(
       find_results_folder(options.out, scene.scenario.name + "-static"));
   const StaticRun run = find_static(scene, find_method(options, scene.scenario),
@@ -74,13 +75,13 @@ void find(const Options& options) {
     fmt::print("{}\n", to_text(summary));
     return;
   }
-  print(run, folder.path());
+  print_static_run(run, folder.path());
 }
 
 }  // namespace
 
 void add_static(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StaticOptions>();
   CLI::App* command = app.add_subcommand(
       "static",
       "Static equilibrium of a scenario under what acts at its start: loads, "
@@ -95,8 +96,9 @@ void add_static(CLI::App& app, Action& action) {
   add_cache_option(*command, options->cache);
   add_json(*command, options->json);
   command->add_flag("--xdmf", options->xdmf, "Write files for ParaView");
-  command->callback(
-      [&action, options] { action = [options] { find(*options); }; });
+  command->callback([&action, options] {
+    action = [options] { report_equilibrium(*options); };
+  });
 }
 
 }  // namespace limber::app

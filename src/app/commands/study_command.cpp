@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct StudyCommandOptions {
   std::string study;
   std::vector<std::string> collected;
   std::string shard;
@@ -50,7 +50,8 @@ Shard parse_shard(const std::string& text) {
   return {*k - 1, *n};
 }
 
-fs::path make_folder(const Options& options, const std::string& name) {
+fs::path make_folder(const StudyCommandOptions& options,
+                     const std::string& name) {
   fs::path folder = find_results_folder(options.out, name);
   std::error_code error;
   fs::create_directories(folder, error);
@@ -61,13 +62,13 @@ fs::path make_folder(const Options& options, const std::string& name) {
   return folder;
 }
 
-int find_jobs(const Options& options) {
+int find_jobs(const StudyCommandOptions& options) {
   if (options.jobs > 0) return options.jobs;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 /// Tables of a file of results.
-void finish(const Options& options, const fs::path& file,
+void finish(const StudyCommandOptions& options, const fs::path& file,
             const fs::path& folder, const StudyCost& cost) {
   const StudyFile results(file);
   const StudyRecord& record = results.record();
@@ -97,7 +98,7 @@ void finish(const Options& options, const fs::path& file,
   fmt::print("results in {}\n", file.string());
 }
 
-void run_one(const Options& options) {
+void run_one(const StudyCommandOptions& options) {
   const Study study = read_study(fs::path(options.study));
   const Shard shard = parse_shard(options.shard);
   const Design design = make_design(study);
@@ -116,7 +117,7 @@ void run_one(const Options& options) {
   finish(options, path, folder, cost);
 }
 
-void collect(const Options& options) {
+void collect(const StudyCommandOptions& options) {
   if (!options.study.empty() || !options.shard.empty()) {
     throw InputError(
         "--collect takes files of results alone, no study file "
@@ -128,7 +129,7 @@ void collect(const Options& options) {
   finish(options, file, folder, {});
 }
 
-void run(const Options& options) {
+void run_study_file(const StudyCommandOptions& options) {
   if (!options.collected.empty()) return collect(options);
   if (options.study.empty()) {
     throw InputError(
@@ -141,7 +142,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_study(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StudyCommandOptions>();
   CLI::App* command = app.add_subcommand(
       "study", "Many runs of a scenario with other values, in one table");
   command->add_option("study", options->study, "Study file (TOML)");
@@ -159,7 +160,7 @@ void add_study(CLI::App& app, Action& action) {
   command->add_flag("--csv", options->csv, "Write the table as CSV, too");
   add_json(*command, options->json);
   command->callback(
-      [&action, options] { action = [options] { run(*options); }; });
+      [&action, options] { action = [options] { run_study_file(*options); }; });
 }
 
 }  // namespace limber::app

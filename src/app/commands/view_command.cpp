@@ -19,7 +19,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct ViewOptions {
   std::string results;
   std::vector<std::string> ghosts;
   std::string out;
@@ -62,7 +62,7 @@ void check_page(const std::filesystem::path& page,
   }
 }
 
-void show(const Options& options) {
+void show(const ViewOptions& options) {
   std::vector<std::filesystem::path> all = find_compared(options.results);
   if (all.empty()) all.emplace_back(options.results);
   for (const std::string& ghost : options.ghosts) all.emplace_back(ghost);
@@ -84,7 +84,7 @@ void show(const Options& options) {
 }  // namespace
 
 void add_view(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand(
       "view", "Show results in a browser: one HTML file, without a network");
   command

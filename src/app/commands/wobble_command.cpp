@@ -18,7 +18,7 @@
 namespace limber::app {
 namespace {
 
-struct Options {
+struct WobbleOptions {
   std::string mesh;
   std::string material;
   std::string force;
@@ -40,7 +40,7 @@ struct Options {
   bool xdmf = false;
 };
 
-scene::Robot make_robot(const Options& options) {
+scene::Robot make_robot(const WobbleOptions& options) {
   scene::FlexibleLink flexible;
   flexible.mesh = {options.mesh, options.size, options.order, options.unit};
   flexible.materials = scene::read_akantu_materials(options.material);
@@ -57,7 +57,7 @@ scene::Robot make_robot(const Options& options) {
 
 /// PureMA: a body that must be clamped; SimpleRB and CoupledRB: one that is
 /// free.
-dynamics::Fidelity find_level(const Options& options) {
+dynamics::Fidelity find_level(const WobbleOptions& options) {
   const bool is_pure = options.solver == "PureMA";
   if (is_pure == options.clamps.empty()) {
     throw InputError(fmt::format(
@@ -86,7 +86,8 @@ std::vector<double> find_output_times(double step, double duration) {
   return times;
 }
 
-scene::Scenario make_scenario(const Options& options, const std::string& link) {
+scene::Scenario make_scenario(const WobbleOptions& options,
+                              const std::string& link) {
   scene::Scenario scenario;
   scenario.name = link;
   scenario.file = options.force;
@@ -118,7 +119,7 @@ scene::Scenario make_scenario(const Options& options, const std::string& link) {
   return scenario;
 }
 
-void wobble(const Options& options) {
+void wobble(const WobbleOptions& options) {
   scene::Scene scene;
   scene.robot = make_robot(options);
   scene.scenario = make_scenario(options, scene.robot.name);
@@ -137,7 +138,7 @@ void wobble(const Options& options) {
 }  // namespace
 
 void add_wobble(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WobbleOptions>();
   CLI::App* command = app.add_subcommand(
       "wobble", "Simulate one body from the WOBBLE package's input files");
   command->add_option("--mesh", options->mesh, "Mesh (.msh) or geometry (.geo)")

@@ -11,7 +11,7 @@
 namespace limber::app {
 namespace {
 
-std::optional<double> error_of(const ComparedRun& run) {
+std::optional<double> drawn_error_of(const ComparedRun& run) {
   if (!run.error) return std::nullopt;
   return find_error(run.error->error, ErrorMeasure::both);
 }
@@ -27,7 +27,7 @@ std::vector<const ComparedRun*> find_best(const Comparison& comparison) {
         });
     if (same == best.end()) {
       best.push_back(&run);
-    } else if (error_of(run) < error_of(**same)) {
+    } else if (drawn_error_of(run) < drawn_error_of(**same)) {
       *same = &run;
     }
   }

@@ -6,14 +6,11 @@
 #include <algorithm>
 
 #include "limber/app/compare/comparison_selection.hpp"
+#include "limber/app/console/json.hpp"
 #include "limber/app/console/percent.hpp"
 
 namespace limber::app {
 namespace {
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 /// Null: the scenario's.
 Json to_json(const std::optional<dynamics::IntegratorKind>& kind) {

@@ -21,7 +21,8 @@ const std::vector<std::string>& measure_names() {
   return names;
 }
 
-std::optional<double> error_of(const ComparedRun& run, ErrorMeasure measure) {
+std::optional<double> finite_error_of(const ComparedRun& run,
+                                      ErrorMeasure measure) {
   if (!run.error) return std::nullopt;
   const auto error = find_error(run.error->error, measure);
   return error && std::isfinite(*error) ? error : std::nullopt;
@@ -79,7 +80,7 @@ const ComparedRun* find_cheapest(const Comparison& comparison,
                                  const Demand& demand) {
   const ComparedRun* cheapest = nullptr;
   for (const ComparedRun& run : comparison.runs) {
-    const auto error = error_of(run, demand.measure);
+    const auto error = finite_error_of(run, demand.measure);
     if (!error || *error > demand.tolerance) continue;
     if (cheapest == nullptr || run.cost.online < cheapest->cost.online) {
       cheapest = &run;
@@ -92,7 +93,7 @@ void refuse(const Comparison& comparison, const Demand& demand) {
   const ComparedRun* closest = nullptr;
   double least = 0.0;
   for (const ComparedRun& run : comparison.runs) {
-    const auto error = error_of(run, demand.measure);
+    const auto error = finite_error_of(run, demand.measure);
     if (!error || (closest != nullptr && *error >= least)) continue;
     closest = &run;
     least = *error;

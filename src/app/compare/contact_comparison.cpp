@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "limber/app/console/json.hpp"
 #include "limber/app/reports/contact_report.hpp"
 
 namespace limber::app {
@@ -22,10 +23,6 @@ const PairContact* find_pair(const std::vector<PairContact>& contacts,
 std::optional<double> find_relative(double value, double reference) {
   if (reference == 0.0) return std::nullopt;
   return value / reference - 1.0;
-}
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 Json to_json(const ContactDifference& difference) {

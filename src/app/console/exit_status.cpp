@@ -85,8 +85,7 @@ int run_guarded(const std::function<void()>& work) {
   errno = 0;
   if (!has_written_output() && status == kSuccess) {
     // A full buffer was written before: its error number is gone.
-    return fail_output(errno == 0 ? "a write failed"
-                                  : std::generic_category().message(errno));
+    return fail_output(errno == 0 ? "a write failed" : describe_errno());
   }
   if (status != kSuccess || find_received_signal() == 0) return status;
   print_notice(fmt::format("{} came after the end; all files are whole",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "limber/common/types.hpp"
@@ -14,6 +15,9 @@ using Json = nlohmann::ordered_json;
 
 /// A column as a list of numbers, any other matrix as a list of its rows.
 [[nodiscard]] Json to_json(const MatrixX& values);
+
+/// The number, or null where there is none.
+[[nodiscard]] Json or_null(const std::optional<double>& value);
 
 /// Indented, for files and --json. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_text(const Json& json);

@@ -47,12 +47,12 @@ std::string name_of(const CLI::App& app, char between) {
   return name_of(*parent, between) + between + app.get_name();
 }
 
-std::vector<const CLI::App*> list_commands(const CLI::App& app) {
+std::vector<const CLI::App*> find_commands(const CLI::App& app) {
   return app.get_subcommands(
       [](const CLI::App* sub) { return !sub->get_group().empty(); });
 }
 
-std::vector<const CLI::Option*> list_options(const CLI::App& app,
+std::vector<const CLI::Option*> find_options(const CLI::App& app,
                                              bool is_positional) {
   return app.get_options([&](const CLI::Option* option) {
     return option->nonpositional() != is_positional &&
@@ -73,17 +73,17 @@ std::string describe(const CLI::Option& option, const std::string& name) {
 std::string describe_synopsis(const CLI::App& app) {
   std::string text = ".SH SYNOPSIS\n" + bold(name_of(app, ' '));
   text += " [" + italic("OPTIONS") + "]";
-  for (const CLI::Option* option : list_options(app, true)) {
+  for (const CLI::Option* option : find_options(app, true)) {
     const std::string name = italic(option->get_name(true));
     text += option->get_required() ? " " + name : " [" + name + "]";
   }
-  if (!list_commands(app).empty()) text += " " + italic("COMMAND");
+  if (!find_commands(app).empty()) text += " " + italic("COMMAND");
   return text + "\n";
 }
 
 std::string describe_commands(const CLI::App& app) {
   std::string text;
-  for (const CLI::App* one : list_commands(app)) {
+  for (const CLI::App* one : find_commands(app)) {
     text += ".TP\n" + bold(name_of(*one, '-')) + "(1)\n" +
             escape(one->get_description()) + "\n";
   }
@@ -102,7 +102,7 @@ std::string list_names(const CLI::Option& option, bool is_positional) {
 
 std::string describe_options(const CLI::App& app, bool is_positional) {
   std::string text;
-  for (const CLI::Option* option : list_options(app, is_positional)) {
+  for (const CLI::Option* option : find_options(app, is_positional)) {
     text += describe(*option, list_names(*option, is_positional));
   }
   if (text.empty()) return "";
@@ -120,7 +120,7 @@ std::string describe_parent(const CLI::App& app) {
 
 void write_all(const CLI::App& app, const std::filesystem::path& folder) {
   write_text(folder / (name_of(app, '-') + ".1"), to_manual(app));
-  for (const CLI::App* one : list_commands(app)) write_all(*one, folder);
+  for (const CLI::App* one : find_commands(app)) write_all(*one, folder);
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace {
 
 using dynamics::ContactRecord;
 
-constexpr std::size_t kMostLines = 20;
+constexpr std::size_t kMostContactLines = 20;
 
-Json to_json(const ContactRecord& record) {
+Json describe_contact(const ContactRecord& record) {
   const std::optional<double> restitution = record.restitution();
   return Json{
       {"between", split_pair(record.pair)},
@@ -38,15 +38,15 @@ std::string to_line(const ContactRecord& record) {
                      e ? fmt::format("{:.3f}", *e) : "-");
 }
 
-// Impulse of the kMostLines-th largest.
+// Impulse of the kMostContactLines-th largest.
 double find_least_shown(const std::vector<ContactRecord>& records) {
-  if (records.size() <= kMostLines) return 0.0;
+  if (records.size() <= kMostContactLines) return 0.0;
   std::vector<double> impulses;
   for (const ContactRecord& record : records) {
     impulses.push_back(record.impulse);
   }
   const auto nth =
-      impulses.begin() + static_cast<std::ptrdiff_t>(kMostLines - 1);
+      impulses.begin() + static_cast<std::ptrdiff_t>(kMostContactLines - 1);
   std::nth_element(impulses.begin(), nth, impulses.end(), std::greater<>());
   return *nth;
 }
@@ -61,7 +61,8 @@ Json split_pair(const std::string& pair) {
 
 Json to_json(const std::vector<ContactRecord>& records) {
   Json list = Json::array();
-  for (const ContactRecord& record : records) list.push_back(to_json(record));
+  for (const ContactRecord& record : records)
+    list.push_back(describe_contact(record));
   return list;
 }
 
@@ -73,7 +74,7 @@ std::string to_text(const std::vector<ContactRecord>& records) {
   const double least = find_least_shown(records);
   std::size_t shown = 0;
   for (const ContactRecord& record : records) {
-    if (record.impulse < least || shown == kMostLines) continue;
+    if (record.impulse < least || shown == kMostContactLines) continue;
     text += to_line(record);
     ++shown;
   }

@@ -10,7 +10,7 @@ namespace {
 
 using dynamics::Event;
 
-constexpr std::size_t kMostLines = 10;
+constexpr std::size_t kMostEventLines = 10;
 constexpr std::size_t kMostMarks = 12;
 /// Width of a mark's label, as a share of the picture's.
 constexpr double kLabelWidth = 0.015;
@@ -68,7 +68,7 @@ Json to_json(const std::vector<Event>& events) {
 std::string to_text(const std::vector<Event>& events) {
   if (events.empty()) return "";
   std::string text = fmt::format("events  {}\n", events.size());
-  if (events.size() <= kMostLines) {
+  if (events.size() <= kMostEventLines) {
     for (const Event& event : events) {
       text += fmt::format("  {} {}", place(event), event.what);
       if (event.rate != 0.0) text += fmt::format(", rate {:.4g}", event.rate);

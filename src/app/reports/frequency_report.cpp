@@ -70,7 +70,7 @@ std::string describe_mode(const FrequencyReport& f,
   return text;
 }
 
-Json to_json(const FrequencyReport& f, const dynamics::NaturalMode& m) {
+Json list_mode(const FrequencyReport& f, const dynamics::NaturalMode& m) {
   Json json{{"frequency", m.frequency()},
             {"damping_ratio", m.damping_ratio()},
             {"damped_frequency", m.value.imag() / (2.0 * std::numbers::pi)},
@@ -120,7 +120,7 @@ Json to_json(const FrequencyReport& f, int count) {
   json["modes"] = Json::array();
   for (const dynamics::NaturalMode& mode : f.modes.modes) {
     if (std::ssize(json["modes"]) == count) break;
-    json["modes"].push_back(to_json(f, mode));
+    json["modes"].push_back(list_mode(f, mode));
   }
   json["warnings"] = f.warnings;
   return json;

@@ -50,11 +50,7 @@ Boundaries find_boundaries(const BodyLevel& level) {
   return result;
 }
 
-Json to_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json to_json(const Peak& peak) {
+Json describe_peak(const Peak& peak) {
   return Json{{"value", peak.value}, {"time", peak.time}};
 }
 
@@ -65,15 +61,15 @@ Json describe_boundaries(const BodyLevel& level) {
   };
   return Json{
       {"report",
-       {{"displacement", to_json(b.report_displacement)},
-        {"linear_limit", to_json(b.report_linear)},
-        {"force", to_json(b.report_force)},
+       {{"displacement", or_null(b.report_displacement)},
+        {"linear_limit", or_null(b.report_linear)},
+        {"force", or_null(b.report_force)},
         {"margin", over(level.peaks.report.value, b.report_displacement)}}},
       {"rigorous",
-       {{"displacement", to_json(b.bound_displacement)},
-        {"linear_limit", to_json(b.bound_linear)},
-        {"force", to_json(b.bound_force)},
-        {"margin", to_json(b.margin)},
+       {{"displacement", or_null(b.bound_displacement)},
+        {"linear_limit", or_null(b.bound_linear)},
+        {"force", or_null(b.bound_force)},
+        {"margin", or_null(b.margin)},
         {"force_margin", over(level.peaks.force.value, level.limits.force)}}}};
 }
 
@@ -135,29 +131,29 @@ Json to_json(const BodyLevel& level) {
   json["reason"] = advice.reason;
   json["limits"] = {{"displacement", level.limits.displacement},
                     {"linear_limit", level.limits.linear_limit},
-                    {"force", to_json(level.limits.force)}};
+                    {"force", or_null(level.limits.force)}};
   json["peaks"] = {
-      {"alpha", to_json(peaks.alpha)},
-      {"omega", to_json(peaks.Omega)},
-      {"alpha_plus_omega_squared", to_json(peaks.report)},
-      {"nodal_inertial_force", to_json(peaks.force)},
+      {"alpha", describe_peak(peaks.alpha)},
+      {"omega", describe_peak(peaks.Omega)},
+      {"alpha_plus_omega_squared", describe_peak(peaks.report)},
+      {"nodal_inertial_force", describe_peak(peaks.force)},
       {"angle", peaks.angle},
-      {"deformation", to_json(peaks.deformation)},
-      {"displacement", to_json(peaks.total)},
-      {"interface_rotation", to_json(peaks.turn)},
-      {"relative_interface_rotation", to_json(peaks.relative_turn)},
-      {"static_displacement_of_loads", to_json(peaks.loads)},
-      {"static_displacement_of_inertia", to_json(peaks.inertial)}};
+      {"deformation", describe_peak(peaks.deformation)},
+      {"displacement", describe_peak(peaks.total)},
+      {"interface_rotation", describe_peak(peaks.turn)},
+      {"relative_interface_rotation", describe_peak(peaks.relative_turn)},
+      {"static_displacement_of_loads", describe_peak(peaks.loads)},
+      {"static_displacement_of_inertia", describe_peak(peaks.inertial)}};
   if (level.bound) json["boundary"] = describe_boundaries(level);
   // Axial load over that at which the body buckles.
-  json["load_factor"] = {{"tension", to_json(peaks.tension)},
-                         {"compression", to_json(peaks.compression)}};
+  json["load_factor"] = {{"tension", describe_peak(peaks.tension)},
+                         {"compression", describe_peak(peaks.compression)}};
   json["left_out"] = {{"rigid", advice.errors.rigid},
                       {"uncoupled", advice.errors.uncoupled},
                       {"one-way", advice.errors.one_way},
                       {"coupled", advice.errors.coupled},
                       {"nonlinear", advice.errors.nonlinear}};
-  json["mean_strain"] = to_json(peaks.strain);
+  json["mean_strain"] = describe_peak(peaks.strain);
   if (!level.impacts.empty()) json["impacts"] = Json::array();
   for (const dynamics::ImpactSpectrum& impact : level.impacts) {
     json["impacts"].push_back(

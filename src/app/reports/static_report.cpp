@@ -29,9 +29,10 @@ double find_deformation(const SystemModel& model, BodyIndex b,
       u.reshaped(3, rows.x_B.cols()).colwise().squaredNorm().maxCoeff());
 }
 
-StaticBody describe_body(const SystemModel& model, BodyIndex b,
-                         const SystemState& start, const SystemState& state,
-                         const dynamics::SystemTerms& terms) {
+StaticBody describe_static_body(const SystemModel& model, BodyIndex b,
+                                const SystemState& start,
+                                const SystemState& state,
+                                const dynamics::SystemTerms& terms) {
   const auto i = static_cast<std::size_t>(b);
   const dynamics::BodyModel& body = model.bodies[i];
   StaticBody out;
@@ -71,7 +72,7 @@ StaticReport report_equilibrium(const scene::BuiltScene& built,
   StaticReport report;
   for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
     report.bodies.push_back(
-        describe_body(model, b, built.initial, found.state, terms));
+        describe_static_body(model, b, built.initial, found.state, terms));
   }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const Vector6& wrench = terms.couplers[c].response.wrench;

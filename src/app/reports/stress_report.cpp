@@ -80,10 +80,6 @@ std::optional<double> find_correction(const scene::BuiltScene& built,
          whole;
 }
 
-Json to_json_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 }  // namespace
 
 std::vector<StressPeak> find_stress_peaks(const scene::BuiltScene& built,
@@ -135,14 +131,13 @@ std::vector<std::optional<std::size_t>> find_peak_nodes(
 Json to_json(const std::vector<StressPeak>& peaks) {
   Json json = Json::array();
   for (const StressPeak& peak : peaks) {
-    json.push_back(
-        Json{{"link", peak.link},
-             {"von_mises", peak.von_mises},
-             {"time", peak.time},
-             {"node", peak.node},
-             {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
-             {"averaging_error", to_json_or_null(peak.averaging_error)},
-             {"correction_share", to_json_or_null(peak.correction_share)}});
+    json.push_back(Json{{"link", peak.link},
+                        {"von_mises", peak.von_mises},
+                        {"time", peak.time},
+                        {"node", peak.node},
+                        {"place", {peak.p_L.x(), peak.p_L.y(), peak.p_L.z()}},
+                        {"averaging_error", or_null(peak.averaging_error)},
+                        {"correction_share", or_null(peak.correction_share)}});
   }
   return json;
 }

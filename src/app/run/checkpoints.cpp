@@ -41,7 +41,8 @@ bool is_there(const std::filesystem::path& file) {
          std::filesystem::file_type::not_found;
 }
 
-void warn(const std::string& text, std::vector<std::string>& warnings) {
+void print_warning(const std::string& text,
+                   std::vector<std::string>& warnings) {
   print_warnings({text});
   warnings.push_back(text);
 }
@@ -67,9 +68,10 @@ class Keeper {
       writer_->write(run, history_);
     } catch (const InputError& error) {
       if (std::exchange(has_warned_, true)) return;
-      warn(fmt::format("no checkpoint at t = {:.9g} s: {}; the run continues",
-                       run.time, error.what()),
-           warnings_);
+      print_warning(
+          fmt::format("no checkpoint at t = {:.9g} s: {}; the run continues",
+                      run.time, error.what()),
+          warnings_);
     }
   }
 
@@ -100,10 +102,11 @@ dynamics::Continuation make_continuation(
   };
   if (!plan.resumes) return continuation;
   if (!is_there(plan.file)) {
-    warn(fmt::format("there is no checkpoint '{}' to resume from; the run "
-                     "starts from the beginning",
-                     plan.file.string()),
-         warnings);
+    print_warning(
+        fmt::format("there is no checkpoint '{}' to resume from; the run "
+                    "starts from the beginning",
+                    plan.file.string()),
+        warnings);
     return continuation;
   }
   results::CheckpointRecord record = results::read_checkpoint(plan.file);

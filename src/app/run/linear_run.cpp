@@ -66,7 +66,7 @@ ReferenceState find_reference(const std::variant<Reference, double>& at,
           "equilibrium", "the equilibrium"};
 }
 
-void warn(const std::string& where, LinearRun& run) {
+void add_linear_warnings(const std::string& where, LinearRun& run) {
   const dynamics::LinearSystem& system = run.linear.system;
   const LinearisedAt at{where, "the model is"};
   std::vector<std::string>& warnings = run.record.warnings;
@@ -121,7 +121,7 @@ LinearRun linearise_scene(const scene::Scene& scene,
   run.linear = scene::linearise(scene.scenario, built.model, reference.state,
                                 built.probes, request.selection);
   run.record.warnings = built.warnings;
-  warn(reference.where, run);
+  add_linear_warnings(reference.where, run);
   run.record.model = run.linear.model;
   if (request.states > 0) truncate(request.states, run);
   const Vector3& w = run.linear.system.axes.w_W;

@@ -55,7 +55,7 @@ class Staging {
  public:
   explicit Staging(const fs::path& folder) {
     const auto made = make_private_folder(folder / kStaging);
-    if (!made) refuse(folder, std::generic_category().message(errno));
+    if (!made) refuse(folder, describe_errno());
     path_ = *made;
   }
   Staging(const Staging&) = delete;

@@ -58,7 +58,7 @@ void add_columns(Run& run) {
   }
 }
 
-Json describe(const dynamics::Extreme& extreme) {
+Json describe_extreme(const dynamics::Extreme& extreme) {
   return Json{{"value", extreme.value}, {"time", extreme.time}};
 }
 
@@ -75,14 +75,14 @@ Json summarize_energy(const results::History& history,
   json["throughput"] = audit.throughput;
   const std::optional<double> relative = audit.relative();
   json["relative_drift"] = relative ? Json(*relative) : Json(nullptr);
-  json["largest_drift"] = describe(record.drift);
+  json["largest_drift"] = describe_extreme(record.drift);
   json["open_share"] = dynamics::find_open_share(record);
   json["place"] = record.place;
   json["place_share"] = record.share;
-  json["peaks"] = {{"stored", describe(record.stored)},
-                   {"kinetic", describe(record.kinetic)},
-                   {"elastic", describe(record.elastic)},
-                   {"coupler", describe(record.coupler)}};
+  json["peaks"] = {{"stored", describe_extreme(record.stored)},
+                   {"kinetic", describe_extreme(record.kinetic)},
+                   {"elastic", describe_extreme(record.elastic)},
+                   {"coupler", describe_extreme(record.coupler)}};
   return json;
 }
 

@@ -48,7 +48,8 @@ results::SolidShape read_mesh(const scene::MeshGeometry& geometry) {
 }
 
 /// Nothing for geometry without a shape here.
-std::optional<results::SolidShape> describe(const scene::Geometry& geometry) {
+std::optional<results::SolidShape> find_solid_shape(
+    const scene::Geometry& geometry) {
   using Form = std::optional<results::SolidShape>;
   const auto make = [](const char* kind, const Vector3& size) -> Form {
     return results::SolidShape{kind, size, {}, {}};
@@ -81,7 +82,7 @@ void add_link(const scene::Link& link, results::Scenery& scenery,
   const auto& given = has_visuals ? link.visuals : link.collisions;
   for (const scene::Collision& shape : given) {
     try {
-      if (auto form = describe(shape.geometry)) {
+      if (auto form = find_solid_shape(shape.geometry)) {
         scenery.shapes.push_back(
             {link.name, dynamics::kWorld, shape.X_LS, std::move(*form)});
       }
@@ -131,7 +132,7 @@ void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
     shape.X_BS = place.X_BL * shape.X_BS;
   }
   for (const scene::ObstacleSpec& obstacle : scene.scenario.obstacles) {
-    if (auto form = describe(obstacle.geometry)) {
+    if (auto form = find_solid_shape(obstacle.geometry)) {
       scenery.shapes.push_back(
           {obstacle.name, dynamics::kWorld, obstacle.X_WS, std::move(*form)});
     }

@@ -22,7 +22,7 @@
 namespace limber::app {
 namespace {
 
-void observe(StaticRun& run) {
+void observe_equilibrium(StaticRun& run) {
   const dynamics::SystemState& state = run.found.state;
   for (const scene::Probe& probe : run.built.probes) {
     for (const auto& column : scene::column_names(probe)) {
@@ -40,7 +40,7 @@ bool is_unstable(const StaticReport& report) {
   return report.lowest_frequency && *report.lowest_frequency < 0.0;
 }
 
-void warn(const std::filesystem::path& cache, StaticRun& run) {
+void add_static_warnings(const std::filesystem::path& cache, StaticRun& run) {
   run.warnings = run.built.warnings;
   RunSurvey survey(run.scene, run.built, cache);
   survey.include(run.found.state);
@@ -114,10 +114,10 @@ StaticRun find_static(const scene::Scene& scene,
   }
   run.report = report_equilibrium(run.built, run.found);
   if (is_unstable(run.report)) follow_branch(run, progress);
-  observe(run);
+  observe_equilibrium(run);
   run.stress = find_stress_peaks(run.built, run.history,
                                  record_state(run.built, run.found.state));
-  warn(cache, run);
+  add_static_warnings(cache, run);
   return run;
 }
 

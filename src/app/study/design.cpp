@@ -18,8 +18,6 @@ namespace {
 
 using Matrix = std::vector<std::vector<double>>;
 
-constexpr std::size_t kMostRuns = 10'000'000;
-
 /// Doubles in (0, 1), the same with every standard library.
 class Uniform {
  public:
@@ -67,7 +65,7 @@ std::vector<std::string> list_values(const Factor& factor, DesignKind kind) {
 }
 
 void check_count(std::size_t count) {
-  if (count <= kMostRuns) return;
+  if (count <= std::size_t{kMostRuns}) return;
   throw InputError(
       fmt::format("the design has {} runs, more than {}", count, kMostRuns));
 }

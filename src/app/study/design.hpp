@@ -12,6 +12,9 @@ namespace limber::app {
 /// The runs of a study: for each the value of each factor, as TOML.
 using Design = std::vector<std::vector<std::string>>;
 
+/// Of a study; more are refused.
+inline constexpr int kMostRuns = 10'000'000;
+
 /// All runs. They depend on the study only, so that any machine can make any
 /// part of them.
 ///

@@ -23,7 +23,9 @@ using Value = std::optional<double>;
 // Lists whose length is known only after a run.
 bool is_open_list(const Json& node) { return node.is_array(); }
 
-Parts split(const std::string& path) { return scene::split_path(path); }
+Parts split_response(const std::string& path) {
+  return scene::split_path(path);
+}
 
 std::string join(const Parts& parts, std::size_t from, std::size_t count) {
   std::string text = parts[from];
@@ -150,7 +152,7 @@ class Evaluation {
 
   Value operator()(const SummaryResponse& summary) {
     if (!json_) json_ = summarize(run_);
-    const Parts parts = split(summary.path);
+    const Parts parts = split_response(summary.path);
     const Found found = find_path(*json_, parts);
     if (found.depth == parts.size()) {
       if (!found.node->is_primitive() || found.node->is_string()) {
@@ -236,7 +238,7 @@ class Check {
 
   std::string operator()(const SummaryResponse& summary) const {
     const Json json = summarize(start_);
-    const Parts parts = split(summary.path);
+    const Parts parts = split_response(summary.path);
     const Found found = find_path(json, parts);
     if (found.depth == parts.size()) {
       return found.node->is_number() || found.node->is_boolean() ||

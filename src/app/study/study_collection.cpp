@@ -21,7 +21,7 @@ struct Place {
   std::size_t run = 0;
 };
 
-Place split(const std::string& place) {
+Place split_place(const std::string& place) {
   const std::size_t hash = place.rfind('#');
   const auto run = hash == std::string::npos
                        ? std::nullopt
@@ -79,7 +79,7 @@ std::size_t collect_study(const std::vector<std::string>& files,
 }
 
 StudiedRun find_studied_run(const std::string& place) {
-  const Place found = split(place);
+  const Place found = split_place(place);
   const StudyFile file(found.file);
   const Study& study = file.record().study;
   const Design design = make_design(study);
@@ -94,7 +94,7 @@ StudiedRun find_studied_run(const std::string& place) {
 }
 
 void check_is_unchanged(const std::string& place, const fs::path& cache) {
-  const Place found = split(place);
+  const Place found = split_place(place);
   const StudyFile file(found.file);
   const Study& study = file.record().study;
   const StudyBase base = make_base(study, make_design(study), cache);

@@ -30,7 +30,7 @@ constexpr const char* kLayout = "2";
       fmt::format("results of a study '{}': {}", file.string(), why));
 }
 
-std::string quote(const std::string& name) { return "\"" + name + "\""; }
+std::string quote_name(const std::string& name) { return "\"" + name + "\""; }
 
 std::vector<std::string> list_columns(const Study& study) {
   std::vector<std::string> columns = {"run"};
@@ -190,10 +190,10 @@ StudyFile::~StudyFile() {
 void StudyFile::create() {
   std::string columns = "run INTEGER PRIMARY KEY";
   for (const Factor& factor : record_.study.factors) {
-    columns += ", " + quote(factor.name);
+    columns += ", " + quote_name(factor.name);
   }
   for (const Response& response : record_.study.responses) {
-    columns += ", " + quote(response.name) + " REAL";
+    columns += ", " + quote_name(response.name) + " REAL";
   }
   database_->run("BEGIN EXCLUSIVE");
   database_->run("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT)");
@@ -262,7 +262,7 @@ std::vector<StudyRow> StudyFile::read_rows() const {
   const Study& study = record_.study;
   std::string names;
   for (const std::string& column : list_columns(study)) {
-    names += (names.empty() ? "" : ", ") + ("runs." + quote(column));
+    names += (names.empty() ? "" : ", ") + ("runs." + quote_name(column));
   }
   Database::Statement select(
       *database_,

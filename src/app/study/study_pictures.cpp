@@ -19,7 +19,7 @@ namespace {
 
 using results::StudyColumn;
 
-std::optional<double> to_number(const std::string& text) {
+std::optional<double> find_number(const std::string& text) {
   double value = 0.0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -36,11 +36,11 @@ StudyColumn make_factor(const Study& study, const std::vector<StudyRow>& rows,
   column.is_logarithmic = spread != nullptr && spread->is_logarithmic;
   const bool is_text =
       std::any_of(rows.begin(), rows.end(), [&](const StudyRow& row) {
-        return !to_number(row.factors[f]).has_value();
+        return !find_number(row.factors[f]).has_value();
       });
   for (const StudyRow& row : rows) {
     if (!is_text) {
-      column.values.push_back(*to_number(row.factors[f]));
+      column.values.push_back(*find_number(row.factors[f]));
       continue;
     }
     auto at =

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "limber/app/study/design.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/files/input_file.hpp"
 #include "limber/scene/text/key_depth.hpp"
@@ -22,7 +23,6 @@ using scene::TomlTable;
 
 constexpr InputKind kStudy = {"study file", std::uint64_t{1} << 26};
 constexpr int kVersion = 1;
-constexpr int kMostRuns = 10'000'000;
 
 std::string to_toml(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;

@@ -18,6 +18,7 @@
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/run_manifest.hpp"
 #include "limber/app/study/study_worker.hpp"
+#include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -26,10 +27,6 @@ namespace limber::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Ends a run between two steps after a signal.
 void stop_on_signal(std::string_view, double fraction) {

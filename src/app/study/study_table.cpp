@@ -11,7 +11,7 @@
 namespace limber::app {
 namespace {
 
-std::string quote(const std::string& text) {
+std::string quote_cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
@@ -129,9 +129,10 @@ std::string to_csv(const Study& study, const std::vector<StudyRow>& rows) {
   text += ",error,warnings";
   for (const StudyRow& row : rows) {
     text += fmt::format("\n{}", row.run);
-    for (const std::string& value : row.factors) text += "," + quote(value);
+    for (const std::string& value : row.factors)
+      text += "," + quote_cell(value);
     for (const auto& value : row.responses) text += "," + to_number(value);
-    text += "," + quote(row.error) + "," + quote(row.warnings);
+    text += "," + quote_cell(row.error) + "," + quote_cell(row.warnings);
   }
   return text;
 }

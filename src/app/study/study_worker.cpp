@@ -12,6 +12,7 @@
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/run/library_lock.hpp"
 #include "limber/app/run/run_scene.hpp"
+#include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/scene/build/load_scene.hpp"
@@ -20,10 +21,6 @@ namespace limber::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<std::string> list_warnings(const Run& run) {
   std::vector<std::string> texts = run.built.warnings;

@@ -21,10 +21,6 @@ namespace {
   throw InputError(fmt::format("'{}' {}: {}", file.string(), what, why));
 }
 
-std::string describe_errno() {
-  return std::error_code(errno, std::generic_category()).message();
-}
-
 std::string read_part(const std::filesystem::path& file, const FilePart& part) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {

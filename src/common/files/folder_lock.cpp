@@ -53,7 +53,7 @@ int open_lock(const fs::path& folder, const fs::path& file) {
   if (descriptor >= 0) return descriptor;
   throw InputError(fmt::format(
       "results folder '{}' cannot be written ({}); choose another with --out",
-      folder.string(), std::generic_category().message(errno)));
+      folder.string(), describe_errno()));
 }
 
 }  // namespace

@@ -15,8 +15,6 @@
 namespace limber {
 namespace {
 
-std::string describe_errno() { return std::generic_category().message(errno); }
-
 const char* name_type(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISFIFO(mode)) return "a pipe";

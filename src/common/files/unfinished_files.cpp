@@ -78,8 +78,6 @@ std::string draw_letters() {
       fmt::format("'{}' cannot be written: {}", file.string(), why));
 }
 
-std::string describe_errno() { return std::generic_category().message(errno); }
-
 fs::path make_part(const fs::path& file) {
   while (true) {
     fs::path part = file;

@@ -19,8 +19,6 @@ constexpr double power(double x) {
   return product;
 }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // x > 0 of (x/flat)^n + (x/line)^(n+1) = 1, for flat, line > 0, one of which
 // may be infinite. With u = x / min(flat, line) one coefficient is 1 and the
 // other at most 1: nothing overflows, u is between 2^(-1/n) and 1, and from 1

@@ -10,8 +10,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // The integral of sin(x) / f(x) by the double-exponential rule, which converges
 // in spite of the integrand's root at x = 0.
 double integrate(const HertzLaw& law, double peak_energy) {
@@ -20,15 +18,16 @@ double integrate(const HertzLaw& law, double peak_energy) {
   double sum = 0.0;
   for (int i = -kHalfCount; i <= kHalfCount; ++i) {
     const double t = kStep * i;
-    const double share = 1.0 / (1.0 + std::exp(-kPi * std::sinh(t)));
-    const double rest = 1.0 / (1.0 + std::exp(kPi * std::sinh(t)));
-    const double weight = kPi * std::cosh(t) * share * rest;
-    const double sine = std::sin(0.5 * kPi * share);
+    const double share =
+        1.0 / (1.0 + std::exp(-std::numbers::pi * std::sinh(t)));
+    const double rest = 1.0 / (1.0 + std::exp(std::numbers::pi * std::sinh(t)));
+    const double weight = std::numbers::pi * std::cosh(t) * share * rest;
+    const double sine = std::sin(0.5 * std::numbers::pi * share);
     const double force =
         law.find_state_of_energy(peak_energy * sine * sine).force;
     sum += weight * sine / force;
   }
-  return 0.5 * kPi * kStep * sum;
+  return 0.5 * std::numbers::pi * kStep * sum;
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ ImpactEstimate estimate_impact(const HertzLaw& law, double mass, double speed) {
 
 HertzLaw make_default_law(double mass) {
   LIMBER_EXPECT(mass > 0.0 && std::isfinite(mass));
-  const double radian = kImpactDuration / kPi;
+  const double radian = kImpactDuration / std::numbers::pi;
   return HertzLaw(
       {.stiffness = HertzLaw::kRigid, .residual = radian * radian / mass});
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "limber/common/types.hpp"
 
 namespace limber::contact {

@@ -12,8 +12,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 PointMemory remembered(const PointLaw& law, const PointMotion& motion,
                        const PointMemory& memory) {
   if (memory.is_touching()) return memory;
@@ -80,7 +78,7 @@ PointResponse PointLaw::evaluate(const PointMotion& motion,
   out.energy += elastic.energy();
   const double radius = parameters_.radius.value_or(
       1.0 / std::max(motion.curvature, 1.0 / size_));
-  out.area = motion.share * kPi * radius * elastic.hertz_depth;
+  out.area = motion.share * std::numbers::pi * radius * elastic.hertz_depth;
   return out;
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kMostPoints = 4 * ConvexFace::kMostCorners;
 // before that becomes a feature as well [-].
 constexpr double kMissed = 0.1;
 // Shares up to this are round-off [-].
-constexpr double kNoShare = 1e-6;
+constexpr double kFlatSpread = 1e-6;
 
 Segment make_segment(const ConvexFace& face) {
   const Vector3 way = face.corners[1] - face.corners[0];
@@ -37,16 +37,17 @@ double find_drop(const ConvexFace& face, const Vector3& n) {
   return high - low;
 }
 
-// Opposite points of both surfaces.
-struct Opposite {
+// OppositePoints points of both surfaces.
+struct OppositePoints {
   Vector3 on_A;
   Vector3 on_B;
 };
 
 // The opposite points at the deepest place, separated along n by the depth.
-Opposite find_deepest(const Separation& at, const ConvexCore& core_A,
-                      const ConvexCore& core_B, const ConvexFace& A,
-                      const ConvexFace& B) {
+OppositePoints find_deepest_points(const Separation& at,
+                                   const ConvexCore& core_A,
+                                   const ConvexCore& core_B,
+                                   const ConvexFace& A, const ConvexFace& B) {
   const Vector3& n = at.normal_W;
   if (at.is_apart) {
     return {at.on_A + core_A.ball() * n, at.on_B - core_B.ball() * n};
@@ -75,9 +76,9 @@ Opposite find_deepest(const Separation& at, const ConvexCore& core_A,
   return {middle + 0.5 * at.depth * n, middle - 0.5 * at.depth * n};
 }
 
-Meeting make_meeting(const PlacedShape& A, const PlacedShape& B,
-                     const Vector3& normal_W, const Opposite& points,
-                     double curvature) {
+Meeting make_convex_meeting(const PlacedShape& A, const PlacedShape& B,
+                            const Vector3& normal_W,
+                            const OppositePoints& points, double curvature) {
   const Vector3 p_W = 0.5 * (points.on_A + points.on_B);
   return {.depth = normal_W.dot(points.on_A - points.on_B),
           .normal_W = normal_W,
@@ -109,8 +110,9 @@ void meet_convex(const PlacedShape& A, const PlacedShape& B,
   double deepest = Meeting{}.depth;
   for (std::size_t i = 0; i < used.size(); ++i) {
     out[i] = {};
-    if (!(used[i].share > kNoShare)) continue;
-    out[i] = make_meeting(A, B, n, {used[i].on_A, used[i].on_B}, curvature);
+    if (!(used[i].share > kFlatSpread)) continue;
+    out[i] =
+        make_convex_meeting(A, B, n, {used[i].on_A, used[i].on_B}, curvature);
     out[i].share = used[i].share;
     deepest = std::max(deepest, out[i].depth);
   }
@@ -120,9 +122,10 @@ void meet_convex(const PlacedShape& A, const PlacedShape& B,
   if (at.depth > 0.0) {
     share = std::clamp((at.depth - deepest) / (kMissed * at.depth), 0.0, 1.0);
   }
-  if (!(share > kNoShare)) return;
-  last = make_meeting(A, B, n, find_deepest(at, core_A, core_B, face_A, face_B),
-                      curvature);
+  if (!(share > kFlatSpread)) return;
+  last = make_convex_meeting(
+      A, B, n, find_deepest_points(at, core_A, core_B, face_A, face_B),
+      curvature);
   last.depth = at.depth;
   last.share = share;
 }

@@ -82,8 +82,8 @@ class LeastDepth {
       try_unit(find_direction(0.5 * (low + high)));
     }
   }
-  /// Tries a minimum among all directions, by compass search from the best of
-  /// many, then by Newton's method.
+  /// Tries a minimum among all directions, by compass search_depth from the
+  /// best of many, then by Newton's method.
   void try_sphere() {
     constexpr int kSamples = 200;
     constexpr double kTurn = 2.399963229728653;  // golden angle
@@ -173,7 +173,7 @@ void try_faces(const ConvexCore& shape, LeastDepth& least) {
   }
 }
 
-LeastDepth search(const ConvexCore& A, const ConvexCore& B) {
+LeastDepth search_depth(const ConvexCore& A, const ConvexCore& B) {
   LeastDepth least(A, B);
   try_faces(A, least);
   try_faces(B, least);
@@ -208,14 +208,14 @@ Separation find_separation(const ConvexCore& A, const ConvexCore& B) {
                      .is_apart = true};
     const bool has_rim = A.disc() > 0.0 || B.disc() > 0.0;
     if (has_rim && distance < kClose * (A.size() + B.size())) {
-      const LeastDepth least = search(A, B);
+      const LeastDepth least = search_depth(A, B);
       if (least.depth() < least.evaluate(apart.normal_W)) {
         apart.normal_W = least.best();
       }
     }
     return apart;
   }
-  const LeastDepth least = search(A, B);
+  const LeastDepth least = search_depth(A, B);
   return {.normal_W = least.best(), .depth = least.depth() + balls};
 }
 

@@ -34,7 +34,7 @@ constexpr TiltRange kRimTilt{0.99996192, 0.99984770};
 // other face [-].
 constexpr double kWithin = 0.9;
 // Shares up to this are round-off.
-constexpr double kNoShare = 1e-9;
+constexpr double kNoCover = 1e-9;
 // A place between pads counts if it is deeper than the deepest pad, fully from
 // this part of its depth on [-].
 constexpr double kDeeper = 0.1;
@@ -49,7 +49,7 @@ double find_radius(const flexbody::ContactPads& pads, Eigen::Index pad) {
 }
 
 // The part of a flat side opposite to a point.
-struct Opposite {
+struct OppositeFace {
   Vector3 normal_W = Vector3::UnitZ();  // unit, outward [-]
   Vector3 p_W = Vector3::Zero();        // its point there, or on its rim [m]
   SurfacePlace place;
@@ -59,9 +59,9 @@ struct Opposite {
 
 // The face of a box or end of a cylinder that faces against a
 // direction.
-std::optional<Opposite> find_opposite(const PlacedShape& shape,
-                                      const Vector3& p_W,
-                                      const Vector3& way_W) {
+std::optional<OppositeFace> find_opposite(const PlacedShape& shape,
+                                          const Vector3& p_W,
+                                          const Vector3& way_W) {
   const Vector3 way = shape.X_WS.R.transpose() * way_W;
   Vector3 p = shape.X_WS.inverse() * p_W;
   int axis = 2;
@@ -79,8 +79,8 @@ std::optional<Opposite> find_opposite(const PlacedShape& shape,
   }
   const double side = way[axis] > 0.0 ? -1.0 : 1.0;
   p[axis] = side * height;
-  return Opposite{side * shape.X_WS.R.col(axis), shape.X_WS * p,
-                  shape.make_place(p), 2.0 * height};
+  return OppositeFace{side * shape.X_WS.R.col(axis), shape.X_WS * p,
+                      shape.make_place(p), 2.0 * height};
 }
 
 double sum_area(const Skin& skin) { return skin.surface().pads.area.sum(); }
@@ -103,13 +103,13 @@ struct FlatSide {
 };
 
 // For a deformed flat surface. @param reach of points beyond its rim [m]
-std::optional<Opposite> find_opposite(const FlatSide& side, const Vector3& p_W,
-                                      double reach) {
+std::optional<OppositeFace> find_opposite(const FlatSide& side,
+                                          const Vector3& p_W, double reach) {
   const auto hit = side.skin.find_nearest(
       side.shape.X_WB.inverse() * p_W, side.eta, reach, find_width(side.skin));
   if (!hit || !std::isfinite(hit->nearest.distance)) return std::nullopt;
-  return Opposite{side.normal_W, side.shape.X_WB * hit->nearest.point,
-                  hit->place};
+  return OppositeFace{side.normal_W, side.shape.X_WB * hit->nearest.point,
+                      hit->place};
 }
 
 // Part of a pad over the other side, from the distance of its node beyond the
@@ -185,7 +185,7 @@ Meeting meet_pad(const FlatSide& A, std::size_t i, const PlacedShape& B,
   const double deepest = std::min(found->thickness, find_width(A.skin));
   const double beyond = (arm - height * found->normal_W).norm();
   const double cover = find_cover(beyond, radius);
-  if (!(cover > kNoShare) || height > reach || -height > deepest) return {};
+  if (!(cover > kNoCover) || height > reach || -height > deepest) return {};
   // Mean of the node over B's plane and B's rim over A's.
   const Vector3 normal = (1.0 - cover) * A.normal_W - cover * found->normal_W;
   const double depth = (1.0 - cover) * A.normal_W.dot(arm) - cover * height;
@@ -235,7 +235,7 @@ void meet_pads_on_face(const PlacedShape& A, const PlacedShape& B, double reach,
                        (1.0 - within) * kRimTilt.find_share(cosine);
   for (Meeting& pad : out) {
     pad.share *= share;
-    if (!(pad.share > kNoShare)) pad = {};
+    if (!(pad.share > kNoCover)) pad = {};
   }
 }
 
@@ -248,10 +248,10 @@ void take_what_pads_miss(const Shape& A, std::span<const Meeting> pads,
       const double deeper = (meeting.depth - covered.deepest()) / meeting.depth;
       meeting.share *= std::clamp(deeper / kDeeper, 0.0, 1.0);
     }
-    if (meeting.share > kNoShare) {
+    if (meeting.share > kNoCover) {
       meeting.share *= 1.0 - covered.find_hold(meeting.on_A.x_B);
     }
-    if (!(meeting.share > kNoShare)) meeting = {};
+    if (!(meeting.share > kNoCover)) meeting = {};
   }
 }
 

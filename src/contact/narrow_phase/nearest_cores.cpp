@@ -22,7 +22,7 @@ struct Vertex {
 // need.
 using Weights = std::array<double, 4>;
 
-struct Nearest {
+struct NearestSoFar {
   Weights weights{};
   double square = std::numeric_limits<double>::infinity();
 
@@ -40,7 +40,7 @@ class Simplex {
   /// Keeps the vertices that the nearest point needs. @returns its square
   /// distance, 0 if the origin is inside
   double reduce() {
-    const Nearest nearest = find_nearest();
+    const NearestSoFar nearest = find_nearest();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       if (!(nearest.weights[i] > 0.0)) continue;
@@ -70,12 +70,12 @@ class Simplex {
  private:
   [[nodiscard]] const Vector3& x(std::size_t i) const { return vertices_[i].x; }
 
-  void try_vertex(std::size_t i, Nearest& best) const {
+  void try_vertex(std::size_t i, NearestSoFar& best) const {
     Weights weights{};
     weights[i] = 1.0;
     best.take(weights, x(i).squaredNorm());
   }
-  void try_edge(std::size_t i, std::size_t j, Nearest& best) const {
+  void try_edge(std::size_t i, std::size_t j, NearestSoFar& best) const {
     const Vector3 edge = x(j) - x(i);
     const double length = edge.squaredNorm();
     const double t = length > 0.0 ? -x(i).dot(edge) / length : 0.0;
@@ -86,7 +86,7 @@ class Simplex {
     best.take(weights, (x(i) + t * edge).squaredNorm());
   }
   void try_face(std::size_t i, std::size_t j, std::size_t k,
-                Nearest& best) const {
+                NearestSoFar& best) const {
     const Vector3 normal = (x(j) - x(i)).cross(x(k) - x(i));
     const double area = normal.squaredNorm();
     if (!(area > 0.0)) return;
@@ -112,8 +112,8 @@ class Simplex {
     return true;
   }
 
-  [[nodiscard]] Nearest find_nearest() const {
-    Nearest best;
+  [[nodiscard]] NearestSoFar find_nearest() const {
+    NearestSoFar best;
     if (size_ == 4 && holds_origin()) {
       best.take({0.25, 0.25, 0.25, 0.25}, 0.0);
       return best;
@@ -148,8 +148,8 @@ struct Search {
   double width = 0.0;
 };
 
-Search search(const ConvexCore& A, const ConvexCore& B, double size,
-              Vector3& along) {
+Search search_distance(const ConvexCore& A, const ConvexCore& B, double size,
+                       Vector3& along) {
   constexpr int kMostSteps = 60;
   constexpr double kPrecision = 1e-14;  // of the square distance
   Simplex simplex;
@@ -191,9 +191,9 @@ NearestOfCores find_nearest(const ConvexCore& A, const ConvexCore& B) {
   if (along.isZero(0.0)) along = Vector3::UnitX();
   Search best;
   double width = 0.0;
-  // Slivers between points of a rim may end a search early.
+  // Slivers between points of a rim may end a search_distance early.
   for (int i = 0; i < kMostSearches; ++i) {
-    const Search found = search(A, B, size, along);
+    const Search found = search_distance(A, B, size, along);
     width = std::max(width, found.width);
     if (found.distance < best.distance) best = found;
     if (best.distance - width <= kGap * size) break;

@@ -17,9 +17,9 @@ double project(const Segment& segment, const Vector3& point) {
 }
 
 // Keeps the nearest of all candidate pairs of points.
-class Nearest {
+class NearestOfTwo {
  public:
-  Nearest(const Segment& a, const Segment& b) : a_(a), b_(b) {}
+  NearestOfTwo(const Segment& a, const Segment& b) : a_(a), b_(b) {}
 
   void try_pair(double s, double t) {
     const Vector3 arm = (a_.centre - b_.centre) + (s * a_.axis - t * b_.axis);
@@ -54,7 +54,7 @@ NearestOfSegments find_nearest(const Segment& a, const Segment& b) {
   const double sine_square = a.axis.cross(b.axis).squaredNorm();
   const double along_a = -a.axis.dot(arm);  // of b's centre
   const double along_b = b.axis.dot(arm);   // of a's centre
-  Nearest nearest(a, b);
+  NearestOfTwo nearest(a, b);
   if (sine_square < kParallel) {
     const double low = std::max(-a.half_length, along_a - b.half_length);
     const double high = std::min(a.half_length, along_a + b.half_length);

@@ -15,25 +15,26 @@ namespace {
 using SkinPointer = std::shared_ptr<const Skin>;
 
 // A point of B's surface in B's frame, and its place.
-struct Nearest {
+struct NearestOnSurface {
   NearestPoint point;
   SurfacePlace place;
 };
 
-std::optional<Nearest> find_nearest_of(const PlacedShape& B, const Vector3& p,
-                                       double radius, double reach) {
+std::optional<NearestOnSurface> find_nearest_of(const PlacedShape& B,
+                                                const Vector3& p, double radius,
+                                                double reach) {
   return std::visit(
-      [&](const auto& shape) -> std::optional<Nearest> {
+      [&](const auto& shape) -> std::optional<NearestOnSurface> {
         if constexpr (std::is_same_v<std::decay_t<decltype(shape)>,
                                      SkinPointer>) {
           const auto hit =
               shape->find_nearest(p, find_modal_coordinates(*shape, B.body),
                                   reach + radius, radius);
           if (!hit) return std::nullopt;
-          return Nearest{hit->nearest, hit->place};
+          return NearestOnSurface{hit->nearest, hit->place};
         } else {
           const NearestPoint point = find_nearest(shape, p);
-          return Nearest{point, B.make_place(point.point)};
+          return NearestOnSurface{point, B.make_place(point.point)};
         }
       },
       B.shape.kind);

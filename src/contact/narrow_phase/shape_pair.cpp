@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "limber/common/errors.hpp"
@@ -28,8 +27,6 @@ bool is_convex(const Shape& shape) {
 bool is_skin(const Shape& shape) {
   return is_a<std::shared_ptr<const Skin>>(shape);
 }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double find_deepest(std::span<const Meeting> meetings) {
   double deepest = -kInfinity;

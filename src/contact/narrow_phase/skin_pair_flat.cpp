@@ -3,7 +3,6 @@
 // cross.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "limber/common/index.hpp"
@@ -12,7 +11,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Slope beyond a corner or an edge up to which the shallower end of a line
 // counts [-].
 constexpr double kLeans = 0.3;

@@ -9,7 +9,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Largest cosine between normals of sides that face each other [-].
 constexpr double kFacing = -0.05;
 // The same for parallel sides, and the bulge of flat ones over an edge [-].

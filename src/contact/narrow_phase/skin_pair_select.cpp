@@ -3,16 +3,11 @@
 // ones.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "limber/contact/narrow_phase/skin_pair_search.hpp"
 
 namespace limber::contact {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 // Radius of the area around a feature in which both overlap, slightly enlarged;
 // flat parts count as round as the whole.

@@ -10,8 +10,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 DeformedSkin deform(const PlacedShape& shape) {
   const Skin& skin = *std::get<std::shared_ptr<const Skin>>(shape.shape.kind);
   return {skin, find_modal_coordinates(skin, shape.body)};
@@ -31,9 +29,9 @@ double find_far(const DeformedSkin& A, const DeformedSkin& B,
          ball_B.radius;
 }
 
-Meeting make_meeting(const SkinPairSearch::Feature& feature,
-                     const DeformedSkin& A, const DeformedSkin& B,
-                     const Pose& X_WA) {
+Meeting make_skin_meeting(const SkinPairSearch::Feature& feature,
+                          const DeformedSkin& A, const DeformedSkin& B,
+                          const Pose& X_WA) {
   return {.depth = feature.at.depth,
           .normal_W = X_WA.R * feature.at.normal,
           .p_W = X_WA * feature.middle,
@@ -65,7 +63,7 @@ void meet_skins(const PlacedShape& A, const PlacedShape& B, double reach,
       search.select(std::span(features).first(out.size()));
   for (std::size_t i = 0; i < count; ++i) {
     if (!(-features[i].at.depth <= reach)) continue;
-    out[i] = make_meeting(features[i], skin_A, skin_B, A.X_WB);
+    out[i] = make_skin_meeting(features[i], skin_A, skin_B, A.X_WB);
   }
 }
 

@@ -8,8 +8,6 @@
 namespace limber::contact {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Whether a ray from `from` may meet a box, within `most`.
 bool may_meet(const SkinTree::Box& box, const Vector3& from, const Vector3& way,
               double most) {

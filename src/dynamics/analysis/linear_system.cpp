@@ -21,7 +21,7 @@ struct Coordinates {
   MatrixX x_of_rate;
 };
 
-MatrixX join(const MatrixX& by_position, const MatrixX& by_rate) {
+MatrixX join_columns(const MatrixX& by_position, const MatrixX& by_rate) {
   MatrixX rows(by_position.rows(), by_position.cols() + by_rate.cols());
   rows << by_position, by_rate;
   return rows;
@@ -62,7 +62,7 @@ MatrixX find_stiffness(const SteadyMotion& steady) {
   return S;
 }
 
-std::vector<LinearSignal> name_states(Index free, Index n) {
+std::vector<LinearSignal> name_system_states(Index free, Index n) {
   std::vector<LinearSignal> states;
   for (const char* what : {"", ".rate"}) {
     const bool is_rate = *what != '\0';
@@ -95,10 +95,10 @@ void fill_links(const SmallMotion& motion, const Coordinates& c,
                 LinearSystem& out) {
   const Index rows = 6 * std::ssize(motion.damping);
   const MatrixX moved = motion.G.topRows(rows) * c.x_of_position;
-  out.links = join(moved, MatrixX::Zero(rows, moved.cols()));
+  out.links = join_columns(moved, MatrixX::Zero(rows, moved.cols()));
   out.link_velocities =
-      join(motion.velocities.topRows(rows) * c.x_of_position,
-           motion.velocities_by_rate.topRows(rows) * c.x_of_rate);
+      join_columns(motion.velocities.topRows(rows) * c.x_of_position,
+                   motion.velocities_by_rate.topRows(rows) * c.x_of_rate);
   const std::vector<Matrix6> stiffness(
       motion.K.begin(), motion.K.begin() + std::ssize(motion.damping));
   out.wrenches = -multiply_blocks(stiffness, out.links) -
@@ -113,10 +113,11 @@ void fill_links(const SmallMotion& motion, const Coordinates& c,
 void fill_motions(const SystemModel& model, const SmallMotion& motion,
                   const Coordinates& c, LinearSystem& out) {
   const Index n = motion.size();
-  out.frames = join(motion.frames * c.x_of_position,
-                    MatrixX::Zero(motion.frames.rows(), n));
-  out.frame_velocities = join(motion.frame_velocities * c.x_of_position,
-                              motion.frame_velocities_by_rate * c.x_of_rate);
+  out.frames = join_columns(motion.frames * c.x_of_position,
+                            MatrixX::Zero(motion.frames.rows(), n));
+  out.frame_velocities =
+      join_columns(motion.frame_velocities * c.x_of_position,
+                   motion.frame_velocities_by_rate * c.x_of_rate);
   out.modes = MatrixX::Zero(model.modal_count, 2 * n);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
@@ -140,7 +141,8 @@ void check_apart(const SystemModel& model, const SystemState& state) {
       if (point.force_W.isZero(0.0) && point.stiffness.isZero(0.0)) continue;
       throw InputError(fmt::format(
           "{} and {} touch at t = {:g} s: a contact that opens, slips or rolls "
-          "has no linear model. Take a time at which they are apart, or join "
+          "has no linear model. Take a time at which they are apart, or "
+          "join_columns "
           "them by a coupler",
           name(pair.body_A), name(pair.body_B), state.t));
     }
@@ -165,7 +167,7 @@ LinearSystem linearise(const SystemModel& model, const SystemState& state,
   out.change = steady.change;
   out.imbalance = find_imbalance(model, state, steady.axes);
   out.free = steady.basis.free;
-  out.states = name_states(out.free, motion.size());
+  out.states = name_system_states(out.free, motion.size());
   out.inputs = find_linear_inputs(model, state, motion, names);
   const MatrixX S = find_stiffness(steady);
   const VectorX scale = find_scale(S, out.free);

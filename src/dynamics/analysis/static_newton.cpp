@@ -17,7 +17,7 @@ namespace {
 // Step of force differences relative to the extent.
 constexpr double kProbe = 1e-7;
 // Largest correction relative to the extent.
-constexpr double kLongest = 0.2;
+constexpr double kLongestCorrection = 0.2;
 // Tolerance of the linear solution of a correction.
 constexpr double kLinear = 1e-4;
 // Above this residual the matrix is singular.
@@ -196,7 +196,7 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
     ++iterations_;
     if (!correct(state, target)) return false;
     const double length = measure(correction_);
-    const double share = std::min(1.0, kLongest * extent_ / length);
+    const double share = std::min(1.0, kLongestCorrection * extent_ / length);
     matrix_.find_wrench_changes(terms_, correction_, changes_);
     wrenches_ += share * (laws_ - wrenches_ + changes_);
     displace(model_, correction_, share, state);

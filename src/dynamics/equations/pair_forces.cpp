@@ -20,8 +20,8 @@ std::size_t slot_of(BodyIndex body, const PairTerms& terms) {
   return body == kWorld ? terms.bodies.size() - 1 : index(body);
 }
 
-void set_coordinates(const BodyModel& body, const SystemState& state,
-                     ProductTerms& own, joints::PairBody& out) {
+void set_pair_coordinates(const BodyModel& body, const SystemState& state,
+                          ProductTerms& own, joints::PairBody& out) {
   const double* eta = state.eta.data() + body.offset;
   const double* etadot = state.etadot.data() + body.offset;
   out.modes = count_coordinates(body);
@@ -45,7 +45,7 @@ void set_body(const SystemModel& model, const SystemState& state, std::size_t b,
   out.p_WB = rigid.p_WB;
   out.v_WB_W = rigid.v_WB_W;
   out.w_WB_B = rigid.w_WB_B;
-  set_coordinates(model.bodies[b], state, own, out);
+  set_pair_coordinates(model.bodies[b], state, own, out);
 }
 
 void set_full_body(const SystemModel& model, const SystemState& state,

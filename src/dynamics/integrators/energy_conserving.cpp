@@ -25,7 +25,7 @@ constexpr double kRoundoff = 4.0 * kEpsilon;
 constexpr double kNoise = 100.0;
 // Contraction above which to factor again, since many iterations are needed to
 // reach round-off; the second one applies to fresh factors [-].
-constexpr double kPoorContraction = 0.05;
+constexpr double kPoorStepContraction = 0.05;
 constexpr double kPoorFreshContraction = 0.1;
 
 Eigen::Map<const VectorX> modes_of(const BodyModel& body, const VectorX& all) {
@@ -322,7 +322,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
     needs_factors =
         result.iterations > 1 && correction.value > roundoff &&
         contraction > (result.factorizations > 0 ? kPoorFreshContraction
-                                                 : kPoorContraction);
+                                                 : kPoorStepContraction);
   }
   result.load_work = h * mean_.load_power;
   result.dissipated = h * mean_.dissipated_power;

@@ -10,8 +10,8 @@
 namespace limber::dynamics {
 namespace {
 
-double measure(const SystemModel& model, const SystemState& state,
-               std::size_t b) {
+double measure_state(const SystemModel& model, const SystemState& state,
+                     std::size_t b) {
   const BodyModel& body = model.bodies[b];
   if (body.full >= 0) {
     const FullModel& full =
@@ -28,7 +28,7 @@ double measure(const SystemModel& model, const SystemState& state,
 void require_finite(const SystemModel& model, const SystemState& state,
                     double h) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (std::isfinite(measure(model, state, b))) continue;
+    if (std::isfinite(measure_state(model, state, b))) continue;
     throw NumericalError(fmt::format(
         "body '{}' at t = {:.9g} s: its motion is no longer finite; the "
         "explicit step {:.3g} s is too long for its stiffest mode or coupler",

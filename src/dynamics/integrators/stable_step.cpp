@@ -34,7 +34,7 @@ void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
 }
 
 // Mass-weighted Euclidean norm.
-double measure(const SystemModel& model, Change& x) {
+double measure_change(const SystemModel& model, Change& x) {
   double sum = 0.0;
   for_each_vector(model, x, [&](double* at, Eigen::Index n, double weight) {
     sum += weight * weight * Eigen::Map<const VectorX>(at, n).squaredNorm();
@@ -88,11 +88,11 @@ class Iteration {
     double eigenvalue = 0.0;
     int settled = 0;
     for (int i = 0; i < kMostIterations && settled < kSettled; ++i) {
-      const double size = measure(model_, x_);
+      const double size = measure_change(model_, x_);
       if (!(size > 0.0)) return 0.0;
       scale(model_, x_, 1.0 / size);
       apply(of_velocity);
-      const double next = measure(model_, x_);
+      const double next = measure_change(model_, x_);
       settled = std::abs(next - eigenvalue) <= kEnough * next ? settled + 1 : 0;
       eigenvalue = next;
     }
@@ -174,7 +174,7 @@ class Iteration {
   SystemTerms terms_;
   Change x_;
   Change rest_;
-  double increment_;  // of positions, in the norm of measure()
+  double increment_;  // of positions, in the norm of measure_change()
   bool has_modes_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNamedShare = 0.1;
 
 // "12 % of the energy ... are lost by t = ...".
-std::string describe(const EnergyRecord& energy) {
+std::string describe_energy(const EnergyRecord& energy) {
   const double drift = energy.drift.value;
   std::string text = fmt::format(
       "{:.3g} J are {} by t = {:.6g} s that nothing accounts for, {:.3g} % of "
@@ -63,7 +63,7 @@ double find_open_share(const EnergyRecord& energy) {
 void warn_of_energy(IntegratorKind integrator, const EnergyRecord& energy,
                     std::vector<std::string>& warnings) {
   if (!(find_open_share(energy) > kToldDrift)) return;
-  warnings.push_back(fmt::format("energy: {}; {}", describe(energy),
+  warnings.push_back(fmt::format("energy: {}; {}", describe_energy(energy),
                                  advise(integrator, energy)));
 }
 
@@ -71,7 +71,7 @@ void check_energy(IntegratorKind integrator, const EnergyRecord& energy) {
   if (!(find_open_share(energy) > kMostDrift)) return;
   if (is_forgiven(integrator, energy)) return;
   throw NumericalError(fmt::format("the energy does not balance: {}; {}",
-                                   describe(energy),
+                                   describe_energy(energy),
                                    advise(integrator, energy)));
 }
 

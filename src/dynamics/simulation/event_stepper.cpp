@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostCut = 32;
 // Fraction of a step within which an event is moved to its beginning or end
 // [-].
-constexpr double kSame = 1e-9;
+constexpr double kSameEvent = 1e-9;
 // Largest number of attempts to end a step where two bodies touch or part, and
 // least reduction of its length from one to the next [-].
 constexpr int kMostRepeats = 12;
@@ -153,7 +153,7 @@ void EventStepper::pass_all_at_end(SystemState& state, double h) {
 // any time
 bool EventStepper::advance_to(double share, SystemState& state) {
   take_back(state);
-  if (!(share > kSame)) {
+  if (!(share > kSameEvent)) {
     last_.load_work = last_.dissipated = 0.0;
     return false;
   }
@@ -171,7 +171,7 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   const auto touch = touches_.find_first(before_, state);
   const double share =
       std::min(crossing ? crossing->share : 1.0, touch ? touch->share : 1.0);
-  if (share > 1.0 - kSame || cut_ == kMostCut) {
+  if (share > 1.0 - kSameEvent || cut_ == kMostCut) {
     cut_ = 0;
     add_last();
     pass_all_at_end(state, nominal_h);

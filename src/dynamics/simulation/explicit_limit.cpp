@@ -24,7 +24,7 @@ constexpr double kMostParts = 1e3;
 // dissipates 4e-6 of the fastest motion's energy a step.
 constexpr double kAccurateShare = 0.1;
 // Amplification per step below which a run does not blow up, approximately [-].
-constexpr double kMostGrowth = 1.05;
+constexpr double kMostEnergyGrowth = 1.05;
 
 // A small change of a state, velocities times the step.
 struct Change {
@@ -192,7 +192,7 @@ SimulationSettings limit_where_it_grows(const SystemModel& model,
   const double step = find_longest_step(asked);
   SimulationSettings settings = asked;
   settings.step = step;
-  if (find_growth(model, state, settings) < kMostGrowth) return asked;
+  if (find_growth(model, state, settings) < kMostEnergyGrowth) return asked;
   statistics.stable_step = find_stable_step(model, state, asked.integrator);
   const double longest = kStableShare * statistics.stable_step;
   if (!(step > longest)) return asked;

@@ -16,7 +16,7 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kMostTurn = 1.0;  // of a body within a step [rad]
+constexpr double kMostStepTurn = 1.0;  // of a body within a step [rad]
 
 // Whether long steps are unstable and not always divided.
 bool may_be_unstable(IntegratorKind integrator) {
@@ -55,7 +55,7 @@ std::string describe_turn(const SystemModel& model, const SystemState& state,
                           double h) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const double turn = h * state.bodies[b].w_WB_B.norm();
-    if (turn > kMostTurn) {
+    if (turn > kMostStepTurn) {
       return fmt::format(
           "body '{}' turns at {:.4g} rad/s, {:.3g} rad within a step of {:.3g} "
           "s",

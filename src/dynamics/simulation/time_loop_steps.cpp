@@ -14,7 +14,8 @@ namespace limber::dynamics {
 namespace {
 
 constexpr int kMostHalvings = 10;
-constexpr double kSame = 1e-9;  // fraction of a step that counts as its end [-]
+constexpr double kSameTime =
+    1e-9;  // fraction of a step that counts as its end [-]
 constexpr double kFewestStepsToAMark = 4.0;  // with a tolerance
 
 }  // namespace
@@ -82,10 +83,10 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
                          : origin_ + static_cast<double>(part_ + 1) * h_;
   const StepResult before = stepper_.totals();
   bool is_whole = true;
-  while (end - state.t > kSame * h_) {
+  while (end - state.t > kSameTime * h_) {
     const double left = is_whole ? h_ : end - state.t;
     const double h = std::min(left, std::ldexp(h_, -depth_));
-    const bool is_last = h >= left * (1.0 - kSame);
+    const bool is_last = h >= left * (1.0 - kSameTime);
     const std::size_t events = statistics_.events.size();
     const bool has_moved = goes_through(state, h, [&] {
       stepper_.attempt(state, is_last ? left : h, is_last ? end : state.t + h);
@@ -94,7 +95,7 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
     is_whole = is_whole && !has_moved;
     if (has_moved) watch_step(state, events);
     if (has_moved && !is_last) count_share(state);
-    if (end - state.t > kSame * h_) heed_within_step(state, progress);
+    if (end - state.t > kSameTime * h_) heed_within_step(state, progress);
   }
   state.t = end;
   if (depth_ > 0) --depth_;
@@ -121,7 +122,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   const double most = refinement_ * (mark - origin_) / kFewestStepsToAMark;
   h_ = std::min({control_.propose(state, left), std::max(most, 0.0),
                  refinement_ * stepper_.touches().find_longest_step(state.t)});
-  if (left - h_ < kSame * h_) h_ = left;
+  if (left - h_ < kSameTime * h_) h_ = left;
   if (!(h_ > find_same_time(start_, settings_))) {
     fail(state, h_,
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
@@ -150,12 +151,12 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   count_step(before);
   watch_step(state, events);
   // An output there contains the new inputs.
-  if (breakpoints_[next_].is_sample && mark - state.t <= kSame * h_) {
+  if (breakpoints_[next_].is_sample && mark - state.t <= kSameTime * h_) {
     state.t = mark;
     take_samples(state);
   }
   visit_within(stepper_.before(), state, losses_before, visit);
-  if (mark - state.t <= kSame * h_) {
+  if (mark - state.t <= kSameTime * h_) {
     state.t = mark;
     part_ = parts_;
   }

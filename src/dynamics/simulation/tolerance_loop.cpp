@@ -18,7 +18,8 @@ constexpr int kMostPasses = 8;
 // Error of a step in the first pass, relative to the tolerance [-].
 constexpr double kFirst = 1.0 / 3.0;
 constexpr double kSecond = kFirst / 8.0;  // steps of half the length
-constexpr double kSafety = 0.5;  // target of later passes, of the tolerance [-]
+constexpr double kToleranceSafety =
+    0.5;  // target of later passes, of the tolerance [-]
 
 // Ratio of the errors of passes from that of the errors of their steps, and
 // back, for a second-order scheme.
@@ -174,7 +175,8 @@ class ToleranceLoop {
   void plan_next() {
     double next = kSecond * settings_.tolerance;
     if (course_.pass >= 2) {
-      const double wanted = kSafety * settings_.tolerance / course_.estimate;
+      const double wanted =
+          kToleranceSafety * settings_.tolerance / course_.estimate;
       next = course_.allowed * to_allowed(std::clamp(wanted, 1e-4, 0.5));
     }
     course_.allowed_before = course_.allowed;

@@ -120,7 +120,7 @@ void check_faces(const ReferenceElement& element) {
   }
 }
 
-void check_element(const ReferenceElement& element) {
+void check_reference_element(const ReferenceElement& element) {
   const int nodes = element.node_count;
   require(element.dimension >= 0 && element.dimension <= 3 && nodes > 0 &&
           element.node_uvw.rows() == 3 && element.node_uvw.cols() == nodes &&
@@ -138,7 +138,7 @@ void check_element(const ReferenceElement& element) {
 std::vector<Element> share(std::vector<ReferenceElement> values) {
   std::vector<Element> elements;
   for (ReferenceElement& value : values) {
-    check_element(value);
+    check_reference_element(value);
     elements.push_back(
         std::make_shared<const ReferenceElement>(std::move(value)));
   }

@@ -13,7 +13,7 @@
 namespace limber::fem {
 namespace {
 
-using Point = std::pair<int, int>;  // node, material
+using PointOfElement = std::pair<int, int>;  // node, material
 
 Vector6 calc_cauchy(Elasticity law, const LameConstants<double>& lame,
                     const Matrix3& H) {
@@ -57,7 +57,7 @@ CauchyStress::CauchyStress(const Mesh& mesh,
   const auto is_wanted = [&](int node) {
     return std::binary_search(nodes.begin(), nodes.end(), node);
   };
-  std::vector<Point> points;
+  std::vector<PointOfElement> points;
   visit([&](const ElementBlock& block, std::size_t e,
             const std::vector<int>& own) {
     const int material =
@@ -92,7 +92,7 @@ CauchyStress::CauchyStress(const Mesh& mesh,
       if (!is_wanted(own[a])) continue;
       const auto point =
           std::lower_bound(points.begin(), points.end(),
-                           Point(own[a], material_of_region[region])) -
+                           PointOfElement(own[a], material_of_region[region])) -
           points.begin();
       element.wanted.push_back(
           {static_cast<int>(point),

@@ -66,7 +66,8 @@ struct Solid {
   Elasticity law;
 };
 
-Matrix3 calc_stress(const LameConstants<double>& lame, const Matrix3& strain) {
+Matrix3 calc_second_stress(const LameConstants<double>& lame,
+                           const Matrix3& strain) {
   return lame.lambda * strain.trace() * Matrix3::Identity() +
          2.0 * lame.mu * strain;
 }
@@ -85,7 +86,7 @@ void fill(const MatrixX& own, const Matrix3X& gradients,
   const MatrixX H = own * gradients.transpose();  // 3k x 3
   for (std::size_t k = 0; k < point.H.size(); ++k) {
     point.H[k] = H.middleRows<3>(3 * static_cast<Eigen::Index>(k));
-    point.S[k] = calc_stress(lame, symmetric_part(point.H[k]));
+    point.S[k] = calc_second_stress(lame, symmetric_part(point.H[k]));
     point.norms[k] = point.H[k].norm();
   }
 }
@@ -147,8 +148,8 @@ void set_point(const Point& point, const Solid& solid, double measure,
       const Matrix3 A =
           calc_stress_curvature(solid.law, solid.lame, point.H[i], point.H[j]);
       T.middleRows<3>(3 * pair) =
-          measure * (calc_stress(solid.lame, E) + point.H[i] * point.S[j] +
-                     point.H[j] * point.S[i] + A);
+          measure * (calc_second_stress(solid.lame, E) +
+                     point.H[i] * point.S[j] + point.H[j] * point.S[i] + A);
       tensors.set_pair(q, pair, E, A, point.norms[i] * point.norms[j]);
     }
   }

@@ -61,7 +61,7 @@ Tensor3<C> multiply(const Tensor3<C>& A, const Matrix3& B) {
 
 // sigma of the strain sym H.
 template <int C>
-Tensor3<C> calc_stress(const Tensor3<C>& H, double lambda, double mu) {
+Tensor3<C> calc_lane_stress(const Tensor3<C>& H, double lambda, double mu) {
   Tensor3<C> sigma;
   const Columns<C> volumetric = lambda * (H[0][0] + H[1][1] + H[2][2]);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -208,7 +208,7 @@ void StiffnessProduct::add_forces(const Element& element,
         multiply<C>(find_local_gradient<C>(gradients, d), inverse);
     // w sigma J^-T maps the local gradient of a shape function to its force.
     const Tensor3<C> stress =
-        multiply<C>(calc_stress<C>(H, element.lambda, element.mu),
+        multiply<C>(calc_lane_stress<C>(H, element.lambda, element.mu),
                     point.measure * inverse.transpose());
     for (std::size_t a = 1; a < nodes; ++a) {
       const auto column = static_cast<Eigen::Index>(a);

@@ -185,7 +185,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_stress_modes(out, body);
 }
 
-void read_rows(const Reader& reader, ReducedBody& body) {
+void read_mass_rows(const Reader& reader, ReducedBody& body) {
   const Eigen::Index m = body.lambda.size();
   body.rows.tags = reader.sizes("rows/tags", -1);
   const auto n = static_cast<Eigen::Index>(body.rows.tags.size());
@@ -359,7 +359,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
       reader.matrix("integrals/P", 3, in.read_matrix("integrals/P").cols());
   const MatrixX levers = reader.matrix("levers", 3, 1);
   body.levers = {levers(0, 0), levers(1, 0), levers(2, 0)};
-  read_rows(reader, body);
+  read_mass_rows(reader, body);
   const auto counts = reader.sizes("counts", 2);
   read_groups(reader, counts[0], body);
   read_interfaces(reader, counts[1], body);

@@ -11,7 +11,7 @@
 namespace limber::flexbody {
 namespace {
 
-std::string find_place(std::size_t interface) {
+std::string name_manifold_place(std::size_t interface) {
   return fmt::format("manifold/interfaces/{:04}/", interface);
 }
 
@@ -55,9 +55,10 @@ void write_manifold(Hdf5File& out, const ReducedBody& body) {
             "second derivatives of the displacement, 3n x pairs");
   for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
     const InterfaceTable& table = body.interfaces[i];
-    out.write(find_place(i) + "Phi2_B", MatrixX(table.Phi2_B), "kg^-1 m^-1",
-              "second derivatives of the translation, 3 x pairs");
-    out.write(find_place(i) + "Psi2_B", MatrixX(table.Psi2_B), "rad kg^-1 m^-2",
+    out.write(name_manifold_place(i) + "Phi2_B", MatrixX(table.Phi2_B),
+              "kg^-1 m^-1", "second derivatives of the translation, 3 x pairs");
+    out.write(name_manifold_place(i) + "Psi2_B", MatrixX(table.Psi2_B),
+              "rad kg^-1 m^-2",
               "second derivatives of the rotation vector, 3 x pairs");
   }
 }
@@ -89,8 +90,8 @@ void read_manifold(const BodyFileReader& reader, ReducedBody& body) {
       reader.matrix("manifold/Theta_B", body.rows.Phi_B.rows(), pairs);
   for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
     InterfaceTable& table = body.interfaces[i];
-    table.Phi2_B = reader.matrix(find_place(i) + "Phi2_B", 3, pairs);
-    table.Psi2_B = reader.matrix(find_place(i) + "Psi2_B", 3, pairs);
+    table.Phi2_B = reader.matrix(name_manifold_place(i) + "Phi2_B", 3, pairs);
+    table.Psi2_B = reader.matrix(name_manifold_place(i) + "Psi2_B", 3, pairs);
   }
   body.manifold = std::move(manifold);
 }

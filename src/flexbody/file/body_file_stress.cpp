@@ -12,11 +12,11 @@ namespace limber::flexbody {
 namespace {
 
 template <typename Number>
-std::vector<std::int64_t> to_integers(const std::vector<Number>& values) {
+std::vector<std::int64_t> to_int64(const std::vector<Number>& values) {
   return {values.begin(), values.end()};
 }
 
-std::string find_place(std::size_t interface) {
+std::string name_stress_rows(std::size_t interface) {
   return fmt::format("stress/interfaces/{:04}/rows", interface);
 }
 
@@ -76,11 +76,11 @@ void write_stress_modes(Hdf5File& out, const ReducedBody& body) {
             std::vector<std::int64_t>{body.contact_surfaces.empty() ? 0 : 1,
                                       body.manifold ? 1 : 0},
             "1", "1 if there are contact surfaces, second-order kinematics");
-  out.write("stress/rows", to_integers(modes.rows), "1",
+  out.write("stress/rows", to_int64(modes.rows), "1",
             "row of each point; a node has one for each of its materials");
-  out.write("stress/materials", to_integers(modes.materials), "1",
+  out.write("stress/materials", to_int64(modes.materials), "1",
             "column of 'constants' of each point");
-  out.write("stress/on_surface", to_integers(modes.on_surface), "1",
+  out.write("stress/on_surface", to_int64(modes.on_surface), "1",
             "1 for points on the body's boundary");
   out.write("stress/Sigma_B", modes.Sigma_B, "kg^1/2 m^-2 s^-2",
             "stress per modal coordinate, then per product of paired ones, "
@@ -90,7 +90,7 @@ void write_stress_modes(Hdf5File& out, const ReducedBody& body) {
   out.write("stress/constants", modes.constants, "Pa, 1",
             "Young's modulus, Poisson's ratio of each material");
   for (std::size_t i = 0; i < modes.interface_rows.size(); ++i) {
-    out.write(find_place(i), to_integers(modes.interface_rows[i]), "1",
+    out.write(name_stress_rows(i), to_int64(modes.interface_rows[i]), "1",
               "rows of the interface's nodes");
   }
 }
@@ -122,7 +122,7 @@ void read_stress_modes(const BodyFileReader& reader, Eigen::Index products,
   modes.averaging = reader.matrix("stress/averaging", m, m);
   for (std::size_t i = 0; i < body.interfaces.size(); ++i) {
     modes.interface_rows.push_back(
-        read_rows(reader, find_place(i), body.rows.tags.size()));
+        read_rows(reader, name_stress_rows(i), body.rows.tags.size()));
   }
   body.stress = std::move(modes);
 }

@@ -124,8 +124,8 @@ void add_request(const Recipe& recipe, Digest& digest) {
   for (const std::string& group : recipe.contact_groups) digest.add(group);
 }
 
-std::filesystem::path find_place(const std::filesystem::path& folder,
-                                 const std::string& key) {
+std::filesystem::path find_entry_place(const std::filesystem::path& folder,
+                                       const std::string& key) {
   return folder / (key + ".h5");
 }
 
@@ -134,7 +134,7 @@ std::filesystem::path find_place(const std::filesystem::path& folder,
 std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
                                       const std::string& key) {
   try {
-    const std::filesystem::path file = find_place(folder, key);
+    const std::filesystem::path file = find_entry_place(folder, key);
     if (!is_own_file(file)) return std::nullopt;
     ReducedBody body = read_body(file);
     if (body.content_key == key) {
@@ -149,7 +149,7 @@ std::optional<ReducedBody> find_entry(const std::filesystem::path& folder,
 // Failing to store an entry only makes the next run take longer.
 void keep_entry(const ReducedBody& body, const std::filesystem::path& mesh,
                 const std::filesystem::path& folder) {
-  const std::filesystem::path file = find_place(folder, body.content_key);
+  const std::filesystem::path file = find_entry_place(folder, body.content_key);
   try {
     write_own_file(file, [&](const std::filesystem::path& place) {
       write_body(body, place);

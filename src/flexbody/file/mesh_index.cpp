@@ -41,8 +41,8 @@ std::string find_request(const MeshSource& mesh) {
   return digest.text();
 }
 
-std::filesystem::path find_place(const std::string& request,
-                                 const std::filesystem::path& folder) {
+std::filesystem::path find_index_place(const std::string& request,
+                                       const std::filesystem::path& folder) {
   return folder / (request + ".mesh");
 }
 
@@ -66,7 +66,7 @@ std::optional<MeshRecord> find_mesh_record(
     const std::filesystem::path& folder) {
   try {
     const std::string request = find_request(mesh);
-    const std::filesystem::path file = find_place(request, folder);
+    const std::filesystem::path file = find_index_place(request, folder);
     if (!is_own_file(file)) return std::nullopt;
     Wire wire(read_sealed(file, kSeal));
     Entry entry;
@@ -94,7 +94,7 @@ void keep_mesh_record(const MeshRecord& record, const MeshSource& mesh,
     Entry entry{find_request(mesh), mesher, record};
     Wire wire;
     wire(entry);
-    write_own_file(find_place(entry.request, folder),
+    write_own_file(find_index_place(entry.request, folder),
                    [&](const std::filesystem::path& place) {
                      write_sealed(place, kSeal, wire.bytes());
                    });

@@ -15,7 +15,7 @@ namespace {
 /// Smallest share that is reported.
 constexpr double kSmall = 0.01;
 /// Remainder of a rigid field by roundoff.
-constexpr double kRoundoff = 1e-10;
+constexpr double kRoundoffOfField = 1e-10;
 
 double calc_norm(const VectorX& u, const Eigen::SparseMatrix<double>& M_s) {
   return std::sqrt(u.dot(multiply_mass(M_s, u).col(0)));
@@ -36,7 +36,7 @@ ProjectedField project_field(const VectorX& u, const MatrixX& Phi,
   const double whole = std::sqrt(u.dot(momentum));
   const double deformed = calc_norm(elastic, M_s);
   if (whole > 0.0) field.rigid_share = rigid.norm() / whole;
-  if (deformed > kRoundoff * whole) {
+  if (deformed > kRoundoffOfField * whole) {
     field.missed_share = calc_norm(elastic - Phi * field.eta, M_s) / deformed;
   }
   return field;

@@ -9,7 +9,7 @@ namespace limber::flexbody {
 namespace {
 
 /// Roundoff of a share.
-constexpr double kRoundoff = 1e-9;
+constexpr double kRoundoffOfRecord = 1e-9;
 
 double percent(double share) { return 100.0 * share; }
 
@@ -17,7 +17,8 @@ double percent(double share) { return 100.0 * share; }
 std::vector<const SelectedCase*> find_missed(const SelectionRecord& record) {
   std::vector<const SelectedCase*> missed;
   for (const SelectedCase& item : record.cases)
-    if (item.reached < record.threshold - kRoundoff) missed.push_back(&item);
+    if (item.reached < record.threshold - kRoundoffOfRecord)
+      missed.push_back(&item);
   std::stable_sort(missed.begin(), missed.end(),
                    [](const SelectedCase* a, const SelectedCase* b) {
                      return a->reached < b->reached;

@@ -11,20 +11,22 @@
 namespace limber::joints {
 namespace {
 
-void require(bool holds, const std::string& text) {
+void require_of_drive(bool holds, const std::string& text) {
   if (!holds) throw InputError("drive: " + text);
 }
 
 void check_limits(const Drive::Parameters& p) {
-  require(
+  require_of_drive(
       p.max_effort > 0.0,
       fmt::format("its largest effort is {:g}; expected > 0", p.max_effort));
-  require(p.max_speed > 0.0,
-          fmt::format("its largest speed is {:g}; expected > 0", p.max_speed));
+  require_of_drive(
+      p.max_speed > 0.0,
+      fmt::format("its largest speed is {:g}; expected > 0", p.max_speed));
   if (!find_inputs(p.signal).empty()) {
-    require(p.mode != DriveMode::position || p.max_speed == Drive::kUnlimited,
-            "it follows an input, which may jump, and limits its speed; leave "
-            "the limit out, or limit the rate in the controller");
+    require_of_drive(
+        p.mode != DriveMode::position || p.max_speed == Drive::kUnlimited,
+        "it follows an input, which may jump, and limits its speed; leave "
+        "the limit out, or limit the rate in the controller");
     return;
   }
   const SignalValue command = find_largest(p.signal);
@@ -32,13 +34,15 @@ void check_limits(const Drive::Parameters& p) {
   const double speed = p.mode == DriveMode::position   ? command.rate
                        : p.mode == DriveMode::velocity ? command.value
                                                        : 0.0;
-  require(speed <= p.max_speed * kSlack,
-          fmt::format("its signal commands a speed of {:g}; its limit is {:g}",
-                      speed, p.max_speed));
-  require(p.mode != DriveMode::effort || command.value <= p.max_effort * kSlack,
-          fmt::format("its signal commands an effort of {:g}; its limit is "
-                      "{:g}",
-                      command.value, p.max_effort));
+  require_of_drive(
+      speed <= p.max_speed * kSlack,
+      fmt::format("its signal commands a speed of {:g}; its limit is {:g}",
+                  speed, p.max_speed));
+  require_of_drive(
+      p.mode != DriveMode::effort || command.value <= p.max_effort * kSlack,
+      fmt::format("its signal commands an effort of {:g}; its limit is "
+                  "{:g}",
+                  command.value, p.max_effort));
 }
 
 }  // namespace
@@ -46,16 +50,18 @@ void check_limits(const Drive::Parameters& p) {
 Drive::Drive(const Parameters& parameters) : parameters_(parameters) {
   const Parameters& p = parameters;
   check(p.signal);
-  require(p.stiffness >= 0.0 && std::isfinite(p.stiffness) &&
-              (p.stiffness > 0.0 || p.mode != DriveMode::position),
-          fmt::format("its stiffness is {:g}; expected >= 0, of a position "
-                      "drive > 0",
-                      p.stiffness));
-  require(p.damping >= 0.0 && std::isfinite(p.damping) &&
-              (p.damping > 0.0 || p.mode != DriveMode::velocity),
-          fmt::format("its damping is {:g}; expected >= 0, of a velocity drive "
-                      "> 0",
-                      p.damping));
+  require_of_drive(
+      p.stiffness >= 0.0 && std::isfinite(p.stiffness) &&
+          (p.stiffness > 0.0 || p.mode != DriveMode::position),
+      fmt::format("its stiffness is {:g}; expected >= 0, of a position "
+                  "drive > 0",
+                  p.stiffness));
+  require_of_drive(
+      p.damping >= 0.0 && std::isfinite(p.damping) &&
+          (p.damping > 0.0 || p.mode != DriveMode::velocity),
+      fmt::format("its damping is {:g}; expected >= 0, of a velocity drive "
+                  "> 0",
+                  p.damping));
   check_limits(p);
 }
 

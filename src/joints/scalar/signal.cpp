@@ -150,13 +150,13 @@ SignalValue base_largest(const Signal& signal) {
       signal.base);
 }
 
-void require(bool holds, const std::string& text) {
+void require_of_signal(bool holds, const std::string& text) {
   if (!holds) throw InputError("signal: " + text);
 }
 
 void require_finite(std::initializer_list<double> values) {
   for (const double value : values) {
-    require(std::isfinite(value), "a value is not finite");
+    require_of_signal(std::isfinite(value), "a value is not finite");
   }
 }
 
@@ -164,22 +164,25 @@ void check_base(const ConstantSignal& c) { require_finite({c.value}); }
 
 void check_base(const RampSignal& r) {
   require_finite({r.from, r.to, r.start, r.duration});
-  require(r.duration > 0.0,
-          fmt::format("a ramp's duration is {:g} s; expected > 0", r.duration));
-  require(r.rise > 0.0 && r.rise <= 0.5,
-          fmt::format("a trapezoid's rise is {:g} of its duration; expected "
-                      "more than 0, at most 0.5",
-                      r.rise));
+  require_of_signal(
+      r.duration > 0.0,
+      fmt::format("a ramp's duration is {:g} s; expected > 0", r.duration));
+  require_of_signal(
+      r.rise > 0.0 && r.rise <= 0.5,
+      fmt::format("a trapezoid's rise is {:g} of its duration; expected "
+                  "more than 0, at most 0.5",
+                  r.rise));
 }
 
 void check_base(const TableSignal& t) {
-  require(!t.times.empty() && t.times.size() == t.values.size(),
-          fmt::format("a table has {} times and {} values; expected as many, "
-                      "at least one",
-                      t.times.size(), t.values.size()));
+  require_of_signal(
+      !t.times.empty() && t.times.size() == t.values.size(),
+      fmt::format("a table has {} times and {} values; expected as many, "
+                  "at least one",
+                  t.times.size(), t.values.size()));
   for (std::size_t i = 0; i < t.times.size(); ++i) {
     require_finite({t.times[i], t.values[i]});
-    require(
+    require_of_signal(
         i == 0 || t.times[i] > t.times[i - 1],
         fmt::format("a table's times do not increase at {:g} s", t.times[i]));
   }
@@ -187,8 +190,9 @@ void check_base(const TableSignal& t) {
 
 void check_base(const SineSignal& s) {
   require_finite({s.mean, s.amplitude, s.frequency, s.phase, s.start});
-  require(s.frequency > 0.0,
-          fmt::format("a frequency is {:g} Hz; expected > 0", s.frequency));
+  require_of_signal(
+      s.frequency > 0.0,
+      fmt::format("a frequency is {:g} Hz; expected > 0", s.frequency));
 }
 
 void check_base(const InputSignal& s) {
@@ -244,25 +248,27 @@ void check(const Signal& signal) {
   double sum = 0.0;
   for (const Impulse& impulse : signal.shaper) {
     require_finite({impulse.share, impulse.delay});
-    require(impulse.delay >= 0.0,
-            fmt::format("a shaper's delay is {:g} s; expected >= 0",
-                        impulse.delay));
+    require_of_signal(impulse.delay >= 0.0,
+                      fmt::format("a shaper's delay is {:g} s; expected >= 0",
+                                  impulse.delay));
     sum += impulse.share;
   }
-  require(std::abs(sum - 1.0) < kRoundoff,
-          fmt::format("a shaper's shares sum to {:g}; expected 1", sum));
-  require(find_inputs(signal).empty() ||
-              (signal.shaper.size() == 1 && signal.shaper[0].delay == 0.0),
-          "it follows an input and has a shaper, which would need what the "
-          "input was before; shape it in the controller that writes the input");
+  require_of_signal(
+      std::abs(sum - 1.0) < kRoundoff,
+      fmt::format("a shaper's shares sum to {:g}; expected 1", sum));
+  require_of_signal(
+      find_inputs(signal).empty() ||
+          (signal.shaper.size() == 1 && signal.shaper[0].delay == 0.0),
+      "it follows an input and has a shaper, which would need what the "
+      "input was before; shape it in the controller that writes the input");
 }
 
 std::vector<Impulse> make_shaper(ShaperKind kind, double frequency,
                                  double ratio) {
-  require(
+  require_of_signal(
       frequency > 0.0 && std::isfinite(frequency),
       fmt::format("a shaper's frequency is {:g} Hz; expected > 0", frequency));
-  require(
+  require_of_signal(
       ratio >= 0.0 && ratio < 1.0,
       fmt::format("a shaper's damping ratio is {:g}; expected 0 to 1", ratio));
   const double damped = std::sqrt(1.0 - ratio * ratio);

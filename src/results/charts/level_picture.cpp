@@ -17,14 +17,14 @@ using dynamics::RotationPoint;
 using flexbody::InertialDisplacementBound;
 
 // Palette for colour-blind readers (Okabe and Ito, 2008).
-constexpr std::array<const char*, 6> kColours = {
+constexpr std::array<const char*, 6> kLevelColours = {
     "#0072B2", "#D55E00", "#CC79A7", "#000000", "#56B4E9", "#009E73"};
-constexpr int kWidth = 1100;
-constexpr int kPanelHeight = 640;
+constexpr int kLevelWidth = 1100;
+constexpr int kLevelPanelHeight = 640;
 constexpr int kSamples = 200;  // of a curve
 
 /// Bodies of one shape and equal limits.
-struct Panel {
+struct LevelPanel {
   std::vector<const RotationTrack*> tracks;
   double report = 0.0;  ///< |alpha| + |Omega|^2 [1/s^2]
   double report_linear = 0.0;
@@ -55,7 +55,7 @@ double decade_above(double value) {
 }
 
 /// Both boundaries, and three decades of each track below its peak.
-void set_axes(Panel& panel) {
+void set_axes(LevelPanel& panel) {
   constexpr double kTail = 1e-3;
   constexpr double kNothing = 1e-12;  // of a boundary: negligible
   panel.least_Omega = 0.1 * panel.sudden;
@@ -78,13 +78,13 @@ void set_axes(Panel& panel) {
   panel.most_alpha = decade_above(panel.most_alpha);
 }
 
-std::vector<Panel> find_panels(const std::vector<RotationTrack>& tracks) {
-  std::vector<Panel> panels;
+std::vector<LevelPanel> find_panels(const std::vector<RotationTrack>& tracks) {
+  std::vector<LevelPanel> panels;
   for (const RotationTrack& track : tracks) {
     const flexbody::ReducedBody& body = *track.reduced;
     if (body.clamped || !(body.levers.displacement > 0.0)) continue;
-    const auto same =
-        std::find_if(panels.begin(), panels.end(), [&](const Panel& panel) {
+    const auto same = std::find_if(
+        panels.begin(), panels.end(), [&](const LevelPanel& panel) {
           const RotationTrack& other = *panel.tracks.front();
           return other.reduced == track.reduced &&
                  other.displacement == track.displacement &&
@@ -96,7 +96,7 @@ std::vector<Panel> find_panels(const std::vector<RotationTrack>& tracks) {
     }
     const InertialDisplacementBound slow(body);
     const InertialDisplacementBound sudden(body, flexbody::Onset::sudden);
-    Panel panel;
+    LevelPanel panel;
     panel.tracks = {&track};
     panel.report = track.displacement / body.levers.displacement;
     panel.report_linear = track.linear_limit / body.levers.displacement;
@@ -105,12 +105,12 @@ std::vector<Panel> find_panels(const std::vector<RotationTrack>& tracks) {
     panel.linear = sudden.find_omega(0.0, track.linear_limit);
     if (std::isfinite(panel.slow)) panels.push_back(std::move(panel));
   }
-  for (Panel& panel : panels) set_axes(panel);
+  for (LevelPanel& panel : panels) set_axes(panel);
   return panels;
 }
 
 void add_track(GnuplotScript& script, const std::string& block,
-               const Panel& panel, const RotationTrack& track) {
+               const LevelPanel& panel, const RotationTrack& track) {
   script.add(fmt::format("${} << EOD", block));
   for (const RotationPoint& point : track.points) {
     // Zero has no place on a logarithmic axis: drawn on the edge.
@@ -123,7 +123,7 @@ void add_track(GnuplotScript& script, const std::string& block,
 
 /// |alpha| + |Omega|^2 = limit.
 void add_report_curve(GnuplotScript& script, const std::string& block,
-                      const Panel& panel, double limit) {
+                      const LevelPanel& panel, double limit) {
   script.add(fmt::format("${} << EOD", block));
   const double end = std::sqrt(limit);
   for (int i = 0; i < kSamples; ++i) {
@@ -152,7 +152,8 @@ void add_line(GnuplotScript& script, double Omega, const char* style) {
                   Omega, Omega, style));
 }
 
-void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel) {
+void add_level_panel(GnuplotScript& script, std::size_t p,
+                     const LevelPanel& panel) {
   script.add("unset object; unset arrow");
   script.add(fmt::format("set xrange [{:g}:{:g}]", panel.least_Omega,
                          panel.most_Omega));
@@ -176,7 +177,7 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel) {
       quote("report, linear range"), quote("bound, sudden spin"),
       quote("bound, slow spin"), quote("bound, linear range"));
   for (std::size_t t = 0; t < panel.tracks.size(); ++t) {
-    const char* colour = kColours[t % kColours.size()];
+    const char* colour = kLevelColours[t % kLevelColours.size()];
     plot += fmt::format(
         ", $t{}_{} using 1:2 with linespoints pt 7 ps 0.35 lw 0.8 lc rgb '{}' "
         "title {}",
@@ -190,12 +191,12 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel) {
 std::string draw_rotation_plane(const std::filesystem::path& file,
                                 const std::string& title,
                                 const std::vector<RotationTrack>& tracks) {
-  const std::vector<Panel> panels = find_panels(tracks);
+  const std::vector<LevelPanel> panels = find_panels(tracks);
   if (panels.empty()) return {};
   const int count = static_cast<int>(panels.size());
-  GnuplotScript script(file, kWidth, 60 + kPanelHeight * count);
+  GnuplotScript script(file, kLevelWidth, 60 + kLevelPanelHeight * count);
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const Panel& panel = panels[p];
+    const LevelPanel& panel = panels[p];
     add_report_curve(script, fmt::format("r{}", p), panel, panel.report);
     add_report_curve(script, fmt::format("l{}", p), panel, panel.report_linear);
     for (std::size_t t = 0; t < panel.tracks.size(); ++t) {
@@ -211,7 +212,7 @@ std::string draw_rotation_plane(const std::filesystem::path& file,
   script.add("set xlabel 'angular velocity [rad/s]'");
   script.add("set ylabel 'angular acceleration [rad/s^2]'");
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    add_panel(script, p, panels[p]);
+    add_level_panel(script, p, panels[p]);
   }
   script.add("unset multiplot");
   return script.run();

@@ -15,9 +15,9 @@ namespace limber::results {
 namespace {
 
 // Palette for colour-blind readers (Okabe and Ito, 2008).
-constexpr std::array<const char*, 4> kColours = {"#0072B2", "#D55E00",
-                                                 "#009E73", "#CC79A7"};
-constexpr std::array<int, 4> kMarkers = {7, 5, 9, 13};
+constexpr std::array<const char*, 4> kOrderColours = {"#0072B2", "#D55E00",
+                                                      "#009E73", "#CC79A7"};
+constexpr std::array<int, 4> kOrderMarkers = {7, 5, 9, 13};
 
 bool is_drawable(double y) { return y > 0.0 && std::isfinite(y); }
 
@@ -78,13 +78,13 @@ std::string draw_order(const std::filesystem::path& file,
       continue;
     }
     add_block(script, i, lines[i], slope, x, y);
-    const char* colour = kColours[i % kColours.size()];
+    const char* colour = kOrderColours[i % kOrderColours.size()];
     plot += fmt::format(
         "{}$line{} using 1:3 with lines lc rgb '#aaaaaa' dt 2 title {}, "
         "$line{} using 1:2 with linespoints pt {} ps 1.2 lc rgb '{}' title {}",
         plot.empty() ? "plot " : ", ", i,
         plot.empty() ? quote(fmt::format("slope {:g}", slope)) : "''", i,
-        kMarkers[i % kMarkers.size()], colour, quote(lines[i].name));
+        kOrderMarkers[i % kOrderMarkers.size()], colour, quote(lines[i].name));
   }
   if (plot.empty()) return "there is nothing above zero to draw";
   script.add("set title " + quote(title) + " font 'sans,16'");

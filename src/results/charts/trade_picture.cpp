@@ -18,25 +18,25 @@ namespace {
 
 // Palette for colour-blind readers (Okabe and Ito, 2008), and markers for print
 // without colour.
-constexpr std::array<const char*, 6> kColours = {
+constexpr std::array<const char*, 6> kTradeColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
-constexpr std::array<int, 6> kMarkers = {7, 5, 9, 13, 11, 15};
-constexpr int kWidth = 1500;
+constexpr std::array<int, 6> kTradeMarkers = {7, 5, 9, 13, 11, 15};
+constexpr int kTradeWidth = 1500;
 constexpr int kHeight = 720;
 // Width of a panel within the margins below [pixels].
-constexpr double kPanelWidth = 0.405 * kWidth;
-constexpr double kPanelHeight = 0.66 * kHeight;
+constexpr double kPanelWidth = 0.405 * kTradeWidth;
+constexpr double kTradePanelHeight = 0.66 * kHeight;
 // With more labels than this only the front's are written.
 constexpr std::size_t kMostLabels = 16;
 
 using Errors = std::vector<std::optional<double>>;
 
-struct Panel {
+struct TradePanel {
   const char* title;
   Errors errors;
 };
 
-bool is_drawable(const std::optional<double>& error) {
+bool is_drawable_error(const std::optional<double>& error) {
   return error && std::isfinite(*error) && *error > 0.0;
 }
 
@@ -74,12 +74,12 @@ struct Range {
   }
 };
 
-void add_points(GnuplotScript& script, const std::string& block,
-                const std::vector<TradePoint>& points, const Errors& errors,
-                const std::string& group) {
+void add_trade_points(GnuplotScript& script, const std::string& block,
+                      const std::vector<TradePoint>& points,
+                      const Errors& errors, const std::string& group) {
   script.add(fmt::format("${} << EOD", block));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].group != group || !is_drawable(errors[i])) continue;
+    if (points[i].group != group || !is_drawable_error(errors[i])) continue;
     script.add(
         fmt::format("{:.6g} {:.6g}", points[i].cost, 100.0 * *errors[i]));
   }
@@ -93,7 +93,7 @@ void add_front(GnuplotScript& script, const std::string& block,
   script.add(fmt::format("${} << EOD", block));
   double last = 0.0;
   for (const std::size_t i : front) {
-    if (!is_drawable(errors[i])) continue;
+    if (!is_drawable_error(errors[i])) continue;
     if (last > 0.0)
       script.add(fmt::format("{:.6g} {:.6g}", points[i].cost, last));
     last = 100.0 * *errors[i];
@@ -114,28 +114,30 @@ void add_labels(GnuplotScript& script, const std::vector<TradePoint>& points,
       order.push_back(i);
     }
   }
-  std::erase_if(order, [&](std::size_t i) { return !is_drawable(errors[i]); });
+  std::erase_if(order,
+                [&](std::size_t i) { return !is_drawable_error(errors[i]); });
   std::vector<LabelledPoint> labels;
   for (const std::size_t i : order) {
     const bool is_shown =
         points.size() <= kMostLabels || labels.size() < front.size();
     labels.push_back({kPanelWidth * x.find_share(points[i].cost),
-                      kPanelHeight * y.find_share(100.0 * *errors[i]),
+                      kTradePanelHeight * y.find_share(100.0 * *errors[i]),
                       is_shown ? points[i].label : ""});
   }
   std::vector<double> lines;
   if (tolerance) {
-    const double height = kPanelHeight * y.find_share(100.0 * *tolerance);
+    const double height = kTradePanelHeight * y.find_share(100.0 * *tolerance);
     lines = {height, height + 12.0};  // and the line's label
   }
-  const auto places = place_labels(labels, kPanelWidth, kPanelHeight, lines);
+  const auto places =
+      place_labels(labels, kPanelWidth, kTradePanelHeight, lines);
   for (std::size_t l = 0; l < labels.size(); ++l) {
     if (!places[l]) continue;
     script.add(fmt::format(
         "set label {} at graph {:.4f},{:.4f} {} font 'sans,10' textcolor rgb "
         "'{}'",
         quote(labels[l].text), places[l]->x / kPanelWidth,
-        places[l]->y / kPanelHeight,
+        places[l]->y / kTradePanelHeight,
         places[l]->reaches_right ? "left" : "right",
         l < front.size() ? "#000000" : "#777777"));
   }
@@ -170,20 +172,21 @@ void set_lines(GnuplotScript& script, double reference_cost,
       100.0 * *tolerance));
 }
 
-void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
-               const std::vector<TradePoint>& points, const Range& costs,
-               double reference_cost, std::optional<double> tolerance) {
+void add_trade_panel(GnuplotScript& script, std::size_t p,
+                     const TradePanel& panel,
+                     const std::vector<TradePoint>& points, const Range& costs,
+                     double reference_cost, std::optional<double> tolerance) {
   const std::vector<std::string> groups = find_groups(points);
   const auto front = find_front(list_costs(points), panel.errors);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    add_points(script, fmt::format("p{}_{}", p, g), points, panel.errors,
-               groups[g]);
+    add_trade_points(script, fmt::format("p{}_{}", p, g), points, panel.errors,
+                     groups[g]);
   }
   add_front(script, fmt::format("f{}", p), points, panel.errors, front,
             costs.most);
   Range errors;
   for (const auto& error : panel.errors) {
-    if (is_drawable(error)) errors.include(100.0 * *error);
+    if (is_drawable_error(error)) errors.include(100.0 * *error);
   }
   if (tolerance) errors.include(100.0 * *tolerance);
   if (errors.most == 0.0) errors = {1.0, 100.0};
@@ -200,7 +203,8 @@ void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
     plot += fmt::format(
         ", $p{}_{} using 1:2 with points pt {} ps 1.3 lc rgb "
         "'{}' title {}",
-        p, g, kMarkers[g % kMarkers.size()], kColours[g % kColours.size()],
+        p, g, kTradeMarkers[g % kTradeMarkers.size()],
+        kTradeColours[g % kTradeColours.size()],
         p == 0 ? quote(groups[g]) : "''");
   }
   script.add(plot);
@@ -232,8 +236,8 @@ std::string draw_trade(const std::filesystem::path& file,
                        const std::string& title,
                        const std::vector<TradePoint>& points,
                        double reference_cost, std::optional<double> tolerance) {
-  Panel total{"displacement", {}};
-  Panel elastic{"deformation", {}};
+  TradePanel total{"displacement", {}};
+  TradePanel elastic{"deformation", {}};
   Range costs;
   costs.include(reference_cost);
   for (const TradePoint& point : points) {
@@ -242,7 +246,7 @@ std::string draw_trade(const std::filesystem::path& file,
     costs.include(point.cost);
   }
   costs.widen(3.0, 2.0);
-  GnuplotScript script(file, kWidth, kHeight);
+  GnuplotScript script(file, kTradeWidth, kHeight);
   script.add("set multiplot layout 1,2 title " +
              quote(title + ": error over cost") +
              " font 'sans,18' margins 0.085,0.985,0.20,0.86 spacing 0.09,0");
@@ -254,8 +258,8 @@ std::string draw_trade(const std::filesystem::path& file,
   script.add("set key at screen 0.5, screen 0.045 center horizontal samplen 2");
   script.add("set xlabel 'wall time per simulated time'");
   script.add("set ylabel 'RMS error [% of the reference]'");
-  add_panel(script, 0, total, points, costs, reference_cost, tolerance);
-  add_panel(script, 1, elastic, points, costs, reference_cost, tolerance);
+  add_trade_panel(script, 0, total, points, costs, reference_cost, tolerance);
+  add_trade_panel(script, 1, elastic, points, costs, reference_cost, tolerance);
   script.add("unset multiplot");
   return script.run();
 }

@@ -19,7 +19,7 @@ BasisChoice merge(const BasisChoice& base, const BasisChoice& over) {
   return choice;
 }
 
-void apply(const BasisChoice& choice, FlexibleLink& link) {
+void apply_basis(const BasisChoice& choice, FlexibleLink& link) {
   flexbody::BasisOptions& basis = link.basis;
   link.pieces = choice.pieces.value_or(link.pieces);
   if (choice.eigenmodes) {
@@ -45,7 +45,7 @@ void choose_bases(const Scenario& scenario, const BasisChoice& over,
     choice = merge(choice, over);
     if (choice == BasisChoice{}) continue;
     if (link.flexible->reduced_file.empty()) {
-      apply(choice, *link.flexible);
+      apply_basis(choice, *link.flexible);
       continue;
     }
     problems.add(

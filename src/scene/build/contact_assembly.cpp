@@ -20,10 +20,8 @@
 namespace limber::scene {
 namespace {
 
-constexpr double kFixed = std::numeric_limits<double>::infinity();
-
 double find_mass(const BodyPlan& plan) {
-  return plan.is_world ? kFixed : plan.mass;
+  return plan.is_world ? kInfinity : plan.mass;
 }
 
 const flexbody::ContactSurface& bare_surface(
@@ -98,7 +96,7 @@ contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
       Pose{}};
 }
 
-std::string describe(const Scene& scene, const TouchingPair& pair) {
+std::string describe_pair(const Scene& scene, const TouchingPair& pair) {
   return fmt::format("{}: [[contact]] {} between '{}' and '{}'",
                      scene.scenario.file.string(), pair.contact + 1,
                      name_of(pair.A, scene.robot, scene.scenario),
@@ -111,7 +109,7 @@ std::vector<PlacedPair> ContactAssembly::add_all() {
   std::vector<PlacedPair> placed;
   for (std::size_t i = 0; i < scene_.touching.size(); ++i) {
     const TouchingPair& pair = scene_.touching[i];
-    with_context(describe(scene_, pair), [&] {
+    with_context(describe_pair(scene_, pair), [&] {
       const Sides& all_A = get_sides(pair.A);
       const Sides& all_B = get_sides(pair.B);
       for (const Side& A : all_A) {
@@ -142,7 +140,7 @@ ContactAssembly::Sides ContactAssembly::make_obstacle(
            dynamics::kWorld,
            {{make_shape(obstacle.geometry), obstacle.X_WS},
             obstacle.material,
-            kFixed}}};
+            kInfinity}}};
 }
 
 ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {

@@ -12,13 +12,11 @@
 namespace limber::scene {
 namespace {
 
-constexpr double kFixed = std::numeric_limits<double>::infinity();
-
 using Material = std::optional<contact::SurfaceMaterial>;
 
 /// A body that strikes the link.
 struct Striker {
-  double mass = kFixed;  // [kg]
+  double mass = kInfinity;  // [kg]
   Vector3 v_W = Vector3::Zero();
   Material material;
   std::optional<double> radius;  // where it is round [m]
@@ -50,8 +48,8 @@ Striker describe_link(const Link& link, const LinkMotion& motion) {
   return striker;
 }
 
-Striker describe(const Scene& scene, const std::vector<LinkMotion>& motions,
-                 const Toucher& body) {
+Striker find_striker(const Scene& scene, const std::vector<LinkMotion>& motions,
+                     const Toucher& body) {
   if (!body.is_obstacle) {
     return describe_link(scene.robot.links[body.index], motions[body.index]);
   }
@@ -91,7 +89,7 @@ std::vector<flexbody::ExpectedImpact> find_expected_impacts(
   for (const TouchingPair& pair : scene.touching) {
     if (!(pair.A == self) && !(pair.B == self)) continue;
     const Striker other =
-        describe(scene, motions, pair.A == self ? pair.B : pair.A);
+        find_striker(scene, motions, pair.A == self ? pair.B : pair.A);
     const auto stiffness =
         find_stiffness(scene.scenario.contacts[pair.contact].options,
                        find_own_material(*own.flexible), other);

@@ -41,7 +41,7 @@ void warn_of_unused_level(dynamics::Fidelity level, Scene& scene) {
       to_string(level), scene.robot.file.filename().string()));
 }
 
-void apply(const Overrides& overrides, Scene& scene) {
+void apply_overrides(const Overrides& overrides, Scene& scene) {
   if (overrides.fidelity) {
     warn_of_unused_level(*overrides.fidelity, scene);
     scene.scenario.fidelity = *overrides.fidelity;
@@ -140,7 +140,7 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides,
   check_scenario(scene.scenario, scene.robot);
   add_contacts(scene);
   choose_bases(scene.scenario, overrides.basis, scene.robot);
-  apply(overrides, scene);
+  apply_overrides(overrides, scene);
   check_stress(overrides, scene);
   for (std::string& text : find_unused_keys(table, scene, overrides)) {
     scene.scenario.warnings.push_back(std::move(text));

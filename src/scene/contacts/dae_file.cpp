@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kSeconds = 60.0;
 constexpr std::uint64_t kMemory = std::uint64_t{1} << 32;
-// Of binary STL: 80 bytes of text and a number, then 50 bytes a triangle, the
-// last two without coordinates.
-constexpr std::size_t kHead = 84;
-constexpr std::size_t kRecord = 50;
 constexpr std::size_t kVectors = 4;  // a normal and three corners
 
 std::filesystem::path find_assimp(const std::filesystem::path& file) {
@@ -43,7 +39,8 @@ void turn_back(const std::string& text, std::string& stl) {
   const bool was_x = text.find(">X_UP<") != std::string::npos;
   const bool was_z = text.find(">Z_UP<") != std::string::npos;
   if (!was_x && !was_z) return;
-  for (std::size_t at = kHead; at + kRecord <= stl.size(); at += kRecord) {
+  for (std::size_t at = kStlHead; at + kStlRecord <= stl.size();
+       at += kStlRecord) {
     std::array<float, 3 * kVectors> numbers{};
     std::memcpy(numbers.data(), stl.data() + at, sizeof(numbers));
     for (std::size_t i = 0; i < numbers.size(); i += 3) {
@@ -84,7 +81,7 @@ std::string convert_dae(const std::filesystem::path& file,
   ChildEnd end = run_child(task);
   const bool is_done = end.exit_status == 0 && end.signal == 0 &&
                        !end.is_out_of_time && !end.is_reply_too_long &&
-                       end.reply.size() >= kHead;
+                       end.reply.size() >= kStlHead;
   if (!is_done) {
     throw InputError(
         fmt::format("mesh '{}': assimp: {}", file.string(), explain(end)));

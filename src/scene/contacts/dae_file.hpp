@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
 namespace limber::scene {
+
+/// Binary STL: 80 bytes of text and the number of triangles, in 4; then for
+/// each triangle a normal and three corners as floats, and two bytes more.
+inline constexpr std::size_t kStlHead = 84;
+inline constexpr std::size_t kStlRecord = 50;
 
 /// A COLLADA file as binary STL: all geometry of its scene, in metres. Axes are
 /// the file's own, whatever its up axis, as in other robot software.

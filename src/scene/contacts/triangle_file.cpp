@@ -24,10 +24,6 @@ namespace {
 
 constexpr InputKind kMesh = {"mesh", std::uint64_t{1} << 28};
 constexpr std::size_t kMostTriangles = 500000;
-// Binary STL: 80 bytes of text, their number, and for each a normal, three
-// corners and two bytes.
-constexpr std::size_t kHead = 84;
-constexpr std::size_t kRecord = 50;
 
 class Reader {
  public:
@@ -40,7 +36,7 @@ class Reader {
     triangles_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       std::array<float, 9> numbers{};
-      std::memcpy(numbers.data(), text_.data() + kHead + i * kRecord + 12,
+      std::memcpy(numbers.data(), text_.data() + kStlHead + i * kStlRecord + 12,
                   sizeof(numbers));
       Triangle triangle;
       for (std::size_t k = 0; k < 9; ++k) {
@@ -93,8 +89,8 @@ class Reader {
   }
 
   [[nodiscard]] bool is_binary_stl() const {
-    return text_.size() >= kHead &&
-           text_.size() == kHead + kRecord * find_binary_count();
+    return text_.size() >= kStlHead &&
+           text_.size() == kStlHead + kStlRecord * find_binary_count();
   }
 
   [[noreturn]] void refuse(const std::string& why) const {
@@ -104,7 +100,7 @@ class Reader {
  private:
   [[nodiscard]] std::size_t find_binary_count() const {
     std::uint32_t count = 0;
-    std::memcpy(&count, text_.data() + kHead - sizeof(count), sizeof(count));
+    std::memcpy(&count, text_.data() + kStlHead - sizeof(count), sizeof(count));
     return count;
   }
 

@@ -45,7 +45,7 @@ void check_name(const std::string& name, const Robot& robot,
 }
 
 /// Symbol and unit.
-ProbeColumnName describe(ContactQuantity quantity) {
+ProbeColumnName describe_contact(ContactQuantity quantity) {
   switch (quantity) {
     case ContactQuantity::force:
       return {"f", "N"};
@@ -121,7 +121,7 @@ TouchReading read(const ContactProbe& probe, const dynamics::SystemModel& model,
   return sum;
 }
 
-double pick(ContactQuantity quantity, const TouchReading& reading) {
+double pick_touch(ContactQuantity quantity, const TouchReading& reading) {
   switch (quantity) {
     case ContactQuantity::normal_force:
       return reading.normal_force;
@@ -180,7 +180,7 @@ ContactProbe make_contact_probe(const ContactProbeSpec& spec, bool is_turned,
 
 std::vector<ProbeColumnName> column_names(const ContactProbe& probe,
                                           const std::string& name) {
-  const auto [symbol, unit] = describe(probe.spec.quantity);
+  const auto [symbol, unit] = describe_contact(probe.spec.quantity);
   const std::string start = name + "." + symbol;
   if (!is_vector(probe.spec.quantity)) return {{start, unit}};
   return {{start + "x", unit}, {start + "y", unit}, {start + "z", unit}};
@@ -197,7 +197,7 @@ void append_values(const ContactProbe& probe,
   }
   const TouchReading reading = read(probe, model, state);
   if (!is_vector(quantity)) {
-    values.push_back(pick(quantity, reading));
+    values.push_back(pick_touch(quantity, reading));
     return;
   }
   Vector3 value = reading.p_W;

@@ -41,7 +41,7 @@ std::string unit_along(CouplerQuantity quantity, Kind kind) {
 }
 
 // Symbol and unit of quantities independent of the coordinate's kind.
-ProbeColumnName describe(CouplerQuantity quantity) {
+ProbeColumnName describe_coupler(CouplerQuantity quantity) {
   switch (quantity) {
     case CouplerQuantity::coordinate:
       return {"q", ""};
@@ -191,7 +191,7 @@ CouplerProbe make_coupler_probe(const CouplerProbeSpec& spec,
 std::vector<ProbeColumnName> column_names(const CouplerProbe& probe,
                                           const std::string& name) {
   const CouplerQuantity quantity = probe.spec.quantity;
-  const auto [symbol, unit] = describe(quantity);
+  const auto [symbol, unit] = describe_coupler(quantity);
   const std::string start = name + "." + symbol;
   if (is_vector(quantity)) {
     return {{start + "x", unit}, {start + "y", unit}, {start + "z", unit}};

@@ -6,7 +6,7 @@
 namespace limber::scene {
 namespace {
 
-CouplerTraits describe(const Robot& robot, const Joint& joint) {
+CouplerTraits describe_joint(const Robot& robot, const Joint& joint) {
   CouplerTraits traits{joint.name, true,
                        static_cast<int>(count_coordinates(joint.kind)), ""};
   if (merges(robot, joint)) {
@@ -23,7 +23,7 @@ CouplerTraits describe(const Robot& robot, const Joint& joint) {
 std::vector<CouplerTraits> find_coupler_traits(const Robot& robot) {
   std::vector<CouplerTraits> all;
   for (const Joint& joint : robot.joints) {
-    all.push_back(describe(robot, joint));
+    all.push_back(describe_joint(robot, joint));
   }
   for (const Loop& loop : robot.loops) {
     all.push_back(

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kCollision = "collision";
 
-Geometry read_box(XmlElement& element) {
+Geometry read_box_shape(XmlElement& element) {
   if (!element.has("size")) element.fail("needs 'size'");
   return BoxGeometry{
       element.vector("size", kPositive).value_or(Vector3::Ones())};
@@ -33,7 +33,7 @@ const std::map<std::string, GeometryReader>& geometry_readers() {
        [](XmlElement& e) -> Geometry {
          return SphereGeometry{e.required_number("radius", kPositive)};
        }},
-      {"box", &read_box},
+      {"box", &read_box_shape},
       {"cylinder",
        [](XmlElement& e) -> Geometry {
          return CylinderGeometry{e.required_number("radius", kPositive),

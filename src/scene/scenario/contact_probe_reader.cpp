@@ -6,16 +6,16 @@
 namespace limber::scene {
 namespace {
 
-const std::vector<std::pair<std::string, ContactQuantity>> kQuantities = {
-    {"force", ContactQuantity::force},
-    {"normal_force", ContactQuantity::normal_force},
-    {"friction_force", ContactQuantity::friction_force},
-    {"place", ContactQuantity::place},
-    {"depth", ContactQuantity::depth},
-    {"area", ContactQuantity::area},
-    {"energy", ContactQuantity::energy},
-    {"touching", ContactQuantity::touching},
-    {"slipping", ContactQuantity::slipping}};
+const std::vector<std::pair<std::string, ContactQuantity>> kContactQuantities =
+    {{"force", ContactQuantity::force},
+     {"normal_force", ContactQuantity::normal_force},
+     {"friction_force", ContactQuantity::friction_force},
+     {"place", ContactQuantity::place},
+     {"depth", ContactQuantity::depth},
+     {"area", ContactQuantity::area},
+     {"energy", ContactQuantity::energy},
+     {"touching", ContactQuantity::touching},
+     {"slipping", ContactQuantity::slipping}};
 
 void refuse_others(TomlTable& table) {
   for (const char* other : {"link", "coupler"}) {
@@ -50,8 +50,8 @@ ContactProbeSpec read_contact_probe(TomlTable& table) {
                            names->size()));
   }
   refuse_others(table);
-  probe.quantity = read_choice<ContactQuantity>(table, "quantity", kQuantities,
-                                                probe.quantity);
+  probe.quantity = read_choice<ContactQuantity>(
+      table, "quantity", kContactQuantities, probe.quantity);
   return probe;
 }
 

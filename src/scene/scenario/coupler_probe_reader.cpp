@@ -4,19 +4,19 @@
 namespace limber::scene {
 namespace {
 
-const std::vector<std::pair<std::string, CouplerQuantity>> kQuantities = {
-    {"coordinate", CouplerQuantity::coordinate},
-    {"coordinate_rate", CouplerQuantity::coordinate_rate},
-    {"effort", CouplerQuantity::effort},
-    {"relative_position", CouplerQuantity::relative_position},
-    {"relative_rotation", CouplerQuantity::relative_rotation},
-    {"relative_velocity", CouplerQuantity::relative_velocity},
-    {"relative_angular_velocity", CouplerQuantity::relative_angular_velocity},
-    {"force", CouplerQuantity::force},
-    {"moment", CouplerQuantity::moment},
-    {"energy", CouplerQuantity::energy},
-    {"dissipation", CouplerQuantity::dissipation},
-    {"power", CouplerQuantity::power}};
+const std::vector<std::pair<std::string, CouplerQuantity>> kCouplerQuantities =
+    {{"coordinate", CouplerQuantity::coordinate},
+     {"coordinate_rate", CouplerQuantity::coordinate_rate},
+     {"effort", CouplerQuantity::effort},
+     {"relative_position", CouplerQuantity::relative_position},
+     {"relative_rotation", CouplerQuantity::relative_rotation},
+     {"relative_velocity", CouplerQuantity::relative_velocity},
+     {"relative_angular_velocity", CouplerQuantity::relative_angular_velocity},
+     {"force", CouplerQuantity::force},
+     {"moment", CouplerQuantity::moment},
+     {"energy", CouplerQuantity::energy},
+     {"dissipation", CouplerQuantity::dissipation},
+     {"power", CouplerQuantity::power}};
 
 }  // namespace
 
@@ -28,8 +28,8 @@ CouplerProbeSpec read_coupler_probe(TomlTable& table) {
     (void)table.text("link");
   }
   if (!table.has("quantity")) table.fail("needs 'quantity'");
-  probe.quantity = read_choice<CouplerQuantity>(table, "quantity", kQuantities,
-                                                probe.quantity);
+  probe.quantity = read_choice<CouplerQuantity>(
+      table, "quantity", kCouplerQuantities, probe.quantity);
   probe.side = read_choice<ProbeSide>(
       table, "side", {{"F", ProbeSide::F}, {"M", ProbeSide::M}}, probe.side);
   probe.axes = read_choice<ProbeAxes>(

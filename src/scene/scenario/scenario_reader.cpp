@@ -96,7 +96,7 @@ LoadSpec read_load(TomlTable& table, const SignalContext& context,
 }
 
 // { link = .. }, and where on it.
-std::optional<Place> read_base(TomlTable& table) {
+std::optional<Place> read_robot_base(TomlTable& table) {
   const toml::table* given = table.table("relative_to");
   if (given == nullptr) return std::nullopt;
   TomlTable base(*given, table.path() + ".relative_to", table.problems());
@@ -135,7 +135,7 @@ ProbeSpec read_link_probe(TomlTable& table, const std::string& name) {
   }
   PointProbeSpec probe;
   probe.where = read_place(table);
-  probe.relative_to = read_base(table);
+  probe.relative_to = read_robot_base(table);
   probe.quantity = std::get<Quantity>(quantity);
   return {name, probe};
 }

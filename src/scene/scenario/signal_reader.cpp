@@ -9,9 +9,9 @@ namespace limber::scene {
 namespace {
 
 using Base = decltype(joints::Signal::base);
-using Reader = Base (*)(TomlTable&, const SignalContext&);
+using BaseReader = Base (*)(TomlTable&, const SignalContext&);
 
-Base read_constant(TomlTable& table, const SignalContext& /*context*/) {
+Base read_constant_base(TomlTable& table, const SignalContext& /*context*/) {
   return joints::ConstantSignal{table.required_number("value")};
 }
 
@@ -35,7 +35,7 @@ Base read_ramp(TomlTable& table, const SignalContext& /*context*/) {
   return ramp;
 }
 
-Base read_table(TomlTable& table, const SignalContext& context) {
+Base read_table_base(TomlTable& table, const SignalContext& context) {
   Series points = read_points(table, context.folder);
   return joints::TableSignal{std::move(points.times), std::move(points.values)};
 }
@@ -50,19 +50,20 @@ Base read_sine(TomlTable& table, const SignalContext& /*context*/) {
   return sine;
 }
 
-Base read_input(TomlTable& table, const SignalContext& context) {
+Base read_input_base(TomlTable& table, const SignalContext& context) {
   return read_input_signal(table, context.controllers);
 }
 
-Base read_base(TomlTable& table, const SignalContext& context) {
+Base read_signal_base(TomlTable& table, const SignalContext& context) {
   if (!table.has("kind")) table.fail("needs 'kind'");
-  const Reader reader = read_choice<Reader>(table, "kind",
-                                            {{"constant", read_constant},
-                                             {"ramp", read_ramp},
-                                             {"table", read_table},
-                                             {"sine", read_sine},
-                                             {"input", read_input}},
-                                            nullptr);
+  const BaseReader reader =
+      read_choice<BaseReader>(table, "kind",
+                              {{"constant", read_constant_base},
+                               {"ramp", read_ramp},
+                               {"table", read_table_base},
+                               {"sine", read_sine},
+                               {"input", read_input_base}},
+                              nullptr);
   if (reader == nullptr) return {};
   Base base = reader(table, context);
   table.finish();
@@ -100,7 +101,7 @@ joints::InputSignal read_input_signal(
 
 joints::Signal read_base_signal(TomlTable& table,
                                 const SignalContext& context) {
-  return {.base = read_base(table, context)};
+  return {.base = read_signal_base(table, context)};
 }
 
 joints::Signal read_signal(TomlTable& drive, const SignalContext& context) {
@@ -111,7 +112,7 @@ joints::Signal read_signal(TomlTable& drive, const SignalContext& context) {
     if (!drive.has("signal")) drive.fail("needs 'signal'");
   } else {
     TomlTable table(*base, drive.path() + " signal", drive.problems());
-    signal.base = read_base(table, context);
+    signal.base = read_signal_base(table, context);
   }
   if (shaper != nullptr) {
     TomlTable table(*shaper, drive.path() + " shaper", drive.problems());

@@ -110,7 +110,8 @@ std::vector<double> read_output_times(
 /// A `tolerance`, with the longest step if there is one; one `step`; or `steps
 /// = { from = [...], size = [...] }`: from each time on the step of that size,
 /// the first from the start.
-void read_steps(TomlTable& table, dynamics::SimulationSettings& settings) {
+void read_step_settings(TomlTable& table,
+                        dynamics::SimulationSettings& settings) {
   const toml::table* steps = table.table("steps");
   settings.tolerance = table.number("tolerance", kPositive).value_or(0.0);
   if (steps == nullptr && table.has("tolerance")) {
@@ -152,7 +153,7 @@ dynamics::SimulationSettings read_time_settings(
     TomlTable& table, std::vector<std::string>& warnings) {
   dynamics::SimulationSettings settings;
   settings.end_time = table.required_number("duration", kPositive);
-  read_steps(table, settings);
+  read_step_settings(table, settings);
   settings.integrator = read_name(table, "integrator", settings.integrator,
                                   &dynamics::parse_integrator);
   settings.rho_inf = table.number("rho_inf", {0.0, 1.0, false, false})

@@ -7,7 +7,7 @@
 
 #include "limber/common/names.hpp"
 
-namespace limber {
+namespace limber::echo_test {
 namespace {
 
 TEST(Echo, LeavesOrdinaryTextAsItIs) {
@@ -49,4 +49,4 @@ TEST(DescribeUnknown, EchoesTheNameAndTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::echo_test

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-namespace limber {
+namespace limber::errors_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -51,4 +51,4 @@ TEST(Errors, ClassesStayApart) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::errors_test

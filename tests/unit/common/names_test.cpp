@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace limber {
+namespace limber::names_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -63,4 +63,4 @@ TEST(Names, DescriptionOfVeryManyNamesStaysShort) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::names_test

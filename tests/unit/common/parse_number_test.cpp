@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace limber {
+namespace limber::parse_number_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -37,4 +37,4 @@ TEST(SplitWords, PassesOverAnyBlanks) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::parse_number_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limber {
+namespace limber::piece_names_test {
 namespace {
 
 TEST(PieceNames, CountFromOne) { EXPECT_EQ(name_piece("arm", 0), "arm.1"); }
@@ -20,4 +20,4 @@ TEST(PieceNames, OfOtherBodiesAreTheirOwn) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::piece_names_test

@@ -5,7 +5,7 @@
 
 #include "limber/common/rotation.hpp"
 
-namespace limber {
+namespace limber::pose_test {
 namespace {
 
 // A few operations on numbers of size one to ten.
@@ -69,4 +69,4 @@ TEST(Rotation, ProductOfQuaternionsIsTheProductOfMatrices) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::pose_test

@@ -8,7 +8,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber {
+namespace limber::restitution_test {
 namespace {
 
 // The speed is what a whole bounce leaves: int v / (1 + b v) dv is the same
@@ -48,4 +48,4 @@ TEST(Restitution, ValuesOutsideTheirRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::restitution_test

@@ -10,7 +10,7 @@
 
 #include "support/draw_vector.hpp"
 
-namespace limber {
+namespace limber::rotation_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -183,4 +183,4 @@ TEST(Rotation, InverseJacobianInvertsBelowAFullTurn) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::rotation_test

@@ -11,7 +11,7 @@
 #include "limber/dynamics/system/system_state.hpp"
 
 /// A steel ball that flies against a steel floor.
-namespace limber::contact::testing {
+namespace limber::contact::test {
 
 inline constexpr double kBallRadius = 0.01;  // [m]
 inline constexpr double kBallMass = 7800.0 * 4.0 / 3.0 * std::numbers::pi *
@@ -48,4 +48,4 @@ struct BallOnFloor {
   }
 };
 
-}  // namespace limber::contact::testing
+}  // namespace limber::contact::test

@@ -18,7 +18,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 
 /// Impacts and rest of rigid bodies, against closed forms.
-namespace limber::contact {
+namespace limber::contact::contact_pair_test {
 namespace {
 
 using dynamics::IntegratorKind;
@@ -439,4 +439,4 @@ TEST(ContactPair, HasALinearModelOnlyWhileBodiesAreApart) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::contact_pair_test

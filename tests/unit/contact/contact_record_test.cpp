@@ -9,7 +9,7 @@
 
 /// What a run records of an impact, against Hertz's theory (Johnson 1985,
 /// sec. 11.4).
-namespace limber::contact {
+namespace limber::contact::contact_record_test {
 namespace {
 
 class ContactRecordFrom : public ::testing::TestWithParam<double> {};
@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Time, ContactRecordFrom,
 TEST_P(ContactRecordFrom, ABallOnAFloorIsHertzs) {
   constexpr double kSpeed = 1.0;
   const double start = GetParam();
-  testing::BallOnFloor scene({}, {0.0, 0.0, -kSpeed});
+  test::BallOnFloor scene({}, {0.0, 0.0, -kSpeed});
   scene.state.t = start;
   dynamics::SimulationSettings settings;
   settings.end_time = start + 2e-4;
@@ -30,9 +30,9 @@ TEST_P(ContactRecordFrom, ABallOnAFloorIsHertzs) {
                      {}, record);
   ASSERT_FALSE(statistics.events.empty());
   EXPECT_NEAR(statistics.events[0].time - start, 1e-6 / kSpeed, 1e-9);
-  const double k = testing::hertz_stiffness();
+  const double k = test::hertz_stiffness();
   const double depth =
-      std::pow(1.25 * testing::kBallMass * kSpeed * kSpeed / k, 0.4);
+      std::pow(1.25 * test::kBallMass * kSpeed * kSpeed / k, 0.4);
   const double force = k * std::pow(depth, 1.5);
   const double duration = 2.9432 * depth / kSpeed;
   ASSERT_EQ(record.contacts.size(), 1U);
@@ -46,12 +46,11 @@ TEST_P(ContactRecordFrom, ABallOnAFloorIsHertzs) {
   EXPECT_NEAR(contact.peak_time - start, 1e-6 / kSpeed + 0.5 * duration,
               0.01 * duration);
   EXPECT_NEAR(contact.peak_depth / depth, 1.0, kSame);
-  EXPECT_NEAR(contact.peak_depth_over_radius / (depth / testing::kBallRadius),
-              1.0, kSame);
-  EXPECT_NEAR(contact.impulse / (2.0 * testing::kBallMass * kSpeed), 1.0,
+  EXPECT_NEAR(contact.peak_depth_over_radius / (depth / test::kBallRadius), 1.0,
               kSame);
+  EXPECT_NEAR(contact.impulse / (2.0 * test::kBallMass * kSpeed), 1.0, kSame);
   EXPECT_NEAR(contact.parting_speed / kSpeed, 1.0, kSame);
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::contact_record_test

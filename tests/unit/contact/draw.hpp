@@ -6,7 +6,7 @@
 
 #include "limber/common/types.hpp"
 
-namespace limber::contact::testing {
+namespace limber::contact::test {
 
 /// Random numbers that follow from a seed.
 class Draw {
@@ -31,4 +31,4 @@ class Draw {
   std::mt19937_64 generator_;
 };
 
-}  // namespace limber::contact::testing
+}  // namespace limber::contact::test

@@ -9,18 +9,18 @@
 #include "unit/contact/ball_on_floor.hpp"
 
 /// Explicit schemes and the stiffness of a contact, against Hertz's.
-namespace limber::contact {
+namespace limber::contact::explicit_impact_test {
 namespace {
 
 using dynamics::IntegratorKind;
-using testing::BallOnFloor;
+using test::BallOnFloor;
+using test::kBallMass;
 using ::testing::HasSubstr;
-using testing::kBallMass;
 
 std::vector<std::string> find_warnings(IntegratorKind scheme, double step,
                                        double speed = 1.0) {
   BallOnFloor scene({}, {0.0, 0.0, -speed});
-  scene.state.bodies[0].p_WB.z() = testing::kBallRadius + 1e-6 * speed;
+  scene.state.bodies[0].p_WB.z() = test::kBallRadius + 1e-6 * speed;
   dynamics::SimulationSettings settings;
   settings.end_time = 1e-4 * std::pow(speed, -0.2);
   settings.step = step;
@@ -45,7 +45,7 @@ double find_named_step(const std::vector<std::string>& warnings) {
 
 // d_p = (5 m v^2 / (4 k))^(2/5), omega^2 = 3/2 k sqrt(d_p) / m.
 double find_omega(double speed = 1.0) {
-  const double k = testing::hertz_stiffness();
+  const double k = test::hertz_stiffness();
   const double depth = std::pow(1.25 * kBallMass * speed * speed / k, 0.4);
   return std::sqrt(1.5 * k * std::sqrt(depth) / kBallMass);
 }
@@ -74,4 +74,4 @@ TEST(ExplicitImpact, IsNoMatterOfImplicitSchemes) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::explicit_impact_test

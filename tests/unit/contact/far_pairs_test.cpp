@@ -15,7 +15,7 @@
 
 /// Pairs that are far apart cost next to nothing, and touch on time all the
 /// same: against closed forms of when they meet.
-namespace limber::contact {
+namespace limber::contact::far_pairs_test {
 namespace {
 
 using dynamics::BodyIndex;
@@ -204,7 +204,7 @@ TEST(FarPairs, ThatCrossFromBehindAreLookedAtAFewTimesAStep) {
     };
     return ContactSide{
         Shape{std::make_shared<const Skin>(
-                  testing::make_sheet_surface(0.1, 4, true, height)),
+                  test::make_sheet_surface(0.1, 4, true, height)),
               {}},
         kSteel, mass};
   };
@@ -243,9 +243,9 @@ std::shared_ptr<const flexbody::ReducedBody> make_breathing_body(
 TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
   constexpr double kOmega = 20.0;
   for (const double step : {0.02, 0.001}) {
-    flexbody::ContactSurface surface = testing::make_ball_surface(0.1, 2, true);
-    testing::set_modes(surface,
-                       {[](const Vector3&) { return Vector3(0.0, 0.0, 1.0); }});
+    flexbody::ContactSurface surface = test::make_ball_surface(0.1, 2, true);
+    test::set_modes(surface,
+                    {[](const Vector3&) { return Vector3(0.0, 0.0, 1.0); }});
     dynamics::SystemBuilder builder;
     const BodyIndex bell = builder.add_flexible_body(
         "bell", make_breathing_body(kOmega), dynamics::Fidelity::coupled, {});
@@ -266,4 +266,4 @@ TEST(FarPairs, TouchOnTimeWhereOneDeforms) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::far_pairs_test

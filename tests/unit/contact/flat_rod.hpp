@@ -15,7 +15,7 @@
 
 /// A steel rod of 1 m and 1 cm^2 with the closed form's axial modes and
 /// residual flexibility, which strikes with a flat end.
-namespace limber::contact::testing {
+namespace limber::contact::test {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kLength = 1.0;     // [m]
@@ -151,4 +151,4 @@ inline RodScene make_rod_scene(int modes, Target target,
   return scene;
 }
 
-}  // namespace limber::contact::testing
+}  // namespace limber::contact::test

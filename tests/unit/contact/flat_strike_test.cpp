@@ -12,19 +12,19 @@
 #include "unit/contact/flat_rod.hpp"
 
 /// Flat ends that strike tilted, off the middle and sliding.
-namespace limber::contact {
+namespace limber::contact::flat_strike_test {
 namespace {
 
-using testing::Draw;
-using testing::Target;
+using test::Draw;
+using test::Target;
 
 struct Strike {
-  testing::RodScene scene;
+  test::RodScene scene;
   std::string words;
 };
 
 /// Moves the second body along x until it is 1 um away from the first.
-void approach(testing::RodScene& scene) {
+void approach(test::RodScene& scene) {
   const dynamics::Pair& pair = scene.model.pairs.front();
   const auto view = [&scene](dynamics::BodyIndex body) {
     const dynamics::BodyState& state = scene.state.bodies[index(body)];
@@ -46,7 +46,7 @@ Strike make_strike(unsigned seed, Draw& draw) {
   const ContactParameters parameters{
       .friction = {.sliding = seed % 3 == 0 ? 0.0 : draw.between(0.0, 1.0)},
       .restitution = seed % 5 == 0 ? draw.between(0.2, 1.0) : 1.0};
-  Strike strike{testing::make_rod_scene(5, target, parameters), {}};
+  Strike strike{test::make_rod_scene(5, target, parameters), {}};
   strike.scene.state.bodies[0].v_WB_W.y() = draw.between(-0.5, 0.5);
   strike.words =
       fmt::format("seed {}: {}, friction {:.2g}, restitution {:.2g}", seed,
@@ -68,7 +68,7 @@ Strike draw_flat_strike(unsigned seed) {
   const Vector3 turn(draw.between(-1.0, 1.0), tilt * std::cos(about),
                      tilt * std::sin(about));
   other.quat_WB = Quaternion(exp_rotation(turn)) * other.quat_WB;
-  const Vector3 face(is_box ? 0.1 : -0.5 * testing::kLength, 0.0, 0.0);
+  const Vector3 face(is_box ? 0.1 : -0.5 * test::kLength, 0.0, 0.0);
   other.p_WB = Vector3(-0.05, y, z) - other.quat_WB * face;
   approach(strike.scene);
   strike.words += fmt::format(", tilt {:.3g}, off by {:.3g} {:.3g} mm", tilt,
@@ -90,7 +90,7 @@ Strike draw_edge_strike(unsigned seed) {
                     exp_rotation(slope * Vector3::UnitZ());
   other.quat_WB = Quaternion(R) * other.quat_WB;
   const Vector3 half = is_box ? Vector3(0.1, 0.05, 0.04)
-                              : Vector3(-0.5 * testing::kLength, 0.005, 0.005);
+                              : Vector3(-0.5 * test::kLength, 0.005, 0.005);
   // The edge that is pressed in, at a place of it.
   const Vector3 way = other.quat_WB.conjugate() * Vector3::UnitX();
   Vector3 place = half;
@@ -104,7 +104,7 @@ Strike draw_edge_strike(unsigned seed) {
   return strike;
 }
 
-Vector3 calc_momentum(const testing::RodScene& scene) {
+Vector3 calc_momentum(const test::RodScene& scene) {
   Vector3 sum = Vector3::Zero();
   for (std::size_t b = 0; b < 2; ++b) {
     sum += scene.model.bodies[b].mass * scene.state.bodies[b].v_WB_W;
@@ -114,7 +114,7 @@ Vector3 calc_momentum(const testing::RodScene& scene) {
 
 void expect_no_gain_and_momentum(Strike strike) {
   SCOPED_TRACE(strike.words);
-  testing::RodScene& scene = strike.scene;
+  test::RodScene& scene = strike.scene;
   const double before = calc_energy(scene.model, scene.state).total();
   const Vector3 p = calc_momentum(scene);
   dynamics::SimulationStatistics statistics;
@@ -145,4 +145,4 @@ TEST_P(EdgeStrike, GainsNoEnergyAndKeepsMomentum) {
 INSTANTIATE_TEST_SUITE_P(Draws, EdgeStrike, ::testing::Range(0U, 60U));
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::flat_strike_test

@@ -16,7 +16,7 @@
 
 /// A ball strikes a lattice without reduction, and the same with all of its
 /// modes: for small strain both are one system.
-namespace limber::contact {
+namespace limber::contact::full_contact_test {
 namespace {
 
 constexpr int kModes = 42;  // 3 of 16 nodes, less rigid motion
@@ -134,4 +134,4 @@ TEST(FullContact, KeepsMomentumAndGainsNoEnergy) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::full_contact_test

@@ -16,7 +16,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// A ball strikes a body whose surface products of modes move, too.
-namespace limber::contact {
+namespace limber::contact::nonlinear_contact_test {
 namespace {
 
 using dynamics::Fidelity;
@@ -53,8 +53,8 @@ std::shared_ptr<const flexbody::ReducedBody> make_body(double bend) {
 // A box of 0.4 m; products move it as further modes would.
 std::shared_ptr<const Skin> make_skin(double bend, bool has_products) {
   flexbody::ContactSurface box =
-      testing::make_box_surface(Vector3::Constant(0.2), 3, false);
-  std::vector<testing::Field> fields = testing::make_fields();
+      test::make_box_surface(Vector3::Constant(0.2), 3, false);
+  std::vector<test::Field> fields = test::make_fields();
   fields.resize(kModes, fields.front());
   for (int pair = 0; has_products && pair < kPairs; ++pair) {
     fields.push_back([bend, pair](const Vector3& x) -> Vector3 {
@@ -62,7 +62,7 @@ std::shared_ptr<const Skin> make_skin(double bend, bool has_products) {
                             std::cos(3.0 * x.x() - pair));
     });
   }
-  testing::set_modes(box, fields);
+  test::set_modes(box, fields);
   return std::make_shared<const Skin>(box);
 }
 
@@ -180,4 +180,4 @@ TEST(NonlinearContact, DiffersFromThatOfLevelCoupled) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::nonlinear_contact_test

@@ -9,11 +9,11 @@
 
 /// A ball that strikes the floor obliquely, against the textbook of rigid
 /// spheres: with v_t > 7/2 mu (1 + e) v_n it slides throughout.
-namespace limber::contact {
+namespace limber::contact::oblique_impact_test {
 namespace {
 
-using testing::BallOnFloor;
-using testing::kBallRadius;
+using test::BallOnFloor;
+using test::kBallRadius;
 
 struct Rebound {
   double v_t = 0.0;     ///< [m/s]
@@ -92,4 +92,4 @@ TEST(ObliqueImpact, IsTheSameFromTheOtherSide) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::oblique_impact_test

@@ -17,13 +17,13 @@
 #include "unit/contact/draw.hpp"
 
 /// Impacts of random shapes, sizes, masses, speeds and steps.
-namespace limber::contact {
+namespace limber::contact::random_impacts_test {
 namespace {
 
 using dynamics::SystemBuilder;
 using dynamics::SystemModel;
 using dynamics::SystemState;
-using testing::Draw;
+using test::Draw;
 
 struct Impact {
   SystemModel model;
@@ -159,4 +159,4 @@ TEST_P(RandomImpact, OfTwoBodiesGainsNoEnergyKeepsMomentumAndIsNotMissed) {
 INSTANTIATE_TEST_SUITE_P(Of100, RandomImpact, ::testing::Range(0U, 10U));
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::random_impacts_test

@@ -11,12 +11,12 @@
 /// A rod that strikes a rigid wall, a heavy box or another rod flat at 1 m/s,
 /// against the wave solution, force E A v / c for 2 L / c, of two rods half of
 /// it. The prototype of this law gave peaks of 1.891, 1.856 and 1.848 of it.
-namespace limber::contact {
+namespace limber::contact::rod_end_test {
 namespace {
 
-using testing::kDuration;
-using testing::kForce;
-using testing::Target;
+using test::kDuration;
+using test::kForce;
+using test::Target;
 
 struct Impact {
   dynamics::ContactRecord record;
@@ -25,7 +25,7 @@ struct Impact {
 
 Impact strike(int modes, Target target, dynamics::IntegratorKind scheme,
               double step) {
-  testing::RodScene scene = testing::make_rod_scene(modes, target, {});
+  test::RodScene scene = test::make_rod_scene(modes, target, {});
   dynamics::SimulationSettings settings;
   settings.integrator = scheme;
   settings.rho_inf = 1.0;
@@ -66,4 +66,4 @@ INSTANTIATE_TEST_SUITE_P(
                           std::pair{20, 1.848})));
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::rod_end_test

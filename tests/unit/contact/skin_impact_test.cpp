@@ -17,7 +17,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// Impacts of bodies whose surfaces are meshes.
-namespace limber::contact {
+namespace limber::contact::skin_impact_test {
 namespace {
 
 using dynamics::RunRecord;
@@ -28,14 +28,14 @@ constexpr double kMass = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius *
                          kRadius * 7800.0;  // [kg]
 
 Shape make_ball() {
-  return {std::make_shared<const Skin>(
-              testing::make_ball_surface(kRadius, 3, true)),
-          {}};
+  return {
+      std::make_shared<const Skin>(test::make_ball_surface(kRadius, 3, true)),
+      {}};
 }
 
 Shape make_cube() {
   return {std::make_shared<const Skin>(
-              testing::make_box_surface(Vector3::Constant(kRadius), 3, false)),
+              test::make_box_surface(Vector3::Constant(kRadius), 3, false)),
           {}};
 }
 
@@ -126,7 +126,7 @@ TEST(SkinImpact, OfAMeshedBallIsThatOfASphere) {
 // Without a word it would be a contact that is missed.
 TEST(SkinImpact, OfAnOpenSurfaceFromBehindIsTold) {
   const Shape sheet{
-      std::make_shared<const Skin>(testing::make_sheet_surface(
+      std::make_shared<const Skin>(test::make_sheet_surface(
           3.0 * kRadius, 4, false, [](double, double) { return 0.0; })),
       {}};
   const auto strike = [&](double side, double step) {
@@ -173,4 +173,4 @@ TEST(SkinImpact, OfTumblingCubesGainsNoEnergyAndKeepsMomenta) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::skin_impact_test

@@ -10,11 +10,11 @@
 
 /// A ball that spins upright on the floor, against the closed form of full slip
 /// under Hertz's pressure: M = 3 pi mu f a / 16 [@johnson1985, ch. 7].
-namespace limber::contact {
+namespace limber::contact::spinning_ball_test {
 namespace {
 
-using testing::kBallMass;
-using testing::kBallRadius;
+using test::kBallMass;
+using test::kBallRadius;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kGravity = 10.0;  // [m/s^2]
@@ -44,8 +44,8 @@ struct RestingBall {
     builder.add_pair(
         "floor/ball", dynamics::kWorld, ball,
         std::make_shared<ContactPair>(
-            ContactSide{Shape{HalfSpace{}, {}}, testing::kSteel, kFixed},
-            ContactSide{Shape{Sphere{kBallRadius}, {}}, testing::kSteel,
+            ContactSide{Shape{HalfSpace{}, {}}, test::kSteel, kFixed},
+            ContactSide{Shape{Sphere{kBallRadius}, {}}, test::kSteel,
                         kBallMass},
             ContactParameters{.friction = {.sliding = friction}}));
     builder.add_load("moment", builder.attach_frame("middle", ball, {}),
@@ -53,8 +53,7 @@ struct RestingBall {
                      dynamics::LoadFrame::body, dynamics::Constant{});
     model = builder.build();
     state = dynamics::make_state(model);
-    const double depth =
-        std::pow(kLoad / testing::hertz_stiffness(), 2.0 / 3.0);
+    const double depth = std::pow(kLoad / test::hertz_stiffness(), 2.0 / 3.0);
     state.bodies[0].p_WB.z() = kBallRadius - depth;
     state.bodies[0].w_WB_B = {0.0, 0.0, rate};
   }
@@ -123,4 +122,4 @@ TEST(SpinningBall, HoldsAgainstALesserMoment) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::spinning_ball_test

@@ -11,7 +11,7 @@
 #include "limber/joints/latch.hpp"
 #include "limber/joints/point_spring.hpp"
 
-namespace limber::joints {
+namespace limber::joints::bad_values_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -264,4 +264,4 @@ TEST(BadValues, OfACallerAreItsDefects) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::bad_values_test

@@ -9,7 +9,7 @@
 #include "limber/joints/coupler_law.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
-namespace limber::joints {
+namespace limber::joints::bushing_test {
 namespace {
 
 Bushing full_bushing() {
@@ -144,4 +144,4 @@ TEST(Bushing, AFreeTranslationFeelsRoundoffOfTheWrenchNotOfTheStiffness) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::bushing_test

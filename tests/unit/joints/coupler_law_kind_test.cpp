@@ -12,7 +12,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/joints/coupler_law.hpp"
 
-namespace limber::joints {
+namespace limber::joints::coupler_law_kind_test {
 namespace {
 
 struct Nothing {
@@ -153,4 +153,4 @@ TEST(LawKinds, ToAskForItIsACallersDefect) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::coupler_law_kind_test

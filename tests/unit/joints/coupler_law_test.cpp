@@ -19,7 +19,7 @@
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
-namespace limber::joints {
+namespace limber::joints::coupler_law_test {
 namespace {
 
 using testing::carried;
@@ -411,4 +411,4 @@ TEST(CouplerLaws, AUniversalJointSeenFromItsOtherEndHasItsAxesExchanged) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::coupler_law_test

@@ -5,7 +5,7 @@
 
 #include "limber/common/rotation.hpp"
 
-namespace limber::joints {
+namespace limber::joints::joint_kind_test {
 namespace {
 
 TEST(JointBushing, RevoluteIsFreeThroughManyTurns) {
@@ -202,4 +202,4 @@ TEST(JointKind, AtItsTargetVelocityATiltedHingeTurnsAsItsDriveCommands) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::joint_kind_test

@@ -6,7 +6,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 
-namespace limber::joints {
+namespace limber::joints::joint_motion_test {
 namespace {
 
 constexpr double kRoundOff = 1e-13;
@@ -128,4 +128,4 @@ TEST(JointMotion, RefusesAnotherNumberOfCoordinates) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::joint_motion_test

@@ -10,7 +10,7 @@
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
-namespace limber::joints {
+namespace limber::joints::latch_test {
 namespace {
 
 using testing::carried;
@@ -149,4 +149,4 @@ TEST(Latch, SwitchRatesAreDerivativesByTime) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::latch_test

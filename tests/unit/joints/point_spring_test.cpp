@@ -5,7 +5,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::joints {
+namespace limber::joints::point_spring_test {
 namespace {
 
 RelativeMotion at(double x, double rate = 0.0) {
@@ -76,4 +76,4 @@ TEST(PointSpring, QuadraticPullsWithTheSquareOfItsExtension) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::point_spring_test

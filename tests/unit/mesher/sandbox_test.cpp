@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace limber::mesher {
+namespace limber::mesher::sandbox_test {
 namespace {
 
 // Protection from geometries on kernels with neither seccomp nor Landlock.
@@ -42,4 +42,4 @@ TEST(FleetingWord, IsTheClockMemoryChanceAndEnvironment) {
 }
 
 }  // namespace
-}  // namespace limber::mesher
+}  // namespace limber::mesher::sandbox_test

@@ -13,7 +13,7 @@
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::axial_load_test {
 namespace {
 
 using flexbody::testing::Bar;
@@ -183,4 +183,4 @@ TEST(AxialLoad, TurnOfInterfacesIsThatOfTheirTables) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::axial_load_test

@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 
 /// The flexibility of a patch of given size on finer and finer meshes.
-namespace limber::flexbody {
+namespace limber::flexbody::contact_convergence_slow {
 namespace {
 
 const fem::ElasticMaterial kSteel{210e9, 0.3, 7850.0};
@@ -98,4 +98,4 @@ TEST(ContactConvergence, PatchesOfABlockDifferByHertzsShares) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::contact_convergence_slow

@@ -15,7 +15,7 @@
 
 /// Pads at the end of a bar, against the rod's closed form and the uniform
 /// pressure on the whole face.
-namespace limber::flexbody {
+namespace limber::flexbody::contact_pads_test {
 namespace {
 
 using testing::Bar;
@@ -104,4 +104,4 @@ TEST(ContactPads, BelongToFlatSurfacesAlone) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::contact_pads_test

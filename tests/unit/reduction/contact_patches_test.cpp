@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 
 /// Patches on a plate of 8 x 6 x 2 cm in cells of 1 x 1 x 1 cm.
-namespace limber::flexbody {
+namespace limber::flexbody::contact_patches_test {
 namespace {
 
 constexpr double kCell = 0.01;  // m
@@ -170,4 +170,4 @@ TEST(ContactPatches, OfLinearElementsReproduceLinearFields) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::contact_patches_test

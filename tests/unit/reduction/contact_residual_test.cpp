@@ -12,7 +12,7 @@
 
 /// The flexibility that a basis leaves out, against the rod's closed form and
 /// the sum over all other modes.
-namespace limber::flexbody {
+namespace limber::flexbody::contact_residual_test {
 namespace {
 
 using testing::Bar;
@@ -245,4 +245,4 @@ TEST(HertzShare, IsTheMeanDisplacementUnderTheOwnPressure) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::contact_residual_test

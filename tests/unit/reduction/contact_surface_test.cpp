@@ -17,7 +17,7 @@
 #include "unit/reduction/bar.hpp"
 
 /// Contact surfaces of a bar of 200 x 20 x 10 mm.
-namespace limber::flexbody {
+namespace limber::flexbody::contact_surface_test {
 namespace {
 
 using ::testing::AllOf;
@@ -256,4 +256,4 @@ TEST(ContactGroups, CalledSkinMustBeTheWhole) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::contact_surface_test

@@ -12,7 +12,7 @@
 #include "support/eigenpairs.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::departure_test {
 namespace {
 
 using testing::Bar;
@@ -311,4 +311,4 @@ TEST(DepartureModel, RefusesWhatDeformsNothing) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::departure_test

@@ -7,7 +7,7 @@
 #include "unit/reduction/bar.hpp"
 
 /// A body without reduction, against its matrices entry by entry.
-namespace limber::flexbody {
+namespace limber::flexbody::full_body_test {
 namespace {
 
 using testing::Bar;
@@ -107,4 +107,4 @@ TEST_P(FullBar, SolvesForSeveralLoadsOnAllNodes) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::full_body_test

@@ -9,7 +9,7 @@
 #include "places.hpp"
 
 /// Node selections on the beam of 1 x 1 x 5 m: root at z = 0, tip at z = 5.
-namespace limber::flexbody {
+namespace limber::flexbody::interfaces_test {
 namespace {
 
 using ::testing::AllOf;
@@ -116,4 +116,4 @@ TEST(Interfaces, ThatAreEmptyAreAllReportedAtOnce) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::interfaces_test

@@ -15,7 +15,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::manifold_test {
 namespace {
 
 using testing::Bar;
@@ -321,4 +321,4 @@ TEST(Manifold, SurvivesABodyFile) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::manifold_test

@@ -16,7 +16,7 @@
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::nonlinear_level_slow {
 namespace {
 
 using flexbody::testing::Bar;
@@ -261,4 +261,4 @@ TEST(NonlinearLevel, StiffensInSpinAsARotatingCantilever) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::nonlinear_level_slow

@@ -9,7 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::operating_states_test {
 namespace {
 
 using ::testing::AllOf;
@@ -227,4 +227,4 @@ TEST(DriftingState, RefusesWhatHasNoSteadySpeed) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::operating_states_test

@@ -12,7 +12,7 @@
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::pieces_test {
 namespace {
 
 using testing::Bar;
@@ -142,4 +142,4 @@ TEST(Pieces, HaveKeysOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::pieces_test

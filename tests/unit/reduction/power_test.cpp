@@ -14,7 +14,7 @@
 #include "limber/reduction/departure.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::power_test {
 namespace {
 
 using testing::Bar;
@@ -208,4 +208,4 @@ TEST_P(Power, RefusesALoadThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::power_test

@@ -8,7 +8,7 @@
 #include "limber/reduction/operating_states.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::spinning_state_test {
 namespace {
 
 using ::testing::AllOf;
@@ -247,4 +247,4 @@ TEST(DrivenSpin, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::spinning_state_test

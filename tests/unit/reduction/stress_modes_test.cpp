@@ -19,7 +19,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/reduction/bar.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::stress_modes_test {
 namespace {
 
 using testing::Bar;
@@ -262,4 +262,4 @@ TEST(StressModes, LoseLittleByAveraging) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::stress_modes_test

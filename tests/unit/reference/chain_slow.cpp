@@ -6,7 +6,7 @@
 #include "limber/reference/verification.hpp"
 #include "unit/reference/scene_folder.hpp"
 
-namespace limber::reference {
+namespace limber::reference::chain_slow {
 namespace {
 
 using test::make_coupler;
@@ -72,4 +72,4 @@ TEST(HingedChain, EqualLawsAgreeAtSecondOrderByGeneralizedAlpha) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::chain_slow

@@ -11,7 +11,7 @@
 #include "unit/reference/scene_folder.hpp"
 
 /// Universal and ball joints, and what acts in joints.
-namespace limber::reference {
+namespace limber::reference::joint_test {
 namespace {
 
 using test::make_joint;
@@ -156,4 +156,4 @@ TEST(Verify, StopsWhereASpringIsWoundByHalfATurn) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::joint_test

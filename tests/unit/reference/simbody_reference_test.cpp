@@ -10,7 +10,7 @@
 #include "support/free_top.hpp"
 
 /// Simbody against closed forms, before anything is compared with it.
-namespace limber::reference {
+namespace limber::reference::simbody_reference_test {
 namespace {
 
 using dynamics::Breakpoint;
@@ -150,4 +150,4 @@ TEST(SimbodyReference, RefusesAnAccuracyOutsideItsRange) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::simbody_reference_test

@@ -12,7 +12,7 @@
 #include "unit/reference/scene_folder.hpp"
 
 /// As stiffness grows, joints converge to Simbody's mobilizers at first order.
-namespace limber::reference {
+namespace limber::reference::stiffening_slow {
 namespace {
 
 using test::make_joint;
@@ -131,4 +131,4 @@ TEST(JointChain, OfAllFourKindsConvergesAtFirstOrderDownToAFloor) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::stiffening_slow

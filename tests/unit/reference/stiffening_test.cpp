@@ -8,7 +8,7 @@
 #include "limber/reference/verification.hpp"
 #include "unit/reference/scene_folder.hpp"
 
-namespace limber::reference {
+namespace limber::reference::stiffening_test {
 namespace {
 
 using joints::Bushing;
@@ -106,4 +106,4 @@ TEST(VerifyStiffened, RefusesFactorsThatDoNotIncreaseAndOtherJoints) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::stiffening_test

@@ -8,7 +8,7 @@
 #include "limber/reference/scene_mechanism.hpp"
 #include "unit/reference/scene_folder.hpp"
 
-namespace limber::reference {
+namespace limber::reference::verification_test {
 namespace {
 
 using test::make_coupler;
@@ -138,4 +138,4 @@ TEST(JointModel, UnknownNameIsRefusedWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace limber::reference
+}  // namespace limber::reference::verification_test

@@ -13,7 +13,7 @@
 #include "small_run.hpp"
 #include "temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::checkpoint_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ TEST_F(CheckpointFile, OfTheSameRunIsTheSameToTheByte) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::checkpoint_file_test

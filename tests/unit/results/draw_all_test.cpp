@@ -7,7 +7,7 @@
 #include <atomic>
 #include <stdexcept>
 
-namespace limber::results {
+namespace limber::results::draw_all_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -50,4 +50,4 @@ TEST(DrawAll, ThrowsInTheCallersThread) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::draw_all_test

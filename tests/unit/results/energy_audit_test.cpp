@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limber::results {
+namespace limber::results::energy_audit_test {
 namespace {
 
 dynamics::EnergyBalance balance(double kinetic, double elastic, double work,
@@ -61,4 +61,4 @@ TEST(EnergyAudit, WhereNothingPassedNothingIsRelative) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::energy_audit_test

@@ -13,7 +13,7 @@
 
 #include "unit/results/temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::gnuplot_process_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -89,4 +89,4 @@ TEST(GnuplotProcess, ThatIsNotThereIsMissing) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::gnuplot_process_test

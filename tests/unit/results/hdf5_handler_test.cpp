@@ -13,7 +13,7 @@
 #include "limber/common/files/hdf5_file.hpp"
 #include "unit/results/temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::hdf5_handler_test {
 namespace {
 
 herr_t count_call(hid_t /*stack*/, void* data) {
@@ -41,4 +41,4 @@ TEST(Hdf5Handler, IsTheProgramsOwnAfterEveryCallOfOurs) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::hdf5_handler_test

@@ -9,7 +9,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::results {
+namespace limber::results::motion_error_test {
 namespace {
 
 using dynamics::Fidelity;
@@ -183,4 +183,4 @@ TEST_F(MotionErrorTest, RefusesOtherTimesAndOtherBodies) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::motion_error_test

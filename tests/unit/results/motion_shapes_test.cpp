@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limber::results {
+namespace limber::results::motion_shapes_test {
 namespace {
 
 /// Of three shapes with independent courses, the third a 1e-3 of the others.
@@ -82,4 +82,4 @@ TEST(MotionShapes, OfABodyAtRestAreNone) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::motion_shapes_test

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace limber::results {
+namespace limber::results::path_step_test {
 namespace {
 
 TEST(PathStep, OrdinaryNamesStayAsTheyAre) {
@@ -30,4 +30,4 @@ TEST(PathStep, DifferentNamesStayDifferentStepsAndComeBack) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::path_step_test

@@ -17,7 +17,7 @@
 #include "small_run.hpp"
 #include "temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::pictures_test {
 namespace {
 
 using test::make_empty_run;
@@ -313,4 +313,4 @@ TEST(GnuplotQuote, StaysOnOneLine) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::pictures_test

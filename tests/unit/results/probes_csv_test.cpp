@@ -13,7 +13,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::probes_csv_test {
 namespace {
 
 using test::find_input_error;
@@ -115,4 +115,4 @@ TEST(ProbesCsv, FullDiskIsAnInputError) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::probes_csv_test

@@ -10,7 +10,7 @@
 #include "limber/common/files/hdf5_file.hpp"
 #include "unit/results/written_run.hpp"
 
-namespace limber::results {
+namespace limber::results::results_consistency_test {
 namespace {
 
 using test::kOutputs;
@@ -149,4 +149,4 @@ TEST(ResultsFile, WorkAndDissipationBalanceWhatIsStored) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::results_consistency_test

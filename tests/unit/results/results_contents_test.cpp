@@ -14,7 +14,7 @@
 #include "unit/results/small_run.hpp"
 #include "unit/results/temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::results_contents_test {
 namespace {
 
 using test::find_input_error;
@@ -154,4 +154,4 @@ TEST(ResultsFile, AnyNameOfAProbeComesBackWithItsValues) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::results_contents_test

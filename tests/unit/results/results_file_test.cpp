@@ -17,7 +17,7 @@
 #include "limber/common/files/hdf5_file.hpp"
 #include "unit/results/written_run.hpp"
 
-namespace limber::results {
+namespace limber::results::results_file_test {
 namespace {
 
 using dynamics::BodyState;
@@ -215,4 +215,4 @@ TEST(ResultsFile, HoldsEveryEvent) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::results_file_test

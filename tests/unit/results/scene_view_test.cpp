@@ -8,7 +8,7 @@
 
 #include "small_run.hpp"
 
-namespace limber::results {
+namespace limber::results::scene_view_test {
 namespace {
 
 TEST(Magnification, IsOneOfWhatCanBeSeenAndOfRoundOff) {
@@ -90,4 +90,4 @@ TEST(LargestDeformation, IsThatOfTheOutputs) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::scene_view_test

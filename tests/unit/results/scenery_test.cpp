@@ -15,7 +15,7 @@
 #include "unit/results/small_run.hpp"
 #include "unit/results/temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::scenery_test {
 namespace {
 
 using dynamics::AttachmentIndex;
@@ -198,4 +198,4 @@ TEST(Scenery, IsTheSameInEveryRun) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::scenery_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limber::results {
+namespace limber::results::solids_test {
 namespace {
 
 /// Volume, centre times volume, and second moments, by the divergence theorem
@@ -95,4 +95,4 @@ TEST(Ellipsoid, HasTheInertiaThatItStandsFor) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::solids_test

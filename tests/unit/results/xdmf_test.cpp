@@ -17,7 +17,7 @@
 #include "temporary_folder.hpp"
 #include "xml_element.hpp"
 
-namespace limber::results {
+namespace limber::results::xdmf_test {
 namespace {
 
 using test::find_children;
@@ -328,4 +328,4 @@ TEST(Xdmf, PlaceThatCannotBeWrittenIsNamed) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::xdmf_test

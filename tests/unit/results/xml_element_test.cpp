@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace limber::results::test {
+namespace limber::results::test::xml_element_test {
 namespace {
 
 TEST(ParseXml, RefusesWhatIsNotWellFormed) {
@@ -28,4 +28,4 @@ TEST(ParseXml, FindsElementsAttributesAndTexts) {
 }
 
 }  // namespace
-}  // namespace limber::results::test
+}  // namespace limber::results::test::xml_element_test

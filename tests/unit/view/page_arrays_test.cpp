@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace limber::view {
+namespace limber::view::page_arrays_test {
 namespace {
 
 TEST(Quantise, IsWithinHalfAStepOfEveryValue) {
@@ -71,4 +71,4 @@ TEST(PageArrays, StorePlanesOfBytes) {
 }
 
 }  // namespace
-}  // namespace limber::view
+}  // namespace limber::view::page_arrays_test

@@ -5,14 +5,14 @@
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::app {
+namespace limber::app::comparison_plan_test {
 namespace {
 
 using dynamics::Fidelity;
 using scene::test::input_error;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 scene::Scene make_scene(bool is_flexible = true) {
   scene::Scene scene;
@@ -192,4 +192,4 @@ TEST(Choice, TakesThePlaceOfTheScenariosWords) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::comparison_plan_test

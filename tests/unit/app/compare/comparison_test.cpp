@@ -6,13 +6,13 @@
 #include "limber/app/compare/comparison_selection.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::app {
+namespace limber::app::comparison_test {
 namespace {
 
 using scene::test::input_error;
-using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// A completed run with these relative errors; negative: none.
 ComparedRun make_run(double cost, double displacement, double deformation,
@@ -111,4 +111,4 @@ TEST(OutputTimes, KeepTheDistanceOfTheLongestStep) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::comparison_test

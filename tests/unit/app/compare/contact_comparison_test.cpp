@@ -3,10 +3,10 @@
 
 #include <gmock/gmock.h>
 
-namespace limber::app {
+namespace limber::app::contact_comparison_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 dynamics::ContactRecord make_record(const std::string& pair, double impulse,
                                     double peak, double parting) {
@@ -64,4 +64,4 @@ TEST(ContactComparison, NamesARunThatDoesNotTouch) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::contact_comparison_test

@@ -7,10 +7,10 @@
 
 #include "limber/app/console/numbered_stages.hpp"
 
-namespace limber::app {
+namespace limber::app::time_estimate_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Announcement of work at a constant rate for `total` seconds, reported every
 /// 0.1 s until `end`.
@@ -87,4 +87,4 @@ TEST(TimeEstimate, WritesDurationsAsOneSaysThem) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::time_estimate_test

@@ -6,7 +6,7 @@
 
 #include "limber/results/checkpoint_file.hpp"
 
-namespace limber::app {
+namespace limber::app::describe_test {
 namespace {
 
 TEST(Describe, TellsThatAFileIsACheckpointAndOfWhichTime) {
@@ -23,4 +23,4 @@ TEST(Describe, TellsThatAFileIsACheckpointAndOfWhichTime) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::describe_test

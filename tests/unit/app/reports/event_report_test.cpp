@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace limber::app {
+namespace limber::app::event_report_test {
 namespace {
 
 using dynamics::Event;
@@ -67,4 +67,4 @@ TEST(EventReport, EventsAtOneTimeShareAMark) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::event_report_test

@@ -14,7 +14,7 @@
 #include "unit/app/run/changed_run_scene.hpp"
 #include "unit/scene/scene_folder.hpp"
 
-namespace limber::app {
+namespace limber::app::changed_run_test {
 namespace {
 
 using scene::BuiltScene;
@@ -226,4 +226,4 @@ TEST_F(ChangedRun, NamesTheCouplerAndItsOldAndNewStiffness) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::changed_run_test

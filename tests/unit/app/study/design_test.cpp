@@ -12,11 +12,11 @@
 #include "limber/app/study/study_table.hpp"
 #include "limber/common/errors.hpp"
 
-namespace limber::app {
+namespace limber::app::design_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 Study read(const std::string& design, const std::string& factors) {
   return read_study("scenario = 's.toml'\n[design]\n" + design + "\n" +
@@ -271,4 +271,4 @@ TEST(Study, OfAnotherVersionIsRefused) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::design_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace limber::app {
+namespace limber::app::distribution_test {
 namespace {
 
 Study make_study(DesignKind kind, std::size_t factors) {
@@ -100,4 +100,4 @@ TEST(StudyDistribution, IsNotOfGridsListsAndSingleRuns) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::distribution_test

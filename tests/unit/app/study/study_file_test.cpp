@@ -11,7 +11,7 @@
 #include "limber/app/study/study_reader.hpp"
 #include "limber/common/errors.hpp"
 
-namespace limber::app {
+namespace limber::app::study_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(AFileOfAStudy, RefusesRowsThatAreNotAsTheyWereWritten) {
 }
 
 }  // namespace
-}  // namespace limber::app
+}  // namespace limber::app::study_file_test

@@ -12,7 +12,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/files/sealed_file.hpp"
 
-namespace limber {
+namespace limber::append_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ TEST_F(SealedFiles, AreOfOneKindAndLayout) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::append_file_test

@@ -8,7 +8,7 @@
 
 #include "unit/flexbody/files.hpp"
 
-namespace limber {
+namespace limber::file_stamp_test {
 namespace {
 
 using flexbody::test::TemporaryFolder;
@@ -67,4 +67,4 @@ TEST_F(Stamp, NeverWaitsForAPipe) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::file_stamp_test

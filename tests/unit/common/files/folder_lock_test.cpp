@@ -12,7 +12,7 @@
 
 #include "unit/flexbody/files.hpp"
 
-namespace limber {
+namespace limber::folder_lock_test {
 namespace {
 
 using flexbody::test::find_input_error;
@@ -76,4 +76,4 @@ TEST(FolderLock, FollowsNoLinkOutOfTheFolder) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::folder_lock_test

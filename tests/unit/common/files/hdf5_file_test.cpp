@@ -18,7 +18,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber {
+namespace limber::hdf5_file_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -248,4 +248,4 @@ TEST_F(Hdf5FileTest, ThatIsNoHdf5FileIsAnInputErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::hdf5_file_test

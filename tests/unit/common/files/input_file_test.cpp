@@ -11,7 +11,7 @@
 #include "limber/common/files/hdf5_file.hpp"
 #include "unit/flexbody/files.hpp"
 
-namespace limber {
+namespace limber::input_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ TEST(InputFile, StopsAtTheLimitWhateverTheFileSaysOfItsSize) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::input_file_test

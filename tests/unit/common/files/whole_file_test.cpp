@@ -16,7 +16,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/files/unfinished_files.hpp"
 
-namespace limber {
+namespace limber::whole_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -146,4 +146,4 @@ TEST_F(WholeFile, TellsWhyItCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::whole_file_test

@@ -15,7 +15,7 @@
 #include "limber/common/process/landlock.hpp"
 #include "unit/flexbody/files.hpp"
 
-namespace limber {
+namespace limber::child_process_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -133,4 +133,4 @@ TEST(ChildProcess, DiesWithItsParent) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::child_process_test

@@ -12,7 +12,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber {
+namespace limber::helper_program_test {
 namespace {
 
 using ::testing::AllOf;
@@ -76,4 +76,4 @@ TEST(HelperProgram, ThatCannotBeStartedIsAnError) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::helper_program_test

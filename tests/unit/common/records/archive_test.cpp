@@ -7,7 +7,7 @@
 
 #include "limber/common/records/digest.hpp"
 
-namespace limber {
+namespace limber::archive_test {
 namespace {
 
 enum class Colour { red, green };
@@ -102,4 +102,4 @@ TEST(Digest, TellsListsApartThatJoinAlike) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::archive_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace limber {
+namespace limber::manifest_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -111,4 +111,4 @@ TEST(Manifest, DoesNotSayThatTwoOfOneNameAreOne) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::manifest_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace limber {
+namespace limber::wire_test {
 namespace {
 
 struct Values {
@@ -84,4 +84,4 @@ TEST(Wire, TakesNoMemoryForWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace limber
+}  // namespace limber::wire_test

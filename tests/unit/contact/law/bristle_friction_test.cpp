@@ -17,7 +17,7 @@
 #include "support/draw_vector.hpp"
 #include "unit/contact/law/make_friction.hpp"
 
-namespace limber::contact {
+namespace limber::contact::bristle_friction_test {
 namespace {
 
 using testing::differentiate;
@@ -418,4 +418,4 @@ TEST(BristleFriction, NaNGoesThrough) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::bristle_friction_test

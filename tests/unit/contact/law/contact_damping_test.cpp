@@ -11,10 +11,10 @@
 #include "support/differences.hpp"
 #include "unit/contact/law/two_body_impact.hpp"
 
-namespace limber::contact {
+namespace limber::contact::contact_damping_test {
 namespace {
 
-using testing::TwoBodyImpact;
+using test::TwoBodyImpact;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -164,4 +164,4 @@ TEST(ContactDamping, NaNGoesThrough) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::contact_damping_test

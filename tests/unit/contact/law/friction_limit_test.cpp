@@ -7,7 +7,7 @@
 
 #include "support/differences.hpp"
 
-namespace limber::contact {
+namespace limber::contact::friction_limit_test {
 namespace {
 
 // Stribeck's curve: mu_s at rest, mu_k + (mu_s - mu_k) / e at its speed.
@@ -36,4 +36,4 @@ TEST(FrictionLimit, HasTheSlopeOfItsValue) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::friction_limit_test

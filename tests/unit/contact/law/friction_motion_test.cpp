@@ -9,7 +9,7 @@
 #include "limber/contact/law/bristle_friction.hpp"
 #include "unit/contact/law/make_friction.hpp"
 
-namespace limber::contact {
+namespace limber::contact::friction_motion_test {
 namespace {
 
 using testing::make_friction;
@@ -170,4 +170,4 @@ TEST(BristleFriction, ASphereThatSlidesEndsRolling) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::friction_motion_test

@@ -15,7 +15,7 @@
 #include "limber/common/errors.hpp"
 #include "support/differences.hpp"
 
-namespace limber::contact {
+namespace limber::contact::hertz_law_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -271,4 +271,4 @@ TEST(HertzLaw, BadValuesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::hertz_law_test

@@ -12,10 +12,10 @@
 #include "limber/contact/law/materials.hpp"
 #include "unit/contact/law/two_body_impact.hpp"
 
-namespace limber::contact {
+namespace limber::contact::impact_estimate_test {
 namespace {
 
-using testing::TwoBodyImpact;
+using test::TwoBodyImpact;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -124,4 +124,4 @@ TEST(ImpactEstimate, BadValuesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::impact_estimate_test

@@ -9,7 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/contact/law/hertz_law.hpp"
 
-namespace limber::contact {
+namespace limber::contact::materials_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -96,4 +96,4 @@ TEST(Materials, BadValuesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::materials_test

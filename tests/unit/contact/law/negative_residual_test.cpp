@@ -9,7 +9,7 @@
 #include "support/differences.hpp"
 
 /// Of a basis that has part of the flattening already.
-namespace limber::contact {
+namespace limber::contact::negative_residual_test {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -124,4 +124,4 @@ TEST(NegativeResidual, AnEnergyGivesTheStateThatStoresIt) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::negative_residual_test

@@ -12,7 +12,7 @@
 
 /// Pads against all sets of them that could be pressed, and against the rigid
 /// punch.
-namespace limber::contact {
+namespace limber::contact::pad_law_test {
 namespace {
 
 MatrixX draw_compliance(int k, std::mt19937& random) {
@@ -163,4 +163,4 @@ TEST(PadLaw, MakesAHalfSpaceAsStiffAsUnderASquarePunch) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::pad_law_test

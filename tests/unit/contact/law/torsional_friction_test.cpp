@@ -12,7 +12,7 @@
 #include "limber/contact/law/materials.hpp"
 #include "support/differences.hpp"
 
-namespace limber::contact {
+namespace limber::contact::torsional_friction_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -134,4 +134,4 @@ TEST(TorsionalFriction, BadValuesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::torsional_friction_test

@@ -8,7 +8,7 @@
 #include "limber/contact/law/contact_damping.hpp"
 #include "limber/contact/law/hertz_law.hpp"
 
-namespace limber::contact::testing {
+namespace limber::contact::test {
 
 /// Two free masses on a line, the first behind the second, that touch at t = 0
 /// with a speed of approach, until they part. Integrated by the embedded pair
@@ -127,4 +127,4 @@ class TwoBodyImpact {
   double mass_B_;
 };
 
-}  // namespace limber::contact::testing
+}  // namespace limber::contact::test

@@ -10,18 +10,18 @@
 #include "support/allocation_count.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::allocation_test {
 namespace {
 
 TEST(Allocation, OfContactIsCounted) {
   const long before = limber::testing::allocations;
-  const Skin skin(testing::make_ball_surface(1.0, 0, true));
+  const Skin skin(test::make_ball_surface(1.0, 0, true));
   EXPECT_GT(limber::testing::allocations - before, 10);
 }
 
 TEST(Allocation, FindingWhereShapesMeetMakesNone) {
-  auto surface = testing::make_ball_surface(1.0, 2, true);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(1.0, 2, true);
+  test::set_modes(surface, test::make_fields());
   const Shape skin{std::make_shared<const Skin>(surface), {}};
   const Shape capsule{Capsule{0.4, 0.5}, {}};
   const VectorX eta = VectorX::Constant(4, 0.05);
@@ -51,11 +51,11 @@ TEST(Allocation, FindingWhereShapesMeetMakesNone) {
 // A plane under a ball of more nodes than it may meet, and under the pads of a
 // flat sheet.
 TEST(Allocation, EvaluatingASkinOnAPlaneMakesNone) {
-  auto ball = testing::make_ball_surface(1.0, 2, true);
-  auto sheet = testing::make_sheet_surface(1.0, 4, false,
-                                           [](double, double) { return 0.0; });
+  auto ball = test::make_ball_surface(1.0, 2, true);
+  auto sheet = test::make_sheet_surface(1.0, 4, false,
+                                        [](double, double) { return 0.0; });
   for (flexbody::ContactSurface* surface : {&ball, &sheet}) {
-    testing::set_modes(*surface, testing::make_fields());
+    test::set_modes(*surface, test::make_fields());
   }
   sheet.pads.normal_B = -Vector3::UnitZ();
   sheet.pads.x_B = sheet.x_B;
@@ -92,4 +92,4 @@ TEST(Allocation, EvaluatingASkinOnAPlaneMakesNone) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::allocation_test

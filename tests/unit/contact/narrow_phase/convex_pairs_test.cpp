@@ -15,7 +15,7 @@
 #include "limber/contact/shapes/nearest_point.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::convex_pairs_test {
 namespace {
 
 using GeometryPointer = std::shared_ptr<fcl::CollisionGeometryd>;
@@ -56,8 +56,8 @@ struct Placed {
 };
 
 Placed draw(std::mt19937& random, double distance) {
-  return {testing::draw_rotation(random),
-          distance * testing::draw_point(random, 1.0).normalized()};
+  return {test::draw_rotation(random),
+          distance * test::draw_point(random, 1.0).normalized()};
 }
 
 std::vector<Meeting> meet(const ShapePair& pair, const Placed& A,
@@ -338,4 +338,4 @@ TEST(ConvexPairs, ACapsuleLiesOnABoxWithBothEnds) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::convex_pairs_test

@@ -15,7 +15,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// Pads of a square sheet that looks up, |x|, |y| <= 10 mm, and what is above.
-namespace limber::contact {
+namespace limber::contact::flat_pair_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -23,8 +23,8 @@ constexpr double kHalf = 0.01;  // [m]
 constexpr int kCells = 2;       // a pad on each of 3 x 3 nodes
 
 Shape make_sheet(double half = kHalf) {
-  auto sheet = testing::make_sheet_surface(half, kCells, false,
-                                           [](double, double) { return 0.0; });
+  auto sheet = test::make_sheet_surface(half, kCells, false,
+                                        [](double, double) { return 0.0; });
   const Eigen::Index n = sheet.x_B.cols();
   sheet.pads.normal_B = Vector3::UnitZ();
   sheet.pads.x_B = sheet.x_B;
@@ -208,7 +208,7 @@ TEST(FlatPair, OfAHundredTimesTheSizeMeetsAlike) {
   const Shape sheet = make_sheet();
   const Shape large_sheet = make_sheet(kScale * kHalf);
   std::mt19937 random(3);
-  const auto draw = [&] { return testing::draw_point(random, 1.0); };
+  const auto draw = [&] { return test::draw_point(random, 1.0); };
   int partly = 0;
   for (int i = 0; i < 300; ++i) {
     const Vector3 half_size = kHalf * (0.5 * Vector3::Ones() + 0.3 * draw());
@@ -252,4 +252,4 @@ TEST(FlatPair, HasTheSmallerSurfacesPads) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::flat_pair_test

@@ -9,7 +9,7 @@
 #include "limber/common/rotation.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::nearest_segments_test {
 namespace {
 
 double find_distance(const Segment& a, const Segment& b, double s, double t) {
@@ -54,10 +54,10 @@ double search_distance(const Segment& a, const Segment& b) {
 TEST(NearestSegments, AreNearestOfAllPairsOfPoints) {
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) {
-    const Segment a{testing::draw_point(random, 1.0),
-                    testing::draw_rotation(random).col(2), 0.8};
-    const Segment b{testing::draw_point(random, 1.0),
-                    testing::draw_rotation(random).col(2), 0.5};
+    const Segment a{test::draw_point(random, 1.0),
+                    test::draw_rotation(random).col(2), 0.8};
+    const Segment b{test::draw_point(random, 1.0),
+                    test::draw_rotation(random).col(2), 0.5};
     EXPECT_NEAR(find_least_distance(a, b), search_distance(a, b), 1e-7);
   }
 }
@@ -93,4 +93,4 @@ TEST(NearestSegments, DistanceHasNoJumpAsTheyTiltThroughParallel) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::nearest_segments_test

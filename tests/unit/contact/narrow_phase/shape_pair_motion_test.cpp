@@ -9,7 +9,7 @@
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::shape_pair_motion_test {
 namespace {
 
 constexpr int kModes = 4;
@@ -27,8 +27,8 @@ struct Moved {
 
 Moved draw_body(std::mt19937& random, double distance) {
   Moved moved;
-  moved.R = testing::draw_rotation(random);
-  moved.p = distance * testing::draw_point(random, 1.0).normalized();
+  moved.R = test::draw_rotation(random);
+  moved.p = distance * test::draw_point(random, 1.0).normalized();
   moved.eta = VectorX::NullaryExpr(kModes, [&random] {
     return std::uniform_real_distribution<double>(-0.05, 0.05)(random);
   });
@@ -36,8 +36,8 @@ Moved draw_body(std::mt19937& random, double distance) {
 }
 
 Shape make_skin() {
-  auto surface = testing::make_ball_surface(0.6, 1, true);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(0.6, 1, true);
+  test::set_modes(surface, test::make_fields());
   return {std::make_shared<const Skin>(surface), {}};
 }
 
@@ -136,9 +136,9 @@ TEST(ShapePairMotion, DepthChangesAsTheMaterialPointsMoveAlongTheNormal) {
     for (int trial = 0; trial < 10; ++trial) {
       const Moved A = draw_body(random, 0.0);
       const Moved B = draw_body(random, 0.9);
-      const Vector3 turn_A = testing::draw_point(random, 1.0);
-      const Vector3 turn_B = testing::draw_point(random, 1.0);
-      const Vector3 way_B = testing::draw_point(random, 1.0);
+      const Vector3 turn_A = test::draw_point(random, 1.0);
+      const Vector3 turn_B = test::draw_point(random, 1.0);
+      const Vector3 way_B = test::draw_point(random, 1.0);
       const Moved rates = draw_body(random, 0.0);
       const auto move = [&](double t, Moved a, Moved b) {
         a.R *= exp_rotation(t * turn_A);
@@ -191,8 +191,7 @@ TEST(ShapePairMotion, ACommonRigidMotionChangesNothingElse) {
     for (int trial = 0; trial < 5; ++trial) {
       const Moved A = draw_body(random, 0.0);
       const Moved B = draw_body(random, 0.9);
-      const Pose X{testing::draw_rotation(random),
-                   testing::draw_point(random, 10.0)};
+      const Pose X{test::draw_rotation(random), test::draw_point(random, 10.0)};
       const auto move = [&X](Moved body) {
         body.p = X * body.p;
         body.R = X.R * body.R;
@@ -239,4 +238,4 @@ TEST(ShapePairMotion, ClearanceIsTheDistanceOfTheNearestFeature) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::shape_pair_motion_test

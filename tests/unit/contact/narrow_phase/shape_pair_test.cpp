@@ -13,7 +13,7 @@
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::shape_pair_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -34,7 +34,7 @@ std::vector<Meeting> meet(const ShapePair& pair, const joints::PairBody& A,
 
 std::shared_ptr<const Skin> make_box_skin() {
   return std::make_shared<const Skin>(
-      testing::make_box_surface({1, 1, 1}, 2, true));
+      test::make_box_surface({1, 1, 1}, 2, true));
 }
 
 TEST(ShapePair, SpheresOverlapByTheSumOfTheirRadiiLessTheirDistance) {
@@ -61,7 +61,7 @@ TEST(ShapePair, PosesOfShapesOnTheirBodiesCount) {
 }
 
 TEST(ShapePair, ASphereInAHollowIsNoFlatterThanFlat) {
-  auto hollow = testing::make_ball_surface(1.0, 2, true);
+  auto hollow = test::make_ball_surface(1.0, 2, true);
   for (auto& f : hollow.faces) f = {f[0], f[2], f[1], f[5], f[4], f[3]};
   const ShapePair pair({Sphere{0.2}, {}},
                        {std::make_shared<const Skin>(hollow), {}});
@@ -196,4 +196,4 @@ TEST(ShapePair, TwoHalfSpacesAndBadSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::shape_pair_test

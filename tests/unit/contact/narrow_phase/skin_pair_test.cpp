@@ -12,7 +12,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// Two surfaces against each other.
-namespace limber::contact {
+namespace limber::contact::skin_pair_test {
 namespace {
 
 using joints::PairBody;
@@ -24,11 +24,11 @@ Shape make_shape(const flexbody::ContactSurface& surface) {
 }
 
 Shape make_ball(double radius, int subdivisions) {
-  return make_shape(testing::make_ball_surface(radius, subdivisions, true));
+  return make_shape(test::make_ball_surface(radius, subdivisions, true));
 }
 
 PairBody draw_body(std::mt19937& random, const Vector3& p) {
-  return {.R_WB = testing::draw_rotation(random), .p_WB = p};
+  return {.R_WB = test::draw_rotation(random), .p_WB = p};
 }
 
 std::vector<Meeting> meet(const ShapePair& pair, const PairBody& A,
@@ -54,7 +54,7 @@ TEST(SkinPair, OfTwoBallsMeetsInOnePlaceWithTheDepthOfTheBalls) {
   std::mt19937 random(1);
   for (const double depth : {-0.3, -1e-3, 1e-4, 1e-3, 1e-2}) {
     for (int trial = 0; trial < 10; ++trial) {
-      const Vector3 way = testing::draw_point(random, 1.0).normalized();
+      const Vector3 way = test::draw_point(random, 1.0).normalized();
       const PairBody A = draw_body(random, {0.1, 0.2, 0.3});
       const PairBody B = draw_body(random, A.p_WB + (1.5 - depth) * way);
       if (depth < 0.0) {
@@ -96,8 +96,8 @@ TEST(SkinPair, OfFacetsIsAsFarAsAnotherLibrarySays) {
     model->endModel();
     return model;
   };
-  const auto surface_A = testing::make_box_surface({0.5, 0.4, 0.3}, 3, false);
-  const auto surface_B = testing::make_ball_surface(0.4, 1, false);
+  const auto surface_A = test::make_box_surface({0.5, 0.4, 0.3}, 3, false);
+  const auto surface_B = test::make_ball_surface(0.4, 1, false);
   const auto model_A = make_model(surface_A);
   const auto model_B = make_model(surface_B);
   const ShapePair pair(make_shape(surface_A), make_shape(surface_B));
@@ -105,7 +105,7 @@ TEST(SkinPair, OfFacetsIsAsFarAsAnotherLibrarySays) {
   int apart = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const PairBody A = draw_body(random, Vector3::Zero());
-    const PairBody B = draw_body(random, testing::draw_point(random, 1.2));
+    const PairBody B = draw_body(random, test::draw_point(random, 1.2));
     fcl::Transform3d X_A = fcl::Transform3d::Identity();
     X_A.linear() = A.R_WB;
     fcl::Transform3d X_B = fcl::Transform3d::Identity();
@@ -126,8 +126,8 @@ TEST(SkinPair, OfFacetsIsAsFarAsAnotherLibrarySays) {
 }
 
 TEST(SkinPair, IsAsDeepAsASphereInTheSameSkin) {
-  auto surface = testing::make_ball_surface(0.8, 2, true);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(0.8, 2, true);
+  test::set_modes(surface, test::make_fields());
   const Shape skin = make_shape(surface);
   const ShapePair meshed(skin, make_ball(0.3, 3));
   const ShapePair exact(skin, {Sphere{0.3}, {}});
@@ -139,7 +139,7 @@ TEST(SkinPair, IsAsDeepAsASphereInTheSameSkin) {
     A.modes = 4;
     A.eta = eta.data();
     // Such that the sphere overlaps by 2 mm.
-    const Vector3 way = testing::draw_point(random, 1.0).normalized();
+    const Vector3 way = test::draw_point(random, 1.0).normalized();
     PairBody B = draw_body(random, 2.0 * way);
     for (int i = 0; i < 30; ++i) {
       const double depth = find_deepest(meet(exact, A, B, kFar));
@@ -154,8 +154,7 @@ TEST(SkinPair, IsAsDeepAsASphereInTheSameSkin) {
 }
 
 TEST(SkinPair, OfFlatFacesMeetsInTheCornersOfTheirCommonArea) {
-  const Shape bar =
-      make_shape(testing::make_box_surface({1, 0.1, 0.1}, 4, true));
+  const Shape bar = make_shape(test::make_box_surface({1, 0.1, 0.1}, 4, true));
   const ShapePair pair(bar, bar);
   const PairBody A;
   PairBody B{.p_WB = {0.02, 0.03, 0.2 - 1e-5}};
@@ -179,7 +178,7 @@ TEST(SkinPair, OfFlatFacesMeetsInTheCornersOfTheirCommonArea) {
 }
 
 TEST(SkinPair, OfEdgesThatCrossHasTheNormalOfBoth) {
-  const Shape box = make_shape(testing::make_box_surface({1, 1, 1}, 3, false));
+  const Shape box = make_shape(test::make_box_surface({1, 1, 1}, 3, false));
   const ShapePair pair(box, box);
   // Edges along x and y, one above the other.
   const PairBody A{
@@ -200,13 +199,13 @@ TEST(SkinPair, OfEdgesThatCrossHasTheNormalOfBoth) {
 
 TEST(SkinPair, OfABoxIsThatOfItsMesh) {
   const Shape ball = make_ball(0.3, 2);
-  const Pose X{testing::draw_rotation(*std::make_unique<std::mt19937>(5)),
+  const Pose X{test::draw_rotation(*std::make_unique<std::mt19937>(5)),
                {0.1, 0.0, -0.2}};
   const ShapePair pair(ball, {Box{{0.5, 0.4, 0.3}}, X});
   const ShapePair sphere({Sphere{0.3}, {}}, {Box{{0.5, 0.4, 0.3}}, X});
   std::mt19937 random(6);
   for (int trial = 0; trial < 30; ++trial) {
-    const PairBody A = draw_body(random, testing::draw_point(random, 0.9));
+    const PairBody A = draw_body(random, test::draw_point(random, 0.9));
     const PairBody B = draw_body(random, Vector3::Zero());
     const double depth = find_deepest(meet(sphere, A, B, kFar));
     if (depth > 0.05) continue;
@@ -222,7 +221,7 @@ TEST(SkinPair, OfACapsuleLeavesItByLittle) {
   EXPECT_TRUE(std::get<std::shared_ptr<const Skin>>(skin.kind)->is_closed());
   std::mt19937 random(7);
   for (int trial = 0; trial < 100; ++trial) {
-    const PairBody A = draw_body(random, testing::draw_point(random, 1.0));
+    const PairBody A = draw_body(random, test::draw_point(random, 1.0));
     const PairBody B = draw_body(random, Vector3::Zero());
     const double depth = find_deepest(meet(exact, A, B, kFar));
     if (depth > 0.09) continue;
@@ -233,7 +232,7 @@ TEST(SkinPair, OfACapsuleLeavesItByLittle) {
 // A large round body's normal hardly changes over a facet: it is between those
 // of the facets at a corner, or at an edge, and of none of them.
 TEST(SkinPair, OfFacetsOnALargeRoundBodyIsAtTheirCornersAndEdges) {
-  const auto surface = testing::make_ball_surface(1.0, 2, false);
+  const auto surface = test::make_ball_surface(1.0, 2, false);
   const Shape facets = make_shape(surface);
   std::mt19937 random(9);
   for (const double radius : {1.0, 10.0, 100.0}) {
@@ -264,7 +263,7 @@ TEST(SkinPair, OfFacetsOnALargeRoundBodyIsAtTheirCornersAndEdges) {
 
 TEST(SkinPair, OfAPlateIsNotThatOfItsFarSide) {
   const Shape plate =
-      make_shape(testing::make_box_surface({1, 1, 0.001}, 8, false));
+      make_shape(test::make_box_surface({1, 1, 0.001}, 8, false));
   const ShapePair pair(make_ball(0.3, 3), plate);
   const PairBody B;
   for (const double depth : {-1e-3, 1e-4, 9e-4}) {
@@ -280,11 +279,11 @@ TEST(SkinPair, OfSoftBodiesIsFoundDeepAsWell) {
     for (int trial = 0; trial < 5; ++trial) {
       const PairBody A = draw_body(random, Vector3::Zero());
       const PairBody B = draw_body(
-          random, (2.0 - depth) * testing::draw_point(random, 1).normalized());
+          random, (2.0 - depth) * test::draw_point(random, 1).normalized());
       EXPECT_NEAR(find_deepest(meet(pair, A, B)), depth, 2e-3 * depth) << depth;
     }
   }
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::skin_pair_test

@@ -14,7 +14,7 @@
 #include "unit/contact/shapes/surfaces.hpp"
 
 /// An edge of a box that is pressed along a flat sheet: both ends of the line.
-namespace limber::contact {
+namespace limber::contact::skin_ridge_test {
 namespace {
 
 using joints::PairBody;
@@ -72,7 +72,7 @@ class EdgeOnSheet : public ::testing::TestWithParam<int> {
  protected:
   EdgeOnSheet()
       : pair_(
-            {std::make_shared<const Skin>(testing::make_sheet_surface(
+            {std::make_shared<const Skin>(test::make_sheet_surface(
                  kHalf, GetParam(), false, [](double, double) { return 0.0; })),
              {}},
             {Box{Vector3::Constant(kBoxHalf)}, {}}) {}
@@ -122,8 +122,8 @@ TEST_P(EdgeOnSheet, HasNormalsThatAreTheDepthsGradients) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 100; ++trial) {
     const PairBody box = draw_edge(random, 1e-5).body();
-    const Vector3 shift = 1e-8 * testing::draw_point(random, 1.0);
-    const Vector3 turn = 1e-7 * testing::draw_point(random, 1.0);
+    const Vector3 shift = 1e-8 * test::draw_point(random, 1.0);
+    const Vector3 turn = 1e-7 * test::draw_point(random, 1.0);
     const Matrix3 R = exp_rotation(turn);
     PairBody moved = box;
     moved.R_WB = R * box.R_WB;
@@ -145,4 +145,4 @@ TEST_P(EdgeOnSheet, HasNormalsThatAreTheDepthsGradients) {
 INSTANTIATE_TEST_SUITE_P(Cells, EdgeOnSheet, ::testing::Values(1, 2, 3, 5));
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::skin_ridge_test

@@ -8,7 +8,7 @@
 
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::face_patch_test {
 namespace {
 
 constexpr std::array<FacePlace, 6> kNodes = {
@@ -31,7 +31,7 @@ FacePatch make_noisy(std::mt19937& random, double noise) {
   std::array<Vector3, 6> X;
   for (std::size_t i = 0; i < 6; ++i) {
     X[i] = Vector3(kNodes[i].u, kNodes[i].v, 0.0) +
-           testing::draw_point(random, noise);
+           test::draw_point(random, noise);
   }
   return FacePatch(X);
 }
@@ -49,7 +49,7 @@ void visit_grid(int cells, const Use& use) {
 TEST(FacePatch, GoesThroughItsNodesWithTheShapeFunctionsOfTheTriangle) {
   std::mt19937 random(1);
   std::array<Vector3, 6> X;
-  for (Vector3& x : X) x = testing::draw_point(random, 1.0);
+  for (Vector3& x : X) x = test::draw_point(random, 1.0);
   const FacePatch patch(X);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_LT((patch.find_point(kNodes[i]) - X[i]).norm(), 1e-14);
@@ -104,7 +104,7 @@ TEST(FacePatch, NearestPointIsThatOfADenseGrid) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 30; ++trial) {
     const FacePatch patch = make_noisy(random, 0.05);
-    const Vector3 p = testing::draw_point(random, 0.8) + Vector3(0.3, 0.3, 0.0);
+    const Vector3 p = test::draw_point(random, 0.8) + Vector3(0.3, 0.3, 0.0);
     const FacePlace at =
         patch.find_nearest(p, patch.find_nearest_of_flat(p).at);
     const double found = (patch.find_point(at) - p).norm();
@@ -152,4 +152,4 @@ TEST(FacePatch, StraightFacesHaveNoCurvatureAndTheirOwnNearestPoint) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::face_patch_test

@@ -10,7 +10,7 @@
 
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::nearest_point_test {
 namespace {
 
 using Inside = std::function<bool(const Vector3&)>;
@@ -121,7 +121,7 @@ Sampled sample_box() {
 void expect_nearest_of_all(const Sampled& shape) {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
-    const Vector3 p = testing::draw_point(random, 1.2);
+    const Vector3 p = test::draw_point(random, 1.2);
     const NearestPoint nearest = shape.find(p);
     double least = 1e9;
     for (const Vector3& x : shape.points) {
@@ -144,7 +144,7 @@ void expect_normal_is_slope(const Sampled& shape) {
   constexpr double kStep = 1e-6;
   std::mt19937 random(2);
   for (int i = 0; i < 100; ++i) {
-    const Vector3 p = testing::draw_point(random, 1.2);
+    const Vector3 p = test::draw_point(random, 1.2);
     Vector3 slope;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3 step = kStep * Vector3::Unit(axis);
@@ -201,4 +201,4 @@ TEST(NearestPoint, OfACentreHasAUnitNormal) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::nearest_point_test

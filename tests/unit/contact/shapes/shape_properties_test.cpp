@@ -11,7 +11,7 @@
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::shape_properties_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -28,8 +28,8 @@ void expect_refused(const Shape& shape, const std::string& words) {
 }
 
 std::shared_ptr<const Skin> make_skin() {
-  auto surface = testing::make_ball_surface(0.8, 0, true);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(0.8, 0, true);
+  test::set_modes(surface, test::make_fields());
   surface.residual.setConstant(2e-9);
   return std::make_shared<const Skin>(surface);
 }
@@ -96,4 +96,4 @@ TEST(ShapeProperties, KindsHaveNames) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::shape_properties_test

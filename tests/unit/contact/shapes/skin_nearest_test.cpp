@@ -7,10 +7,10 @@
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::skin_nearest_test {
 namespace {
 
-using testing::view;
+using test::view;
 
 constexpr double kFar = 100.0;
 const VectorX kStill = VectorX::Zero(0);
@@ -22,8 +22,8 @@ VectorX draw_eta(std::mt19937& random, double scale) {
 }
 
 Skin make_flexible_ball(int subdivisions, bool quadratic) {
-  auto surface = testing::make_ball_surface(0.8, subdivisions, quadratic);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(0.8, subdivisions, quadratic);
+  test::set_modes(surface, test::make_fields());
   return Skin(surface);
 }
 
@@ -51,7 +51,7 @@ TEST(SkinNearest, IsTheNearestOfAllDeformedFaces) {
     const Skin skin = make_flexible_ball(1, quadratic);
     for (int i = 0; i < 20; ++i) {
       const VectorX eta = draw_eta(random, 0.2);
-      const Vector3 p = testing::draw_point(random, 1.2);
+      const Vector3 p = test::draw_point(random, 1.2);
       const auto hit = skin.find_nearest(p, view(eta), kFar, kFar);
       ASSERT_TRUE(hit.has_value());
       const double least = find_least_distance(skin, eta, p, 24);
@@ -74,17 +74,17 @@ TEST(SkinNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
   const Vector3 half(0.3, 0.5, 0.4);
   std::mt19937 random(2);
   for (const bool quadratic : {false, true}) {
-    auto surface = testing::make_box_surface(half, 3, quadratic);
-    testing::set_modes(surface,
-                       {[](const Vector3& x) { return Vector3(x.x(), 0, 0); },
-                        [](const Vector3& x) { return Vector3(0, 0, x.z()); }});
+    auto surface = test::make_box_surface(half, 3, quadratic);
+    test::set_modes(surface,
+                    {[](const Vector3& x) { return Vector3(x.x(), 0, 0); },
+                     [](const Vector3& x) { return Vector3(0, 0, x.z()); }});
     const Skin skin(surface);
     EXPECT_TRUE(skin.is_closed());
     for (int i = 0; i < 300; ++i) {
       const VectorX eta = draw_eta(random, 0.3).head(2);
       const Box box{
           half.cwiseProduct(Vector3(1.0 + eta[0], 1.0, 1.0 + eta[1]))};
-      const Vector3 p = testing::draw_point(random, 0.8);
+      const Vector3 p = test::draw_point(random, 0.8);
       const NearestPoint expected = find_nearest(box, p);
       const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
       ASSERT_TRUE(hit.has_value());
@@ -99,10 +99,10 @@ TEST(SkinNearest, OfABoxIsThatOfTheClosedFormInsideAndOutside) {
 // Straight above corners, edges and their ends in every direction between the
 // normals of the faces.
 TEST(SkinNearest, ExactlyOverCornersAndEdgesOfABoxIsOutside) {
-  const Skin skin(testing::make_box_surface({1, 1, 1}, 2, true));
+  const Skin skin(test::make_box_surface({1, 1, 1}, 2, true));
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {
-    Vector3 away = testing::draw_point(random, 1.0).cwiseAbs();
+    Vector3 away = test::draw_point(random, 1.0).cwiseAbs();
     Vector3 x(1.0, 1.0, 0.5 * (i % 3));  // an edge, and its ends
     if (i % 3 < 2) away.z() = 0.0;
     const double distance = 0.01 + 0.1 * (i % 7);
@@ -119,16 +119,16 @@ TEST(SkinNearest, ExactlyOverCornersAndEdgesOfABoxIsOutside) {
 // undoing the shear.
 TEST(SkinNearest, SignOverSharpEdgesAndCornersIsThatOfAllTheirFaces) {
   const Vector3 half(0.3, 0.3, 0.3);
-  auto surface = testing::make_box_surface(half, 2, true);
-  testing::set_modes(surface,
-                     {[](const Vector3& x) { return Vector3(x.z(), 0, 0); },
-                      [](const Vector3& x) { return Vector3(0, x.z(), 0); }});
+  auto surface = test::make_box_surface(half, 2, true);
+  test::set_modes(surface,
+                  {[](const Vector3& x) { return Vector3(x.z(), 0, 0); },
+                   [](const Vector3& x) { return Vector3(0, x.z(), 0); }});
   const Skin skin(surface);
   std::mt19937 random(8);
   int inside = 0;
   for (int i = 0; i < 2000; ++i) {
     const VectorX eta = Eigen::Vector2d(3.0, i % 2 == 0 ? 2.0 : -1.0);
-    const Vector3 p = testing::draw_point(random, 1.5);
+    const Vector3 p = test::draw_point(random, 1.5);
     const Vector3 x = p - p.z() * Vector3(eta[0], eta[1], 0.0);
     const bool is_inside = (x.cwiseAbs().array() < half.array()).all();
     const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
@@ -146,7 +146,7 @@ TEST(SkinNearest, DistanceAndNormalHaveNoJumpAlongPathsOverBordersOfFaces) {
   const Skin skin = make_flexible_ball(1, true);
   for (int path = 0; path < 4; ++path) {
     const VectorX eta = draw_eta(random, 0.05);
-    const Matrix3 R = testing::draw_rotation(random);
+    const Matrix3 R = test::draw_rotation(random);
     double last = 0.0;
     Vector3 last_normal = Vector3::Zero();
     int faces = 0;
@@ -178,11 +178,11 @@ TEST(SkinNearest, QuadraticFacesOfABallHaveItsRadiusAndCurvature) {
   double last_error = 1.0;
   double last_bend_error = 1.0;
   for (int subdivisions = 1; subdivisions <= 3; ++subdivisions) {
-    const Skin skin(testing::make_ball_surface(kRadius, subdivisions, true));
+    const Skin skin(test::make_ball_surface(kRadius, subdivisions, true));
     double error = 0.0;
     double bend_error = 0.0;
     for (int i = 0; i < 100; ++i) {
-      const Vector3 p = 1.1 * testing::draw_point(random, 1.0).normalized();
+      const Vector3 p = 1.1 * test::draw_point(random, 1.0).normalized();
       const auto hit = skin.find_nearest(p, view(kStill), 1.0, 0.0);
       ASSERT_TRUE(hit.has_value());
       error = std::max(error, std::abs(hit->nearest.distance - 0.3));
@@ -207,7 +207,7 @@ TEST(SkinNearest, DistanceChangesAsTheModesMoveThePlace) {
   Matrix3X Phi(3, 4);
   for (int i = 0; i < 20; ++i) {
     const VectorX eta = draw_eta(random, 0.1);
-    const Vector3 p = testing::draw_point(random, 1.0).normalized();
+    const Vector3 p = test::draw_point(random, 1.0).normalized();
     const auto hit = skin.find_nearest(p, view(eta), kFar, 0.0);
     ASSERT_TRUE(hit.has_value());
     skin.set_shape_functions(hit->place, Phi);
@@ -227,8 +227,8 @@ TEST(SkinNearest, DistanceChangesAsTheModesMoveThePlace) {
 }
 
 TEST(SkinNearest, BeyondTheBorderOfAnOpenSurfaceAllIsOutside) {
-  const Skin skin(testing::make_sheet_surface(
-      1.0, 4, true, [](double, double) { return 0.0; }));
+  const Skin skin(test::make_sheet_surface(1.0, 4, true,
+                                           [](double, double) { return 0.0; }));
   EXPECT_FALSE(skin.is_closed());
   for (const double height : {0.3, 0.0, -0.3}) {
     const auto hit =
@@ -239,8 +239,8 @@ TEST(SkinNearest, BeyondTheBorderOfAnOpenSurfaceAllIsOutside) {
 }
 
 TEST(SkinNearest, BehindAnOpenSurfaceIsInsideAsFarAsItsThickness) {
-  const Skin skin(testing::make_sheet_surface(
-      1.0, 4, false, [](double, double) { return 0.0; }));
+  const Skin skin(test::make_sheet_surface(1.0, 4, false,
+                                           [](double, double) { return 0.0; }));
   const auto hit =
       skin.find_nearest({0.3, 0.2, -0.19}, view(kStill), 0.01, 0.2);
   ASSERT_TRUE(hit.has_value());
@@ -255,14 +255,14 @@ TEST(SkinNearest, BehindAnOpenSurfaceIsInsideAsFarAsItsThickness) {
 }
 
 TEST(SkinNearest, DeepInsideAClosedSurfaceIsStillInside) {
-  const Skin skin(testing::make_box_surface({1, 1, 1}, 2, false));
+  const Skin skin(test::make_box_surface({1, 1, 1}, 2, false));
   const auto hit = skin.find_nearest({0.1, 0.0, 0.0}, view(kStill), 1e-3, 1e-3);
   ASSERT_TRUE(hit.has_value());
   EXPECT_NEAR(hit->nearest.distance, -0.9, 1e-15);
 }
 
 TEST(SkinNearest, FartherThanItsReachThereIsNone) {
-  const Skin skin(testing::make_box_surface({1, 1, 1}, 2, false));
+  const Skin skin(test::make_box_surface({1, 1, 1}, 2, false));
   EXPECT_TRUE(skin.find_nearest({1.09, 0, 0}, view(kStill), 0.1, 0.0));
   EXPECT_FALSE(skin.find_nearest({1.11, 0, 0}, view(kStill), 0.1, 0.0));
   EXPECT_FALSE(skin.find_nearest({50.0, 0, 0}, view(kStill), 0.1, 0.0));
@@ -273,7 +273,7 @@ TEST(SkinNearest, ClearanceFromFarAwayIsALowerBound) {
   std::mt19937 random(7);
   for (int i = 0; i < 20; ++i) {
     const VectorX eta = draw_eta(random, 0.2);
-    const Vector3 p = (2.0 + i) * testing::draw_point(random, 1.0).normalized();
+    const Vector3 p = (2.0 + i) * test::draw_point(random, 1.0).normalized();
     const double distance =
         skin.find_nearest(p, view(eta), kFar, 0.0)->nearest.distance;
     const double clearance = skin.find_clearance(p, 0.1, view(eta));
@@ -296,4 +296,4 @@ TEST(SkinNearest, OfAStateThatIsNotFiniteIsNaN) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::skin_nearest_test

@@ -13,15 +13,15 @@
 #include "limber/common/errors.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::skin_test {
 namespace {
 
+using test::view;
 using ::testing::HasSubstr;
-using testing::view;
 
 flexbody::ContactSurface make_flexible_ball() {
-  auto surface = testing::make_ball_surface(0.8, 1, true);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(0.8, 1, true);
+  test::set_modes(surface, test::make_fields());
   return surface;
 }
 
@@ -55,7 +55,7 @@ TEST(Skin, PlacesOfItsNodesMoveAsTheirRowsOfModes) {
 TEST(Skin, OfABoxIsAsThickBehindAFaceAsTheBox) {
   const Vector3 half_size(0.3, 0.5, 0.8);
   for (const int cells : {1, 2, 3}) {
-    const auto surface = testing::make_box_surface(half_size, cells, false);
+    const auto surface = test::make_box_surface(half_size, cells, false);
     const Skin skin(surface);
     for (std::size_t f = 0; f < skin.face_count(); ++f) {
       const auto& nodes = surface.faces[f];
@@ -70,7 +70,7 @@ TEST(Skin, OfABoxIsAsThickBehindAFaceAsTheBox) {
 }
 
 TEST(Skin, ResidualIsLinearBetweenCorners) {
-  auto surface = testing::make_ball_surface(1.0, 0, true);
+  auto surface = test::make_ball_surface(1.0, 0, true);
   surface.residual.setConstant(100.0);  // of middle nodes, which do not count
   const auto corners = surface.faces[3];
   surface.residual[corners[0]] = 1.0;
@@ -176,7 +176,7 @@ TEST(Skin, WrongSurfacesAreRefusedByName) {
 
 TEST(Skin, ModesOfTheBodyAreThoseOfTheSkin) {
   const Skin flexible(make_flexible_ball());
-  const Skin rigid(testing::make_ball_surface(1.0, 0, false));
+  const Skin rigid(test::make_ball_surface(1.0, 0, false));
   const VectorX eta = make_eta();
   const joints::PairBody body{.modes = 4, .eta = eta.data()};
   EXPECT_EQ(find_modal_coordinates(flexible, body), eta);
@@ -186,4 +186,4 @@ TEST(Skin, ModesOfTheBodyAreThoseOfTheSkin) {
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::skin_test

@@ -9,13 +9,13 @@
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/contact/shapes/surfaces.hpp"
 
-namespace limber::contact {
+namespace limber::contact::skin_tree_test {
 namespace {
 
 // Points of every face, as deformed, by the sum of nodes itself.
 TEST(SkinTree, BoxesHoldTheirFacesHoweverTheyDeform) {
-  auto surface = testing::make_ball_surface(0.8, 1, true);
-  testing::set_modes(surface, testing::make_fields());
+  auto surface = test::make_ball_surface(0.8, 1, true);
+  test::set_modes(surface, test::make_fields());
   const SkinTree tree(surface.faces, surface.x_B, surface.Phi_B);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> draw(-1.0, 1.0);
@@ -29,7 +29,7 @@ TEST(SkinTree, BoxesHoldTheirFacesHoweverTheyDeform) {
     while (!nodes.empty()) {
       const int i = nodes.back();
       nodes.pop_back();
-      const SkinTree::Box box = tree.find_box(i, testing::view(eta));
+      const SkinTree::Box box = tree.find_box(i, test::view(eta));
       for (const int f : tree.find_faces(tree.node(i))) {
         if (tree.node(i).is_leaf()) seen.insert(f);
         for (double u = 0.0; u <= 1.0; u += 0.125) {
@@ -52,17 +52,16 @@ TEST(SkinTree, BoxesHoldTheirFacesHoweverTheyDeform) {
 }
 
 TEST(SkinTree, BoxesOfAWholeDeformationAreTight) {
-  auto surface = testing::make_ball_surface(1.0, 1, false);
-  testing::set_modes(surface,
-                     {[](const Vector3&) { return Vector3(1, 2, 3); }});
+  auto surface = test::make_ball_surface(1.0, 1, false);
+  test::set_modes(surface, {[](const Vector3&) { return Vector3(1, 2, 3); }});
   const SkinTree tree(surface.faces, surface.x_B, surface.Phi_B);
   const VectorX eta = VectorX::Constant(1, 10.0);
   const VectorX still = VectorX::Zero(1);
-  const auto box = tree.find_box(0, testing::view(eta));
-  const auto before = tree.find_box(0, testing::view(still));
+  const auto box = tree.find_box(0, test::view(eta));
+  const auto before = tree.find_box(0, test::view(still));
   EXPECT_LT((box.centre - before.centre - Vector3(10, 20, 30)).norm(), 1e-12);
   EXPECT_LT((box.half - before.half).norm(), 1e-9);
 }
 
 }  // namespace
-}  // namespace limber::contact
+}  // namespace limber::contact::skin_tree_test

@@ -7,7 +7,7 @@
 
 #include "limber/common/rotation.hpp"
 
-namespace limber::contact::testing {
+namespace limber::contact::test {
 namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
@@ -195,4 +195,4 @@ Matrix3 draw_rotation(std::mt19937& random) {
   return exp_rotation(draw_point(random, 3.0));
 }
 
-}  // namespace limber::contact::testing
+}  // namespace limber::contact::test

@@ -7,7 +7,7 @@
 #include "limber/contact/shapes/skin_tree.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 
-namespace limber::contact::testing {
+namespace limber::contact::test {
 
 /// A motion of space as a mode: displacement of x [kg^-1/2].
 using Field = std::function<Vector3(const Vector3&)>;
@@ -33,4 +33,4 @@ ModalView view(const VectorX& eta);
 Vector3 draw_point(std::mt19937& random, double half_side);
 Matrix3 draw_rotation(std::mt19937& random);
 
-}  // namespace limber::contact::testing
+}  // namespace limber::contact::test

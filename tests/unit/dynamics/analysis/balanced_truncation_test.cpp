@@ -13,7 +13,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/analysis/schur_form.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::balanced_truncation_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -193,4 +193,4 @@ TEST(BalancedTruncation, IsRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::balanced_truncation_test

@@ -15,7 +15,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::equilibrium_test {
 namespace {
 
 using joints::JointKind;
@@ -406,4 +406,4 @@ TEST(Equilibrium, OfAHangingChainIsTheDiscreteCatenary) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::equilibrium_test

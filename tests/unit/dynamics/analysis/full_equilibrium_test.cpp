@@ -8,7 +8,7 @@
 #include "support/lattice_chain.hpp"
 
 /// Equilibria of a body at level `full` that nothing but a joint holds.
-namespace limber::dynamics {
+namespace limber::dynamics::full_equilibrium_test {
 namespace {
 
 using testing::LatticeChain;
@@ -91,4 +91,4 @@ TEST(FullEquilibrium, FarAwayIsWhereADampedMotionEnds) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::full_equilibrium_test

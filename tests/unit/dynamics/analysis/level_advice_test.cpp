@@ -9,7 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "support/chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::level_advice_test {
 namespace {
 
 using ::limber::testing::make_uncoupled_chain;
@@ -216,4 +216,4 @@ TEST(AdviceSettings, RefuseWhatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::level_advice_test

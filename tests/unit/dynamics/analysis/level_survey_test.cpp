@@ -8,7 +8,7 @@
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::level_survey_test {
 namespace {
 
 constexpr double kRoundoff = 1e-12;
@@ -118,4 +118,4 @@ TEST(LevelSurvey, FindsTheAngularAccelerationOfASpinningBodyUnderAMoment) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::level_survey_test

@@ -24,7 +24,7 @@
 #include "support/linked_bodies.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::linear_system_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -434,4 +434,4 @@ TEST(LinearSystem, AboutALoadedEquilibriumHasTheDifferencesOfTheAccelerations) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::linear_system_test

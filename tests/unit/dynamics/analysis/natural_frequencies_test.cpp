@@ -9,7 +9,7 @@
 #include "support/chain.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::natural_frequencies_test {
 namespace {
 
 using testing::add_mass;
@@ -77,4 +77,4 @@ TEST(NaturalFrequencies, OfAFreeBodyAreThoseOfItsModesAndSixZeros) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::natural_frequencies_test

@@ -13,7 +13,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "support/linked_bodies.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::natural_modes_test {
 namespace {
 
 using testing::make_all_links;
@@ -382,4 +382,4 @@ TEST(SmallMotionAtAJump, HasTheLoadThatBeginsThenAlsoAfterHours) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::natural_modes_test

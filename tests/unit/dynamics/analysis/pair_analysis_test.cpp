@@ -7,7 +7,7 @@
 #include "support/paired_bodies.hpp"
 
 /// Springs of a pair are those of as many couplers in vibration.
-namespace limber::dynamics {
+namespace limber::dynamics::pair_analysis_test {
 namespace {
 
 using testing::make_paired_bodies;
@@ -33,4 +33,4 @@ TEST(PairVibration, VibrateAsCouplersDo) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::pair_analysis_test

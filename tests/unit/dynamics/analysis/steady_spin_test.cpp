@@ -11,7 +11,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::steady_spin_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(SteadySpin, RefusesWhatStaysInTheWorld) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::steady_spin_test

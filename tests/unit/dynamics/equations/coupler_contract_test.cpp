@@ -10,7 +10,7 @@
 #include "support/draw_vector.hpp"
 #include "support/linked_bodies.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::coupler_contract_test {
 namespace {
 
 using testing::Link;
@@ -181,4 +181,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::coupler_contract_test

@@ -8,7 +8,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::coupler_motion_test {
 namespace {
 
 joints::Joint make_hinge() {
@@ -104,4 +104,4 @@ TEST(CouplerMotion, TransmissionsMeasureLengthsAndSumsOfCoordinates) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::coupler_motion_test

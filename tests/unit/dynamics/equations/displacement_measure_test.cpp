@@ -11,7 +11,7 @@
 #include "limber/common/index.hpp"
 #include "support/chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::displacement_measure_test {
 namespace {
 
 using ::limber::testing::make_uncoupled_chain;
@@ -142,4 +142,4 @@ TEST(RefinedPeak, OfAJumpIsTheValueOnItsSide) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::displacement_measure_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace limber::dynamics {
+namespace limber::dynamics::displacement_tree_test {
 namespace {
 
 double find_largest_of_all(const MatrixX& Phi, const VectorX& eta) {
@@ -74,4 +74,4 @@ TEST(DisplacementTree, OfNoNodesFindsNothing) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::displacement_tree_test

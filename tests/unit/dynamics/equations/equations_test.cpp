@@ -13,7 +13,7 @@
 #include "support/draw_vector.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::equations_test {
 namespace {
 
 using testing::make_point_mass_body;
@@ -233,4 +233,4 @@ TEST(Equations, CouplersExertNoNetForceOrMoment) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::equations_test

@@ -16,7 +16,7 @@
 
 /// Energies, momenta and forces of one body at level `full`, a network of
 /// springs.
-namespace limber::dynamics {
+namespace limber::dynamics::full_forces_test {
 namespace {
 
 using testing::Lattice;
@@ -216,4 +216,4 @@ TEST(FullPairMotion, HasTheNodesPlacesAndVelocities) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::full_forces_test

@@ -15,7 +15,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::joint_state_test {
 namespace {
 
 using joints::JointKind;
@@ -268,4 +268,4 @@ TEST(JointState, LeavesTheStateAsItWasWhenItRefuses) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::joint_state_test

@@ -11,7 +11,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/full_lattice.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::mean_frame_test {
 namespace {
 
 using testing::make_field;
@@ -151,4 +151,4 @@ TEST(MeanFrame, OfAClampedBodyRests) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::mean_frame_test

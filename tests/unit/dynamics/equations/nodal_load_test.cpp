@@ -9,7 +9,7 @@
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::nodal_load_test {
 namespace {
 
 using testing::make_interface;
@@ -96,4 +96,4 @@ TEST_F(NodalLoad, RefusesTimesThatDoNotIncreaseAndValuesThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::nodal_load_test

@@ -9,7 +9,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::node_motion_test {
 namespace {
 
 constexpr double kRoundoff = 1e-13;  // of lengths of a few metres
@@ -117,4 +117,4 @@ TEST_F(NodeMotion, RefusesABodyWithoutNodesAndAnswersOfOtherSizes) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::node_motion_test

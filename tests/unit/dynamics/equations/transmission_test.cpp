@@ -10,7 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::transmission_test {
 namespace {
 
 using joints::ConstantSignal;
@@ -219,4 +219,4 @@ TEST(Friction, StopsASliderWhereItsWorkEqualsTheMotion) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::transmission_test

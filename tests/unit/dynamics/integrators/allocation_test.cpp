@@ -9,7 +9,7 @@
 #include "support/allocation_count.hpp"
 #include "support/chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::allocation_test {
 namespace {
 
 SystemModel loaded_chain(SystemState& state) {
@@ -82,4 +82,4 @@ TEST(Allocation, AStepOfTheSplittingSchemeMakesNone) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::allocation_test

@@ -13,7 +13,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::damper_work_test {
 namespace {
 
 struct Balance {
@@ -116,4 +116,4 @@ TEST(DamperWork, OfStiffDampersOnTurningBodiesIsNoMoreThanTheyTake) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::damper_work_test

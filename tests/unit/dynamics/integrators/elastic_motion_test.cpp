@@ -25,7 +25,7 @@
 #include "support/free_chain.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::elastic_motion_test {
 namespace {
 
 using testing::Duffing;
@@ -427,4 +427,4 @@ TEST(ElasticMotion, OfADampedArmUnderLoadsClosesItsAudit) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::elastic_motion_test

@@ -3,7 +3,7 @@
 
 #include "support/free_chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::energy_conserving_slow {
 namespace {
 
 TEST(AMillionSteps, OfTheEnergyConservingSchemeKeepAFreeChainsEnergyTo1e10) {
@@ -16,4 +16,4 @@ TEST(AMillionSteps, OfTheEnergyConservingSchemeKeepAFreeChainsEnergyTo1e10) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::energy_conserving_slow

@@ -21,7 +21,7 @@
 #include "support/linked_bodies.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::energy_conserving_test {
 namespace {
 
 using testing::FreeChain;
@@ -303,4 +303,4 @@ TEST(EnergyConserving, LeavesTheStateAsItWasWhenNewtonFails) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::energy_conserving_test

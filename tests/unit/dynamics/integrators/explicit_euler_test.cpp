@@ -9,7 +9,7 @@
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::explicit_euler_test {
 namespace {
 
 using testing::make_point_mass_body;
@@ -79,4 +79,4 @@ TEST(ExplicitEuler, IsExactForTranslationUnderAConstantForce) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::explicit_euler_test

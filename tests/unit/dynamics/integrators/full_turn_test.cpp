@@ -7,7 +7,7 @@
 #include "limber/common/rotation.hpp"
 #include "support/full_lattice.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::full_turn_test {
 namespace {
 
 const Vector3 kSpin(30.0, -10.0, 20.0);  // rad/s
@@ -86,4 +86,4 @@ TEST_F(FullTurn, TurnsACorrectionWithoutStrain) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::full_turn_test

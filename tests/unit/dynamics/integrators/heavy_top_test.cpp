@@ -13,7 +13,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 
 /// Heavy symmetric tops by our integrators against elliptic functions.
-namespace limber::dynamics {
+namespace limber::dynamics::heavy_top_test {
 namespace {
 
 constexpr double kI1 = 0.012;     // [kg m^2]
@@ -155,4 +155,4 @@ INSTANTIATE_TEST_SUITE_P(
                       Scheme{IntegratorKind::splitting, 2.0, 5e-5}));
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::heavy_top_test

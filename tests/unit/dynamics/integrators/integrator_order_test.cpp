@@ -12,7 +12,7 @@
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::integrator_order_test {
 namespace {
 
 using testing::Chain;
@@ -194,4 +194,4 @@ INSTANTIATE_TEST_SUITE_P(FromStiffToRigid, StiffHinges,
                          ::testing::Values(1e9, 1e10, 1e11, 1e12));
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::integrator_order_test

@@ -9,7 +9,7 @@
 #include "limber/dynamics/integrators/motion_scale.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::linear_load_test {
 namespace {
 
 constexpr double kMass = 2.0;     // [kg]
@@ -116,4 +116,4 @@ INSTANTIATE_TEST_SUITE_P(SpectralRadii, AlphaUnderLinearLoads,
                          ::testing::Values(0.3, 0.6, 0.9));
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::linear_load_test

@@ -9,7 +9,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::motion_scale_test {
 namespace {
 
 // A small rigid body, and a cloud of masses with two modes.
@@ -110,4 +110,4 @@ TEST_F(MotionScaleTest, ReachIsTheFarthestPointOrTheRadiusOfGyration) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::motion_scale_test

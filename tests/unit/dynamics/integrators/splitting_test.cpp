@@ -10,7 +10,7 @@
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::splitting_test {
 namespace {
 
 std::vector<EnergyBalance> run(const SystemModel& model, SystemState& state,
@@ -102,4 +102,4 @@ TEST(Splitting, AuditClosesAtSecondOrderWithLoadsAndDampers) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::splitting_test

@@ -13,7 +13,7 @@
 #include "support/point_mass_body.hpp"
 #include "support/spring_network.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::stable_step_test {
 namespace {
 
 constexpr double kStiffness = 3e4;                        // [N/m]
@@ -113,4 +113,4 @@ TEST(StableStep, OfADampedMeshCountsItsDamping) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::stable_step_test

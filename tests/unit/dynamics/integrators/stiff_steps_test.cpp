@@ -13,7 +13,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::stiff_steps_test {
 namespace {
 
 using joints::JointKind;
@@ -208,4 +208,4 @@ TEST(ModalRoundoff, IsThatOfModesHoweverFarABodyIs) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::stiff_steps_test

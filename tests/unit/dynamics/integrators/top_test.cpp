@@ -12,7 +12,7 @@
 #include "support/top_drift.hpp"
 
 /// Free rigid bodies: closed forms, conservation, orthonormality.
-namespace limber::dynamics {
+namespace limber::dynamics::top_test {
 namespace {
 
 constexpr double kPublished = 5e-9;  // the references have nine digits
@@ -222,4 +222,4 @@ TEST(EnergyConserving, KeepsATopsEnergyAndMomentumToRoundOffAtAnyTurn) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::top_test

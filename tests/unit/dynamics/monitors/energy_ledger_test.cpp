@@ -12,7 +12,7 @@
 #include "support/point_mass_body.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::energy_ledger_test {
 namespace {
 
 using testing::add_mass;
@@ -268,4 +268,4 @@ TEST(EnergyLedger, ExpectsTheRoundOffOfPlacesThatAStiffCouplerSees) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::energy_ledger_test

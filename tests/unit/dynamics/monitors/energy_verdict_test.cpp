@@ -11,7 +11,7 @@
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::energy_verdict_test {
 namespace {
 
 using ::testing::AllOf;
@@ -264,4 +264,4 @@ TEST(HoldWatch, TellsOfAJointThatGivesWayWithTheStiffnessThatWouldDo) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::energy_verdict_test

@@ -9,7 +9,7 @@
 
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::event_test {
 namespace {
 
 using joints::EndStop;
@@ -251,4 +251,4 @@ TEST(Events, ManyBouncesAreAllSeen) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::event_test

@@ -7,11 +7,11 @@
 #include <memory>
 #include <numbers>
 
-namespace limber::dynamics {
+namespace limber::dynamics::impact_spectrum_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Frequencies scale n^power [Hz].
 SystemModel make_model(double scale, double power, int modes) {
@@ -87,4 +87,4 @@ TEST(ImpactSpectrum, DoesNotGuessFromFewModes) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::impact_spectrum_test

@@ -12,7 +12,7 @@
 #include "support/point_mass_body.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::peak_watch_test {
 namespace {
 
 using std::numbers::pi;
@@ -289,4 +289,4 @@ TEST(Peaks, OfARunThatEndsEarlyAreThoseUpToThere) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::peak_watch_test

@@ -9,7 +9,7 @@
 #include "limber/dynamics/simulation/simulator.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::rounding_limit_test {
 namespace {
 
 using ::testing::AllOf;
@@ -88,4 +88,4 @@ TEST(RoundingLimit, ToldByARunThatEndsFarAway) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::rounding_limit_test

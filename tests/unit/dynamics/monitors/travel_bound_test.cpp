@@ -6,7 +6,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/lattice_chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::travel_bound_test {
 namespace {
 
 // |v| + |w| r of the farthest point of all shapes.
@@ -61,4 +61,4 @@ TEST(TravelBound, OfAPairIsThatOfBothBodies) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::travel_bound_test

@@ -7,7 +7,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::block_lu_test {
 namespace {
 
 using Edges = std::vector<std::pair<int, int>>;
@@ -86,4 +86,4 @@ TEST(BlockLu, BlockOutsideThePatternIsACallersDefect) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::block_lu_test

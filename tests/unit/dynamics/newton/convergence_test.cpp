@@ -9,7 +9,7 @@
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::convergence_test {
 namespace {
 
 using testing::Chain;
@@ -123,4 +123,4 @@ TEST(FaceCycle, EndsWhereASmallCorrectionTakesTheLastOneBack) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::convergence_test

@@ -25,7 +25,7 @@
 #include "support/elastic_kinds.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::coupled_modes_test {
 namespace {
 
 TEST(CoupledModes, SolvesAsTheInverseDoes) {
@@ -189,4 +189,4 @@ TEST(CoupledModes, OfABodyWithManyCouplersMoveAsThoseThatElasticityLeaves) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::coupled_modes_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limber::dynamics {
+namespace limber::dynamics::factor_plan_test {
 namespace {
 
 CorrectionSize make_size(double rigid, double modal) {
@@ -106,4 +106,4 @@ TEST(FactorPlan, ForgetsMeasurementsWhenRefreshed) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::factor_plan_test

@@ -17,7 +17,7 @@
 
 /// Bodies with so many couplers that Newton's matrix keeps their motion among
 /// its unknowns. Hinges in one place are one hinge as stiff as all.
-namespace limber::dynamics {
+namespace limber::dynamics::many_couplers_test {
 namespace {
 
 const Vector3 kStart(0.3, -0.2, 0.4);
@@ -425,4 +425,4 @@ TEST(HubTransports, MoveABodyWithItsParent) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::many_couplers_test

@@ -7,7 +7,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/bushing.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::newton_measures_test {
 namespace {
 
 constexpr double kStiffness = 1e6;  // [N/m]
@@ -46,4 +46,4 @@ TEST(RoundoffGaps, GrowWithTheDistanceAndWithArms) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::newton_measures_test

@@ -15,7 +15,7 @@
 
 /// Bodies of pairs are unknowns of Newton's matrix: stiff couplers between them
 /// must not lose their inertia.
-namespace limber::dynamics {
+namespace limber::dynamics::pair_matrix_test {
 namespace {
 
 constexpr int kBodies = 5;
@@ -118,4 +118,4 @@ TEST(PairMatrix, KeepsTheInertiaOfBodiesThatStiffCouplersJoin) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::pair_matrix_test

@@ -20,7 +20,7 @@
 #include "support/linked_bodies.hpp"
 #include "support/paired_bodies.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::residual_derivative_test {
 namespace {
 
 using testing::differentiate;
@@ -396,4 +396,4 @@ TEST(ResidualDerivative, OfBodiesThatManyCouplersHoldIsThatOfDifferences) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::residual_derivative_test

@@ -8,7 +8,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::singular_matrix_test {
 namespace {
 
 using ::testing::AllOf;
@@ -50,4 +50,4 @@ TEST(SingularMatrix, NamesTheCouplerWhereItIs) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::singular_matrix_test

@@ -7,7 +7,7 @@
 
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::breakpoints_test {
 namespace {
 
 SimulationSettings make_settings() {
@@ -82,4 +82,4 @@ TEST(Breakpoints, DivideAPulseThatStepsWouldMiss) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::breakpoints_test

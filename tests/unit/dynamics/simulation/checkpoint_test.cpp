@@ -16,7 +16,7 @@
 #include "support/lattice_chain.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::checkpoint_test {
 namespace {
 
 struct Scene {
@@ -262,4 +262,4 @@ TEST(Checkpoint, ThatIsCutShortIsRefused) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::checkpoint_test

@@ -11,7 +11,7 @@
 #include "support/point_mass_body.hpp"
 #include "unit/dynamics/simulation/simulation_outcome.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::closed_form_test {
 namespace {
 
 using joints::JointKind;
@@ -192,4 +192,4 @@ TEST(Simulation, DampedModeLosesEnergyAtTheClosedFormRate) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::closed_form_test

@@ -12,7 +12,7 @@
 #include "support/point_mass_body.hpp"
 #include "unit/dynamics/simulation/simulation_outcome.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::conservation_test {
 namespace {
 
 using joints::JointKind;
@@ -154,4 +154,4 @@ TEST(Simulation, EnergyAuditClosesAtSecondOrderWithLoadsAndDampers) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::conservation_test

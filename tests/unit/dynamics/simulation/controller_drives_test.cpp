@@ -11,7 +11,7 @@
 #include "support/sliding_masses.hpp"
 #include "unit/dynamics/simulation/sampled_mass.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::controller_drives_test {
 namespace {
 
 using joints::Drive;
@@ -146,4 +146,4 @@ TEST(InputsOfDrives, WhatCannotBeHeldIsRefused) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::controller_drives_test

@@ -14,7 +14,7 @@
 #include "support/sliding_masses.hpp"
 #include "unit/dynamics/simulation/sampled_mass.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::controller_failures_test {
 namespace {
 
 using joints::Drive;
@@ -250,4 +250,4 @@ TEST_F(Sampled, TheFingerprintTellsEveryChange) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::controller_failures_test

@@ -10,7 +10,7 @@
 #include "support/sliding_masses.hpp"
 #include "unit/dynamics/simulation/sampled_mass.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::controller_samples_test {
 namespace {
 
 using testing::add_rail;
@@ -226,4 +226,4 @@ TEST_F(Sampled, ARunGoesOnFromAnyCheckpointToTheBit) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::controller_samples_test

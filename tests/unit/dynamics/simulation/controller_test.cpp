@@ -15,7 +15,7 @@
 #include "limber/dynamics/simulation/simulator.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::controller_test {
 namespace {
 
 using testing::add_mass;
@@ -354,4 +354,4 @@ TEST(PdControlledRotor, ApproachesTheContinuousLoopWithTheOrderOfItsHold) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::controller_test

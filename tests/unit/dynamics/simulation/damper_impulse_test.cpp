@@ -12,7 +12,7 @@
 #include "support/point_mass_body.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::damper_impulse_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -193,4 +193,4 @@ TEST(DamperImpulse, KeepsMomentaOfAFreeChainThatBends) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::damper_impulse_test

@@ -13,7 +13,7 @@
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::exact_modes_test {
 namespace {
 
 using testing::make_interface;
@@ -292,4 +292,4 @@ TEST(ExactModes, AreThereAtTheLastGoodTimeAfterTheRestBlewUp) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::exact_modes_test

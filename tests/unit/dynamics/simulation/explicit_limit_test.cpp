@@ -20,7 +20,7 @@
 #include "limber/joints/bushing.hpp"
 #include "limber/joints/point_spring.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::explicit_limit_test {
 namespace {
 
 using ::testing::AllOf;
@@ -279,4 +279,4 @@ TEST(ExplicitLimit, SaysWhereAThousandPartsDoNotSuffice) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::explicit_limit_test

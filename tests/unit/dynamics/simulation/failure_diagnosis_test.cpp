@@ -12,7 +12,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::failure_diagnosis_test {
 namespace {
 
 using ::testing::AllOf;
@@ -123,4 +123,4 @@ TEST_F(MostEnergy, OfACouplerIsWhatItStores) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::failure_diagnosis_test

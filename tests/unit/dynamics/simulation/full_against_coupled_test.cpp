@@ -8,7 +8,7 @@
 #include "support/lattice_chain.hpp"
 
 /// Level `full` against the coupled equations for the same body.
-namespace limber::dynamics {
+namespace limber::dynamics::full_against_coupled_test {
 namespace {
 
 using testing::kAllModes;
@@ -109,4 +109,4 @@ TEST(FullAgainstCoupled, TumblesAsItDoesWithAllModes) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::full_against_coupled_test

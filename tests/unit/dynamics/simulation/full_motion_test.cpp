@@ -13,7 +13,7 @@
 #include "support/full_lattice.hpp"
 
 /// Motion of one body at level `full`, a network of springs.
-namespace limber::dynamics {
+namespace limber::dynamics::full_motion_test {
 namespace {
 
 using testing::Lattice;
@@ -259,4 +259,4 @@ TEST(FullFailure, NamesThePartTheBodyAndTheTimeAndKeepsTheLastState) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::full_motion_test

@@ -8,7 +8,7 @@
 #include "support/lattice_chain.hpp"
 
 /// Bodies at level `full` in systems, beside other levels.
-namespace limber::dynamics {
+namespace limber::dynamics::full_system_test {
 namespace {
 
 using testing::LatticeChain;
@@ -224,4 +224,4 @@ TEST(MixedChain, ClampedFullBodyMovesBesideModesInClosedForm) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::full_system_test

@@ -17,7 +17,7 @@
 #include "support/eigenpairs.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::guard_test {
 namespace {
 
 using ::testing::AllOf;
@@ -381,4 +381,4 @@ TEST(WorkBudget, GrowsWithStepsAndIsSharedByBodies) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::guard_test

@@ -16,7 +16,7 @@
 #include "support/paired_bodies.hpp"
 
 /// Points that come and go, and what pairs remember.
-namespace limber::dynamics {
+namespace limber::dynamics::pair_contact_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -280,4 +280,4 @@ TEST(PairContact, NamesThePairWhoseForceIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::pair_contact_test

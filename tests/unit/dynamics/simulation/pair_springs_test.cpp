@@ -12,7 +12,7 @@
 #include "support/paired_bodies.hpp"
 
 /// Springs of a pair are those of as many couplers.
-namespace limber::dynamics {
+namespace limber::dynamics::pair_springs_test {
 namespace {
 
 using testing::make_paired_bodies;
@@ -180,4 +180,4 @@ TEST(PairSprings, BringVelocitiesOntoWhatTheirDampersAllowAtTheStart) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::pair_springs_test

@@ -4,7 +4,7 @@
 
 #include "support/random_scene_end.hpp"
 
-namespace limber::testing {
+namespace limber::testing::random_scene_test {
 namespace {
 
 class RandomScene : public ::testing::TestWithParam<unsigned> {};
@@ -44,4 +44,4 @@ TEST(RandomSceneText, NamesTheCouplerWhoseDamperBodiesStartAgainst) {
 }
 
 }  // namespace
-}  // namespace limber::testing
+}  // namespace limber::testing::random_scene_test

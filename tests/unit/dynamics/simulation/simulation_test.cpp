@@ -12,7 +12,7 @@
 #include "support/chain.hpp"
 #include "unit/dynamics/simulation/simulation_outcome.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::simulation_test {
 namespace {
 
 using test::Outcome;
@@ -187,4 +187,4 @@ TEST(Simulate, RefusesAStateFromBeforeItsModelGotAPath) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::simulation_test

@@ -12,7 +12,7 @@
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "support/chain.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::simulator_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST_F(SimulatorOfAStruckChain, RefusesTimesOutsideOfItsSpan) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::simulator_test

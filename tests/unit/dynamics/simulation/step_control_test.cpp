@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limber::dynamics {
+namespace limber::dynamics::step_control_test {
 namespace {
 
 SystemState make_spinning(double rate) {
@@ -129,4 +129,4 @@ TEST(StepControl, ShortensAllLimitsByTheRefinement) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::step_control_test

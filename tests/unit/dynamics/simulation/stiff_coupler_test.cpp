@@ -8,7 +8,7 @@
 #include "support/chain.hpp"
 #include "unit/dynamics/simulation/simulation_outcome.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::stiff_coupler_test {
 namespace {
 
 using joints::JointKind;
@@ -62,4 +62,4 @@ TEST(Simulation, HingesConvergeAtFirstOrderInCompliance) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::stiff_coupler_test

@@ -13,7 +13,7 @@
 #include "support/chain.hpp"
 #include "support/sliding_masses.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::tolerance_test {
 namespace {
 
 using testing::run_from;
@@ -287,4 +287,4 @@ TEST(MotionScale, IsTheDistanceOfTheFarthestPoint) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::tolerance_test

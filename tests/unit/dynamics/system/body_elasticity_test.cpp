@@ -24,7 +24,7 @@
 #include "support/elastic_kinds.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::body_elasticity_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -222,4 +222,4 @@ TEST(BodyElasticity, OfDuffingsOscillatorHasTheFrequencyOfItsTangent) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::body_elasticity_test

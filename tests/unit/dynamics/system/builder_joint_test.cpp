@@ -9,7 +9,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::builder_joint_test {
 namespace {
 
 using joints::JointKind;
@@ -185,4 +185,4 @@ TEST_F(BuilderJoint, LeavesNothingBehindWhenItIsRefused) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::builder_joint_test

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace limber::dynamics {
+namespace limber::dynamics::default_stiffness_test {
 namespace {
 
 CouplerSide make_flexible(double translation, double rotation) {
@@ -60,4 +60,4 @@ TEST(DefaultStiffness, LeavesWhatIsGivenAlone) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::default_stiffness_test

@@ -10,7 +10,7 @@
 #include "limber/common/pose.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::indices_test {
 namespace {
 
 // What must not compile, as the compiler sees it.
@@ -89,4 +89,4 @@ TEST(Indices, WithoutAValueAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::indices_test

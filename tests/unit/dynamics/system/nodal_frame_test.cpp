@@ -13,7 +13,7 @@
 #include "limber/flexbody/model/interface_motion.hpp"
 #include "support/spring_network.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::nodal_frame_test {
 namespace {
 
 using testing::make_full;
@@ -251,4 +251,4 @@ TEST(PolarRotation, IsARotationAlsoOfAReflection) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::nodal_frame_test

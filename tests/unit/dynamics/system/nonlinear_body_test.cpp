@@ -17,7 +17,7 @@
 #include "support/elastic_kinds.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::nonlinear_body_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -284,4 +284,4 @@ TEST(NonlinearBody, HasNoCriticalSpeedOfLinearElasticity) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::nonlinear_body_test

@@ -16,7 +16,7 @@
 #include "support/paired_bodies.hpp"
 
 /// What SystemBuilder refuses of pairs, and that a run's description has them.
-namespace limber::dynamics {
+namespace limber::dynamics::pair_builder_test {
 namespace {
 
 using ::testing::AllOf;
@@ -135,4 +135,4 @@ TEST(PairManifest, NamesWhatChanged) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::pair_builder_test

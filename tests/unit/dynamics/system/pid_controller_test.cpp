@@ -10,10 +10,10 @@
 #include "limber/dynamics/system/system_model.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::pid_controller_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kPeriod = 0.01;
 
@@ -150,4 +150,4 @@ TEST(PidController, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::pid_controller_test

@@ -13,7 +13,7 @@
 #include "support/full_lattice.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::system_builder_test {
 namespace {
 
 using ::testing::AllOf;
@@ -446,4 +446,4 @@ TEST(SystemBuilder, RefusesASystemWithoutABody) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::system_builder_test

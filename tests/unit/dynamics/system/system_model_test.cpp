@@ -13,7 +13,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/point_mass_body.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::system_model_test {
 namespace {
 
 using joints::JointKind;
@@ -172,4 +172,4 @@ TEST(CheckModel, FindsEachChangeOfAGoodModel) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::system_model_test

@@ -8,7 +8,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::dynamics {
+namespace limber::dynamics::time_function_test {
 namespace {
 
 TEST(TimeFunction, SumOfSinusoidsIsRefusedIfATermIsNotFinite) {
@@ -80,4 +80,4 @@ TEST(TimeFunction, BadOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics
+}  // namespace limber::dynamics::time_function_test

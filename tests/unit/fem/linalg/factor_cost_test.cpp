@@ -8,7 +8,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::factor_cost_test {
 namespace {
 
 /// A cube with so many tetrahedra of second order along each edge.
@@ -50,4 +50,4 @@ TEST(FactorSeconds, GrowAsTheOperationsOfTheWholeMatrix) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::factor_cost_test

@@ -12,7 +12,7 @@
 #include "limber/fem/solid/eigenmodes.hpp"
 #include "places.hpp"
 
-namespace limber::fem {
+namespace limber::fem::serial_blas_test {
 namespace {
 
 /// OpenBLAS's own number of threads, put back at the end.
@@ -79,4 +79,4 @@ TEST_F(BlasThreads, DoNotChangeABitOfModesAndAnswers) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::serial_blas_test

@@ -11,7 +11,7 @@
 
 /// Every invalid mesh gives one InputError that names the file, the problem
 /// with its place or value, and what was expected.
-namespace limber::fem {
+namespace limber::fem::mesh_errors_test {
 namespace {
 
 using ::testing::AllOf;
@@ -299,4 +299,4 @@ TEST(MeshErrors, SeveralProblemsAreReportedAtOnce) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::mesh_errors_test

@@ -18,7 +18,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::mesh_formats_test {
 namespace {
 
 using ::testing::AllOf;
@@ -196,4 +196,4 @@ TEST(MeshContent, IsThatOfTheSavedMesh) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::mesh_formats_test

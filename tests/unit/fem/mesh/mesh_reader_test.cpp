@@ -13,7 +13,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::mesh_reader_test {
 namespace {
 
 using testing::BoxKind;
@@ -178,4 +178,4 @@ TEST(MeshReader, NodesOfNoSolidElementAreDropped) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::mesh_reader_test

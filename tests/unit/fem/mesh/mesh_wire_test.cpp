@@ -11,7 +11,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::mesh_wire_test {
 namespace {
 
 const ElasticMaterial kSteel{210e9, 0.3, 7850.0};
@@ -90,4 +90,4 @@ TEST(MeshContent, FollowsNodesElementsGroupsAndNotTheName) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::mesh_wire_test

@@ -17,7 +17,7 @@
 #include "unit/fem/meshes.hpp"
 
 /// A geometry is a program of whoever wrote it. Here are those that do harm.
-namespace limber::fem {
+namespace limber::fem::mesher_test {
 namespace {
 
 using ::testing::AllOf;
@@ -230,4 +230,4 @@ TEST_F(TracedFiles, AreNotEnoughForWhatAsksTheClock) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::mesher_test

@@ -11,7 +11,7 @@
 
 /// The boundary of a box of tetrahedra, prisms, pyramids and hexahedra as
 /// triangles with middle nodes, and the functions of its faces.
-namespace limber::fem {
+namespace limber::fem::surface_test {
 namespace {
 
 using testing::kBoxCorner;
@@ -174,4 +174,4 @@ TEST(GroupSurface, IsTheGroupsPartOfTheBoundary) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::surface_test

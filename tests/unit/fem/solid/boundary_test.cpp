@@ -11,7 +11,7 @@
 #include "unit/fem/meshes.hpp"
 
 /// The skin of a box, and how a load on a part of it is shared.
-namespace limber::fem {
+namespace limber::fem::boundary_test {
 namespace {
 
 using testing::BoxKind;
@@ -161,4 +161,4 @@ TEST(NodeWeights, FindsNodesByTagAndPlace) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::boundary_test

@@ -12,7 +12,7 @@
 #include "unit/fem/meshes.hpp"
 
 /// Against closed forms of the laws for homogeneous deformations.
-namespace limber::fem {
+namespace limber::fem::cauchy_stress_test {
 namespace {
 
 using testing::BoxKind;
@@ -121,4 +121,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, CauchyOf,
                                            Elasticity::neo_hookean));
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::cauchy_stress_test

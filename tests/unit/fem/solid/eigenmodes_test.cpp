@@ -13,7 +13,7 @@
 #include "support/eigenpairs.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::eigenmodes_test {
 namespace {
 
 using testing::BoxKind;
@@ -241,4 +241,4 @@ TEST(Eigenmodes, MoreThanTheMeshHasAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::eigenmodes_test

@@ -11,7 +11,7 @@
 
 /// Mass and stiffness of every element shape and order against known properties
 /// of any elastic box: no figure here comes from this project.
-namespace limber::fem {
+namespace limber::fem::element_matrices_test {
 namespace {
 
 using testing::BoxKind;
@@ -167,4 +167,4 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BoxOfElements,
                          });
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::element_matrices_test

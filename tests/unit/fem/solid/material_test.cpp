@@ -10,7 +10,7 @@
 #include "limber/fem/solid/assembly.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::material_test {
 namespace {
 
 using ::testing::AllOf;
@@ -120,4 +120,4 @@ TEST(Material, MoreMaterialsThanVolumesAreRefused) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::material_test

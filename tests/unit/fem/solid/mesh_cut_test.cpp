@@ -8,7 +8,7 @@
 
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::mesh_cut_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -112,4 +112,4 @@ TEST(MeshCut, AdvisesTwoPiecesFromTenTimesTheThicknessOn) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::mesh_cut_test

@@ -19,7 +19,7 @@
 #include "limber/fem/solid/tangent.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::nonlinear_solid_test {
 namespace {
 
 using testing::BoxKind;
@@ -241,4 +241,4 @@ INSTANTIATE_TEST_SUITE_P(
         std::tuple(BoxKind::prisms, 2, Elasticity::neo_hookean)));
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::nonlinear_solid_test

@@ -14,7 +14,7 @@
 /// Against differences of the mesh's own forces and energy in large
 /// displacement, which are exact: the force of a St. Venant-Kirchhoff solid is
 /// of third degree in the displacements, its energy of fourth.
-namespace limber::fem {
+namespace limber::fem::second_order_test {
 namespace {
 
 using testing::BoxKind;
@@ -221,4 +221,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, SecondOrder,
                                            std::tuple(BoxKind::prisms, 1)));
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::second_order_test

@@ -16,7 +16,7 @@
 #include "limber/fem/solid/stiffness_product.hpp"
 #include "unit/fem/meshes.hpp"
 
-namespace limber::fem {
+namespace limber::fem::slender_test {
 namespace {
 
 using testing::BoxKind;
@@ -314,4 +314,4 @@ TEST(Conditioning, ErrorOfABodyThatIsTooSlenderBlamesNoElement) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::slender_test

@@ -12,7 +12,7 @@
 #include "unit/fem/meshes.hpp"
 
 /// Against dense solutions of the same equations.
-namespace limber::fem {
+namespace limber::fem::spin_test {
 namespace {
 
 using testing::BoxKind;
@@ -156,4 +156,4 @@ TEST(LargestGradient, IsThatOfALinearField) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::spin_test

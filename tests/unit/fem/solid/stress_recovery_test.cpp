@@ -12,7 +12,7 @@
 #include "unit/fem/meshes.hpp"
 
 /// Against closed forms of Hooke's law for fields that elements reproduce.
-namespace limber::fem {
+namespace limber::fem::stress_recovery_test {
 namespace {
 
 using testing::BoxKind;
@@ -305,4 +305,4 @@ TEST(AveragingError, IsAQuadraticForm) {
 }
 
 }  // namespace
-}  // namespace limber::fem
+}  // namespace limber::fem::stress_recovery_test

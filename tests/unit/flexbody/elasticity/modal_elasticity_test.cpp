@@ -17,7 +17,7 @@
 #include "support/differences.hpp"
 #include "support/elastic_kinds.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::modal_elasticity_test {
 namespace {
 
 using testing::differentiate;
@@ -346,4 +346,4 @@ TEST(ElasticityParameters, OfAnotherNumberOfModesIsACallersDefect) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::modal_elasticity_test

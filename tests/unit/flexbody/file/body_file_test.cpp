@@ -26,7 +26,7 @@
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" void __lsan_disable() __attribute__((weak));
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::body_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -399,4 +399,4 @@ TEST_F(BodyFile, WrittenByProcessesAtOnceIsAlwaysWhole) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::body_file_test

@@ -15,7 +15,7 @@
 #include "limber/flexbody/file/body_file.hpp"
 #include "unit/flexbody/file/cache_fixture.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::cache_test {
 namespace {
 
 TEST_F(Cache, ReducesOnceAndThenFindsTheSameBody) { expect_made_anew(); }
@@ -141,4 +141,4 @@ TEST_F(Cache, IsForItsOwnerAloneWhateverTheUmask) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::cache_test

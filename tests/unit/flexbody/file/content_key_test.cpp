@@ -10,7 +10,7 @@
 #include "limber/flexbody/file/cache.hpp"
 #include "unit/flexbody/file/small_recipe.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::content_key_test {
 namespace {
 
 using Changes =
@@ -167,4 +167,4 @@ TEST(RecipeKey, IsOneForAskersOfOneFileInOneWay) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::content_key_test

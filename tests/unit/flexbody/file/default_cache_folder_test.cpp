@@ -9,7 +9,7 @@
 #include "limber/flexbody/file/cache.hpp"
 #include "unit/flexbody/files.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::default_cache_folder_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST(DefaultCacheFolder, IsNotGuessedWhereThereIsNoHome) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::default_cache_folder_test

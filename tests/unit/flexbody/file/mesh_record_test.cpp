@@ -10,7 +10,7 @@
 
 #include "unit/flexbody/file/cache_fixture.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::mesh_record_test {
 namespace {
 
 TEST_F(Cache, MakesNoMeshWhileNoFileHasChanged) {
@@ -125,4 +125,4 @@ TEST_F(Cache, NoticesThatALinkLeadsElsewhere) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::mesh_record_test

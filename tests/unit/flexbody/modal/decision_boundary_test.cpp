@@ -9,7 +9,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::decision_boundary_test {
 namespace {
 
 constexpr double kRoundoff = 1e-12;
@@ -124,7 +124,7 @@ TEST(ForceBound, IsAttainedAndNeverPassed) {
     }
 }
 
-class DisplacementBound : public testing::TestWithParam<Eigen::Index> {};
+class DisplacementBound : public ::testing::TestWithParam<Eigen::Index> {};
 
 TEST_P(DisplacementBound, HoldsForRandomDirectionsAndIsNotFarAbove) {
   const PointBody made = make_point_body(2, GetParam());
@@ -199,7 +199,7 @@ TEST_P(DisplacementBound, OfASuddenTorqueIsTheSumOfTheModesOwn) {
               kRoundoff * largest);
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, DisplacementBound, testing::Values(1, 2, 7));
+INSTANTIATE_TEST_SUITE_P(Modes, DisplacementBound, ::testing::Values(1, 2, 7));
 
 // Two masses m at +-L/2 on z, one stretching mode: the centrifugal force
 // m Omega^2 L/2 stretches the spring between them by itself over its stiffness.
@@ -248,4 +248,4 @@ TEST(DisplacementBoundInput, RefusesAClampedBodyAndALimitOfNothing) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::decision_boundary_test

@@ -13,7 +13,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/modal/modal_response.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::fourier_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -185,4 +185,4 @@ TEST(FourierSeries, RefusesAGapThatHidesItsHarmonics) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::fourier_test

@@ -10,7 +10,7 @@
 
 #include "unit/flexbody/modal/modal_cases.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::modal_energy_test {
 namespace {
 
 // Report, section 5.5.1: four steps that start and end with zero load, unit
@@ -170,4 +170,4 @@ TEST(ModalResponse, WorkOfAShortIntervalKeepsItsDigits) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::modal_energy_test

@@ -10,7 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "unit/flexbody/modal/modal_cases.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::modal_refusal_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -124,4 +124,4 @@ TEST_F(ModalResponseRefuses, TimesBeforeTheStartOrNotFinite) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::modal_refusal_test

@@ -11,7 +11,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::modal_response_oscillator_test {
 namespace {
 
 using Real = long double;
@@ -290,4 +290,4 @@ TEST(ModalOscillator, RefusesWhatIsNegativeOrNotFinite) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::modal_response_oscillator_test

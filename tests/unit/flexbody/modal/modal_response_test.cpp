@@ -11,7 +11,7 @@
 
 #include "unit/flexbody/modal/modal_cases.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::modal_response_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -309,4 +309,4 @@ TEST(ModalResponse, PhaseOverAMillionPeriodsIsExactToItsRoundOff) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::modal_response_test

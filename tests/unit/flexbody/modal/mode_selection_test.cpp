@@ -10,7 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "support/eigenpairs.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::mode_selection_test {
 namespace {
 
 /// Roundoff of small dense problems, on numbers near one.
@@ -294,4 +294,4 @@ TEST(ModeSelectionContracts, RefuseForeignSizes) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::mode_selection_test

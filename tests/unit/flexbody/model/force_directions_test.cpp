@@ -8,7 +8,7 @@
 
 #include "limber/flexbody/model/load_modes_record.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::force_directions_test {
 namespace {
 
 constexpr double kRoundoff = 1e-13;  // n = 60, a hundred eps
@@ -71,13 +71,13 @@ TEST(ForceDirections, OfNothingAreNone) {
 TEST(LoadModesRecord, SpeaksOnlyOfWhatWasLeftOut) {
   EXPECT_FALSE(describe_left_out({"f.txt", 3, true, 3, 0.0}).has_value());
   EXPECT_THAT(describe_left_out({"f.txt", 30, true, 12, 0.125}).value_or(""),
-              testing::AllOf(testing::HasSubstr("'f.txt'"),
-                             testing::HasSubstr("in 30 independent"),
-                             testing::HasSubstr("the 12 largest"),
-                             testing::HasSubstr("12.5 %")));
+              ::testing::AllOf(::testing::HasSubstr("'f.txt'"),
+                               ::testing::HasSubstr("in 30 independent"),
+                               ::testing::HasSubstr("the 12 largest"),
+                               ::testing::HasSubstr("12.5 %")));
   EXPECT_THAT(describe_left_out({"f.txt", 90, false, 12, 0.125}).value_or(""),
-              testing::HasSubstr("more than 90"));
+              ::testing::HasSubstr("more than 90"));
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::force_directions_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace limber::flexbody {
+namespace limber::flexbody::initial_deformation_test {
 namespace {
 
 using ::testing::AllOf;
@@ -88,4 +88,4 @@ TEST(LossesOfAnInitialField, AreToldFromOnePerCentOn) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::initial_deformation_test

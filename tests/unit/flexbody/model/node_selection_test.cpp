@@ -11,7 +11,7 @@
 #include "limber/common/errors.hpp"
 #include "unit/flexbody/files.hpp"
 
-namespace limber::flexbody::test {
+namespace limber::flexbody::test::node_selection_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -116,4 +116,4 @@ TEST(NodeSelection, IsDescribedWithItsNumbers) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody::test
+}  // namespace limber::flexbody::test::node_selection_test

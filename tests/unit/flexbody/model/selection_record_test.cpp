@@ -3,12 +3,12 @@
 
 #include <gmock/gmock.h>
 
-namespace limber::flexbody {
+namespace limber::flexbody::selection_record_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 SelectionRecord record_of(const std::vector<double>& reached) {
   SelectionRecord record;
@@ -42,4 +42,4 @@ TEST(SelectionRecord, NamesTheWorstOfManyAndCountsTheRest) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::selection_record_test

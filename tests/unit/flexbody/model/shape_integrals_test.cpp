@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace limber::flexbody {
+namespace limber::flexbody::shape_integrals_test {
 namespace {
 
 constexpr double kMass = 3.0;    // [kg]
@@ -97,4 +97,4 @@ TEST_F(ShapeIntegralsOfABar, HaveTheProductsOfAllPairsOfFields) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::shape_integrals_test

@@ -7,7 +7,7 @@
 
 #include "limber/common/rotation.hpp"
 
-namespace limber::flexbody {
+namespace limber::flexbody::stress_modes_test {
 namespace {
 
 Vector6 components(double xx, double yy, double zz, double xy, double yz,
@@ -60,4 +60,4 @@ TEST(AveragingError, IsTheRootOfAShareOfTheStrainEnergy) {
 }
 
 }  // namespace
-}  // namespace limber::flexbody
+}  // namespace limber::flexbody::stress_modes_test

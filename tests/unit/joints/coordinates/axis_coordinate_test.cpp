@@ -12,7 +12,7 @@
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
-namespace limber::joints {
+namespace limber::joints::axis_coordinate_test {
 namespace {
 
 using testing::carried;
@@ -162,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(Each, AxisCoordinates,
                          });
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::axis_coordinate_test

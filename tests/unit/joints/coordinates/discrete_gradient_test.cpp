@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace limber::joints {
+namespace limber::joints::discrete_gradient_test {
 namespace {
 
 RelativeMotion turned(const Vector3& axis, double angle) {
@@ -38,4 +38,4 @@ TEST(CoordinateStep, HasTheGradientHalfwayWhereTheTurnPassesHalfATurn) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::discrete_gradient_test

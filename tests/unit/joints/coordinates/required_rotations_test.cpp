@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limber::joints {
+namespace limber::joints::required_rotations_test {
 namespace {
 
 using Kind = AxisCoordinate::Kind;
@@ -41,4 +41,4 @@ TEST(RequiredRotations, OfADistanceAreNone) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::required_rotations_test

@@ -13,7 +13,7 @@
 #include "support/differences.hpp"
 #include "unit/joints/coupler_cases.hpp"
 
-namespace limber::joints {
+namespace limber::joints::switches_test {
 namespace {
 
 using testing::carried;
@@ -211,4 +211,4 @@ TEST(Switches, EachEventHasAName) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::switches_test

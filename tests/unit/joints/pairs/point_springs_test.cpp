@@ -10,7 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 
-namespace limber::joints {
+namespace limber::joints::point_springs_test {
 namespace {
 
 // A body with one mode that turns, moves and vibrates at constant rates.
@@ -226,4 +226,4 @@ TEST(PairResponseOfCoupledPoints, BoundsItsStiffnessAfterGershgorin) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::point_springs_test

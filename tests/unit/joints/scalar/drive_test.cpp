@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limber::joints {
+namespace limber::joints::drive_test {
 namespace {
 
 constexpr Instant kNow{0.5};
@@ -116,4 +116,4 @@ TEST(Drive, AnEffortCommandsNoSpeed) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::drive_test

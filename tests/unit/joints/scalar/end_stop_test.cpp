@@ -8,7 +8,7 @@
 
 #include "support/differences.hpp"
 
-namespace limber::joints {
+namespace limber::joints::end_stop_test {
 namespace {
 
 // A free mass against a stop, from z = upper with `speed`.
@@ -149,4 +149,4 @@ TEST(EndStop, ItsSwitchesArePositiveWhileItTouches) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::end_stop_test

@@ -7,7 +7,7 @@
 
 #include "support/differences.hpp"
 
-namespace limber::joints {
+namespace limber::joints::friction_test {
 namespace {
 
 // m v' = F + friction, by fourth-order Runge-Kutta, until it is steady.
@@ -53,4 +53,4 @@ TEST(Friction, ItsDampingAtRestIsCoulombsForceByTheSmoothingSpeed) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::friction_test

@@ -12,7 +12,7 @@
 
 #include "support/differences.hpp"
 
-namespace limber::joints {
+namespace limber::joints::scalar_law_test {
 namespace {
 
 using testing::differentiate;
@@ -249,4 +249,4 @@ INSTANTIATE_TEST_SUITE_P(Each, ScalarLaws, ::testing::ValuesIn(laws()),
                          });
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::scalar_law_test

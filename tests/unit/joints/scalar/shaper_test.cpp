@@ -10,7 +10,7 @@
 #include "limber/joints/scalar/signal.hpp"
 #include "support/differences.hpp"
 
-namespace limber::joints {
+namespace limber::joints::shaper_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -126,4 +126,4 @@ TEST(Shaper, AShapedRampWithAWrongFrequencyLeavesTheSameShare) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::shaper_test

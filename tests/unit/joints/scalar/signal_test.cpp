@@ -12,7 +12,7 @@
 
 #include "support/differences.hpp"
 
-namespace limber::joints {
+namespace limber::joints::signal_test {
 namespace {
 
 using testing::differentiate;
@@ -264,4 +264,4 @@ TEST(Signal, AConstantHasNoBreaks) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::signal_test

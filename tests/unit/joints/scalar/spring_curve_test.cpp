@@ -7,7 +7,7 @@
 
 #include "limber/joints/scalar/scalar_spring.hpp"
 
-namespace limber::joints {
+namespace limber::joints::spring_curve_test {
 namespace {
 
 constexpr double kRoundoff = 1e-14;  // relative
@@ -114,4 +114,4 @@ TEST(ScalarSpring, ALineThatIsLetGoFastDoesNotPush) {
 }
 
 }  // namespace
-}  // namespace limber::joints
+}  // namespace limber::joints::spring_curve_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limber::results {
+namespace limber::results::label_placement_test {
 namespace {
 
 TEST(LabelPlacement, PutsALabelToTheRightUnlessTheEdgeIsNear) {
@@ -39,4 +39,4 @@ TEST(LabelPlacement, GivesNoPlaceToNoText) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::label_placement_test

@@ -8,7 +8,7 @@
 
 #include "unit/results/temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::order_picture_test {
 namespace {
 
 TEST(OrderPicture, IsDrawnOfWhatIsAboveZero) {
@@ -25,4 +25,4 @@ TEST(OrderPicture, IsDrawnOfWhatIsAboveZero) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::order_picture_test

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limber::results {
+namespace limber::results::tics_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 void expect_readable(const std::vector<double>& places, double least,
                      double most) {
@@ -54,4 +54,4 @@ TEST(Tics, AreAListOfGnuplot) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::tics_test

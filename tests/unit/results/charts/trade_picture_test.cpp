@@ -8,11 +8,11 @@
 
 #include "unit/results/temporary_folder.hpp"
 
-namespace limber::results {
+namespace limber::results::trade_picture_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST(TradeFront, HoldsWhatNothingCheaperBeats) {
   EXPECT_THAT(find_front({4.0, 1.0, 2.0, 3.0}, {0.01, 0.5, 0.1, 0.2}),
@@ -45,4 +45,4 @@ TEST(TradePicture, IsDrawnWithWhateverErrorsThereAre) {
 }
 
 }  // namespace
-}  // namespace limber::results
+}  // namespace limber::results::trade_picture_test

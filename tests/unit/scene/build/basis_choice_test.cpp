@@ -8,13 +8,13 @@
 #include "places.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::basis_choice_test {
 namespace {
 
 using flexbody::BasisOptions;
 using test::input_error;
 using test::TemporaryFile;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Its <basis> has six eigenmodes and every static-deformation mode.
 const std::string kArm = "robot = '" LIMBER_SOURCE_DIR
@@ -129,4 +129,4 @@ TEST(Overrides, OfRowsReachEveryFlexibleLink) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::basis_choice_test

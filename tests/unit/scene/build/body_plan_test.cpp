@@ -5,7 +5,7 @@
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::body_plan_test {
 namespace {
 
 constexpr double kRoundOff = 1e-13;
@@ -62,7 +62,7 @@ TEST(BodyPlan, RefusesAMovingBodyWithoutMass) {
   robot.joints = {make_joint(0, 1, joints::JointKind::revolute)};
   const std::string text = test::input_error(
       [&] { (void)plan_bodies(robot, std::vector<ReducedPieces>(2)); });
-  EXPECT_THAT(text, testing::HasSubstr("link 'b' moves but has no mass"));
+  EXPECT_THAT(text, ::testing::HasSubstr("link 'b' moves but has no mass"));
 }
 
 std::shared_ptr<const flexbody::ReducedBody> make_piece(double mass, double x) {
@@ -107,8 +107,8 @@ TEST(BodyPlan, RefusesALinkCalledLikeAPiece) {
     (void)plan_bodies(robot,
                       {{}, {make_piece(3.0, 0.2), make_piece(4.0, 0.7)}, {}});
   });
-  EXPECT_THAT(text, testing::HasSubstr("'arm.2' is called like piece 2"));
+  EXPECT_THAT(text, ::testing::HasSubstr("'arm.2' is called like piece 2"));
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::body_plan_test

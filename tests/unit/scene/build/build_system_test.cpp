@@ -13,7 +13,7 @@
 #include "unit/scene/temporary_file.hpp"
 
 /// Scenes from their files to their motion, against closed forms.
-namespace limber::scene {
+namespace limber::scene::build_system_test {
 namespace {
 
 using test::input_error;
@@ -318,4 +318,4 @@ TEST_F(SavedBody, RefusesCouplersThatHoldNoNodes) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::build_system_test

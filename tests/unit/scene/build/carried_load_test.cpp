@@ -10,7 +10,7 @@
 
 #include "unit/scene/scene_folder.hpp"
 
-namespace limber::scene {
+namespace limber::scene::carried_load_test {
 namespace {
 
 using test::kWorld;
@@ -126,4 +126,4 @@ TEST(CarriedLoad, OfAJointIsThatOfAllLinksBeyondIt) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::carried_load_test

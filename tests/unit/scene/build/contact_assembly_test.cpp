@@ -14,7 +14,7 @@
 #include "unit/scene/temporary_file.hpp"
 
 /// Contacts from their files to the pairs of a system.
-namespace limber::scene {
+namespace limber::scene::contact_assembly_test {
 namespace {
 
 using test::input_error;
@@ -377,4 +377,4 @@ TEST_F(TouchingBody, IsRefusedWithASurfaceThatItDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::contact_assembly_test

@@ -10,7 +10,7 @@
 
 /// Couplers built from a robot and a scenario: laws, their parameters, frames
 /// and axes.
-namespace limber::scene {
+namespace limber::scene::coupler_assembly_test {
 namespace {
 
 using joints::JointKind;
@@ -19,7 +19,7 @@ using test::kWorld;
 using test::rigid_link;
 using test::SceneFolder;
 using test::time_table;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 const std::string kTime = time_table(0.1, 1e-3);
@@ -417,14 +417,15 @@ TEST(CouplerAssembly, GearedJointsStartWhereTheOthersPutThem) {
     q.push_back(built.initial.bodies[2].p_WB.z());
     return q;
   };
-  EXPECT_THAT(starts("[initial.joints]\nj = { position = 4.0, velocity = 3.0 "
-                     "}\n"),
-              testing::ElementsAre(4.0, -7.5, -0.75, testing::DoubleEq(-6.0),
-                                   testing::DoubleEq(-0.75)));
+  EXPECT_THAT(
+      starts("[initial.joints]\nj = { position = 4.0, velocity = 3.0 "
+             "}\n"),
+      ::testing::ElementsAre(4.0, -7.5, -0.75, ::testing::DoubleEq(-6.0),
+                             ::testing::DoubleEq(-0.75)));
   EXPECT_THAT(starts("[initial.joints]\nl = { position = 0.25 }\n"),
-              testing::ElementsAre(-1.0, 2.5, 0.25, 0.0, 0.25));
-  EXPECT_THAT(starts(""), testing::ElementsAre(0.0, 0.5, 0.05, 0.0, 0.05));
+              ::testing::ElementsAre(-1.0, 2.5, 0.25, 0.0, 0.25));
+  EXPECT_THAT(starts(""), ::testing::ElementsAre(0.0, 0.5, 0.05, 0.0, 0.05));
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::coupler_assembly_test

@@ -7,7 +7,7 @@
 
 /// Six spheres on two slides close on a box that tumbles, and hold it by
 /// friction alone.
-namespace limber::scene {
+namespace limber::scene::grasp_slow {
 namespace {
 
 using test::kWorld;
@@ -124,4 +124,4 @@ TEST(Grasp, HalvesHardlyAnyStepWhereStepsResolveItsImpacts) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::grasp_slow

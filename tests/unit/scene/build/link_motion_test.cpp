@@ -8,7 +8,7 @@
 #include "limber/common/rotation.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::link_motion_test {
 namespace {
 
 constexpr double kRoundOff = 1e-13;
@@ -79,9 +79,9 @@ TEST(LinkMotion, RefusesForeignJointsAndWrongCounts) {
   scenario.joints["slide"] = {{1.0, 2.0}, {}};
   const std::string text = test::input_error(
       [&] { (void)find_link_motions(make_robot(), scenario); });
-  EXPECT_THAT(text, testing::HasSubstr("did you mean 'turn'"));
-  EXPECT_THAT(text, testing::HasSubstr("has 2 numbers"));
+  EXPECT_THAT(text, ::testing::HasSubstr("did you mean 'turn'"));
+  EXPECT_THAT(text, ::testing::HasSubstr("has 2 numbers"));
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::link_motion_test

@@ -7,7 +7,7 @@
 #include "unit/scene/temporary_file.hpp"
 
 /// Projectiles from the scenario to their motion, against closed forms.
-namespace limber::scene {
+namespace limber::scene::projectile_test {
 namespace {
 
 using test::input_error;
@@ -16,7 +16,7 @@ using test::rigid_link;
 using test::SceneFolder;
 using test::simulate_probes;
 using test::time_table;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kBall =
     "[[projectile]]\nname = 'ball'\nradius = 0.5\nmass = 2.0\n"
@@ -137,4 +137,4 @@ TEST(Projectile, DoesNotDeform) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::projectile_test

@@ -6,7 +6,7 @@
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::recipes_test {
 namespace {
 
 using test::TemporaryFile;
@@ -168,8 +168,8 @@ TEST(Recipes, KeepTheSurfacesThatContactsNeed) {
   EXPECT_TRUE(make_recipe(robot, 0, {}).contact_groups.empty());
   robot.links[0].flexible->contact_groups = {"tip", "pad"};
   EXPECT_THAT(make_recipe(robot, 0, {}).contact_groups,
-              testing::ElementsAre("tip", "pad"));
+              ::testing::ElementsAre("tip", "pad"));
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::recipes_test

@@ -12,7 +12,7 @@
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::rotation_check_test {
 namespace {
 
 using joints::JointKind;
@@ -339,4 +339,4 @@ TEST_F(BodyWithALine, TakesSpringsAndSoftBushingsWithoutRotation) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::rotation_check_test

@@ -8,12 +8,12 @@
 #include "places.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::scenario_writer_test {
 namespace {
 
 using test::input_error;
 using test::TemporaryFile;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -179,4 +179,4 @@ TEST(ScenarioWriter, NamesAFileThatItCannotRead) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::scenario_writer_test

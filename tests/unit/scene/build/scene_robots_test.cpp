@@ -9,7 +9,7 @@
 #include "unit/scene/temporary_file.hpp"
 
 /// Several robots in one scene, against each of them alone and closed forms.
-namespace limber::scene {
+namespace limber::scene::scene_robots_test {
 namespace {
 
 using test::input_error;
@@ -18,7 +18,7 @@ using test::rigid_link;
 using test::SceneFolder;
 using test::simulate_probes;
 using test::time_table;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kArm =
     rigid_link("base", 3.0, 1.0) + rigid_link("upper", 1.0, 0.5, "0.5 0 0") +
@@ -266,4 +266,4 @@ TEST_F(Robots, AreReadOnceWithTheSameSettings) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::scene_robots_test

@@ -8,13 +8,13 @@
 #include "limber/scene/build/load_scene.hpp"
 #include "unit/scene/scene_folder.hpp"
 
-namespace limber::scene {
+namespace limber::scene::settings_test {
 namespace {
 
 using test::SceneFolder;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kScenario = R"(
 [time]
@@ -265,4 +265,4 @@ file = 'robot.urdf'
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::settings_test

@@ -4,15 +4,15 @@
 #include "limber/scene/build/unused_keys.hpp"
 #include "unit/scene/scene_folder.hpp"
 
-namespace limber::scene {
+namespace limber::scene::unused_contact_keys_test {
 namespace {
 
 using test::kWorld;
 using test::SceneFolder;
 using test::time_table;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const std::string kBalls =
     "[[projectile]]\nname = 'a'\nradius = 0.1\nmass = 1.0\nposition = [0.0, "
@@ -71,4 +71,4 @@ TEST(UnusedContactKeys, AreContactsThatOthersDecide) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::unused_contact_keys_test

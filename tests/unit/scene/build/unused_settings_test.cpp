@@ -6,12 +6,12 @@
 #include "limber/scene/build/load_scene.hpp"
 #include "unit/scene/scene_folder.hpp"
 
-namespace limber::scene {
+namespace limber::scene::unused_settings_test {
 namespace {
 
 using test::SceneFolder;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::string make_link(const std::string& name) {
   return "<link name='" + name +
@@ -154,4 +154,4 @@ TEST_F(SettingOfARobot, OfABasisThatTheScenarioChoosesIsTold) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::unused_settings_test

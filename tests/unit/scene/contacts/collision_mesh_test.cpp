@@ -14,7 +14,7 @@
 #include "limber/contact/shapes/skin.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::collision_mesh_test {
 namespace {
 
 using test::input_error;
@@ -254,4 +254,4 @@ TEST(CollisionMesh, RefusesDamagedFilesAndSaysWhere) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::collision_mesh_test

@@ -5,7 +5,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::scene {
+namespace limber::scene::contact_shapes_test {
 namespace {
 
 // Files give whole lengths, as URDF does, shapes have halves.
@@ -57,4 +57,4 @@ TEST(ContactShapes, WithoutOptionsThereIsNeitherFrictionNorLoss) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::contact_shapes_test

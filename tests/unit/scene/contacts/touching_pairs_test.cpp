@@ -6,12 +6,12 @@
 #include "limber/scene/contacts/projectiles.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::touching_pairs_test {
 namespace {
 
 using test::input_error;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 Link make_sphere(const std::string& name) {
   Link link;
@@ -217,4 +217,4 @@ TEST(TouchingPairs, RefusesMorePairsThanAnyoneMeans) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::touching_pairs_test

@@ -17,7 +17,7 @@
 #include "support/elastic_kinds.hpp"
 #include "support/linked_bodies.hpp"
 
-namespace limber::scene {
+namespace limber::scene::linear_outputs_test {
 namespace {
 
 using dynamics::LinearSystem;
@@ -199,4 +199,4 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Bool()));
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::linear_outputs_test

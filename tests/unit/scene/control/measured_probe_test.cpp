@@ -8,7 +8,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
-namespace limber::scene {
+namespace limber::scene::measured_probe_test {
 namespace {
 
 Probe make_probe() {
@@ -59,4 +59,4 @@ TEST(MeasuredProbe, RefusesAColumnThatIsNotThereAndNamesThoseThatAre) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::measured_probe_test

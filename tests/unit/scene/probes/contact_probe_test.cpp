@@ -17,7 +17,7 @@
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::contact_probe_test {
 namespace {
 
 using test::input_error;
@@ -351,4 +351,4 @@ TEST(ContactProbe, RefusesBodiesThatNoContactLetsTouch) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::contact_probe_test

@@ -8,7 +8,7 @@
 #include "unit/scene/scene_folder.hpp"
 
 /// Scenes of rigid links with each kind of coupler, against closed forms.
-namespace limber::scene {
+namespace limber::scene::coupler_motion_test {
 namespace {
 
 using test::kWorld;
@@ -192,4 +192,4 @@ TEST(CouplerMotion, LoopKeepsAFourBarClosed) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::coupler_motion_test

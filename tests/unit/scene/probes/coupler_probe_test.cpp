@@ -14,7 +14,7 @@
 #include "limber/joints/joint_kind.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::coupler_probe_test {
 namespace {
 
 using dynamics::SystemBuilder;
@@ -297,4 +297,4 @@ TEST(CouplerProbe, RefusesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::coupler_probe_test

@@ -7,7 +7,7 @@
 #include "unit/scene/scene_folder.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::coupler_traits_test {
 namespace {
 
 using test::input_error;
@@ -15,7 +15,7 @@ using test::kWorld;
 using test::rigid_link;
 using test::SceneFolder;
 using test::time_table;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string joint(const std::string& name, const std::string& child,
                   const std::string& type) {
@@ -106,4 +106,4 @@ TEST(CouplerTraits, DriveOfAScenarioHoldsAgainstALoad) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::coupler_traits_test

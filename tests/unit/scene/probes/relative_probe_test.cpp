@@ -9,7 +9,7 @@
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/scene/probes/point_probe.hpp"
 
-namespace limber::scene {
+namespace limber::scene::relative_probe_test {
 namespace {
 
 struct TwoBodies {
@@ -112,4 +112,4 @@ TEST(RelativeProbe, OfTheWorldIsThatOfTheWorld) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::relative_probe_test

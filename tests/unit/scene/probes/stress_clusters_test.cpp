@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace limber::scene {
+namespace limber::scene::stress_clusters_test {
 namespace {
 
 /// Written out, apart from the library's.
@@ -94,4 +94,4 @@ TEST(StressClusters, OfADivergingRunAreNotANumber) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::stress_clusters_test

@@ -5,7 +5,7 @@
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::akantu_material_test {
 namespace {
 
 using test::input_error;
@@ -71,4 +71,4 @@ TEST(AkantuMaterial, RefusesASectionThatIsNotWhole) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::akantu_material_test

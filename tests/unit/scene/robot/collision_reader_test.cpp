@@ -6,12 +6,12 @@
 #include "limber/common/roll_pitch_yaw.hpp"
 #include "unit/scene/robot/robot_text.hpp"
 
-namespace limber::scene {
+namespace limber::scene::collision_reader_test {
 namespace {
 
 using test::error_of;
 using test::read;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string link(const std::string& content) {
   return "<link name='a'>" + content + "</link>";
@@ -112,9 +112,9 @@ TEST(CollisionReader, ReadsHowLinksTouch) {
   const Robot flexible =
       read("<contact link='a' surface='tip pad'/>" + link("") + kFlexible);
   EXPECT_THAT(find_surfaces(flexible.links.at(0)),
-              testing::ElementsAre("tip", "pad"));
+              ::testing::ElementsAre("tip", "pad"));
   EXPECT_THAT(find_surfaces(read(link("") + kFlexible).links.at(0)),
-              testing::ElementsAre("skin"));
+              ::testing::ElementsAre("skin"));
 }
 
 TEST(CollisionReader, TellsOfContactsThatDoNotFitTheirLink) {
@@ -145,4 +145,4 @@ TEST(CollisionReader, TellsOfContactsThatDoNotFitTheirLink) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::collision_reader_test

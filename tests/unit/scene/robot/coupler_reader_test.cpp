@@ -7,15 +7,15 @@
 #include "unit/scene/robot/robot_text.hpp"
 
 /// Joints, loops, tendons, gears and latches as the robot's file gives them.
-namespace limber::scene {
+namespace limber::scene::coupler_reader_test {
 namespace {
 
 using joints::JointKind;
 using test::error_of;
 using test::read;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string kRange =
     "<limit lower='-1' upper='2' effort='5' velocity='3'/>";
@@ -429,4 +429,4 @@ TEST(CouplerReader, RefusesLoopsTendonsGearsAndLatchesThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::coupler_reader_test

@@ -6,13 +6,13 @@
 #include "places.hpp"
 #include "unit/scene/robot/robot_text.hpp"
 
-namespace limber::scene {
+namespace limber::scene::robot_reader_test {
 namespace {
 
 using test::error_of;
 using test::input_error;
 using test::read;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string joint(const std::string& name, const std::string& parent,
                   const std::string& child,
@@ -296,8 +296,8 @@ TEST(RobotReader, WarnsOfWordsOfUrdfThatItDoesNotRead) {
            "<environment gravity='1'/><environment/>");
   ASSERT_EQ(robot.warnings.size(), 2U);
   EXPECT_THAT(robot.warnings[0],
-              testing::AllOf(HasSubstr("robot.urdf:4: <dynamics>"),
-                             HasSubstr("'spring_stiffness' is not read")));
+              ::testing::AllOf(HasSubstr("robot.urdf:4: <dynamics>"),
+                               HasSubstr("'spring_stiffness' is not read")));
   EXPECT_THAT(robot.warnings[1], HasSubstr("'environment' is not read"));
 }
 
@@ -336,4 +336,4 @@ TEST(RobotReader, ReadsTheShippedModels) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::robot_reader_test

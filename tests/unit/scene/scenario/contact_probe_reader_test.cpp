@@ -6,7 +6,7 @@
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::contact_probe_reader_test {
 namespace {
 
 using test::input_error;
@@ -80,4 +80,4 @@ TEST(ContactProbeReader, NeedsTheNamesOfTwoBodies) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::contact_probe_reader_test

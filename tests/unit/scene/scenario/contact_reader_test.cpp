@@ -9,13 +9,13 @@
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::contact_reader_test {
 namespace {
 
 using test::input_error;
 using test::TemporaryFile;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 Scenario read(const std::string& text) {
   const TemporaryFile file(
@@ -224,4 +224,4 @@ TEST(ContactReader, TellsEveryProblemOfAContact) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::contact_reader_test

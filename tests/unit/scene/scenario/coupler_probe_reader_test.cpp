@@ -6,7 +6,7 @@
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::coupler_probe_reader_test {
 namespace {
 
 using test::input_error;
@@ -53,4 +53,4 @@ TEST(CouplerProbeReader, RefusesKeysThatTheQuantityDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::coupler_probe_reader_test

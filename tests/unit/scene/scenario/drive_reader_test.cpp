@@ -6,7 +6,7 @@
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::drive_reader_test {
 namespace {
 
 using joints::DriveMode;
@@ -183,4 +183,4 @@ TEST(DriveReader, ReadsReleasesOfLatches) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::drive_reader_test

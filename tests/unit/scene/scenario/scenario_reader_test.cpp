@@ -8,12 +8,12 @@
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::scenario_reader_test {
 namespace {
 
 using test::input_error;
 using test::TemporaryFile;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kStart =
     "robot = \"r.urdf\"\n[time]\nduration = 1.0\nstep = 0.1\n";
@@ -38,8 +38,8 @@ TEST(ScenarioReader, FillsInDefaults) {
 TEST(ScenarioReader, TellsOfAWrongToleranceAlone) {
   const std::string text =
       error_of("robot='r.urdf'\n[time]\nduration=1.0\ntolerance=-1e-3\n");
-  EXPECT_THAT(text, testing::HasSubstr("tolerance"));
-  EXPECT_THAT(text, testing::Not(testing::HasSubstr("'step'")));
+  EXPECT_THAT(text, ::testing::HasSubstr("tolerance"));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("'step'")));
 }
 
 TEST(ScenarioReader, ReadsHowManyStepsAToleranceMayTake) {
@@ -54,14 +54,16 @@ TEST(ScenarioReader, TellsWhereStepsAreLongerThanTheOutputInterval) {
     return read("robot='r.urdf'\n[time]\nduration=1.0\n" + time).warnings;
   };
   EXPECT_THAT(warnings("step=0.1\noutput_interval=0.05\n"),
-              testing::ElementsAre(HasSubstr("no longer than that")));
+              ::testing::ElementsAre(HasSubstr("no longer than that")));
   EXPECT_THAT(warnings("steps={from=[0,0.5],size=[0.01,0.1]}\n"
                        "output_interval=0.05\n"),
-              testing::SizeIs(1));
-  EXPECT_THAT(warnings("step=0.1\noutput_interval=0.1\n"), testing::IsEmpty());
-  EXPECT_THAT(warnings("step=0.1\noutput_times=[0.05]\n"), testing::IsEmpty());
+              ::testing::SizeIs(1));
+  EXPECT_THAT(warnings("step=0.1\noutput_interval=0.1\n"),
+              ::testing::IsEmpty());
+  EXPECT_THAT(warnings("step=0.1\noutput_times=[0.05]\n"),
+              ::testing::IsEmpty());
   EXPECT_THAT(warnings("tolerance=1e-3\nstep=0.1\noutput_interval=0.05\n"),
-              testing::IsEmpty());
+              ::testing::IsEmpty());
 }
 
 TEST(ScenarioReader, ReadsLoadsAndProbes) {
@@ -224,9 +226,9 @@ TEST(ScenarioReader, StepsMayChangeAndOutputsFollowThem) {
   EXPECT_EQ(scenario.settings.step, 0.01);
   ASSERT_EQ(scenario.settings.step_changes.size(), 1U);
   EXPECT_EQ(scenario.settings.step_changes[0].from, 0.02);
-  EXPECT_THAT(
-      scenario.settings.output_times,
-      testing::Pointwise(testing::DoubleEq(), {0.0, 0.01, 0.02, 0.51, 1.0}));
+  EXPECT_THAT(scenario.settings.output_times,
+              ::testing::Pointwise(::testing::DoubleEq(),
+                                   {0.0, 0.01, 0.02, 0.51, 1.0}));
 }
 
 TEST(ScenarioReader, RefusesStepsThatDoNotBeginAtTheStart) {
@@ -276,7 +278,7 @@ TEST(ScenarioReader, TellsHowFarAFourierSeriesIsFromItsTable) {
       with_load_time("kind='fourier',harmonics=1,times=[0,1,2,3,4,5,6,7,8],"
                      "values=[0,1,0,-1,0,1,0,-1,0]"));
   EXPECT_THAT(scenario.warnings,
-              testing::ElementsAre(HasSubstr("1 harmonics miss")));
+              ::testing::ElementsAre(HasSubstr("1 harmonics miss")));
 }
 
 TEST(ScenarioReader, RefusesATableOfALoadWithASlip) {
@@ -293,4 +295,4 @@ TEST(ScenarioReader, RefusesATableOfALoadWithASlip) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::scenario_reader_test

@@ -5,7 +5,7 @@
 
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::force_file_test {
 namespace {
 
 using test::input_error;
@@ -81,4 +81,4 @@ TEST(NodalField, RefusesAnythingElseWithItsLine) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::force_file_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-namespace limber::scene {
+namespace limber::scene::glob_test {
 namespace {
 
 // POSIX has the same rule for these two characters.
@@ -45,4 +45,4 @@ TEST(Glob, KnowsPatternsByTheirCharacters) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::glob_test

@@ -13,7 +13,7 @@
 #include "limber/scene/text/series_file.hpp"
 #include "unit/scene/temporary_file.hpp"
 
-namespace limber::scene {
+namespace limber::scene::reading_test {
 namespace {
 
 using test::TemporaryFile;
@@ -73,4 +73,4 @@ TEST(Reading, KnowsNoLocale) {
 }
 
 }  // namespace
-}  // namespace limber::scene
+}  // namespace limber::scene::reading_test
