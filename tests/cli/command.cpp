@@ -11,13 +11,16 @@
 
 namespace limber::test {
 
+Workspace::Workspace(Cache cache)
+    : cache_((cache == Cache::own ? folder() : own_folder()) / "cache") {}
+
 void Workspace::write(const std::string& name, const std::string& text) const {
   std::ofstream(folder() / name, std::ios::binary) << text;
 }
 
 CommandResult Workspace::limber(const std::string& arguments) const {
   const std::string line = "cd '" + folder().string() + "' && LIMBER_CACHE='" +
-                           folder().string() + "/cache' '" LIMBER_COMMAND "' " +
+                           cache_.string() + "' '" LIMBER_COMMAND "' " +
                            arguments + " >stdout.txt 2>stderr.txt";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,

@@ -15,9 +15,16 @@ struct CommandResult {
   std::string errors;  ///< standard error
 };
 
+/// Where commands of a test keep reduced bodies: with those of all tests of the
+/// process, each made once, or by themselves.
+enum class Cache { shared, own };
+
 /// A temporary folder for one test, removed at the end; commands run in it.
 class Workspace {
  public:
+  /// Its own cache is the folder `cache` in its folder.
+  explicit Workspace(Cache cache = Cache::shared);
+  [[nodiscard]] const std::filesystem::path& cache() const { return cache_; }
   [[nodiscard]] const std::filesystem::path& folder() const {
     return folder_.path();
   }
@@ -27,6 +34,7 @@ class Workspace {
 
  private:
   TemporaryFolder folder_;
+  std::filesystem::path cache_;
 };
 
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);

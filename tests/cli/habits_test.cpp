@@ -30,7 +30,9 @@ const char* const kScenario =
 
 class Habits : public ::testing::Test {
  protected:
-  Habits() { place_.write("s.toml", kScenario); }
+  explicit Habits(Cache cache = Cache::shared) : place_(cache) {
+    place_.write("s.toml", kScenario);
+  }
 
   [[nodiscard]] CommandResult shell(const std::string& line) const {
     return run_shell(place_, line);
@@ -211,13 +213,14 @@ TEST_F(Habits, ZshCompletes) {
 
 class TheCache : public Habits {
  protected:
+  TheCache() : Habits(Cache::own) {}
   void SetUp() override {
     ASSERT_EQ(place_.limber("run s.toml --out r").status, 0);
   }
   [[nodiscard]] json list() const {
     return json::parse(place_.limber("cache list --json").out);
   }
-  [[nodiscard]] fs::path folder() const { return place_.folder() / "cache"; }
+  [[nodiscard]] fs::path folder() const { return place_.cache(); }
   void make_older(const fs::path& file, int hours) const {
     fs::last_write_time(
         file, fs::file_time_type::clock::now() - std::chrono::hours(hours));

@@ -16,9 +16,9 @@ namespace {
 
 // Where and with what cache a shell's line runs.
 std::string find_setting(const Workspace& place) {
-  const std::string folder = place.folder().string();
-  return "cd '" + folder + "' && export LIMBER_CACHE='" + folder +
-         "/cache' && limber() { '" LIMBER_COMMAND "' \"$@\"; } && ";
+  return "cd '" + place.folder().string() + "' && export LIMBER_CACHE='" +
+         place.cache().string() +
+         "' && limber() { '" LIMBER_COMMAND "' \"$@\"; } && ";
 }
 
 }  // namespace

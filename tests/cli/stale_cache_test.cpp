@@ -88,7 +88,7 @@ class StaleCache : public ::testing::TestWithParam<Reach> {};
 
 TEST_P(StaleCache, IsNotUsedAfterASecondFileChanged) {
   const Reach& reach = GetParam();
-  const Workspace place;
+  const Workspace place(Cache::own);
   write_scene(place, reach.main_file);
   place.write(reach.main_file, reach.text);
   const auto mass_of = [](double width) { return 2700 * 0.3 * width * 0.04; };
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Reaches, StaleCache,
 
 // Missing files that were searched for may appear later.
 TEST(StaleCacheOfAbsentFile, IsNotUsedAfterTheFileAppeared) {
-  const Workspace place;
+  const Workspace place(Cache::own);
   write_scene(place, "bar.geo");
   place.write("bar.geo", kHead +
                              "If(FileExists(\"part.geo\"))\n"
@@ -117,7 +117,7 @@ TEST(StaleCacheOfAbsentFile, IsNotUsedAfterTheFileAppeared) {
 
 // ShapeFromFile of a geometry in OpenCASCADE's own form.
 TEST(StaleCacheOfShapes, IsNotUsedAfterTheShapeChanged) {
-  const Workspace place;
+  const Workspace place(Cache::own);
   write_scene(place, "bar.geo");
   place.write("bar.geo",
               kHead + "v() = ShapeFromFile(\"bar.brep\");\n" + kTail);
@@ -176,7 +176,7 @@ class Cached : public ::testing::Test {
     place_.write("part.geo", make_box(0.04));
     EXPECT_EQ(run(place_)["bodies_reduced"], 1);
   }
-  Workspace place_;
+  Workspace place_{Cache::own};
 };
 
 TEST_F(Cached, BodyOfAComputedNameNeedsNoMesh) {
@@ -239,7 +239,7 @@ const std::string kTube =
     "Mesh.MeshSizeMax = 0.01; Mesh.ElementOrder = 2;\n";
 
 TEST(StraightEdges, AreReportedInEachRunOnceForAMesh) {
-  const Workspace place;
+  const Workspace place(Cache::own);
   place.write("tube.geo", kHead + kTube);
   const std::string link =
       "<link name='{0}'/><flexible link='{0}'><mesh file='tube.geo'/>"
@@ -267,7 +267,7 @@ TEST(StraightEdges, AreReportedInEachRunOnceForAMesh) {
 }
 
 TEST(StraightEdges, AreReportedByEveryCommandThatMakesAMesh) {
-  const Workspace place;
+  const Workspace place(Cache::own);
   place.write("tube.geo", kHead + kTube);
   const std::string material =
       " tube.geo --youngs-modulus 70e9 --poisson-ratio 0.3 --density 2700 ";
@@ -283,7 +283,7 @@ TEST(StraightEdges, AreReportedByEveryCommandThatMakesAMesh) {
 }
 
 TEST(CacheFolder, WithoutAHomeIsAskedFor) {
-  const Workspace place;
+  const Workspace place(Cache::own);
   write_scene(place, "bar.geo");
   place.write("bar.geo", kHead + make_box(0.04) + kTail);
   const std::string line = "cd '" + place.folder().string() +
