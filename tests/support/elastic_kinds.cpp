@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/elastic_kinds.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "limber/common/dense/qr.hpp"
 #include "support/free_top.hpp"
 
 namespace limber::testing {
@@ -18,8 +18,7 @@ MatrixX make_basis(Eigen::Index size, unsigned seed) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   MatrixX any(size, size);
   for (double& x : any.reshaped()) x = uniform(random);
-  return Eigen::HouseholderQR<MatrixX>(any).householderQ() *
-         MatrixX::Identity(size, size);
+  return dense::find_q(any, size);
 }
 
 flexbody::QuadraticStrain make_quadratic_strain(const VectorX& lambda,

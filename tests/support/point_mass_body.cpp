@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/point_mass_body.hpp"
 
-#include <Eigen/QR>
 #include <cstddef>
 #include <random>
 
+#include "limber/common/dense/qr.hpp"
 #include "support/draw_vector.hpp"
 
 namespace limber::testing {
@@ -76,8 +76,7 @@ PointMassBody make_point_mass_body(int nodes, int modes, double mass,
       for (int a = 0; a < 3; ++a) basis(3 * i + a, 6 + k) = uniform(random);
     }
   }
-  const MatrixX q = Eigen::HouseholderQR<MatrixX>(basis).householderQ() *
-                    MatrixX::Identity(3 * nodes, 6 + modes);
+  const MatrixX q = dense::find_q(basis, 6 + modes);
   r.rows.Phi_B.resize(3 * nodes, modes);
   for (int i = 0; i < nodes; ++i) {
     r.rows.Phi_B.middleRows<3>(3 * i) = q.block(3 * i, 6, 3, modes) / root[i];

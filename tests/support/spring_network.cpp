@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/model/shape_integrals.hpp"
-#include "support/eigenpairs.hpp"
 
 namespace limber::testing {
 namespace {
@@ -182,7 +182,8 @@ std::shared_ptr<const flexbody::ReducedBody> make_reduced(
   const Eigen::Index n = network.size();
   const MatrixX K = network.calc_tangent(Matrix3X::Zero(3, n));
   const MatrixX M = network.mass();
-  const Eigenpairs eigen = find_eigenpairs(K(free, free), M(free, free));
+  const dense::Eigenpairs eigen =
+      dense::find_eigenpairs(K(free, free), M(free, free));
   auto body = std::make_shared<flexbody::ReducedBody>();
   body->name = "lattice";
   body->clamped = std::ssize(free) < 3 * n;

@@ -3,13 +3,14 @@
 
 #include <vector>
 
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/mesh/node_weights.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/flexbody/model/interface_motion.hpp"
 #include "limber/reduction/reduce.hpp"
-#include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
 /// The table of design.md, section 1: the report's beam, its root held by a
@@ -28,8 +29,8 @@ struct Answer {
 };
 
 Answer solve(const MatrixX& M, const MatrixX& K, const VectorX& tip) {
-  const VectorX answer = K.ldlt().solve(tip);
-  return {tip.dot(answer), limber::testing::find_eigenvalues(K, M)[0]};
+  const VectorX answer = dense::solve(K, tip);
+  return {tip.dot(answer), dense::find_eigenpairs(K, M).values[0]};
 }
 
 /// Rigid velocities at a point p_B: [I, -skew(p)] over [0, I].

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/fem/solid/elastic_inverse.hpp"
 #include "limber/flexbody/modal/modal_response.hpp"
 #include "limber/reduction/departure.hpp"
-#include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's beam loaded at its tip by sin^4(pi t / T). Slow because the
@@ -50,7 +50,7 @@ struct LoadedBeam {
     load = body.interfaces[0].motion.spread(wrench);
     const flexbody::Support& support = body.support;
     force = flexbody::take_rows(load, support.free_nodes);
-    const limber::testing::Eigenpairs pairs = limber::testing::find_eigenpairs(
+    const dense::Eigenpairs pairs = dense::find_eigenpairs(
         MatrixX(support.matrices.K), dense_mass(support.matrices.M_s));
     const Eigen::Index elastic = force.size() - support.R.cols();
     all = {pairs.values.tail(elastic), pairs.vectors.rightCols(elastic)};

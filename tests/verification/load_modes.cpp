@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "limber/reduction/static_modes.hpp"
-#include "support/eigenpairs.hpp"
 #include "verification/shear_load.hpp"
 
 /// Nodal forces as a source of static-deformation modes, and Krylov terms.
@@ -89,7 +89,7 @@ TEST(LoadModes, AreTheLargestOfManyAndTheRestIsReported) {
   const MeshedBody meshed(recipe, {});
   const MatrixX C = F.transpose() * meshed.inverse.solve(F);
   const VectorX energy =
-      limber::testing::find_eigenvalues(0.5 * (C + C.transpose()));
+      dense::find_eigenvalues(MatrixX(0.5 * (C + C.transpose())));
   const double expected =
       std::sqrt(energy.head(kColumns - 12).sum() / energy.sum());
   EXPECT_NEAR(record.left_out, expected, 1e-6 * expected);

@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/elastic_inverse.hpp"
 #include "limber/flexbody/modal/mode_selection.hpp"
-#include "support/eigenpairs.hpp"
 #include "verification/body_reference.hpp"
 
 /// The report's shear test (Figure 6a, Table 2 left): beam clamped at z = 0,
@@ -49,8 +49,8 @@ MatrixX dense_mass(const fem::SparseMatrix& M_s) {
 
 void solve_all(ShearTest& shear) {
   const MatrixX K(shear.matrices.K);
-  const limber::testing::Eigenpairs pairs =
-      limber::testing::find_eigenpairs(K, dense_mass(shear.matrices.M_s));
+  const dense::Eigenpairs pairs =
+      dense::find_eigenpairs(K, dense_mass(shear.matrices.M_s));
   shear.lambda = pairs.values;
   shear.Phi = pairs.vectors;
 }

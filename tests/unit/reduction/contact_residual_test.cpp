@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/fem/mesh/node_weights.hpp"
-#include "support/eigenpairs.hpp"
 #include "unit/reduction/bar.hpp"
 
 /// The flexibility that a basis leaves out, against the rod's closed form and
@@ -92,7 +92,7 @@ struct DenseBar {
                           .material = {200e9, 0.3, 8000.0},
                           .is_clamped = is_clamped}),
              {}},
-        pairs(limber::testing::find_eigenpairs(
+        pairs(dense::find_eigenpairs(
             testing::dense_stiffness(body),
             testing::kron(body.support.matrices.M_s, Matrix3::Identity()))),
         rigid(is_clamped ? 0 : 6) {}
@@ -147,7 +147,7 @@ struct DenseBar {
   }
 
   MeshedBody body;
-  limber::testing::Eigenpairs pairs;
+  dense::Eigenpairs pairs;
   Eigen::Index rigid;
 };
 

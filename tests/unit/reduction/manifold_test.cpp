@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "limber/common/dense/singular_values.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/fem/solid/nonlinear_solid.hpp"
 #include "limber/fem/solid/second_order.hpp"
@@ -112,11 +113,10 @@ TEST(Manifold, InterfaceTablesAreDerivativesOfThePolarRotation) {
       const Matrix3X u =
           all.reshaped(3, made.body.rows.x_B.cols())(Eigen::all, on.nodes);
       const Matrix3 G = (d + u) * on.weights.asDiagonal() * d.transpose();
-      const Eigen::JacobiSVD<Matrix3> svd(
-          G, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Matrix3 R = svd.matrixU() * svd.matrixV().transpose();
+      const auto svd = dense::find_singular_form(G);
+      Matrix3 R = svd.U * svd.V.transpose();
       if (R.determinant() < 0.0) {  // nodes in a plane
-        R -= 2.0 * svd.matrixU().col(2) * svd.matrixV().col(2).transpose();
+        R -= 2.0 * svd.U.col(2) * svd.V.col(2).transpose();
       }
       Vector6 motion;
       motion << u * on.weights, log_rotation(R);

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/flexbody/modal/modal_response.hpp"
 #include "limber/reduction/departure.hpp"
@@ -85,8 +85,8 @@ TEST_P(Power, PartsOfALoadDoNoWorkOnEachOthersMotion) {
                       });
     EXPECT_LT(std::abs(perpendicular.dot(q)), kRoundoff * F.norm() * q.norm());
     // M q_f with the rigid acceleration q_f that Newton and Euler give to F.
-    const VectorX c =
-        (rigid.transpose() * M_ * rigid).llt().solve(rigid.transpose() * F);
+    const VectorX c = dense::solve(MatrixX(rigid.transpose() * M_ * rigid),
+                                   VectorX(rigid.transpose() * F));
     EXPECT_LT((parallel - M_ * rigid * c).norm(), 1e-11 * F.norm());
   }
 }

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 
 /// Pads against all sets of them that could be pressed, and against the rigid
@@ -40,7 +40,7 @@ VectorX try_all_sets(const MatrixX& C, const VectorX& d) {
     }
     VectorX f = VectorX::Zero(k);
     if (!on.empty()) {
-      const VectorX pressed = C(on, on).fullPivLu().solve(VectorX(d(on)));
+      const VectorX pressed = dense::solve(MatrixX(C(on, on)), VectorX(d(on)));
       f(on) = pressed;
     }
     const VectorX gap = C * f - d;

@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "limber/common/dense/general_eigen.hpp"
+#include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
@@ -67,8 +66,8 @@ Complex find_gain(const LinearSystem& system, Index input, const Complex& s) {
   const Index n = system.A.rows();
   const Eigen::MatrixXcd pencil =
       s * Eigen::MatrixXcd::Identity(n, n) - system.A.cast<Complex>();
-  const Eigen::VectorXcd z =
-      pencil.lu().solve(system.B.col(input).cast<Complex>());
+  const Eigen::VectorXcd z = dense::solve(
+      pencil, Eigen::MatrixXcd(system.B.col(input).cast<Complex>()));
   return (system.links.row(5) * z)(0);
 }
 
@@ -92,9 +91,9 @@ TEST(LinearSystem, OfADrivenRotorIsItsClosedForm) {
     // The drive's moment, and that of a command.
     const Complex held =
         (system.wrenches.row(5) *
-         (s * Eigen::MatrixXcd::Identity(12, 12) - system.A.cast<Complex>())
-             .lu()
-             .solve(system.B.col(1).cast<Complex>()))(0);
+         dense::solve(Eigen::MatrixXcd(s * Eigen::MatrixXcd::Identity(12, 12) -
+                                       system.A.cast<Complex>()),
+                      Eigen::MatrixXcd(system.B.col(1).cast<Complex>())))(0);
     const Complex moment = held + system.wrenches_by_input(5, 1);
     const Complex exact = kStiffness * kInertia * s * s / denominator;
     EXPECT_LT(std::abs(moment - exact), 1e-8 * kStiffness);
@@ -118,7 +117,8 @@ TEST(LinearSystem, HasTheEigenvaluesOfTheNaturalModes) {
         testing::make_linked_bodies(link, {true, false, true}, 3, 0.0);
     const NaturalModes modes = find_natural_modes(linked.model, linked.state);
     const LinearSystem system = linearise(linked.model, linked.state);
-    const Eigen::VectorXcd found = system.A.eigenvalues();
+    const Eigen::VectorXcd found =
+        dense::find_general_eigenpairs(system.A, false).values;
     const double largest = found.cwiseAbs().maxCoeff();
     int count = 0;
     for (const NaturalMode& mode : modes.modes) {
@@ -183,7 +183,7 @@ TEST(LinearSystem, HasTheLoadsOfDifferencesOfTheAccelerations) {
     const VectorX exact =
         find_difference(model, motion, linked.state, change(kStep),
                         change(-kStep), 2.0 * kStep);
-    const VectorX found = motion.M.ldlt().solve(system.inputs[i].force);
+    const VectorX found = dense::solve(motion.M, system.inputs[i].force);
     EXPECT_GT(exact.norm(), 0.1);
     EXPECT_LT((found - exact).norm(), 1e-9 * (1.0 + exact.norm()));
   }
@@ -237,7 +237,7 @@ TEST(LinearSystem, HasTheDrivesOfDifferencesOfTheAccelerations) {
           linked.model, motion, linked.state,
           accelerate(make(kCommand + kStep).model, linked.state),
           accelerate(make(kCommand - kStep).model, linked.state), 2.0 * kStep);
-      const VectorX found = motion.M.ldlt().solve(force);
+      const VectorX found = dense::solve(motion.M, force);
       EXPECT_GT(exact.norm(), 0.1);
       EXPECT_LT((found - exact).norm(), 1e-9 * (1.0 + exact.norm()));
     }
@@ -268,7 +268,8 @@ TEST(LinearSystem, OfASpinningDiscHasTheClosedFormsOfItsWhirls) {
   EXPECT_EQ(system.free, 1);
   const double half = 0.5 * kSpin * kPolar / kAcross;
   const double root = std::hypot(half, std::sqrt(kTilt / kAcross));
-  const Eigen::VectorXcd found = system.A.eigenvalues();
+  const Eigen::VectorXcd found =
+      dense::find_general_eigenpairs(system.A, false).values;
   for (const double w : {root + half, root - half, std::sqrt(8e3 / 2.0),
                          std::sqrt(5e4 / 2.0), std::sqrt(1e6 / 2.0)}) {
     for (const Complex s : {Complex(0, w), Complex(0, -w)}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/monitors/energy_watch.hpp"
@@ -14,7 +15,6 @@
 #include "limber/dynamics/simulation/work_budget.hpp"
 #include "limber/joints/point_spring.hpp"
 #include "support/chain.hpp"
-#include "support/eigenpairs.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::dynamics::guard_test {
@@ -73,7 +73,7 @@ double find_critical_speed(const PointMassBody& body, const Vector3& axis) {
     B += body.masses[n] * phi.transpose() * across * phi;
   }
   const MatrixX Lambda = r.lambda.asDiagonal();
-  return 1.0 / std::sqrt(testing::find_eigenvalues(B, Lambda).maxCoeff());
+  return 1.0 / std::sqrt(dense::find_eigenpairs(B, Lambda).values.maxCoeff());
 }
 
 TEST(Softening, IsOneAtTheCriticalSpeedOfThePointMasses) {

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/qr.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/assembly.hpp"
 #include "limber/fem/solid/skin.hpp"
-#include "support/eigenpairs.hpp"
 #include "unit/fem/meshes.hpp"
 
 /// Against dense solutions of the same equations.
@@ -59,7 +59,7 @@ struct Box {
     const Eigen::Index dofs = matrices.dof_count();
     if (R.cols() == 0) return MatrixX::Identity(dofs, dofs);
     const MatrixX MR = multiply_mass(matrices.M_s, R);
-    const MatrixX Q = Eigen::HouseholderQR<MatrixX>(MR).householderQ();
+    const MatrixX Q = dense::find_q(MR, MR.rows());
     return Q.rightCols(dofs - R.cols());
   }
 
@@ -81,7 +81,7 @@ class SpunBox : public ::testing::TestWithParam<bool> {
 
   /// Of K x = Omega^2 M E x, densely.
   [[nodiscard]] double dense_critical_speed() const {
-    const VectorX values = limber::testing::find_eigenvalues(ME_, K_);
+    const VectorX values = dense::find_eigenpairs(ME_, K_).values;
     return 1.0 / std::sqrt(values[ME_.cols() - 1]);
   }
 };
@@ -103,7 +103,7 @@ TEST_P(SpunBox, DeformationIsThatOfADenseSolver) {
   for (const double share : {0.0, 0.3, 0.9, 0.999}) {
     const double speed = share * dense_critical_speed();
     const MatrixX A = K_ - speed * speed * ME_;
-    const VectorX expected = V_ * A.ldlt().solve(VectorX(V_.transpose() * F));
+    const VectorX expected = V_ * dense::solve(A, VectorX(V_.transpose() * F));
     const VectorX found = solve_spun(inverse_, axis_, speed, F);
     // What the softening leaves of the lowest stiffness is lost in digits.
     const double tolerance = kRoundoff / (1.0 - share * share);

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <random>
 
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
-#include "support/eigenpairs.hpp"
 
 namespace limber::flexbody::mode_selection_test {
 namespace {
@@ -65,12 +66,12 @@ Structure make_structure(unsigned seed, bool is_free) {
   if (is_free) {
     const MatrixX r = rigid_motions(s.x);
     const MatrixX Mr = s.M * r;
-    const MatrixX P = MatrixX::Identity(s.K.rows(), s.K.cols()) -
-                      r * (r.transpose() * Mr).inverse() * Mr.transpose();
+    const MatrixX P =
+        MatrixX::Identity(s.K.rows(), s.K.cols()) -
+        r * dense::find_inverse(r.transpose() * Mr) * Mr.transpose();
     s.K = MatrixX(P.transpose() * s.K * P);
   }
-  const limber::testing::Eigenpairs pairs =
-      limber::testing::find_eigenpairs(s.K, s.M);
+  const dense::Eigenpairs pairs = dense::find_eigenpairs(s.K, s.M);
   const Eigen::Index elastic = s.K.cols() - (is_free ? 6 : 0);
   s.lambda = pairs.values.tail(elastic);
   s.Phi = pairs.vectors.rightCols(elastic);
@@ -108,7 +109,7 @@ TEST(ModalCompliance, SumsToTheLoadsCompliance) {
   const Structure s = make_structure(1, false);
   std::mt19937 random(2);
   const VectorX f = random_matrix(random, s.K.rows(), 1);
-  const VectorX solved = s.K.ldlt().solve(f);
+  const VectorX solved = dense::solve(s.K, f);
   EXPECT_NEAR(calc_modal_compliance(s.Phi.transpose() * f, s.lambda).sum() /
                   f.dot(solved),
               1.0, kRoundoff);
@@ -267,7 +268,7 @@ TEST(ModeAcceleration, WorksInstantByInstant) {
   const Structure s = make_structure(8, false);
   std::mt19937 random(9);
   const MatrixX f = random_matrix(random, s.K.rows(), 3);
-  const MatrixX statics = s.K.ldlt().solve(f);
+  const MatrixX statics = dense::solve(s.K, f);
   const MatrixX Phi = s.Phi.leftCols(3);
   const MatrixX loads = Phi.transpose() * f;
   const MatrixX eta = random_matrix(random, 3, 3);

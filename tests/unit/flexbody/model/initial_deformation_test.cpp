@@ -4,10 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <string>
+
+#include "limber/common/dense/linear_solve.hpp"
+#include "limber/common/dense/qr.hpp"
 
 namespace limber::flexbody::initial_deformation_test {
 namespace {
@@ -26,15 +27,14 @@ class InitialField : public ::testing::Test {
     const MatrixX M = A * A.transpose() + MatrixX::Identity(12, 12);
     M_s_ = M.sparseView();
     MatrixX L = MatrixX::Zero(36, 36);  // M = L L' of all components
-    const MatrixX own = M.llt().matrixL();
+    const MatrixX own = dense::find_cholesky(M).value();
     for (Eigen::Index i = 0; i < 12; ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) {
         L.block<3, 3>(3 * i, 3 * j) = own(i, j) * Matrix3::Identity();
       }
     }
-    const MatrixX Q =
-        Eigen::HouseholderQR<MatrixX>(MatrixX::Random(36, 36)).householderQ();
-    fields_ = L.transpose().triangularView<Eigen::Upper>().solve(Q);
+    const MatrixX Q = dense::find_q(MatrixX::Random(36, 36), 36);
+    fields_ = dense::solve_lower_transposed(L, Q);
   }
   [[nodiscard]] ProjectedField project(const VectorX& u) const {
     return project_field(u, fields_.middleCols(6, 4), M_s_,
