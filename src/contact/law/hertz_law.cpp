@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/types.hpp"
 #include "limber/contact/law/check_value.hpp"
 
 namespace limber::contact {
