@@ -12,6 +12,7 @@
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -31,6 +32,27 @@ void remember_angles(const SystemModel& model, SystemState& state) {
     }
   }
   PairCommit{model}(state);
+}
+
+/// Names the coupler whose force is rounded most, if by more than a millionth
+/// of the acting force [N]; else empty.
+std::string describe_coupler_rounding(const SystemModel& model,
+                                      const SystemTerms& terms, double acting) {
+  constexpr double kRounded = 1e-6;
+  std::vector<Vector6> gaps;
+  find_roundoff_gaps(model, terms, 0.0, gaps);
+  double worst = kRounded * acting;
+  std::string text;
+  for (std::size_t c = 0; c < terms.couplers.size(); ++c) {
+    const double noise = gaps[c].head<3>().norm();
+    if (!(noise > worst)) continue;
+    worst = noise;
+    text = fmt::format(
+        "Rounding of positions changes the force of coupler '{}' by {:.2g} N, "
+        "where {:.3g} N act: it is too stiff to be solved; make it softer",
+        model.couplers[c].name, noise, acting);
+  }
+  return text;
 }
 
 bool try_solve(StaticNewton& newton, const VectorX& target,
@@ -74,19 +96,25 @@ class Continuation {
         continue;
       }
       step = 0.5 * (next - reached);
-      if (step < settings_.smallest_share) fail(reached);
+      if (step < settings_.smallest_share)
+        fail(reached, newton_.measure_force(unbalanced));
     }
     return steps;
   }
 
  private:
-  [[noreturn]] void fail(double reached) const {
+  [[noreturn]] void fail(double reached, double acting) const {
     const auto b = static_cast<std::size_t>(newton_.most_moved());
+    const std::string cause =
+        describe_coupler_rounding(model_, newton_.terms(), acting);
     throw NumericalError(fmt::format(
         "body '{}': no equilibrium beyond {:.4g} of the unbalanced forces at "
-        "the start. There is a limit point, or unconstrained motion; "
-        "relaxation may find a more distant equilibrium",
-        model_.bodies[b].name, reached));
+        "the start. {}",
+        model_.bodies[b].name, reached,
+        !cause.empty()
+            ? cause
+            : "There is a limit point, or unconstrained motion; relaxation may "
+              "find a more distant equilibrium"));
   }
 
   const SystemModel& model_;

@@ -20,6 +20,10 @@ constexpr double kProbe = 1e-7;
 constexpr double kLongestCorrection = 0.2;
 // Tolerance of the linear solution of a correction.
 constexpr double kLinear = 1e-4;
+// Corrections below this share of the extent may be round-off.
+constexpr double kFineLength = 1e-9;
+// A slow step's correction of forces that balance, relative to the extent.
+constexpr double kBalancedLength = 1e-12;
 // Above this residual the matrix is singular.
 constexpr double kSolved = 0.1;
 constexpr int kKrylovVectors = 60;
@@ -96,18 +100,20 @@ const VectorX& StaticNewton::calc_forces_left(const SystemState& state) {
   return residual_;
 }
 
-double StaticNewton::measure_acceleration(const VectorX& residual) const {
-  // r / m for translations, r / (m r^2) for rotations, r for modes, each times
-  // its weight: equal to r over weight over the mass.
-  double mass = 0.0;
-  for (const BodyModel& body : model_.bodies) mass += body.mass;
+double StaticNewton::measure_force(const VectorX& residual) const {
+  // m r / m for translations, m r / (m r^2) for rotations, sqrt(m) r for modes,
+  // each times its weight: equal to r over weight.
   double squared = 0.0;
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (weights_[i] > 0.0) {
-      squared += std::pow(residual[i] / (weights_[i] * mass), 2);
-    }
+    if (weights_[i] > 0.0) squared += std::pow(residual[i] / weights_[i], 2);
   }
   return std::sqrt(squared);
+}
+
+double StaticNewton::measure_acceleration(const VectorX& residual) const {
+  double mass = 0.0;
+  for (const BodyModel& body : model_.bodies) mass += body.mass;
+  return measure_force(residual) / mass;
 }
 
 BodyIndex StaticNewton::most_moved() const {
@@ -168,6 +174,8 @@ double StaticNewton::measure_slow_step(const SystemState& state) {
 bool StaticNewton::correct(const SystemState& state, const VectorX& target) {
   const VectorX right = target - calc_forces_left(state);
   factor(state);
+  matrix_.solve(model_, terms_, -right, correction_);
+  slow_ = measure(correction_);
   // Unknowns are lengths, so that norms are means over the system.
   const VectorX scale =
       (weights_.array() > 0.0).select(weights_.cwiseInverse(), 1.0);
@@ -194,7 +202,9 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
   double last = 0.0;
   for (int i = 0; i < settings.max_iterations; ++i) {
     ++iterations_;
-    if (!correct(state, target)) return false;
+    if (!correct(state, target)) return i > 0 && slow_ < kFineLength * extent_;
+    // Free motion makes the matrix singular: it has no solution for round-off.
+    if (i > 0 && slow_ <= kBalancedLength * extent_) return true;
     const double length = measure(correction_);
     const double share = std::min(1.0, kLongestCorrection * extent_ / length);
     matrix_.find_wrench_changes(terms_, correction_, changes_);
@@ -203,8 +213,7 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
     const double left = length / extent_;
     if (share == 1.0 && left <= settings.tolerance) return true;
     // Round-off: corrections no longer decrease.
-    constexpr double kFine = 1e-9;
-    if (i > 0 && left < kFine && length > 0.5 * last) return true;
+    if (i > 0 && left < kFineLength && length > 0.5 * last) return true;
     last = length;
   }
   return false;

@@ -24,6 +24,9 @@ class StaticNewton {
   [[nodiscard]] const VectorX& calc_forces_left(const SystemState& state);
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }
 
+  /// Force on the whole mass for the acceleration below [N].
+  [[nodiscard]] double measure_force(const VectorX& residual) const;
+
   /// Root mean square acceleration that such forces cause [m/s^2].
   [[nodiscard]] double measure_acceleration(const VectorX& residual) const;
 
@@ -67,6 +70,7 @@ class StaticNewton {
   VectorX residual_;  ///< of the laws
   VectorX base_;      ///< of the wrenches
   VectorX correction_;
+  double slow_ = 0.0;  ///< length of the slow step's correction [m]
   int iterations_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/residual.hpp"
@@ -23,6 +24,7 @@ constexpr double kTolerance = 1e-12;  // of the extent
 constexpr double kFine = 1e-9;        // from here corrections may be round-off
 constexpr double kLongest = 0.2;      // largest correction, of the extent
 constexpr double kShift = 1e-3;       // of M, in w^2
+constexpr double kHeld = 1e-3;        // stiffness over that of M w^2
 constexpr int kIterations = 60;
 
 bool is_across(const Vector3& vector, const Vector3& w) {
@@ -124,6 +126,37 @@ class Spin {
     }
   }
 
+  // Rotation of a group about the axis, as small motion.
+  [[nodiscard]] VectorX find_turn(const SmallMotion& motion,
+                                  const SystemState& state,
+                                  const std::vector<BodyIndex>& group) const {
+    VectorX turned = VectorX::Zero(motion.size());
+    const Vector3 centre = p_0_ + w_.cross(v_0_) / w_.squaredNorm();
+    for (const BodyIndex b : group) {
+      const Index place = motion.places[index(b)];
+      turned.segment<3>(place) = w_.cross(state.bodies[index(b)].p_WB - centre);
+      turned.segment<3>(place + 3) = w_;
+    }
+    return turned;
+  }
+
+  // Rotations of groups about the axis that nothing holds, as columns. Every
+  // such angle is steady, but for dampers that do not rotate with the group and
+  // brake it, which no angle would balance.
+  [[nodiscard]] MatrixX find_free_turns(const SmallMotion& motion,
+                                        const SystemState& state) const {
+    MatrixX free(motion.size(), 0);
+    for (const auto& group : find_linked_groups(model_)) {
+      const VectorX turned = find_turn(motion, state, group);
+      const double inertia = turned.dot(motion.M * turned);
+      const double held = motion.project_stiffness(turned)(0, 0);
+      if (std::abs(held) > kHeld * w_.squaredNorm() * inertia) continue;
+      free.conservativeResize(Eigen::NoChange, free.cols() + 1);
+      free.rightCols<1>() = turned / std::sqrt(inertia);
+    }
+    return free;
+  }
+
   // Velocities of the rotation.
   void turn(SystemState& state) const {
     state.etadot.setZero();
@@ -143,6 +176,24 @@ class Spin {
     return residual;
   }
 
+  // x of S x + B a = right, B' x = 0; a are the accelerations by which free
+  // turns are braked. Scaled to one size: soft modes keep their digits beside
+  // stiff couplers.
+  static VectorX solve(const MatrixX& S, const MatrixX& B,
+                       const VectorX& right) {
+    const Index n = S.rows();
+    const VectorX scale =
+        S.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    MatrixX bordered = MatrixX::Zero(n + B.cols(), n + B.cols());
+    bordered.topLeftCorner(n, n) = scale.asDiagonal() * S * scale.asDiagonal();
+    bordered.topRightCorner(n, B.cols()) = scale.asDiagonal() * B;
+    bordered.bottomLeftCorner(B.cols(), n) =
+        bordered.topRightCorner(n, B.cols()).transpose();
+    VectorX sides = VectorX::Zero(n + B.cols());
+    sides.head(n) = scale.cwiseProduct(right);
+    return scale.cwiseProduct(dense::solve(bordered, sides).head(n));
+  }
+
   VectorX correct(const SystemState& state) {
     const VectorX residual = find_residual(state);
     const SmallMotion motion =
@@ -160,12 +211,8 @@ class Spin {
       right.segment(motion.modes[b], model_.bodies[b].modes) =
           -residual.segment(row + 6, model_.bodies[b].modes);
     }
-    // Scaled to one size: soft modes keep their digits beside stiff couplers.
-    const VectorX scale =
-        S.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    S = (scale.asDiagonal() * S * scale.asDiagonal()).eval();
-    const VectorX scaled = scale.cwiseProduct(right);
-    const VectorX x = scale.cwiseProduct(dense::solve(S, scaled));
+    const VectorX x =
+        solve(S, motion.M * find_free_turns(motion, state), right);
     VectorX correction = VectorX::Zero(residual.size());
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const Index row = first_row(model_.bodies[b], b);

@@ -14,7 +14,10 @@ namespace limber::dynamics {
 ///            system that nothing ties to the world, else 0; by Newton's method
 ///            with the stiffness S of SmallMotion in these axes. A small share
 ///            of M, which does not change the solution, is added to S, for
-///            motion that S leaves free
+///            motion that S leaves free. Rotations about the axis that nothing
+///            holds keep their angles: dampers that do not rotate may brake
+///            them, which no angle would balance; the rest is found for bodies
+///            so braked
 /// Limits     dense: (6 bodies + modes)^3. No pairs, no bodies at level `full`
 /// @param start its velocities are those of a rotation of all bodies about one
 /// axis, of constant direction in the world

@@ -39,26 +39,42 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-Groups find_groups(const SystemModel& model) {
+// Connections to the world count only if it is a body like others.
+Groups find_groups(const SystemModel& model, bool with_world = true) {
   Groups groups(model.bodies.size());
+  const auto join = [&](BodyIndex a, BodyIndex b) {
+    if (with_world || (a != kWorld && b != kWorld)) groups.join(a, b);
+  };
   const auto body_at = [&](AttachmentIndex a) {
     return model.attachments[static_cast<std::size_t>(a)].body;
   };
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].clamped) groups.join(BodyIndex(b), kWorld);
+    if (model.bodies[b].clamped) join(BodyIndex(b), kWorld);
   }
   for (const Coupler& c : model.couplers) {
-    groups.join(body_at(c.frame_F), body_at(c.frame_M));
+    join(body_at(c.frame_F), body_at(c.frame_M));
   }
-  for (const Pair& pair : model.pairs) groups.join(pair.body_A, pair.body_B);
+  for (const Pair& pair : model.pairs) join(pair.body_A, pair.body_B);
   for (const Transmission& t : model.transmissions) {
     const auto* path = std::get_if<PathCoordinate>(&t.coordinate);
     if (path == nullptr) continue;  // its joints are couplers
     for (const AttachmentIndex point : path->points) {
-      groups.join(body_at(path->points.front()), body_at(point));
+      join(body_at(path->points.front()), body_at(point));
     }
   }
   return groups;
+}
+
+/// Bodies of each group without the world.
+std::vector<std::vector<BodyIndex>> collect_groups(const SystemModel& model,
+                                                   const Groups& groups) {
+  std::vector<std::vector<BodyIndex>> by_root(model.bodies.size() + 1);
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
+    if (groups.root(b) == groups.root(kWorld)) continue;
+    by_root[groups.root(b)].push_back(b);
+  }
+  std::erase_if(by_root, [](const auto& group) { return group.empty(); });
+  return by_root;
 }
 
 /// Force and moment about the world's origin.
@@ -231,14 +247,12 @@ double find_extent(const SystemModel& model, const SystemState& state) {
 }
 
 std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
-  const Groups groups = find_groups(model);
-  std::vector<std::vector<BodyIndex>> by_root(model.bodies.size() + 1);
-  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
-    if (groups.root(b) == groups.root(kWorld)) continue;
-    by_root[groups.root(b)].push_back(b);
-  }
-  std::erase_if(by_root, [](const auto& group) { return group.empty(); });
-  return by_root;
+  return collect_groups(model, find_groups(model));
+}
+
+std::vector<std::vector<BodyIndex>> find_linked_groups(
+    const SystemModel& model) {
+  return collect_groups(model, find_groups(model, false));
 }
 
 void check_balance(const SystemModel& model, const SystemState& state,

@@ -35,6 +35,11 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
 [[nodiscard]] std::vector<std::vector<BodyIndex>> find_free_groups(
     const SystemModel& model);
 
+/// Groups of bodies that are connected to each other, except by way of the
+/// world. A body that the world clamps is one of its own.
+[[nodiscard]] std::vector<std::vector<BodyIndex>> find_linked_groups(
+    const SystemModel& model);
+
 /// Checks that the forces on each free group balance, since internal forces
 /// cannot balance them in any configuration.
 /// @param terms at rest, evaluated by calc_terms

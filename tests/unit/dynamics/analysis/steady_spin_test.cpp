@@ -5,10 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <complex>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 
 namespace limber::dynamics::steady_spin_test {
@@ -83,6 +86,98 @@ TEST(SteadySpin, OfTwoMassesStretchesTheirSpringByTheCentrifugalForce) {
 
 TEST(SteadySpin, EndsWithAnErrorBeyondTheCriticalSpeed) {
   EXPECT_THROW((void)Dumbbell().solve(25.0 * Vector3::UnitZ()), NumericalError);
+}
+
+// A rotor on a hinge of the world, its mass at an arm r from the axis. In its
+// own axes its centre moves by d = d_x + i d_y from the arm's end:
+// m (-w^2 + i a) (r + d) = -(k + i c w) d. The damper, which stays in the
+// world, brakes it by a, which no angle balances: the force at the hinge, about
+// the centre, is J a = m r (w^2 d_y - a (r + d_x)).
+struct Rotor {
+  static constexpr double kMass = 1.0;
+  static constexpr double kArm = 0.02;
+  static constexpr double kHold = 1e8;
+  static constexpr double kDamper = 500.0;
+  static constexpr double kInertia = 0.01;
+
+  SystemBuilder builder;
+  Matrix3 R;
+  Vector3 at;
+
+  Rotor(const Matrix3& axes, const Vector3& place) : R(axes), at(place) {
+    add("rotor", kArm);
+  }
+  void add(const std::string& name, double arm) {
+    const BodyIndex body =
+        builder.add_rigid_body(name, {kMass, kInertia * Matrix3::Identity()});
+    builder.add_coupler(
+        name + " axle",
+        joints::make_joint(joints::JointKind::revolute, Vector3::UnitZ(), {},
+                           {.translational_stiffness = kHold,
+                            .rotational_stiffness = 1e6,
+                            .translational_damping = kDamper,
+                            .rotational_damping = 1.0}),
+        builder.attach_world(name + ".F", {R, at}),
+        builder.attach_frame(name + ".M", body,
+                             {Matrix3::Identity(), {-arm, 0.0, 0.0}}));
+    arms.push_back(arm);
+  }
+  [[nodiscard]] SystemState solve(double speed) const {
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    const Vector3 w = R * (speed * Vector3::UnitZ());
+    for (std::size_t b = 0; b < arms.size(); ++b) {
+      state.bodies[b].quat_WB = Quaternion(R);
+      state.bodies[b].p_WB = at + R * Vector3(arms[b], 0.0, 0.0);
+      state.bodies[b].v_WB_W = w.cross(state.bodies[b].p_WB - at);
+      state.bodies[b].w_WB_B = speed * Vector3::UnitZ();
+    }
+    return find_steady_spin(model, state);
+  }
+  /// Of the centre, in the rotor's own axes.
+  [[nodiscard]] Vector3 find_shift(const SystemState& state,
+                                   std::size_t body) const {
+    const BodyState& rotor = state.bodies[body];
+    return rotor.quat_WB.conjugate() * (rotor.p_WB - at) -
+           Vector3(arms[body], 0.0, 0.0);
+  }
+  static void expect_shift(const Vector3& found, double arm, double speed) {
+    std::complex<double> d;
+    double a = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      const std::complex<double> inertial =
+          kMass * std::complex<double>(speed * speed, -a);
+      d = inertial * arm /
+          (std::complex<double>(kHold, kDamper * speed) - inertial);
+      a = kMass * arm * speed * speed * d.imag() /
+          (kInertia + kMass * arm * (arm + d.real()));
+    }
+    EXPECT_NEAR(found.x(), d.real(), 1e-9 * std::abs(d) + 1e-15);
+    EXPECT_NEAR(found.y(), d.imag(), 1e-9 * std::abs(d) + 1e-15);
+    EXPECT_NEAR(found.z(), 0.0, 1e-15);
+  }
+
+  std::vector<double> arms;
+};
+
+TEST(SteadySpin, OfARotorWithItsMassOffTheAxisExistsAtEverySpeed) {
+  const Matrix3 turned = exp_rotation(Vector3(0.4, -1.1, 0.7));
+  for (const double speed : {-300.0, 0.01, 10.0, 300.0, 5000.0}) {
+    for (const Matrix3& R : {Matrix3(Matrix3::Identity()), turned}) {
+      SCOPED_TRACE(speed);
+      const Rotor rotor(R, {0.0, 0.0, 0.0});
+      Rotor::expect_shift(rotor.find_shift(rotor.solve(speed), 0), Rotor::kArm,
+                          speed);
+    }
+  }
+}
+
+TEST(SteadySpin, OfTwoRotorsOnOneAxisIsThatOfEach) {
+  Rotor rotor(Matrix3::Identity(), Vector3::Zero());
+  rotor.add("other", -0.05);
+  const SystemState found = rotor.solve(200.0);
+  Rotor::expect_shift(rotor.find_shift(found, 0), Rotor::kArm, 200.0);
+  Rotor::expect_shift(rotor.find_shift(found, 1), -0.05, 200.0);
 }
 
 TEST(SteadySpin, RefusesVelocitiesOfNoRotation) {
