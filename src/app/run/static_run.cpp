@@ -14,6 +14,7 @@
 #include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/monitors/hold_watch.hpp"
 #include "limber/results/pictures.hpp"
 #include "limber/results/probes_csv.hpp"
 #include "limber/results/results_file.hpp"
@@ -46,6 +47,9 @@ void add_static_warnings(const std::filesystem::path& cache, StaticRun& run) {
   survey.include(run.found.state);
   const auto levels = find_level_warnings(survey.judge());
   run.warnings.insert(run.warnings.end(), levels.begin(), levels.end());
+  const auto holds =
+      dynamics::find_hold_warnings(run.built.model, run.found.state);
+  run.warnings.insert(run.warnings.end(), holds.begin(), holds.end());
   if (is_unstable(run.report)) {
     run.warnings.push_back(fmt::format(
         "this equilibrium is unstable: a disturbance grows as exp(2 pi {:.3g} "

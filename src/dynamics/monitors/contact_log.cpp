@@ -11,6 +11,7 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/monitors/impact_spectrum.hpp"
+#include "limber/dynamics/monitors/joint_response.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -141,6 +142,9 @@ void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
   const std::vector<ContactRecord> records = find_records();
   for (const ImpactSpectrum& spectrum : find_impact_spectra(model_, records)) {
     if (!spectrum.is_enough()) warnings.push_back(describe(spectrum));
+  }
+  for (const JointResponse& joint : find_joint_responses(model_, records)) {
+    if (!joint.is_enough()) warnings.push_back(describe(joint));
   }
   add_deep(records, warnings);
   add_unmet(records, warnings);

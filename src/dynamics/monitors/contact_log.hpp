@@ -44,9 +44,9 @@ class ContactLog {
   /// state.
   [[nodiscard]] std::vector<ContactRecord> find_records() const;
   /// Warns of steps too long for their impacts, of bases too small for them
-  /// (ImpactSpectrum), of contacts deeper than kDeepest, of touches of surfaces
-  /// that do not face each other, and of the stable step of an explicit scheme
-  /// where the force was largest.
+  /// (ImpactSpectrum), of joints too soft (JointResponse), of contacts deeper
+  /// than kDeepest, of touches of surfaces that do not face each other, and of
+  /// the stable step of an explicit scheme where the force was largest.
   void add_warnings(std::vector<std::string>& warnings) const;
   /// Depth over the radius of curvature, or over the smaller body's extent
   /// (areas shared by corners of a mesh define no radius), that gives a

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -53,18 +54,37 @@ HoldWatch::HoldWatch(const SystemModel& model) : model_(model) {
   }
 }
 
-void HoldWatch::include(const SystemTerms& terms, double t) {
+double HoldWatch::find_elastic(const SystemState& state,
+                               const SystemTerms& terms) const {
+  double elastic = 0.0;
+  for (const BodyModel& body : model_.bodies) {
+    elastic += flexbody::calc_elastic_energy(
+        body.elasticity, state.eta.segment(body.offset, body.modes));
+  }
+  for (const FullTerms& full : terms.full) elastic += full.strain_energy;
+  return elastic;
+}
+
+void HoldWatch::include(const SystemState& state, const SystemTerms& terms) {
   for (Hold& hold : holds_) {
     const joints::HoldGive give =
         joints::find_give(model_.couplers[hold.coupler].law, hold.stiffness,
                           terms.couplers[hold.coupler].motion);
     if (give.distance > hold.give) {
       hold.give = give.distance;
-      hold.give_time = t;
+      hold.give_time = state.t;
     }
     if (give.turn > hold.turn) {
       hold.turn = give.turn;
-      hold.turn_time = t;
+      hold.turn_time = state.t;
+    }
+    const double energy =
+        0.5 * hold.stiffness.translational * give.distance * give.distance +
+        0.5 * hold.stiffness.rotational * give.turn * give.turn;
+    if (energy > hold.energy) {
+      hold.energy = energy;
+      hold.elastic = find_elastic(state, terms);
+      hold.energy_time = state.t;
     }
   }
 }
@@ -93,10 +113,25 @@ std::string HoldWatch::describe(const Hold& hold) const {
       hold.stiffness.rotational);
 }
 
+std::string HoldWatch::describe_share(const Hold& hold) const {
+  return fmt::format(
+      "joint '{}' is soft beside the bodies: at t = {:.6g} s it stores {:.3g} "
+      "J "
+      "in its constrained directions, {:.3g} % of the elastic energy of all "
+      "bodies; {:.2g} times its stiffness would keep it at {:g} %",
+      model_.couplers[hold.coupler].name, hold.energy_time, hold.energy,
+      100.0 * hold.share(), hold.share() / kLargestShare,
+      100.0 * kLargestShare);
+}
+
 std::vector<std::string> HoldWatch::find_warnings() const {
   std::vector<std::string> warnings;
   for (const Hold& hold : holds_) {
-    if (hold.largest() > kLargest) warnings.push_back(describe(hold));
+    if (hold.largest() > kLargest) {
+      warnings.push_back(describe(hold));
+    } else if (hold.largest() > kNegligible && hold.share() > kLargestShare) {
+      warnings.push_back(describe_share(hold));
+    }
   }
   return warnings;
 }
@@ -113,8 +148,18 @@ std::optional<std::string> HoldWatch::find_overpowered() const {
 
 void HoldWatch::exchange_memory(Archive& archive) {
   for (Hold& hold : holds_) {
-    archive(hold.give, hold.turn, hold.give_time, hold.turn_time);
+    archive(hold.give, hold.turn, hold.give_time, hold.turn_time, hold.energy,
+            hold.elastic, hold.energy_time);
   }
+}
+
+std::vector<std::string> find_hold_warnings(const SystemModel& model,
+                                            const SystemState& state) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, Side::right, terms);
+  HoldWatch watch(model);
+  watch.include(state, terms);
+  return watch.find_warnings();
 }
 
 }  // namespace limber::dynamics

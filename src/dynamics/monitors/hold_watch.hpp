@@ -9,6 +9,7 @@
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 #include "limber/joints/coordinates/motion.hpp"
 
 namespace limber::dynamics {
@@ -17,19 +18,26 @@ namespace limber::dynamics {
 ///
 /// Equation   d = |Kt p| / kt, theta = sqrt(2 V_r / kr), V_r the energy of the
 ///            rotation alone; both against the size l of the smaller of the
-///            joined bodies: the larger of d / l and theta
+///            joined bodies: the larger of d / l and theta. And the energy
+///            kt d^2 / 2 + kr theta^2 / 2, when it is largest, against the
+///            elastic energy of all bodies.
 /// Limits     a body's size is the distance to the farthest of its other
 ///            attachments, or its largest radius of gyration.
 class HoldWatch {
  public:
   explicit HoldWatch(const SystemModel& model);
 
-  /// @param terms of the end of a step at t [s]
-  void include(const SystemTerms& terms, double t);
-  /// One for each joint displaced by more than kLargest.
+  /// The end of a step. @param terms at `state`
+  void include(const SystemState& state, const SystemTerms& terms);
+  /// One for each joint displaced by more than kLargest, or whose share of the
+  /// elastic energy exceeds kLargestShare.
   [[nodiscard]] std::vector<std::string> find_warnings() const;
   /// Of a body's size, and in rotation [-, rad].
   static constexpr double kLargest = 1e-3;
+  /// Of the elastic energy of all bodies [-].
+  static constexpr double kLargestShare = 0.01;
+  /// Smaller displacements have no share, of a body's size [-].
+  static constexpr double kNegligible = 1e-6;
 
   /// The joint that was displaced most, if by more than kOverpowered; nothing
   /// if none was.
@@ -47,17 +55,31 @@ class HoldWatch {
     std::size_t body = 0;  // the smaller of those joined
     double size = 0.0;     // [m]
     joints::HoldStiffness stiffness;
-    double give = 0.0;       // d at its largest [m]
-    double turn = 0.0;       // theta at its largest [rad]
-    double give_time = 0.0;  // [s]
-    double turn_time = 0.0;  // [s]
+    double give = 0.0;         // d at its largest [m]
+    double turn = 0.0;         // theta at its largest [rad]
+    double give_time = 0.0;    // [s]
+    double turn_time = 0.0;    // [s]
+    double energy = 0.0;       // of the joint at its largest [J]
+    double elastic = 0.0;      // of all bodies then [J]
+    double energy_time = 0.0;  // [s]
     // The larger of both, relative to the body's size or in [rad].
     [[nodiscard]] double largest() const { return std::max(give / size, turn); }
+    // Of the elastic energy; none without any.
+    [[nodiscard]] double share() const {
+      return elastic > 0.0 ? energy / elastic : 0.0;
+    }
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;
+  [[nodiscard]] std::string describe_share(const Hold& hold) const;
+  [[nodiscard]] double find_elastic(const SystemState& state,
+                                    const SystemTerms& terms) const;
 
   const SystemModel& model_;
   std::vector<Hold> holds_;
 };
+
+/// Warnings of HoldWatch at one state, such as an equilibrium.
+[[nodiscard]] std::vector<std::string> find_hold_warnings(
+    const SystemModel& model, const SystemState& state);
 
 }  // namespace limber::dynamics

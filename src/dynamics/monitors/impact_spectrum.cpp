@@ -5,26 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "limber/common/index.hpp"
+#include "limber/dynamics/monitors/shortest_impact.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-// Shortest of all impacts of each pair [s].
-std::map<std::string, double> find_shortest(
-    const std::vector<ContactRecord>& records) {
-  std::map<std::string, double> shortest;
-  for (const ContactRecord& record : records) {
-    if (!(record.impact_duration > 0.0)) continue;
-    const auto [at, is_new] =
-        shortest.emplace(record.pair, record.impact_duration);
-    if (!is_new) at->second = std::min(at->second, record.impact_duration);
-  }
-  return shortest;
-}
 
 // Modes up to f grow as f^p: p = 1/2 of a bar that bends, 1 of a plate, 3 of a
 // solid, found between the middle and the end of the basis.
@@ -51,7 +38,7 @@ VectorX find_frequencies(const BodyModel& body) {
 
 std::vector<ImpactSpectrum> find_impact_spectra(
     const SystemModel& model, const std::vector<ContactRecord>& records) {
-  const std::map<std::string, double> shortest = find_shortest(records);
+  const auto shortest = find_shortest_impacts(records);
   constexpr double kTurn = 2.0 * std::numbers::pi;
   std::vector<ImpactSpectrum> spectra;
   for (const Pair& pair : model.pairs) {

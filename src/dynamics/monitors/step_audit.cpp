@@ -35,7 +35,7 @@ const SystemTerms& StepAudit::evaluate(const SystemState& state) {
 void StepAudit::start(const SystemState& state, const SystemTerms& terms,
                       const StepResult& totals, std::vector<Event>& events) {
   ledger_.start(state, terms, totals);
-  holds_.include(terms, state.t);
+  holds_.include(state, terms);
   limits_.include(state, terms, events);
 }
 
@@ -58,7 +58,7 @@ void StepAudit::include(const SystemState& state, const SystemTerms* terms,
     now = &evaluate(state);
     ledger_.add(state, *now, totals);
   }
-  holds_.include(*now, state.t);
+  holds_.include(state, *now);
   limits_.include(state, *now, events);
 }
 

@@ -47,7 +47,7 @@ std::string describe_overpowered(const SystemModel& model,
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
   HoldWatch watch(model);
-  watch.include(terms, state.t);
+  watch.include(state, terms);
   return watch.find_overpowered().value_or("");
 }
 

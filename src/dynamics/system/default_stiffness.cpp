@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
@@ -10,14 +11,26 @@
 namespace limber::dynamics {
 namespace {
 
-/// Largest principal flexibility of the 3 x 3 block at `first`; infinite if
+/// Principal flexibilities below this share of the largest are of directions
+/// that the interface does not define, such as the rotation of a line of nodes
+/// about itself [-].
+constexpr double kUndefined = 1e-12;
+
+/// Acceleration by rounding that is allowed in a default joint [m/s^2].
+constexpr double kRoundingAcceleration = 1e-3;
+
+/// Smallest principal flexibility of the 3 x 3 block at `first`; infinite if
 /// the side is rigid.
 double find_flexibility(const CouplerSide& side, int first) {
   if (!side.flexibility) return kInfinity;
   const Matrix3 block = side.flexibility->block<3, 3>(first, first);
-  const Matrix3 symmetric = 0.5 * (block + block.transpose());
-  const double largest = dense::find_eigenvalues(symmetric).maxCoeff();
-  return largest > 0.0 ? largest : kInfinity;
+  const Vector3 ascending =
+      dense::find_eigenvalues(Matrix3(0.5 * (block + block.transpose())));
+  const double least = kUndefined * ascending.maxCoeff();
+  for (const double flexibility : ascending) {
+    if (flexibility > least) return flexibility;
+  }
+  return kInfinity;
 }
 
 /// 1 / (1/a + 1/b), for infinite values too.
@@ -32,16 +45,32 @@ double stiffness_at(double frequency, double mu) {
   return mu * omega * omega;
 }
 
-double find_stiffness(const CouplerSide& side_F, const CouplerSide& side_M,
-                      int first, double mu, double carried) {
-  const double flexibility = std::min(find_flexibility(side_F, first),
-                                      find_flexibility(side_M, first));
-  if (std::isfinite(flexibility)) return kStiffnessRatio / flexibility;
-  return std::max(stiffness_at(kRigidFrequency, mu), carried / kRigidShare);
+/// Stiffness and damping of a coupler's translations or rotations.
+struct Hold {
+  double stiffness = 0.0;
+  double damping = 0.0;
+};
+
+Hold make_hold(double stiffness, double ratio, double mu) {
+  return {stiffness, 2.0 * ratio * std::sqrt(stiffness * mu)};
 }
 
-double find_damping(double stiffness, double mu) {
-  return 2.0 * kDampingRatio * std::sqrt(stiffness * mu);
+/// @param flexibility of the stiffer side @param mu mass or moment of inertia
+/// of both sides @param least stiffness by which rigid sides carry their load
+Hold find_hold(const std::optional<double>& stiffness,
+               const std::optional<double>& damping, double flexibility,
+               double mu, double least, double rigid_frequency) {
+  Hold hold;
+  if (stiffness) {
+    hold = make_hold(*stiffness, kDampingRatio, mu);
+  } else if (std::isfinite(flexibility)) {
+    hold = make_hold(kStiffnessRatio / flexibility, kDampingRatio, mu);
+  } else {
+    hold = make_hold(std::max(stiffness_at(rigid_frequency, mu), least),
+                     kRigidDampingRatio, mu);
+  }
+  if (damping) hold.damping = *damping;
+  return hold;
 }
 
 }  // namespace
@@ -57,20 +86,35 @@ CouplerSide make_side(double mass, const Matrix3& inertia,
 joints::JointParameters find_joint_parameters(const CouplerOptions& options,
                                               const CouplerSide& side_F,
                                               const CouplerSide& side_M,
-                                              const CarriedLoad& load) {
-  const double mass = reduce(side_F.mass, side_M.mass);
-  const double inertia = reduce(side_F.inertia, side_M.inertia);
+                                              const CarriedLoad& load,
+                                              double rigid_frequency) {
+  const auto flexibility = [&](int first) {
+    return std::min(find_flexibility(side_F, first),
+                    find_flexibility(side_M, first));
+  };
+  const Hold translation =
+      find_hold(options.translational_stiffness, options.translational_damping,
+                flexibility(0), reduce(side_F.mass, side_M.mass),
+                load.force / (kRigidShare * load.size), rigid_frequency);
+  const Hold rotation =
+      find_hold(options.rotational_stiffness, options.rotational_damping,
+                flexibility(3), reduce(side_F.inertia, side_M.inertia),
+                load.moment / kRigidShare, rigid_frequency);
   joints::JointParameters parameters;
-  parameters.translational_stiffness = options.translational_stiffness.value_or(
-      find_stiffness(side_F, side_M, 0, mass, load.force / load.size));
-  parameters.rotational_stiffness = options.rotational_stiffness.value_or(
-      find_stiffness(side_F, side_M, 3, inertia, load.moment));
-  parameters.translational_damping = options.translational_damping.value_or(
-      find_damping(parameters.translational_stiffness, mass));
-  parameters.rotational_damping = options.rotational_damping.value_or(
-      find_damping(parameters.rotational_stiffness, inertia));
+  parameters.translational_stiffness = translation.stiffness;
+  parameters.rotational_stiffness = rotation.stiffness;
+  parameters.translational_damping = translation.damping;
+  parameters.rotational_damping = rotation.damping;
   parameters.free_damping = options.free_damping.value_or(0.0);
   return parameters;
+}
+
+double find_rigid_frequency(double distance) {
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * std::abs(distance);
+  const double omega = std::sqrt(kRoundingAcceleration / rounding);
+  return std::clamp(omega / (2.0 * std::numbers::pi), kLeastRigidFrequency,
+                    kRigidFrequency);
 }
 
 StopStiffness find_stop_stiffness(const CouplerSide& side_F,

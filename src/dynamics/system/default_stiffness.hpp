@@ -41,15 +41,22 @@ struct CarriedLoad {
   double size = std::numeric_limits<double>::infinity();  ///< [m]
 };
 
-/// Stiffness relative to the stiffer side's interface [-].
+/// Stiffness relative to the stiffer side's interface, in the direction in
+/// which that is stiffest [-].
 inline constexpr double kStiffnessRatio = 100.0;
 /// Natural frequency of two rigid sides on their coupler [Hz].
-inline constexpr double kRigidFrequency = 1000.0;
+inline constexpr double kRigidFrequency = 2e4;
+/// The same where the frequency is bounded by an explicit scheme's step, and
+/// the least where it is bounded by rounding [Hz].
+inline constexpr double kLeastRigidFrequency = 1e3;
 /// Allowed displacement of a coupler of two rigid sides under its load:
 /// relative to the sides' size, and in rotation [-, rad].
 inline constexpr double kRigidShare = 1e-4;
 /// Share of critical damping of the two masses on their coupler [-].
 inline constexpr double kDampingRatio = 0.01;
+/// The same of two rigid sides with the default stiffness, whose vibration no
+/// step resolves: without numerical dissipation only this ends it [-].
+inline constexpr double kRigidDampingRatio = 0.2;
 
 /// Natural frequency of a free body on a stop [Hz]: contact lasts 10 ms, at any
 /// speed.
@@ -58,19 +65,28 @@ inline constexpr double kStopFrequency = 0.5 / kImpactDuration;
 /// Parameters of a coupler between two sides: those in `options`, and by
 /// default
 ///   k = kStiffnessRatio / min over the flexible sides of c,
-/// where c is the largest principal flexibility of the interface (translation
-/// or rotation): the coupler then adds at most 1 % to the flexibility of the
-/// stiffer side. If both sides are rigid,
-///   k = max(mu (2 pi kRigidFrequency)^2, load / (kRigidShare size)),
+/// where c is the smallest principal flexibility of the interface (translation
+/// or rotation): in every direction the coupler then adds at most 1 % to the
+/// flexibility of the stiffer side. If both sides are rigid,
+///   k = max(mu (2 pi f)^2, load / (kRigidShare size)),
 ///   1/mu = 1/mu_F + 1/mu_M,
-/// with mu the mass (or moment of inertia), load the force (or moment) carried
-/// and size that of the bodies (or 1 rad). The damping is
-///   c = 2 kDampingRatio sqrt(k mu).
+/// with mu the mass (or moment of inertia), f `rigid_frequency`, load the force
+/// (or moment) carried and size that of the bodies (or 1 rad). The damping is
+///   c = 2 zeta sqrt(k mu)
+/// with zeta = kRigidDampingRatio for the latter k, else kDampingRatio.
 /// A free direction has no damping unless it is given. The flexibility
 /// is used at every fidelity, so that a change of level changes nothing else.
 [[nodiscard]] joints::JointParameters find_joint_parameters(
     const CouplerOptions& options, const CouplerSide& side_F,
-    const CouplerSide& side_M, const CarriedLoad& load = {});
+    const CouplerSide& side_M, const CarriedLoad& load = {},
+    double rigid_frequency = kRigidFrequency);
+
+/// Frequency of rigid sides for find_joint_parameters() at a distance from the
+/// world's origin [Hz]: kRigidFrequency near it. Positions are rounded to
+/// 2^-52 of the distance, which the joint answers to with an acceleration of
+/// (2 pi f)^2 times that: it stays below 1e-3 m/s^2 down to
+/// kLeastRigidFrequency. @param distance [m]
+[[nodiscard]] double find_rigid_frequency(double distance);
 
 /// Default stiffness of an end stop.
 struct StopStiffness {

@@ -104,10 +104,18 @@ dynamics::CouplerIndex CouplerAssembly::add_coupler(
   return builder_.add_coupler(name, law, frame_F, frame_M);
 }
 
+// An explicit scheme's steps resolve the vibration of rigid sides.
+double CouplerAssembly::choose_rigid_frequency(const Vector3& p_W) const {
+  return dynamics::traits_of(scene_.scenario.settings.integrator).is_implicit
+             ? dynamics::find_rigid_frequency(p_W.norm())
+             : dynamics::kLeastRigidFrequency;
+}
+
 void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
                                 const AttachmentSite& M) {
   const joints::JointParameters held =
-      find_joint_parameters(spec.coupler, F.side, M.side, spec.load);
+      find_joint_parameters(spec.coupler, F.side, M.side, spec.load,
+                            choose_rigid_frequency(spec.p_W));
   const auto coordinates =
       joints::find_coordinates(spec.kind, spec.axis, spec.second);
   std::vector<joints::JointElement> elements = make_elements(
@@ -137,10 +145,10 @@ void CouplerAssembly::add_joint(int i) {
   const AttachmentSite F = find_joint_site(joint, joint.parent, joint.X_PJ);
   const AttachmentSite M = find_joint_site(joint, joint.child, Pose{});
   with_context("joint '" + joint.name + "'", [&] {
-    add_joint(
-        {joint.name, joint.kind, joint.axis_J, joint.second_J, joint.coupler,
-         joint.actions, joint.max_effort, joint.max_speed, loads_.of_joint(i)},
-        F, M);
+    add_joint({joint.name, joint.kind, joint.axis_J, joint.second_J,
+               joint.coupler, joint.actions, joint.max_effort, joint.max_speed,
+               loads_.of_joint(i), sites_.start()[index(joint.child)].X_WL.p},
+              F, M);
   });
 }
 
@@ -165,7 +173,7 @@ void CouplerAssembly::add_loop(const Loop& loop) {
             "where all joints are at zero");
   add_joint({loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
              loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited,
-             loads_.of_loop(loop)},
+             loads_.of_loop(loop), X_WF.p},
             sites_.find_site(loop.from, X_WF, at_zero_),
             sites_.find_site(loop.to, X_WF, at_zero_));
 }
@@ -189,6 +197,7 @@ void CouplerAssembly::add_connector(const Connector& connector) {
 }
 
 void CouplerAssembly::add_latch(const Latch& latch) {
+  const Vector3 p_W = sites_.find_pose(latch.from, sites_.start()).p;
   const auto site = [&](const ConnectorEnd& end) {
     return sites_.find_site(end, sites_.find_pose(end, sites_.start()),
                             sites_.start());
@@ -201,8 +210,9 @@ void CouplerAssembly::add_latch(const Latch& latch) {
     released.release_time = time->second;
   }
   add_coupler(latch.name,
-              make_latch(released,
-                         find_joint_parameters(latch.coupler, F.side, M.side)),
+              make_latch(released, find_joint_parameters(
+                                       latch.coupler, F.side, M.side, {},
+                                       choose_rigid_frequency(p_W))),
               F, M);
 }
 

@@ -36,6 +36,7 @@ class CouplerAssembly {
     double max_effort;
     double max_speed;
     CarriedLoad load;
+    Vector3 p_W;  ///< its place at the start
   };
   /// A joint of the model with one coordinate, for gears.
   struct Geared {
@@ -45,6 +46,7 @@ class CouplerAssembly {
     std::array<AttachmentSite, 2> sites;  ///< of F and M
   };
 
+  [[nodiscard]] double choose_rigid_frequency(const Vector3& p_W) const;
   void add_joint(int index);
   void add_joint(const JointSpec& spec, const AttachmentSite& F,
                  const AttachmentSite& M);

@@ -62,7 +62,7 @@ TEST(CarriedLoad, HoldsAFastCrankOnItsHinge) {
 }
 
 TEST(CarriedLoad, CountsWhatDrivesCommand) {
-  constexpr double kRate = 1000.0;  // [rad/s]
+  constexpr double kRate = 5000.0;  // [rad/s]
   const SceneFolder folder;
   const BuiltScene built = folder.build(
       crank(), time_table(0.01, 1e-5) +
@@ -80,11 +80,11 @@ TEST(CarriedLoad, CountsLoadsAndWeightBeyondTheJoint) {
       folder.build(crank(), time_table(0.01, 1e-5) +
                                 "[gravity]\nacceleration = [0, 0, -10]\n"
                                 "[[load]]\nname = 'l'\nlink = 'body'\n"
-                                "force = [0, 300.0, 400.0]\n"
+                                "force = [0, 3e5, 4e5]\n"
                                 "point = [0.014, 0, 0]\n");
-  const double needed = (500.0 + 10.0 * kMass) / (kAllowed * kReach);
+  const double needed = (5e5 + 10.0 * kMass) / (kAllowed * kReach);
   EXPECT_NEAR(find_stiffness(built), needed, 1e-9 * needed);
-  const double turned = (500.0 * 0.014 + 10.0 * kMass * kReach) / kAllowed;
+  const double turned = (5e5 * 0.014 + 10.0 * kMass * kReach) / kAllowed;
   EXPECT_NEAR(strain(built, 0).stiffness(3, 3), turned, 1e-9 * turned);
 }
 

@@ -66,11 +66,11 @@ const dynamics::Transmission& transmission(const dynamics::SystemModel& model,
   throw std::logic_error("no transmission " + name);
 }
 
-// Stiffness with which 1 kg (1 kg m^2) swings at 1000 Hz, and the damping of
-// 1 % of critical: docs/joints.md.
-constexpr double kUnitStiffness = 4e6 * kPi * kPi;
+// Stiffness with which 1 kg (1 kg m^2) swings at 20 kHz, and the damping of
+// 20 % of critical: docs/joints.md.
+constexpr double kUnitStiffness = 16e8 * kPi * kPi;
 double default_damping(double stiffness, double mu) {
-  return 0.02 * std::sqrt(stiffness * mu);
+  return 0.4 * std::sqrt(stiffness * mu);
 }
 
 // Stiffness with which 1 kg (1 kg m^2) swings at 50 Hz.
@@ -245,7 +245,7 @@ TEST(CouplerAssembly, GearIsAsStiffAsItsSofterJoint) {
   const auto [three, unused] = spring("ratio='3'");
   EXPECT_NEAR(three.curve.parameters().stiffness, k_k, 1e-9 * k_k);
   EXPECT_NEAR(three.damping, default_damping(0.3 * kUnitStiffness, 0.3) / 9.0,
-              1e-9);
+              1e-9 * three.damping);
   const auto [given, also_unused] =
       spring("ratio='3' stiffness='11' damping='12'");
   EXPECT_EQ(given.curve.parameters().stiffness, 11.0);
