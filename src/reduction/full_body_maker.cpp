@@ -210,8 +210,9 @@ std::shared_ptr<const FullBody> make_full_body(const Recipe& recipe,
   body->held.assign(static_cast<std::size_t>(x_B.cols()), 0);
   for (const int n : held) body->held[static_cast<std::size_t>(n)] = 1;
   for (const Interface& interface : interfaces) {
-    body->interfaces.push_back({interface.name, interface.selection.nodes,
-                                interface.selection.weights});
+    const fem::WeightedNodes& selection = interface.selection;
+    body->interfaces.push_back({interface.name, selection.nodes,
+                                selection.weights, selection.moments});
   }
   body->make_solver = [parts] { return std::make_unique<MeshSolver>(parts); };
   return body;

@@ -35,11 +35,12 @@ fem::WeightedNodes select_nodes(const fem::Mesh& mesh,
                 mesh, mesh.groups[fem::find_group(mesh, group.group)]);
           },
           [&](const TaggedNode& node) {
-            return fem::weigh_equally({fem::find_tagged_node(mesh, node.tag)});
+            return fem::weigh_equally(mesh,
+                                      {fem::find_tagged_node(mesh, node.tag)});
           },
           [&](const NearestNode& node) {
             return fem::weigh_equally(
-                {fem::find_nearest_node(mesh, node.point)});
+                mesh, {fem::find_nearest_node(mesh, node.point)});
           },
           [&](const auto& region) { return select_region(mesh, region); }},
       nodes);
@@ -49,7 +50,7 @@ fem::WeightedNodes select_nodes(const fem::Mesh& mesh,
                                 const InterfaceRequest& request) {
   fem::WeightedNodes selection = select_nodes(mesh, request.nodes);
   if (request.weighting == Weighting::uniform) return selection;
-  return fem::weigh_equally(std::move(selection.nodes));
+  return fem::weigh_equally(mesh, std::move(selection.nodes));
 }
 
 }  // namespace
@@ -67,8 +68,8 @@ std::vector<Interface> find_interfaces(const fem::Mesh& mesh,
                       recipe.name, request.name));
     try {
       fem::WeightedNodes selection = select_nodes(mesh, request);
-      InterfaceMotion motion(selection.nodes, selection.weights, mesh.x,
-                             mesh.size().maxCoeff());
+      InterfaceMotion motion(selection.nodes, selection.weights,
+                             selection.moments, mesh.x, mesh.size().maxCoeff());
       interfaces.push_back({request.name, request.static_modes,
                             std::move(selection), std::move(motion)});
     } catch (const InputError& error) {

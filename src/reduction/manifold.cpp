@@ -24,16 +24,6 @@ Vector3 axial(const Matrix3& X) {
   return {X(2, 1) - X(1, 2), X(0, 2) - X(2, 0), X(1, 0) - X(0, 1)};
 }
 
-// A^+ with the range of `axes`, which are eigenvectors.
-Matrix3 invert_on(const Matrix3X& axes, const Matrix3& A) {
-  Matrix3 inverse = Matrix3::Zero();
-  for (Eigen::Index k = 0; k < axes.cols(); ++k) {
-    const Vector3 axis = axes.col(k);
-    inverse += axis * axis.transpose() / axis.dot(A * axis);
-  }
-  return inverse;
-}
-
 // Modes with rotation above kPairedRotation.
 std::vector<int> find_paired(const fem::MeanDeformation& mean) {
   const VectorX ratios = fem::find_rotation_ratios(mean);
@@ -216,14 +206,14 @@ void add_second_order(const fem::Mesh& mesh, const Interface& interface,
   const VectorX& weights = interface.selection.weights;
   const Matrix3X d =
       mesh.x(Eigen::all, nodes).colwise() - interface.motion.mean_point();
-  const Matrix3X wd = d * weights.asDiagonal();
-  const Matrix3 S = wd * d.transpose();
+  const Matrix3X& y = interface.selection.moments;
+  const Matrix3 S = d * y.transpose();
   const Matrix3 A = S.trace() * Matrix3::Identity() - S;
-  const Matrix3 inverse = invert_on(table.rotation_axes, A);
+  const Matrix3 inverse = invert_second_moment(A, table.rotation_axes);
   const MatrixX theta = take_rows(Theta, nodes);
   const MatrixX phi = take_rows(Phi, nodes);
   const auto moment = [&](const MatrixX& fields, Eigen::Index column) {
-    return Matrix3(fields.col(column).reshaped(3, d.cols()) * wd.transpose());
+    return Matrix3(fields.col(column).reshaped(3, d.cols()) * y.transpose());
   };
   std::vector<Matrix3> G;
   for (const int k : paired) G.emplace_back(moment(phi, k));

@@ -98,8 +98,9 @@ Interface place_on(const fem::MeshPiece& piece, const std::string& name,
   const double size = piece.mesh.size().maxCoeff();
   return {name,
           static_modes,
-          {nodes, selection.weights},
-          InterfaceMotion(nodes, selection.weights, piece.mesh.x, size)};
+          {nodes, selection.weights, selection.moments},
+          InterfaceMotion(nodes, selection.weights, selection.moments,
+                          piece.mesh.x, size)};
 }
 
 std::string name_cut(const fem::MeshCut& cut, int number) {

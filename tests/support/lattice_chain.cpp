@@ -97,8 +97,8 @@ Vector3 LatticeChain::find_mean(const std::string& name) const {
 flexbody::InterfaceTable LatticeChain::make_table(
     const std::string& name, const flexbody::ReducedBody& reduced) const {
   const flexbody::NodeSet& set = find_node_set(*full_, name);
-  const flexbody::InterfaceMotion mean(set.nodes, set.weights, network_.x_B,
-                                       reduced.size.maxCoeff());
+  const flexbody::InterfaceMotion mean(set.nodes, set.weights, set.moments,
+                                       network_.x_B, reduced.size.maxCoeff());
   const Matrix6X rows = mean.apply(reduced.rows.Phi_B);
   flexbody::InterfaceTable table;
   table.name = name;

@@ -57,12 +57,17 @@ class SpringSolver : public flexbody::FullBodySolver {
   Eigen::LLT<MatrixX> factor_;
 };
 
-flexbody::NodeSet make_set(const std::string& name, std::vector<int> nodes) {
+flexbody::NodeSet make_set(const Matrix3X& x_B, const std::string& name,
+                           std::vector<int> nodes) {
   VectorX weights(std::ssize(nodes));
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     weights[i] = 1.0 + 0.2 * static_cast<double>(i);
   }
-  return {name, std::move(nodes), weights / weights.sum()};
+  weights /= weights.sum();
+  const Matrix3X x = x_B(Eigen::all, nodes);
+  const Vector3 mean = x * weights;
+  return {name, std::move(nodes), weights,
+          (x.colwise() - mean) * weights.asDiagonal()};
 }
 
 }  // namespace
@@ -165,10 +170,11 @@ std::shared_ptr<const flexbody::FullBody> make_full(
   body->first_moment = (network.x_B.colwise() - center) * network.M_s;
   body->held = network.held;
   const int n = network.size();
-  body->interfaces = {make_set("first", {0, 1, 2, 3}),
-                      make_set("last", {n - 4, n - 3, n - 2, n - 1}),
-                      make_set("edge", {1, 5, 9}), make_set("node", {n - 1}),
-                      make_set("block", {0, 1, 2, 3, 4, 5, 6, 7})};
+  body->interfaces = {make_set(body->x_B, "first", {0, 1, 2, 3}),
+                      make_set(body->x_B, "last", {n - 4, n - 3, n - 2, n - 1}),
+                      make_set(body->x_B, "edge", {1, 5, 9}),
+                      make_set(body->x_B, "node", {n - 1}),
+                      make_set(body->x_B, "block", {0, 1, 2, 3, 4, 5, 6, 7})};
   const auto shared = std::make_shared<const SpringNetwork>(network);
   body->make_solver = [shared] {
     return std::make_unique<SpringSolver>(shared);

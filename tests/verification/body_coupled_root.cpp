@@ -70,9 +70,10 @@ Answer solve_full() {
   const fem::Mesh mesh = fem::read_mesh(test::beam_file("beam579_v41.msh"));
   const auto matrices = fem::assemble(mesh, {{200e9, 0.0, 8000.0}});
   const auto motion = [&](const std::string& name) {
-    const auto selection =
-        fem::weigh_equally(mesh.groups[fem::find_group(mesh, name)].nodes);
-    return flexbody::InterfaceMotion(selection.nodes, selection.weights, mesh.x,
+    const auto selection = fem::weigh_equally(
+        mesh, mesh.groups[fem::find_group(mesh, name)].nodes);
+    return flexbody::InterfaceMotion(selection.nodes, selection.weights,
+                                     selection.moments, mesh.x,
                                      mesh.size().maxCoeff());
   };
   const MatrixX lower = matrices.K;

@@ -59,7 +59,7 @@ TEST(FullBeamStatic, SettlesWhereTheReferenceIsBentByAFifthOfItsLength) {
   const fem::Mesh mesh = fem::read_mesh(test::beam_file("beam579_v41.msh"));
   const fem::WeightedNodes tip =
       fem::weigh_group(mesh, mesh.groups[fem::find_group(mesh, "tip")]);
-  const flexbody::NodeSet set = {"tip", tip.nodes, tip.weights};
+  const flexbody::NodeSet set = {"tip", tip.nodes, tip.weights, tip.moments};
   dynamics::SystemBuilder builder;
   builder.add_full_body("beam", beam.reduced, beam.full, {});
   const Vector3 mean = beam.full->x_B(Eigen::all, set.nodes) * set.weights;

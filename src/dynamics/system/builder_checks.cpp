@@ -283,10 +283,13 @@ void check_interface(const std::string& what,
 void check_nodes(const std::string& what, const flexbody::NodeSet& nodes,
                  Eigen::Index node_count) {
   constexpr double kSum = 1e-9;
-  if (nodes.nodes.empty() || nodes.weights.size() != std::ssize(nodes.nodes)) {
-    throw ContractError(
-        fmt::format("{}: node set '{}' has {} nodes and {} weights", what,
-                    nodes.name, nodes.nodes.size(), nodes.weights.size()));
+  const auto count = std::ssize(nodes.nodes);
+  if (count == 0 || nodes.weights.size() != count ||
+      nodes.moments.cols() != count) {
+    throw ContractError(fmt::format(
+        "{}: node set '{}' has {} nodes and {} weights and {} "
+        "moments",
+        what, nodes.name, count, nodes.weights.size(), nodes.moments.cols()));
   }
   for (const int node : nodes.nodes) {
     check_index(fmt::format("{}, node set '{}'", what, nodes.name), "node",

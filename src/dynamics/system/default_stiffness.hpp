@@ -43,7 +43,7 @@ struct CarriedLoad {
 
 /// Stiffness relative to the stiffer side's interface, in the direction in
 /// which that is stiffest [-].
-inline constexpr double kStiffnessRatio = 100.0;
+inline constexpr double kStiffnessRatio = 200.0;
 /// Natural frequency of two rigid sides on their coupler [Hz].
 inline constexpr double kRigidFrequency = 2e4;
 /// The same where the frequency is bounded by an explicit scheme's step, and
@@ -66,7 +66,7 @@ inline constexpr double kStopFrequency = 0.5 / kImpactDuration;
 /// default
 ///   k = kStiffnessRatio / min over the flexible sides of c,
 /// where c is the smallest principal flexibility of the interface (translation
-/// or rotation): in every direction the coupler then adds at most 1 % to the
+/// or rotation): in every direction the coupler then adds at most 0.5 % to the
 /// flexibility of the stiffer side. If both sides are rigid,
 ///   k = max(mu (2 pi f)^2, load / (kRigidShare size)),
 ///   1/mu = 1/mu_F + 1/mu_M,

@@ -15,9 +15,9 @@ namespace {
 constexpr double kThin = 1e-6;  // of the body's size
 
 // Principal second moments of a set, the smallest first, and their axes.
-dense::Eigenpairs3 find_moments(const Matrix3X& d, const VectorX& weights) {
-  return dense::find_eigenpairs(
-      Matrix3(d * weights.asDiagonal() * d.transpose()));
+dense::Eigenpairs3 find_moments(const Matrix3X& d, const Matrix3X& y) {
+  const Matrix3 S = y * d.transpose();
+  return dense::find_eigenpairs(Matrix3(0.5 * (S + S.transpose())));
 }
 
 double find_size(const flexbody::FullBody& body) {
@@ -100,7 +100,8 @@ NodalFrame make_nodal_frame(const flexbody::FullBody& body,
                             const flexbody::NodeSet& set,
                             const Vector3& origin_B) {
   LIMBER_EXPECT(!set.nodes.empty() &&
-                set.weights.size() == std::ssize(set.nodes));
+                set.weights.size() == std::ssize(set.nodes) &&
+                set.moments.cols() == std::ssize(set.nodes));
   NodalFrame frame;
   frame.nodes = set.nodes;
   frame.weights = set.weights;
@@ -108,15 +109,15 @@ NodalFrame make_nodal_frame(const flexbody::FullBody& body,
   frame.mean_B = frame.d_B * set.weights;
   frame.d_B.colwise() -= frame.mean_B;
   frame.arm_B = origin_B - frame.mean_B;
-  const dense::Eigenpairs3 moments = find_moments(frame.d_B, frame.weights);
+  const dense::Eigenpairs3 moments = find_moments(frame.d_B, set.moments);
   const double thin = std::pow(kThin * find_size(body), 2);
   if (moments.values[1] > thin) {
     frame.turns = true;
     frame.turning = frame.nodes;
-    frame.y_B = frame.d_B * frame.weights.asDiagonal();
+    frame.y_B = set.moments;
   } else if (moments.values[2] > thin) {
     const Vector3 line = moments.vectors.col(2);
-    frame.lever = frame.weights.cwiseProduct(frame.d_B.transpose() * line);
+    frame.lever = set.moments.transpose() * line;
     frame.line_B = frame.d_B * frame.lever;
     turn_with_body(body, frame);
   } else if (!body.is_clamped()) {

@@ -11,11 +11,13 @@ namespace limber::dynamics {
 /// A frame on weighted nodes of an unreduced body, for motion of any size.
 ///
 /// Equation   p = sum_i w_i p_i,  R = argmin sum_i w_i |p_i - p - R d_i|^2:
-///            sum_i y_i x R^T (p_i - p) = 0 with y_i = w_i d_i
+///            sum_i y_i x R^T (p_i - p) = 0 with y_i = w_i d_i of nodes, or of
+///            a region, where sums over i of its points are integrals, the
+///            first moments of flexbody::InterfaceMotion
 /// Source     weighted orthogonal Procrustes problem [@umeyama1991];
 ///            for small motion this is flexbody::InterfaceMotion
 ///            Nodes on one line along e do not define the rotation about the
-///            line: R e = L / |L|, L = sum_i w_i (e . d_i) (p_i - p), and about
+///            line: R e = L / |L|, L = sum_i (e . y_i) (p_i - p), and about
 ///            L it is fitted to the nodes of the whole body, y_i their first
 ///            moments, which take the moment about the line.
 /// Limits     a single node defines no rotation: the frame then rotates with
@@ -32,7 +34,7 @@ struct NodalFrame {
   Matrix3X d_B;              ///< 3 x n of these, undeformed, from the mean [m]
   /// 3 x n first moments, their sum is zero [m]; with the whole body [kg m].
   Matrix3X y_B;
-  VectorX lever;  ///< of nodes on a line: w_i (e . d_i) [m], their sum is zero
+  VectorX lever;  ///< of nodes on a line: e . y_i [m], their sum is zero
   Vector3 line_B = Vector3::Zero();  ///< L undeformed, along e [m^2]
 
   [[nodiscard]] bool is_line() const { return lever.size() > 0; }
@@ -72,7 +74,7 @@ void calc_nodal_frame(const NodalFrame& frame, const ConstNodes& u_H,
 /// Equation   f_i = w_i f + (K^-1 (m + arm x f)) x R y_i,
 ///            K = tr(S) I - S, S = sum_i R y_i (p_i - p)^T;
 ///            for nodes on a line along t = L / |L|, with k = K t, K^-1 is t
-///            t^T / (k . t), and the line's nodes also take w_i (e . d_i) [(I -
+///            t^T / (k . t), and the line's nodes also take (e . y_i) [(I -
 ///            t k^T / (k . t)) [t]x / |L|]^T (m + arm x f)
 void add_nodal_wrench(const NodalFrame& frame, const NodalFrameMotion& motion,
                       const Vector3& force_H, const Vector3& moment_H,

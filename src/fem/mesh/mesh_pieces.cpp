@@ -198,24 +198,10 @@ class Separation {
     std::vector<MeshCut> cuts;
     for (const auto& [pieces, faces] : between) {
       for (const std::vector<BoundaryFace>& part : split(faces)) {
-        cuts.push_back({pieces.first, pieces.second, weigh(part)});
+        cuts.push_back({pieces.first, pieces.second, weigh_cut(mesh_, part)});
       }
     }
     return cuts;
-  }
-
-  /// By area, as if these faces were the surface.
-  [[nodiscard]] WeightedNodes weigh(
-      const std::vector<BoundaryFace>& faces) const {
-    Mesh bare = mesh_;
-    bare.boundary_faces = faces;
-    std::vector<int> nodes;
-    for (const BoundaryFace& face : faces) {
-      for (const int node : face_nodes(mesh_, face)) nodes.push_back(node);
-    }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    return weigh_boundary(bare, nodes);
   }
 
   /// Faces in parts that share nodes.

@@ -26,7 +26,7 @@ struct MeshPiece {
 struct MeshCut {
   int first = 0;            ///< piece, the lower number
   int second = 0;           ///< piece
-  WeightedNodes selection;  ///< nodes of the whole mesh, by area
+  WeightedNodes selection;  ///< nodes of the whole mesh, by weigh_cut()
 };
 
 /// A mesh cut into pieces.

@@ -14,85 +14,124 @@
 namespace limber::fem {
 namespace {
 
-using Shares = std::map<int, double>;
+/// int N dA of a node, and int N x dA.
+struct Share {
+  double area = 0.0;
+  Vector3 moment = Vector3::Zero();
+};
+
+using Shares = std::map<int, Share>;
+using Tangents = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// Length, area or volume ratio of a map with these tangents.
-double calc_measure(const Eigen::Matrix<double, 3, Eigen::Dynamic>& tangents) {
+double calc_measure(const Tangents& tangents) {
   if (tangents.cols() == 3) return Matrix3(tangents).determinant();
   if (tangents.cols() == 2)
     return Vector3(tangents.col(0)).cross(Vector3(tangents.col(1))).norm();
   return tangents.col(0).norm();
 }
 
-/// int N_n over one element of dimension 1 to 3.
-VectorX calc_shares(const ReferenceElement& element, const Matrix3X& x) {
-  const Quadrature& rule = element.curved;
-  VectorX shares = VectorX::Zero(element.node_count);
+/// Adds one element's, or one of its faces', to those nodes that `shares` has.
+/// @param dimension of what is integrated over @param x of all its nodes
+/// @param measure of a map's tangents: length, area, volume, or part of it
+template <typename Measure>
+void add_shares(const Quadrature& rule, int dimension, const Matrix3X& x,
+                const int* nodes, const Measure& measure, Shares& shares) {
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const MatrixX& gradients = rule.gradients[static_cast<std::size_t>(q)];
-    const double measure =
-        calc_measure(x * gradients.topRows(element.dimension).transpose());
-    shares += rule.weights[q] * measure * rule.shape.col(q);
-  }
-  return shares;
-}
-
-void add_shares(const Mesh& mesh, const ElementBlock& block, Shares& shares) {
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    const VectorX part =
-        calc_shares(*block.element, element_positions(mesh, block, e));
-    const int* nodes = block.element_nodes(e);
-    for (int i = 0; i < block.element->node_count; ++i)
-      shares[nodes[i]] += part[i];
+    const Tangents tangents = x * gradients.topRows(dimension).transpose();
+    const double area = rule.weights[q] * measure(tangents);
+    const VectorX shape = rule.shape.col(q);
+    const Vector3 place = x * shape;
+    for (Eigen::Index i = 0; i < shape.size(); ++i) {
+      const auto found = shares.find(nodes[i]);
+      if (found == shares.end()) continue;
+      found->second.area += area * shape[i];
+      found->second.moment += area * shape[i] * place;
+    }
   }
 }
 
-WeightedNodes normalised(const Shares& shares) {
-  WeightedNodes result;
+template <typename Measure>
+void add_face(const Mesh& mesh, const BoundaryFace& face,
+              const Measure& measure, Shares& shares) {
+  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(face.block)];
+  add_shares(block.element->face_rules[static_cast<std::size_t>(face.face)], 2,
+             element_positions(mesh, block, face.element),
+             block.element_nodes(face.element), measure, shares);
+}
+
+Vector3 calc_normal(const Tangents& tangents) {
+  return Vector3(tangents.col(0)).cross(Vector3(tangents.col(1)));
+}
+
+/// int n dA over faces [m^2].
+Vector3 calc_projected_area(const Mesh& mesh,
+                            const std::vector<BoundaryFace>& faces) {
+  Vector3 area = Vector3::Zero();
+  for (const BoundaryFace& face : faces) {
+    const ElementBlock& block =
+        mesh.blocks[static_cast<std::size_t>(face.block)];
+    const Quadrature& rule =
+        block.element->face_rules[static_cast<std::size_t>(face.face)];
+    const Matrix3X x = element_positions(mesh, block, face.element);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      area += rule.weights[q] *
+              calc_normal(
+                  x * rule.gradients[static_cast<std::size_t>(q)].transpose());
+    }
+  }
+  return area;
+}
+
+/// Weights of integrals over the region.
+WeightedNodes normalised(const Mesh& mesh, const Shares& shares) {
+  double total = 0.0;
   double largest = 0.0;
-  for (const auto& [node, share] : shares)
-    largest = std::max(largest, std::abs(share));
+  for (const auto& [node, share] : shares) {
+    total += share.area;
+    largest = std::max(largest, std::abs(share.area));
+  }
   constexpr double kZero = 1e-12;  // corners of second-order triangles
-  result.weights.resize(static_cast<Eigen::Index>(shares.size()));
+  const auto count = static_cast<Eigen::Index>(shares.size());
+  WeightedNodes result{{}, VectorX(count), Matrix3X(3, count)};
   Eigen::Index next = 0;
   for (const auto& [node, share] : shares) {
     result.nodes.push_back(node);
-    result.weights[next++] = std::abs(share) > kZero * largest ? share : 0.0;
+    const bool is_zero = std::abs(share.area) <= kZero * largest;
+    result.weights[next] = is_zero ? 0.0 : share.area / total;
+    result.moments.col(next++) = share.moment / total;
   }
   result.weights /= result.weights.sum();
+  const Vector3 mean = mesh.x(Eigen::all, result.nodes) * result.weights;
+  result.moments -= mean * result.weights.transpose();
   return result;
-}
-
-/// int N_n over one face of a solid element.
-VectorX calc_face_shares(const ReferenceElement& element, std::size_t face,
-                         const Matrix3X& x) {
-  const Quadrature& rule = element.face_rules[face];
-  VectorX shares = VectorX::Zero(element.node_count);
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-    shares += rule.weights[q] *
-              calc_measure(
-                  x * rule.gradients[static_cast<std::size_t>(q)].transpose()) *
-              rule.shape.col(q);
-  return shares;
 }
 
 }  // namespace
 
 WeightedNodes weigh_group(const Mesh& mesh, const PhysicalGroup& group) {
-  if (group.dimension == 0) return weigh_equally(group.nodes);
+  if (group.dimension == 0) return weigh_equally(mesh, group.nodes);
   Shares shares;
-  for (const int node : group.nodes) shares[node] = 0.0;
-  for (const ElementBlock& block : group.blocks)
-    add_shares(mesh, block, shares);
-  return normalised(shares);
+  for (const int node : group.nodes) shares[node] = {};
+  for (const ElementBlock& block : group.blocks) {
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      add_shares(block.element->curved, block.element->dimension,
+                 element_positions(mesh, block, e), block.element_nodes(e),
+                 calc_measure, shares);
+    }
+  }
+  return normalised(mesh, shares);
 }
 
-WeightedNodes weigh_equally(std::vector<int> nodes) {
+WeightedNodes weigh_equally(const Mesh& mesh, std::vector<int> nodes) {
   LIMBER_EXPECT(!nodes.empty());
   std::sort(nodes.begin(), nodes.end());
   const auto count = static_cast<Eigen::Index>(nodes.size());
-  return {std::move(nodes),
-          VectorX::Constant(count, 1.0 / static_cast<double>(count))};
+  const double weight = 1.0 / static_cast<double>(count);
+  const Matrix3X x = mesh.x(Eigen::all, nodes);
+  return {std::move(nodes), VectorX::Constant(count, weight),
+          weight * (x.colwise() - Vector3(x.rowwise().mean()))};
 }
 
 NearNodes find_boundary_nodes(
@@ -110,7 +149,7 @@ NearNodes find_boundary_nodes(
 
 WeightedNodes weigh_boundary(const Mesh& mesh, const std::vector<int>& nodes) {
   Shares shares;
-  for (const int node : nodes) shares[node] = 0.0;
+  for (const int node : nodes) shares[node] = {};
   bool has_face = false;
   for (const BoundaryFace& face : mesh.boundary_faces) {
     const std::vector<int> on_face = face_nodes(mesh, face);
@@ -118,17 +157,29 @@ WeightedNodes weigh_boundary(const Mesh& mesh, const std::vector<int>& nodes) {
                      [&](int node) { return shares.contains(node); }))
       continue;
     has_face = true;
-    const ElementBlock& block =
-        mesh.blocks[static_cast<std::size_t>(face.block)];
-    const VectorX part =
-        calc_face_shares(*block.element, static_cast<std::size_t>(face.face),
-                         element_positions(mesh, block, face.element));
-    const int* all = block.element_nodes(face.element);
-    for (int i = 0; i < block.element->node_count; ++i)
-      if (const auto found = shares.find(all[i]); found != shares.end())
-        found->second += part[i];
+    add_face(mesh, face, calc_measure, shares);
   }
-  return has_face ? normalised(shares) : weigh_equally(nodes);
+  return has_face ? normalised(mesh, shares) : weigh_equally(mesh, nodes);
+}
+
+WeightedNodes weigh_cut(const Mesh& mesh,
+                        const std::vector<BoundaryFace>& faces) {
+  const Vector3 along = calc_projected_area(mesh, faces).normalized();
+  Shares shares;
+  for (const BoundaryFace& face : faces) {
+    for (const int node : face_nodes(mesh, face)) shares[node] = {};
+  }
+  for (const BoundaryFace& face : faces) {
+    add_face(
+        mesh, face,
+        [&](const Tangents& tangents) {
+          return calc_normal(tangents).dot(along);
+        },
+        shares);
+  }
+  WeightedNodes cut = normalised(mesh, shares);
+  cut.moments -= along * (along.transpose() * cut.moments);
+  return cut;
 }
 
 int find_tagged_node(const Mesh& mesh, std::size_t tag) {

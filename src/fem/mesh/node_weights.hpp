@@ -9,19 +9,28 @@
 namespace limber::fem {
 
 /// Nodes with their weights in a distributed load or an average.
+///
+/// Equation   w_n = int N_n dA / A,  p = sum w_n x_n,
+///            y_n = int N_n (x - p) dA / A  over a region; w_n (x_n - p) of
+///            single nodes. The means of a field u over the region are
+///            sum w_n u_n and those of (x - p) x u are sum y_n x u_n.
+/// Limits     w_n is zero at the corners of straight second-order triangles
+///            and negative, -1/12, at those of quadrangles of eight nodes: the
+///            share of a load spread evenly. y_n is then not w_n (x_n - p).
 struct WeightedNodes {
   std::vector<int> nodes;  ///< sorted node indices
-  VectorX weights;         ///< sum to one [-]
+  VectorX weights;         ///< w, sum to one [-]
+  Matrix3X moments;        ///< y, sum to zero [m]
 };
 
-/// Shares of a load spread evenly over a physical group: int N_n dA over a
-/// surface, likewise over a curve or volume; equal over points. On straight
-/// second-order triangles the corners' share is zero.
+/// Shares of a load spread evenly over a physical group: a surface, a curve or
+/// a volume; equal over points.
 [[nodiscard]] WeightedNodes weigh_group(const Mesh& mesh,
                                         const PhysicalGroup& group);
 
 /// Every node the same share.
-[[nodiscard]] WeightedNodes weigh_equally(std::vector<int> nodes);
+[[nodiscard]] WeightedNodes weigh_equally(const Mesh& mesh,
+                                          std::vector<int> nodes);
 
 /// Boundary nodes near a region.
 struct NearNodes {
@@ -38,6 +47,17 @@ struct NearNodes {
 /// `nodes`; equal shares if there is no such face.
 [[nodiscard]] WeightedNodes weigh_boundary(const Mesh& mesh,
                                            const std::vector<int>& nodes);
+
+/// Weights of a ragged cut through a body, by which an even pull and bending
+/// across it act as in the whole body, whose stress has no other component.
+///
+/// Equation   a = int n dA / |int n dA|;  w_n = int N_n (n . a) dA / A,
+///            y_n = int N_n (I - a a^T)(x - p) (n . a) dA / A,
+///            A = int n . a dA
+/// Source     traction sigma n of a stress sigma a a^T, even or linear across
+/// @param faces of the elements on one side, in one part
+[[nodiscard]] WeightedNodes weigh_cut(const Mesh& mesh,
+                                      const std::vector<BoundaryFace>& faces);
 
 /// Node with this Gmsh tag. @throws InputError.
 [[nodiscard]] int find_tagged_node(const Mesh& mesh, std::size_t tag);

@@ -148,7 +148,7 @@ std::size_t place_cut(const std::vector<OrderedElement>& elements,
 }
 
 ElementLabels label_elements(const Mesh& mesh, const VectorX& f, int count) {
-  constexpr double kWindow = 0.25;  // of a piece's volume
+  constexpr double kWindow = 0.5;  // of a piece's volume: any layer of it
   const std::vector<OrderedElement> elements = order_elements(mesh, f);
   double volume = 0.0;
   for (const OrderedElement& element : elements) volume += element.volume;

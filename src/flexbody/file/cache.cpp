@@ -19,7 +19,7 @@ namespace limber::flexbody {
 namespace {
 
 // Increment when the reduction changes, to invalidate old entries.
-constexpr int kReductionVersion = 4;
+constexpr int kReductionVersion = 5;
 // The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 2;
 // The same for second-order kinematics.
@@ -27,7 +27,7 @@ constexpr int kManifoldVersion = 3;
 // The same for stress modes.
 constexpr int kStressVersion = 1;
 // The same for the cuts of meshes.
-constexpr int kPieceVersion = 1;
+constexpr int kPieceVersion = 2;
 
 void add_selection(const NodeSelection& nodes, Digest& digest) {
   digest.add(nodes.index());

@@ -82,7 +82,7 @@ constexpr auto fields_of(const ReducedBody*) {
 }
 
 constexpr auto fields_of(const NodeSet*) {
-  return list_fields("node set", "name", "nodes", "weights");
+  return list_fields("node set", "name", "nodes", "weights", "moments [m]");
 }
 
 constexpr auto fields_of(const FullOptions*) {

@@ -42,7 +42,8 @@ struct FullOptions {
 struct NodeSet {
   std::string name;
   std::vector<int> nodes;  ///< node indices
-  VectorX weights;         ///< sum to one [-]
+  VectorX weights;         ///< w of InterfaceMotion, sum to one [-]
+  Matrix3X moments;        ///< y of InterfaceMotion, sum to zero [m]
 };
 
 /// Forces, mass and stiffness of a body's whole mesh, with workspace. Not to be

@@ -8,40 +8,50 @@
 namespace limber::flexbody {
 namespace {
 
-/// sum w_i (d.d I - d d^T) [m^2]
-Matrix3 calc_second_moment(const Matrix3X& d, const VectorX& weights) {
-  const Matrix3 S = d * weights.asDiagonal() * d.transpose();
+/// sum (y.d I - d y^T) [m^2]
+Matrix3 calc_second_moment(const Matrix3X& d, const Matrix3X& y) {
+  const Matrix3 S = d * y.transpose();
   return S.trace() * Matrix3::Identity() - S;
 }
 
 }  // namespace
 
-InterfaceMotion::InterfaceMotion(std::vector<int> nodes, VectorX weights,
-                                 const Matrix3X& x, double body_size)
+Matrix3 invert_second_moment(const Matrix3& A, const Matrix3X& axes) {
+  if (axes.cols() == 3) return A.inverse();
+  if (axes.cols() == 0) return Matrix3::Zero();
+  const Eigen::Matrix<double, 3, 2> X = axes;
+  const Eigen::Matrix2d projected = X.transpose() * A * X;
+  return X * projected.inverse() * X.transpose();
+}
+
+InterfaceMotion::InterfaceMotion(std::vector<int> nodes, const VectorX& weights,
+                                 const Matrix3X& moments, const Matrix3X& x,
+                                 double body_size)
     : nodes_(std::move(nodes)), dofs_(3 * x.cols()) {
   const auto count = static_cast<Eigen::Index>(nodes_.size());
-  LIMBER_EXPECT(count > 0 && weights.size() == count);
+  LIMBER_EXPECT(count > 0 && weights.size() == count &&
+                moments.cols() == count);
   const Matrix3X own = x(Eigen::all, nodes_);
   p_ = own * weights;
   const Matrix3X d = own.colwise() - p_;
-  const auto moments = dense::find_eigenpairs(calc_second_moment(d, weights));
+  const Matrix3 A = calc_second_moment(d, moments);
+  const auto second =
+      dense::find_eigenpairs(Matrix3(0.5 * (A + A.transpose())));
   constexpr double kPoint = 1e-6;  // of the body's size
   constexpr double kLine = 1e-8;   // of the largest moment
-  const double largest = moments.values[2];
+  const double largest = second.values[2];
   const bool is_point = largest < std::pow(kPoint * body_size, 2);
-  Matrix3 inverse = Matrix3::Zero();
   axes_.resize(3, 0);
   for (int k = 0; k < 3 && !is_point; ++k) {
-    if (moments.values[k] < kLine * largest) continue;
-    const Vector3 axis = moments.vectors.col(k);
-    inverse += axis * axis.transpose() / moments.values[k];
+    if (second.values[k] < kLine * largest) continue;
     axes_.conservativeResize(3, ++rank_);
-    axes_.col(rank_ - 1) = axis;
+    axes_.col(rank_ - 1) = second.vectors.col(k);
   }
+  const Matrix3 inverse = invert_second_moment(A, axes_);
   map_.resize(6, 3 * count);
   for (Eigen::Index i = 0; i < count; ++i) {
     map_.block<3, 3>(0, 3 * i) = weights[i] * Matrix3::Identity();
-    map_.block<3, 3>(3, 3 * i) = weights[i] * inverse * skew(d.col(i));
+    map_.block<3, 3>(3, 3 * i) = inverse * skew(Vector3(moments.col(i)));
   }
 }
 

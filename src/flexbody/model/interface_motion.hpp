@@ -7,22 +7,31 @@
 
 namespace limber::flexbody {
 
+/// A^+ of the axes about which a set defines a rotation.
+/// @param axes orthonormal, 3 x 0, 3 x 2 or 3 x 3 @param A 3 x 3
+[[nodiscard]] Matrix3 invert_second_moment(const Matrix3& A,
+                                           const Matrix3X& axes);
+
 /// The mean motion of a weighted node set, as a linear map of its nodes'
 /// displacements.
 ///
 /// Equation   p = sum w_i x_i, d_i = x_i - p;
-///            u = sum w_i u_i,  theta = A^+ sum w_i d_i x u_i,
-///            A = sum w_i (d_i.d_i I - d_i d_i^T)
-/// Source     weighted least squares of u + theta x d_i against u_i
+///            u = sum w_i u_i,  theta = A^+ sum y_i x u_i,
+///            A = sum (y_i.d_i I - d_i y_i^T)
+/// Source     least squares of u + theta x d against the displacement: over a
+///            region with w_i = int N_i dA / A, y_i = int N_i d dA / A (so that
+///            forces are an even, moments a linear traction on it); over nodes
+///            with y_i = w_i d_i
 /// Limits     small rotation; on a line of nodes the rotation about it, and at
 ///            a point every rotation, is undefined and set to zero.
 class InterfaceMotion {
  public:
-  /// @param nodes node indices; @param weights sum to one
-  /// @param x 3 x N node positions [m]; @param body_size largest edge of the
+  /// @param nodes node indices @param weights w, sum to one
+  /// @param moments y, 3 x n, sum to zero [m]
+  /// @param x 3 x N node positions [m] @param body_size largest edge of the
   /// body [m], relative to which a set counts as a point
-  InterfaceMotion(std::vector<int> nodes, VectorX weights, const Matrix3X& x,
-                  double body_size);
+  InterfaceMotion(std::vector<int> nodes, const VectorX& weights,
+                  const Matrix3X& moments, const Matrix3X& x, double body_size);
 
   [[nodiscard]] const Vector3& mean_point() const { return p_; }  ///< [m]
   [[nodiscard]] int rotation_rank() const { return rank_; }       ///< 0, 2 or 3

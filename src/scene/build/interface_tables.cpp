@@ -109,7 +109,10 @@ Anchor find_anchor(std::span<const BodyPlan> pieces, const Place& place) {
   anchor.table = row_table(*plan.reduced, node->row);
   if (plan.full) {
     // All rows are stored, so a row is a node.
-    anchor.nodes = {name, {static_cast<int>(node->row)}, VectorX::Ones(1)};
+    anchor.nodes = {name,
+                    {static_cast<int>(node->row)},
+                    VectorX::Ones(1),
+                    Matrix3X::Zero(3, 1)};
   }
   return anchor;
 }

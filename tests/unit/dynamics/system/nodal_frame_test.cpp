@@ -134,8 +134,8 @@ TEST_P(NodalFrameOf, JacobianAndVelocitiesAreItsDerivatives) {
 TEST_P(NodalFrameOf, IsTheMeanOfTheReducedLevelsToSecondOrder) {
   const flexbody::NodeSet& set = find_node_set(*body_, GetParam());
   if (set.nodes.size() < 2) return;  // a node has no rotation there
-  const flexbody::InterfaceMotion linear(set.nodes, set.weights, body_->x_B,
-                                         0.3);
+  const flexbody::InterfaceMotion linear(set.nodes, set.weights, set.moments,
+                                         body_->x_B, 0.3);
   // About a line there is none.
   const Matrix3 defined =
       linear.rotation_axes() * linear.rotation_axes().transpose();

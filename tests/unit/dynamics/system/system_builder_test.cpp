@@ -406,19 +406,28 @@ TEST(FullBodyBuilder, RefusesNodesThatItDoesNotHave) {
   };
   expect_refused<ContractError>(
       [&] {
-        attach({"set", {0, count}, Vector3(0.5, 0.5, 0.0).head<2>()});
+        attach({"set",
+                {0, count},
+                VectorX::Constant(2, 0.5),
+                Matrix3X::Zero(3, 2)});
       },
       "frame 'f', node set 'set'", "there is no node");
   expect_refused<ContractError>(
       [&] {
-        attach({"set", {0, 1}, VectorX::Ones(1)});
+        attach({"set", {0, 1}, VectorX::Ones(1), Matrix3X::Zero(3, 2)});
       },
       "frame 'f'", "2 nodes and 1 weights");
   expect_refused<InputError>(
       [&] {
-        attach({"set", {0, 1}, VectorX::Ones(2)});
+        attach({"set", {0, 1}, VectorX::Ones(2), Matrix3X::Zero(3, 2)});
       },
       "frame 'f'", "sum to 2");
+  expect_refused<ContractError>(
+      [&] {
+        attach(
+            {"set", {0, 1}, VectorX::Constant(2, 0.5), Matrix3X::Zero(3, 1)});
+      },
+      "frame 'f'", "1 moments");
   expect_refused<ContractError>(
       [&] { builder.attach_interface("f", BodyIndex(0), {}, {}); }, "frame 'f'",
       "at level full");
