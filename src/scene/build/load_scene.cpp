@@ -19,6 +19,7 @@
 #include "limber/scene/contacts/projectiles.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/probes/stress_points.hpp"
+#include "limber/scene/robot/coupler_section.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/toml_file.hpp"
 #include "limber/scene/text/toml_settings.hpp"
@@ -136,6 +137,7 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides,
   apply_settings(settings.scenario, table);
   scene.scenario = read_scenario(table, file);
   scene.robot = read_robots(scene.scenario, settings.robots, known);
+  add_couplers(table, file, scene.robot);
   add_projectiles(scene.scenario, scene.robot);
   check_scenario(scene.scenario, scene.robot);
   add_contacts(scene);

@@ -49,7 +49,14 @@ class ExtensionReader {
     add_names(robot.links, links_);
     add_names(robot.joints, joints_);
     for (const std::string& name : joints_) couplers_.insert(name);
-    for (const Gear& mimic : robot.gears) couplers_.insert(mimic.name);
+    const auto add_couplers_of = [this](const auto& all) {
+      for (const auto& one : all) couplers_.insert(one.name);
+    };
+    add_couplers_of(robot.gears);
+    add_couplers_of(robot.loops);
+    add_couplers_of(robot.connectors);
+    add_couplers_of(robot.latches);
+    add_couplers_of(robot.tendons);
   }
 
   void read(const TiXmlElement& root) {

@@ -15,6 +15,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/names.hpp"
+#include "limber/scene/text/toml_attribute.hpp"
 #include "limber/scene/text/toml_settings.hpp"
 
 namespace limber::scene {
@@ -93,31 +94,6 @@ Parts list_names(const std::vector<TiXmlElement*>& elements,
     names.push_back(attribute_of(*one, attribute));
   }
   return names;
-}
-
-/// A TOML value as the text of an attribute: strings without quotes, numbers
-/// of an array with blanks between them.
-std::string to_attribute(const toml::node& node) {
-  if (const auto text = node.value_exact<std::string>()) return *text;
-  if (const auto number = node.value_exact<std::int64_t>()) {
-    return fmt::format("{}", *number);
-  }
-  if (const auto number = node.value_exact<double>()) {
-    return fmt::format("{}", *number);
-  }
-  if (const auto flag = node.value_exact<bool>()) {
-    return *flag ? "true" : "false";
-  }
-  const toml::array* array = node.as_array();
-  if (array == nullptr) {
-    refuse("has a value that is no number, text, true or false");
-  }
-  Parts entries;
-  for (const toml::node& entry : *array) {
-    if (entry.is_array()) refuse("has an array in an array as its value");
-    entries.push_back(to_attribute(entry));
-  }
-  return fmt::format("{}", fmt::join(entries, " "));
 }
 
 /// Applies one setting.

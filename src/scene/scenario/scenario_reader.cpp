@@ -317,6 +317,7 @@ void read_root(TomlTable& root, Scenario& scenario) {
       read_items<ProjectileSpec>(root, "projectile", read_projectile);
   scenario.obstacles =
       read_items<ObstacleSpec>(root, "obstacle", read_obstacle);
+  root.skip("coupler");  // read with the robots (add_couplers)
   read_contacts(root, scenario);
   read_section(root, "initial",
                [&](TomlTable& t) { read_initial(t, scenario); });
