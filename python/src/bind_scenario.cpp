@@ -121,9 +121,11 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
     scene::BuiltScene built;
     {
       const auto lock = app::lock_libraries();
-      scenery = app::read_scenery(scene);
+      std::vector<std::string> unread;
+      scenery = app::read_scenery(scene, unread);
       built = scene::build_system(scene, app::make_reducer(watch), cache,
                                   app::make_full_maker(watch));
+      built.warnings.insert(built.warnings.end(), unread.begin(), unread.end());
     }
     for (const GivenLaw& law : given) {
       check_period(law);

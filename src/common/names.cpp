@@ -32,7 +32,16 @@ std::string list_names(const std::vector<std::string>& names) {
   return fmt::format("{}{}", fmt::join(shown, ", "), more);
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+/// Whether it is `name` without what comes before a dot, as a link's own name
+/// is of `robot.link`.
+bool is_end_of(std::string_view end, std::string_view name) {
+  return !end.empty() && name.size() > end.size() + 1 && name.ends_with(end) &&
+         name[name.size() - end.size() - 1] == '.';
+}
+
+}  // namespace
+
+std::size_t find_edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -47,22 +56,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Whether it is `name` without what comes before a dot, as a link's own name
-/// is of `robot.link`.
-bool is_end_of(std::string_view end, std::string_view name) {
-  return !end.empty() && name.size() > end.size() + 1 && name.ends_with(end) &&
-         name[name.size() - end.size() - 1] == '.';
-}
-
-}  // namespace
-
 std::string nearest_name(std::string_view unknown,
                          const std::vector<std::string>& known) {
   if (known.size() > kMostCompared) return "";
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, unknown.size() / 2);
   for (const std::string& name : known) {
-    const std::size_t distance = edit_distance(unknown, name);
+    const std::size_t distance = find_edit_distance(unknown, name);
     if (distance <= best_distance &&
         (best.empty() || distance < best_distance)) {
       best = name;

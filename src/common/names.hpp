@@ -12,6 +12,10 @@ namespace limber {
 [[nodiscard]] std::string nearest_name(std::string_view unknown,
                                        const std::vector<std::string>& known);
 
+/// Least number of letters to add, remove or replace that makes one the other.
+[[nodiscard]] std::size_t find_edit_distance(std::string_view a,
+                                             std::string_view b);
+
 /// "unknown KIND 'NAME'" with a suggestion and the known names (the first ones
 /// if there are many).
 [[nodiscard]] std::string describe_unknown(

@@ -103,6 +103,7 @@ void verify(const VerifyOptions& options) {
   report.options.refinements = options.refine;
   scene::Overrides overrides;
   overrides.fidelity = dynamics::Fidelity::rigid;
+  overrides.settings = to_settings(options.robots);
   scene::Scene scene = scene::load_scene(options.scenario, overrides);
   apply(options, scene.scenario.settings);
   if (options.refine > 0 && scene.scenario.settings.tolerance > 0.0) {

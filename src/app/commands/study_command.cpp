@@ -9,6 +9,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
+#include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/study/study_collection.hpp"
 #include "limber/app/study/study_pictures.hpp"
@@ -28,6 +29,7 @@ struct StudyCommandOptions {
   std::string shard;
   std::string out;
   std::string cache;
+  SettingOptions robots;
   int jobs = 0;
   bool csv = false;
   bool json = false;
@@ -99,7 +101,10 @@ void finish(const StudyCommandOptions& options, const fs::path& file,
 }
 
 void run_one(const StudyCommandOptions& options) {
-  const Study study = read_study(fs::path(options.study));
+  Study study = read_study(fs::path(options.study));
+  for (const scene::Setting& one : to_settings(options.robots)) {
+    study.settings.push_back(one);
+  }
   const Shard shard = parse_shard(options.shard);
   const Design design = make_design(study);
   const StudyBase base = make_base(study, design, options.cache);
@@ -157,6 +162,7 @@ void add_study(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1024));
   add_out(*command, options->out, "<study name>");
   add_cache_option(*command, options->cache);
+  add_robot_options(*command, options->robots);
   command->add_flag("--csv", options->csv, "Write the table as CSV, too");
   add_json(*command, options->json);
   command->callback(

@@ -40,6 +40,7 @@ void add_verify(CLI::App& app, Action& action, const Verify& verify) {
                       "Folder for verification.json and, with --stiffen, "
                       "stiffness.png (default: none)");
   add_cache_option(*command, options->cache);
+  add_robot_options(*command, options->robots);
   add_json(*command, options->json);
   command->callback([&action, options, verify] {
     action = [options, verify] { verify(*options); };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limber/app/console/command_line.hpp"
+#include "limber/app/options/setting_options.hpp"
 
 namespace limber::app {
 
@@ -15,6 +16,7 @@ struct VerifyOptions {
   std::string joints;
   std::string integrator;
   std::string cache;
+  SettingOptions robots;        ///< how their files are read
   double step = 0.0;            ///< [s]
   double duration = 0.0;        ///< [s]
   double accuracy = 1e-12;      ///< of Simbody's integrator [-]

@@ -10,14 +10,21 @@
 
 namespace limber::app {
 
-/// `--set KEY=VALUE` and `--unset KEY`, each as often as needed.
+/// `--set KEY=VALUE`, `--unset KEY` and `--package NAME=FOLDER`, each as often
+/// as needed, and `--repair-inertia`.
 struct SettingOptions {
   std::vector<std::string> set;
   std::vector<std::string> unset;
+  std::vector<std::string> packages;  ///< NAME=FOLDER
+  bool repairs_inertia = false;
 };
 
 void add_settings(CLI::App& command, SettingOptions& options);
 
+/// `--package` and `--repair-inertia` alone.
+void add_robot_options(CLI::App& command, SettingOptions& options);
+
+/// Packages and repair as settings of [urdf].
 /// @throws InputError naming an option without key or '='.
 [[nodiscard]] std::vector<scene::Setting> to_settings(
     const SettingOptions& options);

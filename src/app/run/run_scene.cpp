@@ -142,9 +142,11 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
                    const CheckpointPlan& checkpoints, bool judges) {
-  results::Scenery scenery = read_scenery(scene);
+  std::vector<std::string> unread;
+  results::Scenery scenery = read_scenery(scene, unread);
   scene::BuiltScene built =
       scene::build_system(scene, reducer, cache, make_full_maker(progress));
+  built.warnings.insert(built.warnings.end(), unread.begin(), unread.end());
   warn_of_unused_cache(cache, built);
   Run run = simulate_built(scene, std::move(built), cache, progress,
                            checkpoints, judges);
@@ -199,6 +201,9 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
   Run run = simulate_scene(scene, make_reducer(progress), cache, progress,
                            checkpoints, true);
   clear_progress_bar();
+  for (const std::string& note : scene.scenario.notes) {
+    print_notice("note: " + note);
+  }
   print_warnings(run.built.warnings);
   print_warnings(run.statistics.warnings);
   return run;
@@ -249,6 +254,7 @@ Json summarize(const Run& run) {
   for (const BodyLevel& level : run.levels) {
     json["levels"].push_back(to_json(level));
   }
+  json["notes"] = run.scene.scenario.notes;
   json["warnings"] = run.built.warnings;
   for (const auto& texts : {run.statistics.warnings, run.printed_warnings}) {
     for (const std::string& text : texts) json["warnings"].push_back(text);

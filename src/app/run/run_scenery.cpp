@@ -77,7 +77,7 @@ std::optional<results::SolidShape> find_solid_shape(
 }
 
 void add_link(const scene::Link& link, results::Scenery& scenery,
-              std::vector<std::string>& problems) {
+              std::vector<std::string>& unread) {
   const bool has_visuals = !link.visuals.empty();
   const auto& given = has_visuals ? link.visuals : link.collisions;
   for (const scene::Collision& shape : given) {
@@ -87,16 +87,25 @@ void add_link(const scene::Link& link, results::Scenery& scenery,
             {link.name, dynamics::kWorld, shape.X_LS, std::move(*form)});
       }
     } catch (const InputError& error) {
-      problems.push_back(fmt::format(
-          "<{}> of link '{}': {}. Pictures need it: correct or remove it",
-          has_visuals ? "visual" : "collision", link.name, error.what()));
+      unread.push_back(fmt::format("<{}> of link '{}': {}",
+                                   has_visuals ? "visual" : "collision",
+                                   link.name, error.what()));
     }
   }
 }
 
+void warn_of_unread(const std::vector<std::string>& unread,
+                    std::vector<std::string>& warnings) {
+  if (unread.empty()) return;
+  warnings.push_back(
+      fmt::format("meshes that are not drawn: {}, {}{}", unread.size(),
+                  unread.size() > 1 ? "the first: " : "", unread.front()));
+}
+
 }  // namespace
 
-results::Scenery read_scenery(const scene::Scene& scene) {
+results::Scenery read_scenery(const scene::Scene& scene,
+                              std::vector<std::string>& warnings) {
   results::Scenery scenery;
   scenery.name = scene.scenario.name;
   scenery.scenario = read_whole(scene.scenario.file);
@@ -109,14 +118,14 @@ results::Scenery read_scenery(const scene::Scene& scene) {
   for (const scene::Setting& setting : scene.settings) {
     scenery.settings += to_string(setting) + "\n";
   }
-  std::vector<std::string> problems;
+  std::vector<std::string> unread;
   for (const scene::Link& link : scene.robot.links) {
-    if (!link.flexible) add_link(link, scenery, problems);
+    if (!link.flexible) add_link(link, scenery, unread);
     if (link.flexible && scene::wants_stress(scene.scenario, link.name)) {
       scenery.stressed.push_back(link.name);
     }
   }
-  if (!problems.empty()) throw InputError(problems);
+  warn_of_unread(unread, warnings);
   return scenery;
 }
 

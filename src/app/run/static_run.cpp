@@ -100,11 +100,14 @@ StaticRun find_static(const scene::Scene& scene,
   const Progress making = number_stage(progress, 1, 2);
   StaticRun run;
   run.scene = scene;
-  run.scenery = read_scenery(run.scene);
+  std::vector<std::string> unread;
+  run.scenery = read_scenery(run.scene, unread);
   run.method = method;
   run.scene.scenario.equilibrium.reset();
   run.built = scene::build_system(run.scene, make_reducer(making), cache,
                                   make_full_maker(making));
+  run.built.warnings.insert(run.built.warnings.end(), unread.begin(),
+                            unread.end());
   warn_of_unused_cache(cache, run.built);
   place_shapes(run.scene, run.built, run.scenery);
   run.found =

@@ -7,18 +7,14 @@
 #include <cmath>
 #include <set>
 
-#include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/system/inertia_check.hpp"
 #include "limber/dynamics/system/name_register.hpp"
 
 namespace limber::dynamics {
 namespace {
-
-std::string format_vector(const Vector3& v) {
-  return fmt::format("({:g}, {:g}, {:g})", v[0], v[1], v[2]);
-}
 
 void check_finite(const std::string& what, const std::string& value,
                   bool is_finite) {
@@ -62,11 +58,8 @@ std::string NameRegister::check(const std::string& kind,
   return fmt::format("{} '{}'", kind, name);
 }
 
-// The principal moments of any mass obey I1 + I2 >= I3, with equality for flat
-// bodies. Rounding of printed digits may violate it.
 void check_inertia(const std::string& what, double mass,
                    const Matrix3& inertia) {
-  constexpr double kPrinted = 1e-3;    // of the largest moment
   constexpr double kSymmetric = 1e-9;  // of the largest entry
   if (!(mass > 0.0) || !std::isfinite(mass)) {
     throw InputError(fmt::format(
@@ -80,19 +73,8 @@ void check_inertia(const std::string& what, double mass,
                     "xy, xz, yz each appear twice",
                     what));
   }
-  const Vector3 principal = dense::find_eigenvalues(inertia);
-  if (!(principal.minCoeff() > 0.0)) {
-    throw InputError(fmt::format(
-        "{}: its inertia has the principal moments {} kg m^2; expected all > 0",
-        what, format_vector(principal)));
-  }
-  if (principal[0] + principal[1] < (1.0 - kPrinted) * principal[2]) {
-    throw InputError(fmt::format(
-        "{}: its inertia has the principal moments {} kg m^2, the largest more "
-        "than the sum of the others, which no mass has. Look at units, and "
-        "whether it is about the centre of mass",
-        what, format_vector(principal)));
-  }
+  const std::string problem = find_inertia_problem(inertia);
+  if (!problem.empty()) throw InputError(what + ": " + problem);
 }
 
 void check_reduced(const std::string& what,

@@ -8,6 +8,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/common/piece_names.hpp"
+#include "limber/dynamics/system/inertia_check.hpp"
 #include "limber/scene/text/problems.hpp"
 
 namespace limber::scene {
@@ -144,6 +145,31 @@ class Planner {
       body.inertia += X_BL.R * inertia->inertia * X_BL.R.transpose() +
                       steiner(inertia->mass, X_BL * inertia->p_LBcm);
     }
+    check_inertia(body);
+  }
+
+  void check_inertia(const BodyPlan& body) {
+    const std::string problem = dynamics::find_inertia_problem(body.inertia);
+    if (problem.empty()) return;
+    problems_.add(0, fmt::format("link '{}'{}: {}; --repair-inertia takes the "
+                                 "nearest that a mass has",
+                                 body.name, find_bad_inertias(body), problem));
+  }
+
+  /// Where the inertias are, of the links merged in a body, that no mass has.
+  [[nodiscard]] std::string find_bad_inertias(const BodyPlan& body) const {
+    constexpr int kMost = 3;
+    std::string places;
+    int count = 0;
+    for (const int i : body.links) {
+      const auto& inertia = robot_.links[index(i)].inertia;
+      if (!inertia || inertia->place.empty()) continue;
+      if (dynamics::find_inertia_problem(inertia->inertia).empty()) continue;
+      if (++count > kMost) continue;
+      places += (count > 1 ? ", " : " at ") + inertia->place;
+    }
+    if (count <= kMost) return places;
+    return places + fmt::format(" and {} more", count - kMost);
   }
 
   const Robot& robot_;

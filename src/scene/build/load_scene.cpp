@@ -17,9 +17,11 @@
 #include "limber/scene/build/unused_keys.hpp"
 #include "limber/scene/build/unused_settings.hpp"
 #include "limber/scene/contacts/projectiles.hpp"
+#include "limber/scene/contacts/support.hpp"
 #include "limber/scene/contacts/touching_pairs.hpp"
 #include "limber/scene/probes/stress_points.hpp"
 #include "limber/scene/robot/coupler_section.hpp"
+#include "limber/scene/robot/massless_links.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
 #include "limber/scene/text/toml_file.hpp"
 #include "limber/scene/text/toml_settings.hpp"
@@ -128,6 +130,23 @@ void add_contacts(Scene& scene) {
   scene.touching = std::move(touching.pairs);
 }
 
+void note_falling(Scene& scene) {
+  Scenario& scenario = scene.scenario;
+  const std::vector<std::string> links =
+      find_falling_links(scenario, scene.robot, scene.touching);
+  if (links.empty()) return;
+  const bool is_one = scenario.robots.empty();
+  const std::string others =
+      links.size() == 1 ? ""
+                        : fmt::format(", and so do {} more", links.size() - 1);
+  scenario.notes.push_back(fmt::format(
+      "link '{}' falls freely, with all that hangs on it{}: nothing holds it "
+      "against gravity; base = \"fixed\" in {} (--set robot{}.base=fixed) "
+      "fixes a robot to the world where it stands",
+      links.front(), others, is_one ? "[robot]" : "its [[robot]]",
+      is_one ? "" : ".NAME"));
+}
+
 Scene load(const std::filesystem::path& file, const Overrides& overrides,
            KnownRobots* known) {
   Scene scene;
@@ -138,9 +157,11 @@ Scene load(const std::filesystem::path& file, const Overrides& overrides,
   scene.scenario = read_scenario(table, file);
   scene.robot = read_robots(scene.scenario, settings.robots, known);
   add_couplers(table, file, scene.robot);
+  fix_massless_ends(find_used_joints(scene.scenario), scene.robot);
   add_projectiles(scene.scenario, scene.robot);
   check_scenario(scene.scenario, scene.robot);
   add_contacts(scene);
+  note_falling(scene);
   choose_bases(scene.scenario, overrides.basis, scene.robot);
   apply_overrides(overrides, scene);
   check_stress(overrides, scene);

@@ -47,6 +47,14 @@ class Mover {
 /// Every key of docs/formats/scenario.md that names a file.
 void move_paths(toml::table& root, const Mover& mover) {
   mover.move(root, "robot");
+  if (toml::table* robot = root.get_as<toml::table>("robot")) {
+    mover.move(*robot, "file");
+  }
+  if (toml::table* packages = root["urdf"]["packages"].as_table()) {
+    std::vector<std::string> names;
+    for (const auto& [name, folder] : *packages) names.emplace_back(name.str());
+    for (const std::string& name : names) mover.move(*packages, name);
+  }
   if (toml::array* robots = root.get_as<toml::array>("robot")) {
     for (toml::node& item : *robots) mover.move(*item.as_table(), "file");
   }

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "limber/common/roll_pitch_yaw.hpp"
 #include "limber/scene/robot/joined_robots.hpp"
+#include "limber/scene/robot/massless_links.hpp"
 #include "limber/scene/robot/robot_reader.hpp"
 #include "limber/scene/text/problems.hpp"
 
@@ -42,32 +46,82 @@ std::vector<RobotSetting> select(const std::vector<RobotSetting>& settings,
 
 /// The file's robot, read once with the same settings.
 Robot read_once(const std::filesystem::path& file,
-                const std::vector<RobotSetting>& settings, KnownRobots* known) {
-  if (known == nullptr) return read_robot(file, settings);
+                const std::vector<RobotSetting>& settings,
+                const RobotOptions& options, KnownRobots* known) {
+  if (known == nullptr) return read_robot(file, settings, options);
   constexpr std::size_t kMostKnown = 64;
-  std::vector<std::string> key = {file.string()};
+  std::vector<std::string> key = {file.string(),
+                                  options.repair_inertia ? "repair" : ""};
+  for (const auto& [name, folder] : options.packages) {
+    key.push_back(name + "=" + folder.string());
+  }
   for (const RobotSetting& one : settings) {
     key.push_back(to_string(one.setting));
   }
   const auto found = known->find(key);
   if (found != known->end()) return found->second;
-  Robot robot = read_robot(file, settings);
+  Robot robot = read_robot(file, settings, options);
   if (known->size() < kMostKnown) known->emplace(std::move(key), robot);
+  return robot;
+}
+
+/// Whether the robot's root link is to be fixed to the world, which it is not
+/// by itself.
+bool needs_fixed_base(const std::string& who, const Robot& robot,
+                      const std::optional<RobotBase>& base,
+                      std::vector<std::string>& warnings) {
+  if (is_held(robot)) {
+    if (base) {
+      warnings.push_back(fmt::format(
+          "{} base changes nothing: the root link '{}' is held already", who,
+          robot.links.front().name));
+    }
+    return false;
+  }
+  if (base) return base == RobotBase::fixed;
+  if (!has_massless_root(robot)) return false;
+  warnings.push_back(fmt::format(
+      "{} the root link '{}' has no mass, so it is fixed to the world where it "
+      "stands (base = \"fixed\")",
+      who, robot.links.front().name));
+  return true;
+}
+
+Robot read_only_robot(Scenario& scenario,
+                      const std::vector<RobotSetting>& settings,
+                      KnownRobots* known) {
+  Robot robot = read_once(scenario.robot, settings, scenario.urdf, known);
+  if (!needs_fixed_base("[robot]", robot, scenario.robot_base,
+                        scenario.warnings)) {
+    return robot;
+  }
+  if (is_moving(scenario.base)) {
+    throw InputError(fmt::format(
+        "{}: [initial.base] has a velocity, but the root link is fixed",
+        scenario.file.string()));
+  }
+  robot = fix_base(std::move(robot), find_pose(scenario.base));
+  scenario.base = {};
   return robot;
 }
 
 /// The file's robot, or none and a problem.
 std::vector<NamedRobot> read_named(const RobotSpec& spec,
                                    const std::vector<RobotSetting>& settings,
-                                   KnownRobots* known, Problems& problems) {
+                                   const RobotOptions& options,
+                                   KnownRobots* known, Problems& problems,
+                                   std::vector<std::string>& warnings) {
   NamedRobot named{spec.name, {}, find_pose(spec.start)};
   try {
-    named.robot = read_once(spec.file, select(settings, spec.name), known);
+    named.robot =
+        read_once(spec.file, select(settings, spec.name), options, known);
   } catch (const InputError& error) {
     problems.add(error, 0);
     return {};
   }
-  if (is_held(named.robot) && is_moving(spec.start)) {
+  named.is_fixed = needs_fixed_base(fmt::format("[[robot]] '{}':", spec.name),
+                                    named.robot, spec.base, warnings);
+  if ((is_held(named.robot) || named.is_fixed) && is_moving(spec.start)) {
     problems.add(0, fmt::format("[[robot]] '{}' is held by the world; it has "
                                 "no velocity",
                                 spec.name));
@@ -75,17 +129,14 @@ std::vector<NamedRobot> read_named(const RobotSpec& spec,
   return {named};
 }
 
-}  // namespace
-
-Robot read_robots(Scenario& scenario, const std::vector<RobotSetting>& settings,
-                  KnownRobots* known) {
-  if (scenario.robots.empty()) {
-    return read_once(scenario.robot, settings, known);
-  }
+Robot read_several(Scenario& scenario,
+                   const std::vector<RobotSetting>& settings,
+                   KnownRobots* known) {
   Problems problems(scenario.file.string());
   std::vector<NamedRobot> all;
   for (const RobotSpec& spec : scenario.robots) {
-    for (NamedRobot& named : read_named(spec, settings, known, problems)) {
+    for (NamedRobot& named : read_named(spec, settings, scenario.urdf, known,
+                                        problems, scenario.warnings)) {
       all.push_back(std::move(named));
     }
     if (scenario.joints.contains(spec.name)) {
@@ -101,6 +152,25 @@ Robot read_robots(Scenario& scenario, const std::vector<RobotSetting>& settings,
   joined.name = scenario.name;
   joined.file = scenario.file;
   return joined;
+}
+
+}  // namespace
+
+std::set<std::string> find_used_joints(const Scenario& scenario) {
+  std::set<std::string> used;
+  for (const auto& [joint, start] : scenario.joints) used.insert(joint);
+  for (const DriveSpec& drive : scenario.drives) used.insert(drive.joint);
+  for (const ProbeSpec& probe : scenario.probes) {
+    const auto* coupler = std::get_if<CouplerProbeSpec>(&probe.of);
+    if (coupler != nullptr) used.insert(coupler->coupler);
+  }
+  return used;
+}
+
+Robot read_robots(Scenario& scenario, const std::vector<RobotSetting>& settings,
+                  KnownRobots* known) {
+  return scenario.robots.empty() ? read_only_robot(scenario, settings, known)
+                                 : read_several(scenario, settings, known);
 }
 
 }  // namespace limber::scene

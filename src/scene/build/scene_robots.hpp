@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,14 +16,17 @@ namespace limber::scene {
 /// more than the rest of a scene, so the scenes of a study share it.
 using KnownRobots = std::map<std::vector<std::string>, Robot>;
 
-/// The robot of a scenario, or all of its robots as one
-/// (join_robots). With several robots their velocities become starts
-/// of joints.
+/// The robot of a scenario, fixed to the world if its base is (fix_base), or
+/// all of its robots as one (join_robots). With several robots their velocities
+/// become starts of joints.
 /// @param settings are applied to the files first
 /// @param known robots read before, which are not read again; gets new ones
 /// @throws InputError with every problem of the files.
 [[nodiscard]] Robot read_robots(Scenario& scenario,
                                 const std::vector<RobotSetting>& settings,
                                 KnownRobots* known = nullptr);
+
+/// Joints that a scenario drives, starts or measures.
+[[nodiscard]] std::set<std::string> find_used_joints(const Scenario& scenario);
 
 }  // namespace limber::scene

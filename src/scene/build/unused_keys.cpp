@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <variant>
 
 #include "limber/scene/build/recipes.hpp"
 #include "limber/scene/probes/stress_points.hpp"
@@ -37,6 +39,7 @@ class Finder {
     look_at_contact_defaults();
     look_at_stribeck_speeds();
     look_at_obstacles();
+    look_at_packages();
     return std::move(texts_);
   }
 
@@ -291,6 +294,26 @@ class Finder {
       if (touches) continue;
       tell("obstacle '" + scenario_.obstacles[i].name + "'",
            "no [[contact]] names it");
+    }
+  }
+
+  [[nodiscard]] bool has_mesh_in(const std::filesystem::path& folder) const {
+    const std::string begin =
+        (std::filesystem::absolute(folder) / "").lexically_normal().string();
+    const auto is_in = [&](const Collision& shape) {
+      const auto* mesh = std::get_if<MeshGeometry>(&shape.geometry);
+      return mesh != nullptr && mesh->file.string().starts_with(begin);
+    };
+    return std::any_of(links_.begin(), links_.end(), [&](const Link& link) {
+      return std::any_of(link.visuals.begin(), link.visuals.end(), is_in) ||
+             std::any_of(link.collisions.begin(), link.collisions.end(), is_in);
+    });
+  }
+
+  void look_at_packages() {
+    for (const auto& [name, folder] : scenario_.urdf.packages) {
+      if (has_mesh_in(folder)) continue;
+      tell("[urdf] packages." + name, "no mesh of a robot is found in it");
     }
   }
 

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdlib>
-#include <cstring>
 #include <sstream>
 
 #include "limber/common/errors.hpp"
@@ -17,7 +15,6 @@ namespace {
 
 constexpr double kSeconds = 60.0;
 constexpr std::uint64_t kMemory = std::uint64_t{1} << 32;
-constexpr std::size_t kVectors = 4;  // a normal and three corners
 
 std::filesystem::path find_assimp(const std::filesystem::path& file) {
   const char* path = std::getenv("PATH");
@@ -34,31 +31,6 @@ std::filesystem::path find_assimp(const std::filesystem::path& file) {
       file.string()));
 }
 
-/// Reverts the program's rotation to y up.
-void turn_back(const std::string& text, std::string& stl) {
-  const bool was_x = text.find(">X_UP<") != std::string::npos;
-  const bool was_z = text.find(">Z_UP<") != std::string::npos;
-  if (!was_x && !was_z) return;
-  for (std::size_t at = kStlHead; at + kStlRecord <= stl.size();
-       at += kStlRecord) {
-    std::array<float, 3 * kVectors> numbers{};
-    std::memcpy(numbers.data(), stl.data() + at, sizeof(numbers));
-    for (std::size_t i = 0; i < numbers.size(); i += 3) {
-      const float x = numbers[i];
-      const float y = numbers[i + 1];
-      const float z = numbers[i + 2];
-      if (was_x) {
-        numbers[i] = y;
-        numbers[i + 1] = -x;
-      } else {
-        numbers[i + 1] = -z;
-        numbers[i + 2] = y;
-      }
-    }
-    std::memcpy(stl.data() + at, numbers.data(), sizeof(numbers));
-  }
-}
-
 /// The program's own words, or how it ended.
 std::string explain(const ChildEnd& end) {
   if (end.is_out_of_time) return fmt::format("not read in {:g} s", kSeconds);
@@ -70,24 +42,32 @@ std::string explain(const ChildEnd& end) {
 
 }  // namespace
 
-std::string convert_dae(const std::filesystem::path& file,
-                        const std::string& text) {
+std::string convert_dae(const std::filesystem::path& file) {
   ChildTask task;
   task.program = find_assimp(file);
   task.arguments = {"export", std::filesystem::absolute(file).string(),
-                    fmt::format("/dev/fd/{}", kReplyDescriptor), "-fstlb"};
+                    fmt::format("/dev/fd/{}", kReplyDescriptor), "-fobjnomtl"};
   task.seconds = kSeconds;
   task.memory = kMemory;
   ChildEnd end = run_child(task);
   const bool is_done = end.exit_status == 0 && end.signal == 0 &&
                        !end.is_out_of_time && !end.is_reply_too_long &&
-                       end.reply.size() >= kStlHead;
+                       !end.reply.empty();
   if (!is_done) {
     throw InputError(
         fmt::format("mesh '{}': assimp: {}", file.string(), explain(end)));
   }
-  turn_back(text, end.reply);
   return std::move(end.reply);
+}
+
+Matrix3 find_dae_axes(const std::string& text) {
+  Matrix3 axes = Matrix3::Identity();
+  if (text.find(">X_UP<") != std::string::npos) {
+    axes << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  } else if (text.find(">Z_UP<") != std::string::npos) {
+    axes << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  }
+  return axes;
 }
 
 }  // namespace limber::scene

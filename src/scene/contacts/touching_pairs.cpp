@@ -72,6 +72,10 @@ void check_shapes(const Link& link) {
   for (const Collision& collision : link.collisions) {
     const auto* other = std::get_if<OtherGeometry>(&collision.geometry);
     if (other == nullptr) continue;
+    if (!other->reason.empty()) {
+      throw InputError(fmt::format("link '{}' needs its <collision> here: {}",
+                                   link.name, other->reason));
+    }
     throw InputError(fmt::format(
         "link '{}' has a <{}> in its <collision>, which contacts do not know; "
         "give <sphere>, <box>, <cylinder>, <capsule> or <mesh>, or make the "

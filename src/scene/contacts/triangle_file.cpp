@@ -25,6 +25,11 @@ namespace {
 constexpr InputKind kMesh = {"mesh", std::uint64_t{1} << 28};
 constexpr std::size_t kMostTriangles = 500000;
 
+/// Binary STL: 80 bytes of text and the number of triangles, in 4; then for
+/// each triangle a normal and three corners as floats, and two bytes more.
+constexpr std::size_t kStlHead = 84;
+constexpr std::size_t kStlRecord = 50;
+
 class Reader {
  public:
   Reader(const std::filesystem::path& file, std::string_view text)
@@ -184,15 +189,26 @@ std::string find_kind(const std::filesystem::path& file) {
   return kind;
 }
 
+std::vector<Triangle> read_dae(const std::filesystem::path& file,
+                               const std::string& text) {
+  const std::string obj = convert_dae(file);
+  std::vector<Triangle> triangles = Reader(file, obj).read_obj();
+  const Matrix3 axes = find_dae_axes(text);
+  for (Triangle& triangle : triangles) {
+    for (Vector3& x : triangle) x = axes * x;
+  }
+  return triangles;
+}
+
 }  // namespace
 
 std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
-  std::string text = read_input(file, kMesh);
+  const std::string text = read_input(file, kMesh);
   const std::string kind = find_kind(file);
-  if (kind == ".dae") text = convert_dae(file, text);
+  if (kind == ".dae") return read_dae(file, text);
   Reader reader(file, text);
   if (kind == ".obj") return reader.read_obj();
-  if (kind != ".stl" && kind != ".dae") {
+  if (kind != ".stl") {
     reader.refuse("its kind is not known; expected a file .stl, .obj or .dae");
   }
   if (reader.is_binary_stl()) return reader.read_binary_stl();

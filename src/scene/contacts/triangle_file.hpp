@@ -15,7 +15,7 @@ using Triangle = std::array<Vector3, 3>;
 
 /// The triangles of an STL file (text or binary), of an OBJ file, whose
 /// polygons are split from their first corner, or of a COLLADA file
-/// (dae_file.hpp). Normals, colours and groups are not read.
+/// (dae_file.hpp). Lines, points, normals, colours and groups are not read.
 /// @throws InputError naming the file, and the line or triangle: a file that
 /// cannot be read, of another kind or damaged, without triangles, with more
 /// than 500 000, or with a coordinate that is no finite number.

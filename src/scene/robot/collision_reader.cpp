@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -10,146 +11,202 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "limber/common/echo.hpp"
+#include "limber/scene/robot/package_paths.hpp"
 
 namespace limber::scene {
 namespace {
 
 constexpr const char* kCollision = "collision";
 
+OtherGeometry make_useless(const XmlElement& element, const std::string& why) {
+  const std::string tag = element.tag();
+  return {tag, element.problems().locate(element.line(),
+                                         fmt::format("<{}> {}", tag, why))};
+}
+
+/// The shape, unless a size of it is 0, as of placeholders.
+template <typename Shape>
+Geometry keep_sized(const XmlElement& element, const Shape& shape,
+                    double least_size) {
+  if (least_size > 0.0) return shape;
+  return make_useless(element, "has a size of 0");
+}
+
+Geometry read_sphere_shape(XmlElement& element) {
+  const SphereGeometry sphere{element.required_number("radius", kNonNegative)};
+  return keep_sized(element, sphere, sphere.radius);
+}
+
 Geometry read_box_shape(XmlElement& element) {
   if (!element.has("size")) element.fail("needs 'size'");
-  return BoxGeometry{
-      element.vector("size", kPositive).value_or(Vector3::Ones())};
+  const BoxGeometry box{
+      element.vector("size", kNonNegative).value_or(Vector3::Ones())};
+  return keep_sized(element, box, box.size.minCoeff());
+}
+
+template <typename Shape>
+Geometry read_round_shape(XmlElement& element) {
+  const Shape shape{element.required_number("radius", kNonNegative),
+                    element.required_number("length", kNonNegative)};
+  return keep_sized(element, shape, std::min(shape.radius, shape.length));
 }
 
 using GeometryReader = Geometry (*)(XmlElement&);
 
 const std::map<std::string, GeometryReader>& geometry_readers() {
   static const std::map<std::string, GeometryReader> readers = {
-      {"sphere",
-       [](XmlElement& e) -> Geometry {
-         return SphereGeometry{e.required_number("radius", kPositive)};
-       }},
+      {"sphere", &read_sphere_shape},
       {"box", &read_box_shape},
-      {"cylinder",
-       [](XmlElement& e) -> Geometry {
-         return CylinderGeometry{e.required_number("radius", kPositive),
-                                 e.required_number("length", kPositive)};
-       }},
-      {"capsule", [](XmlElement& e) -> Geometry {
-         return CapsuleGeometry{e.required_number("radius", kPositive),
-                                e.required_number("length", kPositive)};
-       }}};
+      {"cylinder", &read_round_shape<CylinderGeometry>},
+      {"capsule", &read_round_shape<CapsuleGeometry>}};
   return readers;
 }
 
-/// A package of robot software is a folder with its name: where the robot's
-/// file is, or above. Nothing if there is no such file.
-std::filesystem::path find_in_package(const std::filesystem::path& folder,
-                                      const std::filesystem::path& name) {
-  std::filesystem::path above =
-      std::filesystem::absolute(folder.empty() ? "." : folder);
-  for (;;) {
-    std::error_code unknown;
-    if (std::filesystem::exists(above / name, unknown)) return above / name;
-    if (!above.has_relative_path()) return {};
-    above = above.parent_path();
-  }
-}
+/// Where the shapes of a robot's file are from.
+struct ShapeSource {
+  std::filesystem::path folder;
+  const RobotOptions& options;
+};
 
-/// A path from `folder`, absolute, file://PATH or package://NAME/PATH.
-std::filesystem::path find_mesh(XmlElement& element, const std::string& name,
-                                const std::filesystem::path& folder) {
+/// A path from the robot's folder, absolute, file://PATH or
+/// package://NAME/PATH; none, and why.
+std::filesystem::path find_mesh(const std::string& name,
+                                const ShapeSource& source, std::string& why) {
   constexpr std::string_view kFile = "file://";
   constexpr std::string_view kPackage = "package://";
   if (name.rfind(kFile, 0) == 0) return name.substr(kFile.size());
   if (name.rfind(kPackage, 0) == 0) {
     const std::string in_package = name.substr(kPackage.size());
-    std::filesystem::path file = find_in_package(folder, in_package);
-    if (file.empty()) {
-      element.fail(fmt::format(
-          "filename=\"{}\": there is no {} in this file's folder or one above "
-          "it; expected a path from here, such as meshes/part.stl",
-          name, in_package));
-    }
-    return file;
+    why = fmt::format(
+        "filename=\"{}\": there is no {} in this file's folder or one above "
+        "it, "
+        "nor in those of LIMBER_PACKAGE_PATH and ROS_PACKAGE_PATH; name the "
+        "package's folder by --package {}=FOLDER",
+        name, in_package, in_package.substr(0, in_package.find('/')));
+    return find_in_package(in_package, source.folder, source.options);
   }
-  if (name.find("://") != std::string::npos) {
-    element.fail(
-        fmt::format("filename=\"{}\": expected a path from this file's folder, "
-                    "such as meshes/part.stl, file:// or package://",
-                    name));
-  }
-  return name;
+  if (name.find("://") == std::string::npos) return name;
+  why = fmt::format(
+      "filename=\"{}\": expected a path from this file's folder, "
+      "such as meshes/part.stl, file:// or package://",
+      name);
+  return {};
 }
 
-// @param folder of the robot's file
-Geometry read_mesh(XmlElement& element, const std::filesystem::path& folder) {
+Geometry read_mesh(XmlElement& element, const ShapeSource& source) {
   MeshGeometry mesh;
   const std::string name = element.required_text("filename");
-  mesh.file = (folder / find_mesh(element, name, folder)).lexically_normal();
   mesh.scale = element.vector("scale").value_or(mesh.scale);
   if ((mesh.scale.array() == 0.0).any()) {
     element.fail("scale: a factor is 0; expected three others");
   }
+  std::string why;
+  const std::filesystem::path file = find_mesh(name, source, why);
+  if (file.empty() && !name.empty()) return make_useless(element, why);
+  mesh.file = (source.folder / file).lexically_normal();
   return mesh;
 }
 
 // urdf_names checks which names there are.
-Geometry read_shape(const TiXmlElement& element,
-                    const std::filesystem::path& folder, Problems& problems) {
-  if (element.ValueStr() == "mesh") {
-    XmlElement mesh(element, problems);
-    return read_mesh(mesh, folder);
-  }
+Geometry read_shape(const TiXmlElement& element, const ShapeSource& source,
+                    Problems& problems) {
+  XmlElement shape(element, problems);
+  if (element.ValueStr() == "mesh") return read_mesh(shape, source);
   const auto found = geometry_readers().find(element.ValueStr());
   if (found == geometry_readers().end()) {
     return OtherGeometry{element.ValueStr()};
   }
-  XmlElement shape(element, problems);
   return found->second(shape);
 }
 
+/// The shapes of a <geometry> that are known, else all that is in it.
+std::vector<const TiXmlElement*> find_shapes(const TiXmlElement& geometry) {
+  std::vector<const TiXmlElement*> known;
+  std::vector<const TiXmlElement*> all;
+  for (const TiXmlElement* at = geometry.FirstChildElement(); at != nullptr;
+       at = at->NextSiblingElement()) {
+    all.push_back(at);
+    if (at->ValueStr() == "mesh" ||
+        geometry_readers().contains(at->ValueStr())) {
+      known.push_back(at);
+    }
+  }
+  return known.empty() ? all : known;
+}
+
 std::optional<Geometry> read_geometry(const TiXmlElement& collision,
-                                      const std::filesystem::path& folder,
+                                      const ShapeSource& source,
                                       Problems& problems) {
   const TiXmlElement* geometry = collision.FirstChildElement("geometry");
-  const TiXmlElement* shape =
-      geometry == nullptr ? nullptr : geometry->FirstChildElement();
-  if (shape == nullptr) {
+  if (geometry == nullptr || geometry->FirstChildElement() == nullptr) {
     problems.add(collision.Row(),
                  fmt::format("<{}> needs a <geometry> with a shape: <sphere>, "
                              "<box>, <cylinder>, <capsule> or <mesh>",
                              collision.ValueStr()));
     return std::nullopt;
   }
-  if (shape->NextSiblingElement() != nullptr) {
+  const auto shapes = find_shapes(*geometry);
+  if (shapes.size() > 1) {
     problems.add(geometry->Row(),
                  fmt::format("<geometry> has several shapes; give each a <{}>",
                              collision.ValueStr()));
   }
-  return read_shape(*shape, folder, problems);
+  return read_shape(*shapes.front(), source, problems);
 }
 
-std::vector<Collision> read_link(const TiXmlElement& element, const char* tag,
-                                 const std::filesystem::path& folder,
-                                 Problems& problems) {
+Pose read_origin(const TiXmlElement& element, Problems& problems) {
+  const TiXmlElement* origin = element.FirstChildElement("origin");
+  return origin == nullptr ? Pose{} : XmlElement(*origin, problems).pose();
+}
+
+std::vector<Collision> read_all(const TiXmlElement& link,
+                                const ShapeSource& source, Problems& problems) {
   std::vector<Collision> all;
-  for (const TiXmlElement* at = element.FirstChildElement(tag); at != nullptr;
-       at = at->NextSiblingElement(tag)) {
-    Collision collision;
-    if (const TiXmlElement* origin = at->FirstChildElement("origin")) {
-      collision.X_LS = XmlElement(*origin, problems).pose();
-    }
-    if (const auto geometry = read_geometry(*at, folder, problems)) {
-      collision.geometry = *geometry;
-      all.push_back(collision);
+  for (const TiXmlElement* at = link.FirstChildElement(kCollision);
+       at != nullptr; at = at->NextSiblingElement(kCollision)) {
+    const Pose X_LS = read_origin(*at, problems);
+    if (const auto geometry = read_geometry(*at, source, problems)) {
+      all.push_back({X_LS, *geometry});
     }
   }
   return all;
+}
+
+/// A <visual>; whatever is wrong with it makes it useless, no more.
+Collision read_visual(const TiXmlElement& visual, const ShapeSource& source,
+                      const std::string& file) {
+  Problems problems(file);
+  const Pose X_LS = read_origin(visual, problems);
+  const auto geometry = read_geometry(visual, source, problems);
+  if (!problems.empty()) {
+    return {X_LS, OtherGeometry{"visual", problems.texts().front()}};
+  }
+  const auto* other = std::get_if<OtherGeometry>(&*geometry);
+  if (other == nullptr || !other->reason.empty()) return {X_LS, *geometry};
+  const std::string why =
+      fmt::format("<{}> is no shape that is known", echo(other->tag));
+  return {X_LS, OtherGeometry{other->tag, problems.locate(visual.Row(), why)}};
+}
+
+/// One text for all useless shapes, or none.
+void warn_of_useless(const Robot& robot, std::vector<Collision> Link::*shapes,
+                     const char* what, std::vector<std::string>& warnings) {
+  int count = 0;
+  std::string first;
+  for (const Link& link : robot.links) {
+    for (const Collision& shape : link.*shapes) {
+      const auto* other = std::get_if<OtherGeometry>(&shape.geometry);
+      if (other == nullptr || other->reason.empty()) continue;
+      if (count++ == 0) first = other->reason;
+    }
+  }
+  if (count == 0) return;
+  warnings.push_back(fmt::format("{} {}: {}{}", count, what,
+                                 count > 1 ? "the first is " : "", first));
 }
 
 /// Calls `work(link, its element)` for every link.
@@ -163,46 +220,31 @@ void for_each_link(const TiXmlElement& root, Robot& robot, const Work& work) {
   }
 }
 
-/// Whether there was one.
-bool remove_from(TiXmlElement& link) {
-  bool was_any = false;
-  while (TiXmlElement* collision = link.FirstChildElement(kCollision)) {
-    link.RemoveChild(collision);
-    was_any = true;
-  }
-  return was_any;
-}
-
 }  // namespace
 
-std::string remove_collisions(const TiXmlDocument& robot,
-                              const std::string& xml) {
-  TiXmlDocument rest(robot);
-  bool was_any = false;
-  for (TiXmlElement* link = rest.RootElement()->FirstChildElement("link");
-       link != nullptr; link = link->NextSiblingElement("link")) {
-    was_any = remove_from(*link) || was_any;
-  }
-  if (!was_any) return xml;
-  TiXmlPrinter printer;
-  rest.Accept(&printer);
-  return printer.Str();
-}
-
-void read_collisions(const TiXmlElement& root, Robot& robot,
-                     Problems& problems) {
+void read_collisions(const TiXmlElement& root, const RobotOptions& options,
+                     Robot& robot, Problems& problems) {
+  const ShapeSource source{robot.file.parent_path(), options};
   for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
-    link.collisions =
-        read_link(element, kCollision, robot.file.parent_path(), problems);
+    link.collisions = read_all(element, source, problems);
   });
+  warn_of_useless(robot, &Link::collisions,
+                  "<collision> left out, so no contact may need its link",
+                  robot.warnings);
 }
 
-void read_visuals(const TiXmlElement& root, Robot& robot, Problems& problems) {
+void read_visuals(const TiXmlElement& root, const RobotOptions& options,
+                  Robot& robot) {
+  const ShapeSource source{robot.file.parent_path(), options};
   for_each_link(root, robot, [&](Link& link, const TiXmlElement& element) {
     if (link.flexible) return;
-    link.visuals =
-        read_link(element, "visual", robot.file.parent_path(), problems);
+    for (const TiXmlElement* at = element.FirstChildElement("visual");
+         at != nullptr; at = at->NextSiblingElement("visual")) {
+      link.visuals.push_back(read_visual(*at, source, robot.file.string()));
+    }
   });
+  warn_of_useless(robot, &Link::visuals, "<visual> left out of pictures",
+                  robot.warnings);
 }
 
 LinkContact read_link_contact(XmlElement& element) {

@@ -33,9 +33,11 @@ struct MeshGeometry {
   std::filesystem::path file;
   Vector3 scale = Vector3::Ones();  ///< of its coordinates, none 0 [m]
 };
-/// A shape that contacts cannot use, such as a mesh for pictures.
+/// A shape that cannot be used: of another program, without size, or a mesh
+/// that is not there.
 struct OtherGeometry {
   std::string tag;
+  std::string reason = {};  ///< with file and line; empty: the tag is unknown
 };
 using Geometry =
     std::variant<SphereGeometry, BoxGeometry, CylinderGeometry, CapsuleGeometry,

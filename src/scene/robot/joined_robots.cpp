@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/scene/robot/joined_robots.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "limber/common/errors.hpp"
@@ -73,14 +75,26 @@ void append(std::vector<Item>&& from, std::vector<Item>& to) {
   for (Item& item : from) to.push_back(std::move(item));
 }
 
+void check_fixable(const Robot& robot) {
+  const Link& root = robot.links.front();
+  if (!root.flexible) return;
+  throw InputError(
+      fmt::format("{}: the root link '{}' is flexible; instead of a fixed base "
+                  "give it a <clamp>, or a joint from a link 'world' to an "
+                  "interface of it",
+                  robot.file.string(), root.name));
+}
+
 void add_robot(const NamedRobot& source, Robot& joined) {
+  if (source.is_fixed && !is_held(source.robot)) check_fixable(source.robot);
   Robot robot = source.robot;
   Renamer(source.name, robot.has_world_root()).rename(robot);
   const int first = static_cast<int>(joined.links.size());
   Joint base;
   base.name = source.name;
-  base.kind = is_held(source.robot) ? joints::JointKind::fixed
-                                    : joints::JointKind::floating;
+  base.kind = is_held(source.robot) || source.is_fixed
+                  ? joints::JointKind::fixed
+                  : joints::JointKind::floating;
   base.child = first;
   base.X_PJ = source.X_WR;
   joined.joints.push_back(base);
@@ -111,6 +125,31 @@ bool is_held(const Robot& robot) {
   const auto& flexible = robot.links.front().flexible;
   return robot.has_world_root() ||
          (flexible && !flexible->clamped_groups.empty());
+}
+
+Robot fix_base(Robot robot, const Pose& X_WR) {
+  check_fixable(robot);
+  Joint base;
+  base.name = "base";
+  base.child = 1;
+  base.X_PJ = X_WR;
+  for (Joint& joint : robot.joints) {
+    ++joint.parent;
+    ++joint.child;
+    if (joint.name == base.name) base.name += '_';
+  }
+  for (const Link& link : robot.links) {
+    if (link.name != "world") continue;
+    throw InputError(
+        fmt::format("{}: its link 'world' is not the root; rename "
+                    "it to fix the base",
+                    robot.file.string()));
+  }
+  Link world;
+  world.name = "world";
+  robot.links.insert(robot.links.begin(), world);
+  robot.joints.insert(robot.joints.begin(), base);
+  return robot;
 }
 
 Robot join_robots(const std::vector<NamedRobot>& robots) {

@@ -13,18 +13,25 @@ namespace limber::scene {
 struct NamedRobot {
   std::string name;  ///< unique, without a dot
   Robot robot;
-  Pose X_WR;  ///< of its root link at the start
+  Pose X_WR;              ///< of its root link at the start
+  bool is_fixed = false;  ///< to the world, there
 };
 
 /// Whether a robot is fixed to the world: its root link represents the world,
 /// or is clamped.
 [[nodiscard]] bool is_held(const Robot& robot);
 
+/// The robot with its root link fixed to the world at X_WR: a new root "world",
+/// from which a fixed joint "base" leads to it ("base_" if there is one).
+/// @throws InputError if the root link is flexible, or another link is called
+/// "world".
+[[nodiscard]] Robot fix_base(Robot robot, const Pose& X_WR);
+
 /// One tree of all robots: its root is the world, from which a joint with the
 /// robot's name leads to the robot's root link, a fixed one if the robot is
-/// held, else a floating one without coordinates at the start. Links, joints
-/// and couplers of a robot are called NAME.OWN_NAME. "world" stays the world as
-/// the end of a coupler, unless it is the robot's root link.
+/// held or fixed, else a floating one without coordinates at the start. Links,
+/// joints and couplers of a robot are called NAME.OWN_NAME. "world" stays the
+/// world as the end of a coupler, unless it is the robot's root link.
 [[nodiscard]] Robot join_robots(const std::vector<NamedRobot>& robots);
 
 }  // namespace limber::scene

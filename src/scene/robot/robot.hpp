@@ -31,6 +31,7 @@ struct LinkInertia {
   double mass = 0.0;                  ///< [kg]
   Vector3 p_LBcm = Vector3::Zero();   ///< centre of mass in L [m]
   Matrix3 inertia = Matrix3::Zero();  ///< about it, frame L [kg m^2]
+  std::string place = {};             ///< "FILE:LINE" of it, for messages
 };
 
 /// Data of <flexible link="...">.

@@ -13,9 +13,12 @@
 #include "limber/common/files/input_file.hpp"
 #include "limber/scene/robot/collision_reader.hpp"
 #include "limber/scene/robot/extension_reader.hpp"
+#include "limber/scene/robot/held_mimics.hpp"
+#include "limber/scene/robot/link_inertias.hpp"
 #include "limber/scene/robot/robot_settings.hpp"
 #include "limber/scene/robot/urdf_joints.hpp"
 #include "limber/scene/robot/urdf_names.hpp"
+#include "limber/scene/robot/urdf_pruning.hpp"
 #include "limber/scene/robot/urdf_tree.hpp"
 #include "limber/scene/text/xml_depth.hpp"
 
@@ -130,6 +133,12 @@ Link to_link(const urdf::Link& source) {
   return link;
 }
 
+bool has_text(const TiXmlElement& element, const char* name,
+              const std::string& text) {
+  const char* value = element.Attribute(name);
+  return value != nullptr && value == text;
+}
+
 /// Adds all links, branch by branch, parents first. Not recursive: a long chain
 /// could overflow the stack.
 void add_links(const urdf::ModelInterface& model, Robot& robot) {
@@ -173,6 +182,7 @@ void read_standard_part(const std::string& xml, Robot& robot,
     return;
   }
   add_links(*model, robot);
+  hold_mimics(robot);
 }
 
 std::string read_text(const std::filesystem::path& file) {
@@ -241,42 +251,54 @@ void check_text(const TiXmlElement& root, Problems& problems) {
   }
 }
 
-/// Applies the settings; `xml` becomes the text with them.
-void apply(const std::vector<RobotSetting>& settings, TiXmlDocument& document,
-           std::string& xml) {
-  if (settings.empty()) return;
-  apply_settings(settings, *document.RootElement());
-  TiXmlPrinter printer;
-  document.Accept(&printer);
-  xml = printer.Str();
+/// Adds the link "world" if joints have it as their parent without a <link>, as
+/// robots of other programs do.
+void add_world(TiXmlElement& root) {
+  for (const TiXmlElement* link = root.FirstChildElement("link");
+       link != nullptr; link = link->NextSiblingElement("link")) {
+    if (has_text(*link, "name", "world")) return;
+  }
+  for (const TiXmlElement* joint = root.FirstChildElement("joint");
+       joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    const TiXmlElement* parent = joint->FirstChildElement("parent");
+    if (parent == nullptr || !has_text(*parent, "link", "world")) continue;
+    TiXmlElement world("link");
+    world.SetAttribute("name", "world");
+    root.InsertEndChild(world);
+    return;
+  }
 }
 
 }  // namespace
 
 Robot read_robot(const std::filesystem::path& file,
-                 const std::vector<RobotSetting>& settings) {
-  std::string xml = read_text(file);
+                 const std::vector<RobotSetting>& settings,
+                 const RobotOptions& options) {
+  const std::string xml = read_text(file);
   Problems problems(file.string());
   check_xml_depth(xml, problems);
   problems.raise();
   TiXmlDocument document;
   const TiXmlElement& root = parse_root(document, xml, problems);
-  apply(settings, document, xml);
+  if (!settings.empty()) apply_settings(settings, *document.RootElement());
   check_text(root, problems);
+  add_world(*document.RootElement());
   check_urdf_tree(root, problems);
   problems.raise();
-  check_urdf_joints(root, problems);
   Robot robot;
   robot.file = file;
+  check_urdf_joints(root, problems, robot.warnings);
   check_urdf_names(root, file.string(), problems, robot.warnings);
   robot.name = root.Attribute("name") != nullptr ? root.Attribute("name") : "";
   if (robot.name.empty()) problems.add(root.Row(), "<robot> needs a 'name'");
   problems.raise();
-  read_standard_part(remove_collisions(document, xml), robot, problems);
+  read_standard_part(prune_urdf(document), robot, problems);
   problems.raise();
-  read_collisions(root, robot, problems);
+  read_collisions(root, options, robot, problems);
   read_extension(root, robot, problems);
-  read_visuals(root, robot, problems);
+  read_visuals(root, options, robot);
+  locate_inertias(root, robot);
+  if (options.repair_inertia) repair_inertias(robot);
   problems.raise();
   return robot;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limber/scene/robot/robot.hpp"
+#include "limber/scene/robot/robot_options.hpp"
 #include "limber/scene/text/toml_settings.hpp"
 
 namespace limber::scene {
@@ -13,6 +14,7 @@ namespace limber::scene {
 /// @param settings are applied to it first
 /// @throws InputError with every problem of the file, each with its line.
 [[nodiscard]] Robot read_robot(const std::filesystem::path& file,
-                               const std::vector<RobotSetting>& settings = {});
+                               const std::vector<RobotSetting>& settings = {},
+                               const RobotOptions& options = {});
 
 }  // namespace limber::scene

@@ -27,19 +27,27 @@ class JointChecks {
     }
     for (const TiXmlElement* joint : joints_) {
       const TiXmlElement* mimic = joint->FirstChildElement("mimic");
-      const auto found =
-          mimic == nullptr ? index_.end() : index_.find(text(*mimic, "joint"));
+      const auto found = mimic == nullptr || is_fixed(*joint)
+                             ? index_.end()
+                             : index_.find(text(*mimic, "joint"));
       mimicked_.push_back(found == index_.end() ? kNone : found->second);
     }
   }
 
-  void run() {
+  void run(std::vector<std::string>& warnings) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
+      if (is_fixed(*joints_[i])) continue;  // nothing of it is used
       check_axis(*joints_[i]);
       check_limit(*joints_[i]);
       check_dynamics(*joints_[i]);
       check_mimic(i);
     }
+    if (unlimited_.empty()) return;
+    warnings.push_back(problems_.locate(
+        unlimited_.front(),
+        fmt::format("{} <limit> without 'effort' or 'velocity': no limit of "
+                    "drives there",
+                    unlimited_.size())));
   }
 
  private:
@@ -53,6 +61,10 @@ class JointChecks {
   static bool has_one_coordinate(const TiXmlElement& joint) {
     const std::string type = text(joint, "type");
     return type == "revolute" || type == "continuous" || type == "prismatic";
+  }
+
+  static bool is_fixed(const TiXmlElement& joint) {
+    return text(joint, "type") == "fixed";
   }
 
   void fail(const TiXmlElement& at, const TiXmlElement& joint,
@@ -78,10 +90,8 @@ class JointChecks {
     if (limit == nullptr) return;
     for (const char* name : {"effort", "velocity"}) {
       if (limit->Attribute(name) != nullptr) continue;
-      fail(*limit, joint,
-           fmt::format("its <limit> has no '{}', which URDF asks for; 0: no "
-                       "limit of drives",
-                       name));
+      unlimited_.push_back(limit->Row());
+      break;
     }
     if (!has_one_coordinate(joint)) return;
     XmlElement element(*limit, problems_);
@@ -115,9 +125,7 @@ class JointChecks {
     const TiXmlElement* mimic = joint.FirstChildElement("mimic");
     if (mimic == nullptr) return;
     XmlElement element(*mimic, problems_);
-    if (element.number("multiplier") == 0.0) {
-      fail(*mimic, joint, "<mimic> multiplies by 0; make the joint fixed");
-    }
+    (void)element.number("multiplier");
     (void)element.number("offset");
     if (mimicked_[index] == kNone) {
       fail(*mimic, joint,
@@ -127,7 +135,7 @@ class JointChecks {
     }
     const TiXmlElement* other = joints_[mimicked_[index]];
     for (const TiXmlElement* end : {&joint, other}) {
-      if (has_one_coordinate(*end)) continue;
+      if (has_one_coordinate(*end) || is_fixed(*end)) continue;
       fail(*mimic, joint,
            fmt::format("<mimic> needs joints with one coordinate; joint '{}' "
                        "is {}",
@@ -160,12 +168,14 @@ class JointChecks {
   std::vector<std::string> names_;
   std::map<std::string, std::size_t> index_;
   std::vector<std::size_t> mimicked_;  ///< by each joint, or none
+  std::vector<int> unlimited_;         ///< lines of incomplete <limit>s
 };
 
 }  // namespace
 
-void check_urdf_joints(const TiXmlElement& robot, Problems& problems) {
-  JointChecks(robot, problems).run();
+void check_urdf_joints(const TiXmlElement& robot, Problems& problems,
+                       std::vector<std::string>& warnings) {
+  JointChecks(robot, problems).run(warnings);
 }
 
 }  // namespace limber::scene

@@ -115,14 +115,29 @@ class WordCheck {
     return name.find(':') != std::string::npos || name == "xmlns";
   }
 
+  /// Whether it is an element of the macro language, so that the file is not
+  /// expanded. A call of a macro may be left in one that is.
+  static bool is_language(const std::string& tag) {
+    for (const char* word :
+         {"macro", "property", "include", "arg", "if", "unless", "insert_block",
+          "element", "attribute", "call"}) {
+      if (tag == std::string("xacro:") + word) return true;
+    }
+    return false;
+  }
+
   void check_child(const TiXmlElement& element, const TiXmlElement& child,
                    const ElementNames& names, std::set<std::string>& given) {
     const std::string& tag = child.ValueStr();
-    if (tag.starts_with("xacro:")) {
+    if (is_language(tag)) {
       problems_.add(child.Row(),
                     fmt::format("<{}> is a macro; expand the file first (xacro "
                                 "FILE > robot.urdf)",
                                 echo(tag)));
+      return;
+    }
+    if (tag.starts_with("xacro:")) {
+      warn(child, tag, "call of a macro", describe(element));
       return;
     }
     if (is_foreign(tag) || is_in(names.others, tag)) return;
@@ -157,25 +172,43 @@ class WordCheck {
     return fmt::format("<{} name=\"{}\">", tag, echo(name));
   }
 
-  /// An unknown name: an error if it is near a known one.
+  /// Whether a few letters, or their order, make the name a known one that the
+  /// element lacks.
+  /// Other programs have names that merely resemble ours.
+  static bool is_slip(const TiXmlElement& element, const std::string& name,
+                      const std::vector<std::string>& known) {
+    if (name.size() > kMostNameBytes) return false;
+    const std::size_t most = std::max<std::size_t>(1, (name.size() + 2) / 4);
+    return std::any_of(known.begin(), known.end(), [&](const std::string& one) {
+      if (element.Attribute(one.c_str()) != nullptr) return false;
+      return find_edit_distance(name, one) <= most ||
+             std::is_permutation(name.begin(), name.end(), one.begin(),
+                                 one.end());
+    });
+  }
+
+  /// An unknown name: an error if it is a misspelt one.
   void judge(const TiXmlElement& element, const TiXmlElement& at,
              const char* kind, const std::string& name,
              const std::vector<std::string>& known) {
-    const bool is_slip =
-        name.size() <= kMostNameBytes && !nearest_name(name, known).empty();
-    if (is_slip) {
+    if (is_slip(element, name, known)) {
       problems_.add(at.Row(), fmt::format("{}: {}", describe(element),
                                           describe_unknown(kind, name, known)));
       return;
     }
-    // Generated robots repeat the same name in many links.
-    if (!reported_.insert(element.ValueStr() + kind + name).second) return;
+    warn(at, name, kind, describe(element));
+  }
+
+  // Generated robots repeat the same name in many links.
+  void warn(const TiXmlElement& at, const std::string& name, const char* kind,
+            const std::string& owner) {
+    const std::string tag = owner.substr(0, owner.find(' '));
+    if (!reported_.insert(tag + kind + name).second) return;
     if (reported_.size() > kMostReported) return;
     const std::string more =
         reported_.size() == kMostReported ? ", nor others" : "";
     warnings_.push_back(fmt::format("{}:{}: {}: {} '{}' is not read{}", file_,
-                                    at.Row(), describe(element), kind,
-                                    echo(name), more));
+                                    at.Row(), owner, kind, echo(name), more));
   }
 
   static constexpr std::size_t kMostReported = 20;

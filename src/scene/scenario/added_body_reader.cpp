@@ -132,6 +132,12 @@ BodyStart read_body_start(TomlTable& table) {
   return start;
 }
 
+std::optional<RobotBase> read_base(TomlTable& table) {
+  return read_choice<std::optional<RobotBase>>(
+      table, "base", {{"free", RobotBase::free}, {"fixed", RobotBase::fixed}},
+      {});
+}
+
 RobotSpec read_placed_robot(TomlTable& table,
                             const std::filesystem::path& folder) {
   RobotSpec robot;
@@ -146,6 +152,7 @@ RobotSpec read_placed_robot(TomlTable& table,
   }
   robot.file = (folder / table.required_text("file")).lexically_normal();
   robot.start = read_body_start(table);
+  robot.base = read_base(table);
   return robot;
 }
 

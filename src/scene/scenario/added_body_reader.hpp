@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "limber/scene/scenario/contact_spec.hpp"
 #include "limber/scene/text/toml_table.hpp"
@@ -11,6 +12,9 @@ namespace limber::scene {
 
 /// `position`, `orientation_rpy`, `velocity`, `angular_velocity`.
 [[nodiscard]] BodyStart read_body_start(TomlTable& table);
+
+/// The key `base` of a robot: "free" or "fixed".
+[[nodiscard]] std::optional<RobotBase> read_base(TomlTable& table);
 
 /// A [[robot]]. @param folder to which its file name is relative
 [[nodiscard]] RobotSpec read_placed_robot(TomlTable& table,

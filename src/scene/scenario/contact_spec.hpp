@@ -21,11 +21,15 @@ struct BodyStart {
   Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
 };
 
+/// How a robot's root link is held at the start and after it.
+enum class RobotBase { free, fixed };
+
 /// One of several robots.
 struct RobotSpec {
   std::string name;
-  std::filesystem::path file;  ///< URDF
-  BodyStart start;             ///< of its root link
+  std::filesystem::path file;          ///< URDF
+  BodyStart start;                     ///< of its root link
+  std::optional<RobotBase> base = {};  ///< none: as its file has it
 };
 
 /// A free rigid solid sphere; its origin is its centre.

@@ -22,6 +22,7 @@
 #include "limber/joints/joint_motion.hpp"
 #include "limber/joints/scalar/drive.hpp"
 #include "limber/scene/robot/place.hpp"
+#include "limber/scene/robot/robot_options.hpp"
 #include "limber/scene/scenario/contact_spec.hpp"
 
 /// Contents of a scenario file. Plain values; docs/formats/scenario.md is the
@@ -198,8 +199,10 @@ struct OutputSpec {
 struct Scenario {
   std::string name;  ///< the file's stem
   std::filesystem::path file;
-  std::filesystem::path robot;    ///< its only one; empty if there are several
-  std::vector<RobotSpec> robots;  ///< in its place
+  std::filesystem::path robot;  ///< its only one; empty if there are several
+  std::optional<RobotBase> robot_base;  ///< none: as its file has it
+  std::vector<RobotSpec> robots;        ///< in its place
+  RobotOptions urdf;                    ///< how their files are read
   dynamics::SimulationSettings settings;
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   std::map<std::string, dynamics::Fidelity> fidelity_of_link;
@@ -222,6 +225,7 @@ struct Scenario {
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   std::vector<std::string> warnings;  ///< deviations from the file's values
+  std::vector<std::string> notes;     ///< what a user may not expect of it
   dynamics::AdviceSettings advice;    ///< what may be neglected
 
   [[nodiscard]] dynamics::Fidelity level_of(const std::string& link) const {

@@ -286,7 +286,9 @@ void read_robots(TomlTable& root, Scenario& scenario) {
   const std::filesystem::path folder = scenario.file.parent_path();
   if (!root.has("robot")) {
     root.skip("robot");
-    root.fail("needs 'robot', the path of a URDF file, or [[robot]]s");
+    root.fail(
+        "needs 'robot', the path of a URDF file, [robot] with 'file', or "
+        "[[robot]]s");
   } else if (root.is_array("robot")) {
     scenario.robots = read_items<RobotSpec>(root, "robot", [&](TomlTable& t) {
       return read_placed_robot(t, folder);
@@ -294,13 +296,40 @@ void read_robots(TomlTable& root, Scenario& scenario) {
     if (scenario.robots.empty() && root.problems().empty()) {
       root.fail("robot", "is empty; give one at least");
     }
+  } else if (root.is_table("robot")) {
+    TomlTable robot(*root.table("robot"), "robot", root.problems());
+    scenario.robot = (folder / robot.required_text("file")).lexically_normal();
+    scenario.robot_base = read_base(robot);
+    robot.finish();
   } else if (const auto file = root.text("robot")) {
     scenario.robot = (folder / *file).lexically_normal();
   }
 }
 
+void read_packages(TomlTable& table, const std::filesystem::path& folder,
+                   RobotOptions& options) {
+  const toml::table* packages = table.table("packages");
+  if (packages == nullptr) return;
+  TomlTable by_name(*packages, "urdf.packages", table.problems());
+  for (const auto& [key, node] : *packages) {
+    const std::string name(key.str());
+    const std::filesystem::path place =
+        (folder / by_name.required_text(name)).lexically_normal();
+    options.packages[name] = place;
+    if (std::filesystem::is_directory(place)) continue;
+    by_name.fail(name, fmt::format("'{}' is no folder", place.string()));
+  }
+}
+
+void read_urdf(TomlTable& table, Scenario& scenario) {
+  read_packages(table, scenario.file.parent_path(), scenario.urdf);
+  scenario.urdf.repair_inertia =
+      table.boolean("repair_inertia").value_or(false);
+}
+
 void read_root(TomlTable& root, Scenario& scenario) {
   read_robots(root, scenario);
+  read_section(root, "urdf", [&](TomlTable& t) { read_urdf(t, scenario); });
   if (!root.has("time")) root.fail("needs [time] with 'duration' and 'step'");
   read_section(root, "time", [&](TomlTable& t) {
     scenario.settings = read_time_settings(t, scenario.warnings);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -247,6 +248,26 @@ toml::table parse_value(const std::string& value, const std::string& source) {
   }
 }
 
+namespace {
+
+/// Whether a path names a key of [robot].
+bool is_base(const std::vector<std::string>& parts) {
+  return parts.size() == 2 && parts[0] == "robot" &&
+         (parts[1] == "base" || parts[1] == "file");
+}
+
+/// Makes `robot = "FILE"` a table for a setting of its base.
+void open_robot(const std::vector<Setting>& settings, toml::table& root) {
+  const auto file = root["robot"].value_exact<std::string>();
+  const bool is_set = std::any_of(
+      settings.begin(), settings.end(),
+      [](const Setting& one) { return is_base(split_path(one.path)); });
+  if (!file || !is_set) return;
+  root.insert_or_assign("robot", toml::table{{"file", *file}});
+}
+
+}  // namespace
+
 SortedSettings sort_settings(const std::vector<Setting>& settings,
                              const toml::table& scenario) {
   const toml::array* robots = scenario.get_as<toml::array>("robot");
@@ -255,7 +276,7 @@ SortedSettings sort_settings(const std::vector<Setting>& settings,
   for (const Setting& setting : settings) {
     try {
       std::vector<std::string> parts = split_path(setting.path);
-      const bool is_robots = parts.front() == "robot" &&
+      const bool is_robots = parts.front() == "robot" && !is_base(parts) &&
                              parts.size() > (robots != nullptr ? 4 : 1);
       if (!is_robots) {
         sorted.scenario.push_back(setting);
@@ -273,6 +294,7 @@ SortedSettings sort_settings(const std::vector<Setting>& settings,
 }
 
 void apply_settings(const std::vector<Setting>& settings, toml::table& root) {
+  open_robot(settings, root);
   std::vector<std::string> problems;
   std::map<std::string, const Setting*> done;
   for (const Setting& setting : settings) {

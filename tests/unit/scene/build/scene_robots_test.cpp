@@ -205,7 +205,7 @@ TEST_F(Robots, AreRefusedIfTheyAreNotClear) {
       {time + "[[robot]]\nname = 'a'\n", "needs 'file'"},
       {time + "[[robot]]\nfile = 'ball.urdf'\n", "needs 'name'"},
       {time + robot("a", "ball", "speed = 3\n"), "unknown key 'speed'"},
-      {time, "needs 'robot', the path of a URDF file, or [[robot]]s"},
+      {time, "needs 'robot', the path of a URDF file, [robot]"},
       {"robot = []\n" + time, "robot: is empty; give one at least"},
       {"robot = 'ball.urdf'\n" + time + robot("a", "ball"), "robot"},
       {time + robot("a", "held", "velocity = [1.0, 0.0, 0.0]\n"),

@@ -174,6 +174,28 @@ TEST(CollisionMesh, OfColladaIsInMetresAndItsOwnAxes) {
   }
 }
 
+// As files of many vendors have them: edges drawn beside the faces.
+TEST(CollisionMesh, OfColladaHasNoLines) {
+  const std::string lines =
+      "<lines count='2'><input semantic='VERTEX' source='#v' offset='0'/><p>0 "
+      "1 "
+      "2 3</p></lines>";
+  std::string both = write_dae("Z_UP");
+  both.insert(both.find("</mesh>"), lines);
+  std::string alone = write_dae("Z_UP");
+  const std::size_t from = alone.find("<triangles");
+  alone.replace(from, alone.find("</mesh>") - from, lines);
+  const TemporaryFile file("both.dae", both);
+  const TemporaryFile other("alone.dae", alone);
+  const std::string why =
+      input_error([&] { (void)read_triangles(other.path()); });
+  if (why.find("assimp-utils") != std::string::npos) GTEST_SKIP() << why;
+  EXPECT_THAT(why, HasSubstr("it has no triangles"));
+  const std::vector<Triangle> triangles = read_triangles(file.path());
+  EXPECT_EQ(triangles.size(), 4U);
+  EXPECT_NEAR(find_volume(join_triangles(triangles, "m")), 1e-3, 1e-9);
+}
+
 TEST(CollisionMesh, OfDamagedColladaSaysWhatIsWrong) {
   const TemporaryFile file("a.dae", "<xml/>");
   const std::string why =

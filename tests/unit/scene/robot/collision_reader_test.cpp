@@ -48,13 +48,75 @@ TEST(CollisionReader, ReadsShapes) {
             "/a/m.stl");
 }
 
-TEST(CollisionReader, RefusesMeshesThatItCannotFind) {
+/// Why a shape cannot be used, which one warning tells.
+std::string reason_of(const std::string& element) {
+  const Robot robot = read(link(element));
+  const bool is_visual = robot.links.at(0).collisions.empty();
+  const Link& a = robot.links[0];
+  const auto& shapes = is_visual ? a.visuals : a.collisions;
+  EXPECT_EQ(robot.warnings.size(), 1U) << element;
+  const auto& other = std::get<OtherGeometry>(shapes.at(0).geometry);
+  EXPECT_THAT(robot.warnings.at(0), HasSubstr(other.reason));
+  EXPECT_THAT(other.reason, HasSubstr("robot.urdf:2: <"));
+  return other.reason;
+}
+
+std::string shape_of(const std::string& tag, const std::string& shape) {
+  return "<" + tag + "><geometry>" + shape + "</geometry></" + tag + ">";
+}
+
+TEST(CollisionReader, WarnsOfShapesThatARunMayNotNeed) {
+  for (const std::string tag : {"collision", "visual"}) {
+    const auto why = [&](const std::string& shape) {
+      return reason_of(shape_of(tag, shape));
+    };
+    EXPECT_THAT(why("<mesh filename='package://p/m.stl'/>"),
+                HasSubstr("there is no p/m.stl in this file's folder or one "
+                          "above it"));
+    EXPECT_THAT(why("<mesh filename='http://p/m.stl'/>"),
+                HasSubstr("expected a path from this file's folder"));
+    for (const char* shape :
+         {"<box size='0 0 0'/>", "<box size='1 0 1'/>",
+          "<sphere radius='0.0'/>", "<cylinder radius='0' length='1'/>",
+          "<capsule radius='1' length='0'/>"}) {
+      EXPECT_THAT(why(shape), HasSubstr("has a size of 0"));
+    }
+  }
+}
+
+TEST(CollisionReader, TakesNothingInAVisualForAnError) {
+  for (const char* shape :
+       {"<sphere radius='-1'/>", "<sphere/>", "<box/>", "<cone/>", "<mesh/>",
+        "", "<sphere radius='1'/><box size='1 1 1'/>",
+        "<mesh filename='m' scale='1 0 1'/>"}) {
+    EXPECT_NE(reason_of(shape_of("visual", shape)), "");
+  }
+  const Robot robot =
+      read(link(shape_of("visual", "<capsule radius='1' length='2'/>") +
+                "<visual/>" + shape_of("visual", "<box size='0 1 1'/>")));
+  ASSERT_EQ(robot.links[0].visuals.size(), 3U);
+  EXPECT_TRUE(std::holds_alternative<CapsuleGeometry>(
+      robot.links[0].visuals[0].geometry));
+  EXPECT_THAT(robot.warnings,
+              ::testing::ElementsAre(
+                  HasSubstr("2 <visual> left out of pictures: the first is")));
+}
+
+TEST(CollisionReader, TakesTheShapeBesideWhatOtherProgramsPutThere) {
+  for (const char* geometry : {"<material name='m'/><sphere radius='1'/>",
+                               "<sphere radius='1'/><material name='m'/>"}) {
+    const Robot robot = read(
+        link(shape_of("visual", geometry) + shape_of("collision", geometry)));
+    const Link& a = robot.links.at(0);
+    EXPECT_TRUE(
+        std::holds_alternative<SphereGeometry>(a.visuals.at(0).geometry));
+    EXPECT_TRUE(
+        std::holds_alternative<SphereGeometry>(a.collisions.at(0).geometry));
+  }
+}
+
+TEST(CollisionReader, RefusesMeshesThatMakeNoSense) {
   EXPECT_THAT(error_of(collision("<mesh/>")), HasSubstr("needs 'filename'"));
-  EXPECT_THAT(error_of(collision("<mesh filename='package://p/m.stl'/>")),
-              HasSubstr("there is no p/m.stl in this file's folder or one "
-                        "above it"));
-  EXPECT_THAT(error_of(collision("<mesh filename='http://p/m.stl'/>")),
-              HasSubstr("expected a path from this file's folder"));
   EXPECT_THAT(error_of(collision("<mesh filename='m' scale='1 0 1'/>")),
               HasSubstr("scale: a factor is 0"));
 }
@@ -87,8 +149,8 @@ TEST(CollisionReader, TellsOfShapesThatAreNone) {
               HasSubstr("<sphere> radius=\"-1\": expected"));
   EXPECT_THAT(error_of(collision("<sphere/>")), HasSubstr("needs 'radius'"));
   EXPECT_THAT(error_of(collision("<box/>")), HasSubstr("<box> needs 'size'"));
-  EXPECT_THAT(error_of(collision("<box size='1 0 1'/>")),
-              HasSubstr("<box> size=\"1 0 1\""));
+  EXPECT_THAT(error_of(collision("<box size='1 -2 1'/>")),
+              HasSubstr("<box> size=\"1 -2 1\""));
   EXPECT_THAT(error_of(collision("<capsule radius='1'/>")),
               HasSubstr("<capsule> needs 'length'"));
   EXPECT_THAT(error_of(collision("<spher radius='1'/>")),

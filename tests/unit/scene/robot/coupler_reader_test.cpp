@@ -341,8 +341,6 @@ TEST(CouplerReader, RefusesJointsThatMakeNoSense) {
        {base("floating", "<dynamics friction='1'/>"),
         {"friction acts along one coordinate"}},
        {base("revolute", kRange + "<mimic joint='q'/>"), {"unknown joint 'q'"}},
-       {base("revolute", kRange + "<mimic joint='k' multiplier='0'/>"),
-        {"multiplies by 0"}},
        {base("floating", "<mimic joint='k'/>"),
         {"needs joints with one coordinate; joint 'j' is floating"}},
        {base("revolute", kRange + "<mimic joint='j'/>"), {"circle (j -> j)"}}});

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "limber/common/types.hpp"
+
+namespace limber::dynamics {
+
+/// Why no mass has this inertia about its centre, with the principal moments;
+/// empty if one has. The moments of a mass are positive and obey
+/// I1 + I2 >= I3, with equality for flat bodies; rounding of printed digits may
+/// violate it by 1e-3 of the largest.
+/// @param inertia symmetric [kg m^2]
+[[nodiscard]] std::string find_inertia_problem(const Matrix3& inertia);
+
+}  // namespace limber::dynamics
