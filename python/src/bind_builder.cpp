@@ -46,10 +46,15 @@ BodyIndex add_flexible(SystemBuilder& builder, const std::string& name,
                        std::shared_ptr<flexbody::ReducedBody> body,
                        const std::string& fidelity,
                        const std::vector<double>& ratios, double rayleigh_mass,
-                       double rayleigh_stiffness) {
+                       double rayleigh_stiffness, double loss_factor,
+                       const std::pair<double, double>& band) {
+  ModalDamping damping{rayleigh_mass, rayleigh_stiffness, ratios};
+  if (loss_factor != 0.0) {
+    damping.maxwell =
+        flexbody::find_maxwell_elements(loss_factor, {band.first, band.second});
+  }
   return builder.add_flexible_body(name, std::move(body),
-                                   parse_fidelity(fidelity),
-                                   {rayleigh_mass, rayleigh_stiffness, ratios});
+                                   parse_fidelity(fidelity), damping);
 }
 
 AttachmentIndex attach_interface(SystemBuilder& builder,
@@ -156,8 +161,12 @@ void bind_builder(py::module_& m) {
            py::arg("fidelity") = "coupled",
            py::arg("damping_ratios") = std::vector<double>(),
            py::arg("rayleigh_mass") = 0.0, py::arg("rayleigh_stiffness") = 0.0,
+           py::arg("loss_factor") = 0.0,
+           py::arg("band") = std::pair<double, double>(),
            "A reduced body at a level; damping ratios of its modes [-] (one "
-           "for all, or one each), Rayleigh's alpha [1/s] and beta [s].")
+           "for all, or one each), Rayleigh's alpha [1/s] and beta [s], or a "
+           "loss factor of its material [-] in a band of frequencies (low, "
+           "high) [rad/s], at the low end of which it has its stiffness.")
       .def("attach_frame", &SystemBuilder::attach_frame, py::arg("name"),
            py::arg("body"), py::arg("X_BF"),
            "A frame fixed to a body's frame, whatever its deformation.")

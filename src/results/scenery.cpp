@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "limber/dynamics/equations/node_motion.hpp"
@@ -120,7 +121,8 @@ class SurfaceWriter {
   std::string next_name() { return fmt::format("{:04}", count_++); }
 
   std::string find_shared(const BodyModel& body) {
-    const auto key = std::make_pair(body.reduced.get(), body.modes);
+    const double scale = body.maxwell.scale;
+    const auto key = std::make_tuple(body.reduced.get(), body.modes, scale);
     const auto found = shared_.find(key);
     if (found != shared_.end()) return found->second;
     std::string name = next_name();
@@ -131,7 +133,7 @@ class SurfaceWriter {
     if (has_modal_stress(body)) {
       out_.write_single(
           "scene/surfaces/" + name + "/Sigma_B",
-          take_stress(*body.reduced->stress, surface.rows, body.modes),
+          scale * take_stress(*body.reduced->stress, surface.rows, body.modes),
           "kg^1/2 m^-2 s^-2",
           "stress of the shapes, 6n x m: xx, yy, zz, xy, yz, xz");
     }
@@ -183,7 +185,7 @@ class SurfaceWriter {
           take_stress(*body.reduced->stress, surface.rows, columns);
       VectorX coordinates;
       write_stress(at, [&](const dynamics::SystemState& state) -> VectorX {
-        calc_coordinates(body, state, coordinates);
+        calc_stress_coordinates(body, state, coordinates);
         return Sigma_B * coordinates;
       });
       return;
@@ -216,7 +218,7 @@ class SurfaceWriter {
   const SystemModel& model_;
   const History& history_;
   int count_ = 0;
-  std::map<std::pair<const ReducedBody*, int>, std::string> shared_;
+  std::map<std::tuple<const ReducedBody*, int, double>, std::string> shared_;
 };
 
 void write_bodies(Hdf5File& out, const Scenery& scenery,

@@ -117,7 +117,7 @@ class Surfaces {
     if (!has_modal_stress(body)) return stress_B;
     const flexbody::StressModes& modes = *body.reduced->stress;
     VectorX coordinates;
-    calc_coordinates(body, state, coordinates);
+    calc_stress_coordinates(body, state, coordinates);
     const VectorX at_points =
         modes.Sigma_B.leftCols(coordinates.size()) * coordinates;
     for (std::size_t i = modes.rows.size(); i-- > 0;) {

@@ -22,8 +22,9 @@ Chain make_chain(const ChainOptions& options) {
                                   .rotational_damping = options.damping});
   Chain chain;
   for (int i = 0; i < options.bodies; ++i) {
-    const auto b = chain.builder.add_flexible_body(
-        "link" + std::to_string(i), reduced, options.fidelity, {});
+    const auto b =
+        chain.builder.add_flexible_body("link" + std::to_string(i), reduced,
+                                        options.fidelity, options.body_damping);
     const auto root = chain.builder.attach_interface(
         "root", b, near, {Matrix3::Identity(), near.p_B});
     if (i > 0) {

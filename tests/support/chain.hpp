@@ -17,6 +17,7 @@ struct ChainOptions {
   joints::JointKind joint = joints::JointKind::fixed;
   dynamics::Fidelity fidelity = dynamics::Fidelity::coupled;
   double lowest = 60.0;  ///< first modal frequency [rad/s]
+  dynamics::ModalDamping body_damping = {};
 };
 
 /// A model of equal bodies joined end to end along z, and a state of rest in

@@ -49,8 +49,9 @@ SystemModel lower_levels(SystemModel model) {
     dynamics::BodyModel& body = model.bodies[b];
     if (!body.reduced) continue;
     if (body.fidelity == Fidelity::nonlinear) {
-      body.elasticity = flexbody::DiagonalStiffness(
-          flexbody::DiagonalStiffness::Parameters{body.reduced->lambda});
+      body.elasticity =
+          flexbody::DiagonalStiffness(flexbody::DiagonalStiffness::Parameters{
+              body.maxwell.scale * body.reduced->lambda});
       if (touches(model, static_cast<dynamics::BodyIndex>(b))) continue;
     }
     body.fidelity = Fidelity::uncoupled;

@@ -40,6 +40,7 @@ StaticBody describe_static_body(const SystemModel& model, BodyIndex b,
   out.moved = (state.bodies[i].p_WB - start.bodies[i].p_WB).norm();
   out.turned = state.bodies[i].quat_WB.angularDistance(start.bodies[i].quat_WB);
   if (!body.reduced) return out;
+  out.static_stiffness = body.maxwell.scale;
   out.size = body.reduced->size.maxCoeff();
   if (body.reduced->rows.x_B.cols() > 0) {
     out.deformation = find_deformation(model, b, state);
@@ -99,6 +100,7 @@ Json to_json(const StaticReport& report) {
       item["deformation"] = body.deformation;
       item["size"] = body.size;
       item["strain_energy"] = body.strain_energy;
+      item["static_stiffness"] = body.static_stiffness;
     }
     json["bodies"].push_back(item);
   }
@@ -127,6 +129,13 @@ std::string to_text(const StaticReport& report) {
                           100.0 * b.deformation / b.size, b.strain_energy);
     }
     text += "\n";
+  }
+  for (const StaticBody& b : report.bodies) {
+    if (b.static_stiffness == 1.0) continue;
+    text += fmt::format(
+        "{}: static stiffness {:.4g} of the material's, which it has at the "
+        "scene's lowest frequency: it has a loss factor\n",
+        b.name, b.static_stiffness);
   }
   if (!report.couplers.empty()) {
     text += fmt::format("{:<20} {:>11} {:>11}\n", "coupler", "force [N]",

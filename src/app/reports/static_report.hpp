@@ -19,6 +19,9 @@ struct StaticBody {
   double deformation = 0.0;    ///< largest of a stored node [m]
   double size = 0.0;           ///< longest edge; 0 if rigid [m]
   double strain_energy = 0.0;  ///< [J]
+  /// Static stiffness by that of the material, which a body with a loss factor
+  /// has at the scene's lowest frequency [-].
+  double static_stiffness = 1.0;
 };
 
 /// Load of one coupler or transmission.

@@ -71,7 +71,7 @@ std::optional<double> find_correction(const scene::BuiltScene& built,
   const Eigen::Index corrections =
       std::max<Eigen::Index>(0, body.modes - probe.eigenmodes);
   VectorX all;
-  calc_coordinates(body, state, all);
+  calc_stress_coordinates(body, state, all);
   const double whole = flexbody::calc_von_mises(modes * all);
   if (!(whole > 0.0)) return std::nullopt;
   return flexbody::calc_von_mises(

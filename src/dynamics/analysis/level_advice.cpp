@@ -105,6 +105,19 @@ double find_missing(const BodyPeaks& peaks) {
   return peaks.is_held ? 0.25 : 0.6;
 }
 
+/// Of each mode alone, by its dampers and its material [1/s].
+VectorX find_damping_rates(const BodyModel& body) {
+  VectorX rates = body.damping;
+  for (Eigen::Index k = 0; k < rates.size(); ++k) {
+    const double omega =
+        std::sqrt(flexbody::rest_stiffness(body.elasticity)[k]);
+    rates[k] +=
+        omega *
+        flexbody::find_dynamic_stiffness(body.maxwell, {0.0, omega}).imag();
+  }
+  return rates;
+}
+
 /// Damped oscillation has no later phase. @param time in which a phase shifts,
 /// an integral of values up to `largest` [s] @param rate of damping [1/s]
 double find_remembered(double time, double largest, double rate) {
@@ -120,8 +133,8 @@ double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
                         std::max(1.0 - peaks.compression.value, kNearBuckling);
   const double bent = missing * std::max(pulled, pushed) * peaks.total.value;
   const double most = std::max(peaks.tension.value, peaks.compression.value);
-  const double time =
-      find_remembered(peaks.axial_time, most, body.damping.minCoeff());
+  const double time = find_remembered(peaks.axial_time, most,
+                                      find_damping_rates(body).minCoeff());
   const double phase = 0.5 * missing * peaks.frequency * time;
   const double oscillation =
       std::min(peaks.mode_sizes.dot(peaks.oscillation), peaks.total.value);
@@ -132,10 +145,11 @@ double find_axial_error(const BodyModel& body, const BodyPeaks& peaks) {
 /// strain, which shifts its phase.
 double find_stretch_error(const BodyModel& body, const BodyPeaks& peaks) {
   const VectorX& lambda = require_eigenvalues(body, "advice on levels");
+  const VectorX rates = find_damping_rates(body);
   double error = 0.0;
   for (int k = 0; k < body.modes; ++k) {
     const double time =
-        find_remembered(peaks.strain_time, peaks.strain.value, body.damping[k]);
+        find_remembered(peaks.strain_time, peaks.strain.value, rates[k]);
     const double phase = 1.5 * std::sqrt(lambda[k]) * time;
     error += peaks.mode_sizes[k] * peaks.stretch[k] * std::min(phase, 2.0);
   }

@@ -19,13 +19,17 @@ using Index = Eigen::Index;
 struct Coordinates {
   MatrixX x_of_position;
   MatrixX x_of_rate;
-};
+  Index relaxations = 0;
 
-MatrixX join_columns(const MatrixX& by_position, const MatrixX& by_rate) {
-  MatrixX rows(by_position.rows(), by_position.cols() + by_rate.cols());
-  rows << by_position, by_rate;
-  return rows;
-}
+  /// Rows by all states.
+  [[nodiscard]] MatrixX join_columns(const MatrixX& by_position,
+                                     const MatrixX& by_rate) const {
+    MatrixX rows(by_position.rows(),
+                 by_position.cols() + by_rate.cols() + relaxations);
+    rows << by_position, by_rate, MatrixX::Zero(rows.rows(), relaxations);
+    return rows;
+  }
+};
 
 MatrixX multiply_blocks(const std::vector<Matrix6>& blocks,
                         const MatrixX& rows) {
@@ -62,7 +66,8 @@ MatrixX find_stiffness(const SteadyMotion& steady) {
   return S;
 }
 
-std::vector<LinearSignal> name_system_states(Index free, Index n) {
+std::vector<LinearSignal> name_system_states(Index free, Index n,
+                                             Index relaxations) {
   std::vector<LinearSignal> states;
   for (const char* what : {"", ".rate"}) {
     const bool is_rate = *what != '\0';
@@ -73,6 +78,9 @@ std::vector<LinearSignal> name_system_states(Index free, Index n) {
                         is_free && !is_rate ? "kg^1/2 m" : "kg^1/2 m/s", 0.0});
     }
   }
+  for (Index i = 0; i < relaxations; ++i) {
+    states.push_back({fmt::format("relaxation{}", i + 1), "kg^1/2 m/s", 0.0});
+  }
   return states;
 }
 
@@ -80,13 +88,18 @@ void fill_equations(const SteadyMotion& steady, const MatrixX& S,
                     const VectorX& scale, LinearSystem& out) {
   const MatrixX& Q = steady.basis.Q;
   const Index n = Q.cols();
-  out.A = MatrixX::Zero(2 * n, 2 * n);
-  out.A.topRightCorner(n, n) = scale.asDiagonal();
-  out.A.bottomLeftCorner(n, n) = -S * scale.cwiseInverse().asDiagonal();
-  out.A.bottomRightCorner(n, n) = -Q.transpose() * steady.motion.D * Q;
-  out.B = MatrixX::Zero(2 * n, std::ssize(out.inputs));
+  const MatrixX E = steady.motion.project_relaxations(Q);
+  const Index r = E.rows();
+  out.A = MatrixX::Zero(2 * n + r, 2 * n + r);
+  out.A.block(0, n, n, n) = scale.asDiagonal();
+  out.A.block(n, 0, n, n) = -S * scale.cwiseInverse().asDiagonal();
+  out.A.block(n, n, n, n) = -Q.transpose() * steady.motion.D * Q;
+  out.A.block(n, 2 * n, n, r) = -E.transpose();
+  out.A.block(2 * n, n, r, n) = E;
+  out.A.diagonal().tail(r) = -steady.motion.relaxation_rates();
+  out.B = MatrixX::Zero(2 * n + r, std::ssize(out.inputs));
   for (Index i = 0; i < out.B.cols(); ++i) {
-    out.B.col(i).tail(n) =
+    out.B.col(i).segment(n, n) =
         Q.transpose() * out.inputs[static_cast<std::size_t>(i)].force;
   }
 }
@@ -95,10 +108,10 @@ void fill_links(const SmallMotion& motion, const Coordinates& c,
                 LinearSystem& out) {
   const Index rows = 6 * std::ssize(motion.damping);
   const MatrixX moved = motion.G.topRows(rows) * c.x_of_position;
-  out.links = join_columns(moved, MatrixX::Zero(rows, moved.cols()));
+  out.links = c.join_columns(moved, MatrixX::Zero(rows, moved.cols()));
   out.link_velocities =
-      join_columns(motion.velocities.topRows(rows) * c.x_of_position,
-                   motion.velocities_by_rate.topRows(rows) * c.x_of_rate);
+      c.join_columns(motion.velocities.topRows(rows) * c.x_of_position,
+                     motion.velocities_by_rate.topRows(rows) * c.x_of_rate);
   const std::vector<Matrix6> stiffness(
       motion.K.begin(), motion.K.begin() + std::ssize(motion.damping));
   out.wrenches = -multiply_blocks(stiffness, out.links) -
@@ -113,12 +126,12 @@ void fill_links(const SmallMotion& motion, const Coordinates& c,
 void fill_motions(const SystemModel& model, const SmallMotion& motion,
                   const Coordinates& c, LinearSystem& out) {
   const Index n = motion.size();
-  out.frames = join_columns(motion.frames * c.x_of_position,
-                            MatrixX::Zero(motion.frames.rows(), n));
+  out.frames = c.join_columns(motion.frames * c.x_of_position,
+                              MatrixX::Zero(motion.frames.rows(), n));
   out.frame_velocities =
-      join_columns(motion.frame_velocities * c.x_of_position,
-                   motion.frame_velocities_by_rate * c.x_of_rate);
-  out.modes = MatrixX::Zero(model.modal_count, 2 * n);
+      c.join_columns(motion.frame_velocities * c.x_of_position,
+                     motion.frame_velocities_by_rate * c.x_of_rate);
+  out.modes = MatrixX::Zero(model.modal_count, 2 * n + c.relaxations);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     out.modes.block(body.offset, 0, body.modes, n) =
@@ -141,8 +154,7 @@ void check_apart(const SystemModel& model, const SystemState& state) {
       if (point.force_W.isZero(0.0) && point.stiffness.isZero(0.0)) continue;
       throw InputError(fmt::format(
           "{} and {} touch at t = {:g} s: a contact that opens, slips or rolls "
-          "has no linear model. Take a time at which they are apart, or "
-          "join_columns "
+          "has no linear model. Take a time at which they are apart, or join "
           "them by a coupler",
           name(pair.body_A), name(pair.body_B), state.t));
     }
@@ -167,13 +179,14 @@ LinearSystem linearise(const SystemModel& model, const SystemState& state,
   out.change = steady.change;
   out.imbalance = find_imbalance(model, state, steady.axes);
   out.free = steady.basis.free;
-  out.states = name_system_states(out.free, motion.size());
+  const Index relaxations = motion.relaxation_rates().size();
+  out.states = name_system_states(out.free, motion.size(), relaxations);
   out.inputs = find_linear_inputs(model, state, motion, names);
   const MatrixX S = find_stiffness(steady);
   const VectorX scale = find_scale(S, out.free);
   const MatrixX& Q = steady.basis.Q;
   fill_equations(steady, S, scale, out);
-  const Coordinates c{Q * scale.cwiseInverse().asDiagonal(), Q};
+  const Coordinates c{Q * scale.cwiseInverse().asDiagonal(), Q, relaxations};
   fill_links(motion, c, out);
   fill_motions(model, motion, c, out);
   return out;

@@ -12,8 +12,9 @@ namespace limber::dynamics {
 /// A system linearised about the motion from a state: first-order equations of
 /// motion, and the rows that outputs are composed of.
 ///
-/// Equation   z' = A z + B du,   z = (s q, q'),   x = Q q
-///            q'' = -Q' S Q q - Q' D Q q' + Q' F du
+/// Equation   z' = A z + B du,   z = (s q, q', y),   x = Q q
+///            q'' = -Q' S Q q - Q' D Q q' - Q' E' y + Q' F du,
+///            y' = E Q q' - y / tau
 ///            of SmallMotion in PrincipalBasis; s the frequency of a
 ///            coordinate, which scales A, and 1 of free motion
 /// Limits     dense. Coefficients are those at the state: exact for steady

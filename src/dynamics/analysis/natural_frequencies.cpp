@@ -19,8 +19,9 @@ namespace {
 using Index = Eigen::Index;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// x' = u, u' = -S x - D u without drift; positions of free coordinates are
-/// irrelevant, the others are scaled by their frequencies.
+/// x' = u, u' = -S x - D u - E' y, y' = E u - y / tau, without drift; positions
+/// of free coordinates are irrelevant, the others are scaled by their
+/// frequencies.
 struct FirstOrder {
   FirstOrder(const SmallMotion& motion, const PrincipalBasis& basis) {
     const Index n = motion.size() - basis.drift;
@@ -30,8 +31,13 @@ struct FirstOrder {
     const VectorX sizes = S.diagonal().tail(held).cwiseAbs().cwiseSqrt();
     const double least = held > 0 ? 1e-6 * sizes.maxCoeff() : 0.0;
     const VectorX scale = sizes.cwiseMax(least > 0.0 ? least : 1.0);
-    A = MatrixX::Zero(held + n, held + n);
-    A.topRightCorner(held, held) = scale.asDiagonal();
+    const MatrixX E = motion.project_relaxations(Q);
+    const Index r = E.rows();
+    A = MatrixX::Zero(held + n + r, held + n + r);
+    A.block(held, held + n, n, r) = -E.transpose();
+    A.block(held + n, held, r, n) = E;
+    A.diagonal().tail(r) = -motion.relaxation_rates();
+    A.block(0, n, held, held) = scale.asDiagonal();
     A.block(held, 0, n, held) =
         -S.rightCols(held) * scale.cwiseInverse().asDiagonal();
     A.block(held, held, n, n) = -Q.transpose() * motion.D * Q;
@@ -39,6 +45,12 @@ struct FirstOrder {
   MatrixX Q;  // of velocities
   MatrixX A;
 };
+
+/// Fraction of an eigenvector's energy in Maxwell elements: nearly 1 of the
+/// material's relaxation, which is not a mode, and small of all others [-].
+double find_relaxing_fraction(const Eigen::VectorXcd& x, Index elements) {
+  return x.tail(elements).squaredNorm() / x.squaredNorm();
+}
 
 /// For velocities u in the basis: (u* i around u) / (u* all u) measures their
 /// rotation around an axis, -1 to 1.
@@ -119,11 +131,14 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
                       const SteadyMotion& c, NaturalModes& found) {
   constexpr double kNothing = 1e-11;   // of the fastest
   constexpr double kOfTheSpin = 1e-7;  // for double zeros
+  constexpr double kRelaxing = 0.5;
   const FirstOrder first(c.motion, c.basis);
   if (first.A.rows() == 0) return;
   const Vector3 spin = find_fastest_spin(state);
   const bool turns = !spin.isZero(0.0);
-  const auto eigen = dense::find_general_eigenpairs(first.A, turns);
+  const Index elements = c.motion.relaxation_rates().size();
+  const auto eigen =
+      dense::find_general_eigenpairs(first.A, turns || elements > 0);
   const auto& values = eigen.values;
   const double least = std::max(kNothing * values.cwiseAbs().maxCoeff(),
                                 kOfTheSpin * spin.norm());
@@ -131,6 +146,10 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
   std::vector<NaturalMode> around;
   std::vector<Index> columns;
   for (Index i = 0; i < values.size(); ++i) {
+    if (elements > 0 &&
+        find_relaxing_fraction(eigen.vectors.col(i), elements) > kRelaxing) {
+      continue;
+    }
     if (std::abs(values[i]) <= least) {
       if (coasting-- <= 0) found.modes.emplace_back();
     } else if (values[i].imag() == 0.0 || (!turns && values[i].imag() > 0.0)) {
@@ -142,7 +161,8 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
   }
   if (around.empty()) return;
   add_orbits(make_orbit(model, state, c, spin, first.Q),
-             eigen.vectors.bottomRows(first.Q.cols())(Eigen::all, columns),
+             eigen.vectors.middleRows(values.size() - elements - first.Q.cols(),
+                                      first.Q.cols())(Eigen::all, columns),
              around);
   found.modes.insert(found.modes.end(), around.begin(), around.end());
 }

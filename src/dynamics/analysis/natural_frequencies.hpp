@@ -43,16 +43,19 @@ struct NaturalModes {
 /// give constant coefficients: an axisymmetric rotor in any bearings, or any
 /// rotor in isotropic bearings.
 ///
-/// Equation   det(M s^2 + D s + S) = 0 of SmallMotion. Free motion is
-///            the null space of S: of all couplers, whatever their stiffness,
-///            where the rest of S is round-off. It is separated first.
+/// Equation   det(M s^2 + D s + S + E' diag(s tau / (1 + s tau)) E) = 0 of
+///            SmallMotion; relaxation of Maxwell elements is left out. Free
+///            motion is the null space of S: of all couplers, whatever their
+///            stiffness, where the rest of S is round-off. It is separated
+///            first.
 /// Source     Genta, "Dynamics of Rotating Systems", 2005, ch. 3 [@genta2005]
-/// Limits     dense: (12 bodies + 2 modes)^3
+/// Limits     dense: (12 bodies + 2 modes + Maxwell elements)^3
 /// @throws InputError for a body at level `full`.
 [[nodiscard]] NaturalModes find_natural_modes(const SystemModel& model,
                                               const SystemState& state);
 
-/// Natural frequencies at rest and without dampers, drives at their commands of
+/// Natural frequencies at rest and without dampers, materials with their static
+/// stiffness, drives at their commands of
 /// state.t. Ascending; 0 for free motion, negative for unstable motion [Hz].
 ///
 /// Equation   S x = lambda M x, S symmetrised;

@@ -86,7 +86,8 @@ PrincipalBasis find_principal_basis(const SystemModel& model,
 bool is_conservative(const SmallMotion& motion, const PrincipalBasis& basis) {
   constexpr double kSame = 1e-12;
   const MatrixX S = motion.project_stiffness(basis.Q);
-  return motion.D.isZero(0.0) && (S - S.transpose()).norm() <= kSame * S.norm();
+  return motion.relaxations.empty() && motion.D.isZero(0.0) &&
+         (S - S.transpose()).norm() <= kSame * S.norm();
 }
 
 }  // namespace limber::dynamics

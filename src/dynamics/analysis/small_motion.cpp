@@ -94,6 +94,7 @@ class Derivatives {
       out_.D(m + k, m + k) = body.damping[k];
     }
     fill_elasticity(b, m);
+    fill_relaxations(body, m);
     const Index p = out_.places[b];
     if (p < 0) return;
     const Vector3& w = state_.bodies[b].w_WB_B;
@@ -116,6 +117,15 @@ class Derivatives {
         body.elasticity, state_.eta.segment(body.offset, body.modes), K);
     add_geometric_stiffness(model_, b, terms_, K);
     out_.coupled.push_back({m, std::move(K)});
+  }
+
+  void fill_relaxations(const BodyModel& body, Index m) {
+    const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
+    for (Index j = 0; j < body.maxwell.size(); ++j) {
+      out_.relaxations.push_back(
+          {m, (body.maxwell.strengths[j] * lambda).cwiseSqrt(),
+           body.maxwell.times[j]});
+    }
   }
 
   // Laws of unit stiffness change by minus the motions, those of unit damping

@@ -17,8 +17,9 @@ struct TurningAxes {
 
 /// Small motion of a system linearised about a reference motion.
 ///
-/// Equation   M x'' + D x' + S x = 0,
+/// Equation   M x'' + D x' + S x + E' y = 0,  y' = E x' - y / tau,
 ///            S = diag(lambda) + coupled + G' K G + rest,
+///            y: Maxwell elements of the modes, sqrt(lambda g) d,
 ///            x: for each moving body the changes of position and orientation,
 ///            expressed in the axes, and its modes. From the derivatives M, C,
 ///            K_q of the equations of motion by accelerations, velocities,
@@ -63,6 +64,14 @@ struct SmallMotion {
   MatrixX rest;  ///< of rotating forces, and of inertia [row's / column's]
   /// Round-off of `rest` due to couplers' wrenches [row's / column's].
   MatrixX noise;
+  /// One Maxwell element of all modes of a body: rows of E that are
+  /// `weights` at the columns of its modes.
+  struct Relaxation {
+    Eigen::Index first = 0;  ///< column of the first mode
+    VectorX weights;         ///< sqrt(lambda g) [1/s]
+    double time = 0.0;       ///< tau [s]
+  };
+  std::vector<Relaxation> relaxations;
   std::vector<Eigen::Index>
       places;  ///< index of a body's first of six, -1: fixed
   std::vector<Eigen::Index> modes;  ///< index of a body's first mode
@@ -71,6 +80,10 @@ struct SmallMotion {
   /// Q' S Q, evaluated to preserve the digits of soft motion in Q beside stiff
   /// couplers.
   [[nodiscard]] MatrixX project_stiffness(const MatrixX& Q) const;
+  /// E Q, a row for each y.
+  [[nodiscard]] MatrixX project_relaxations(const MatrixX& Q) const;
+  /// 1 / tau of each y [1/s].
+  [[nodiscard]] VectorX relaxation_rates() const;
   /// Constraint directions, independent of stiffness: x is constrained if a row
   /// times x is not 0.
   [[nodiscard]] MatrixX find_holds() const;

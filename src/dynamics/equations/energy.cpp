@@ -3,6 +3,7 @@
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/full_energy.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 
 namespace limber::dynamics {
 
@@ -22,7 +23,8 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
     const auto eta = state.eta.segment(body.offset, body.modes);
     const auto etadot = state.etadot.segment(body.offset, body.modes);
 
-    balance.elastic += flexbody::calc_elastic_energy(body.elasticity, eta);
+    balance.elastic += flexbody::calc_elastic_energy(body.elasticity, eta) +
+                       find_maxwell_energy(body, state.maxwell);
     balance.kinetic_modal += 0.5 * etadot.squaredNorm();
     if (!body.has_rigid_motion()) continue;
     const Vector3 h = t.H * etadot;

@@ -3,6 +3,7 @@
 
 #include "limber/dynamics/equations/coupler_forces.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/system/body_model.hpp"
@@ -25,10 +26,11 @@ void set_oscillator_bias(const BodyModel& body, const SystemState& state,
   if (const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity)) {
     terms.bias_e.array() =
         lambda->array() * eta.array() + body.damping.array() * etadot.array();
-    return;
+  } else {
+    flexbody::calc_elastic_force(body.elasticity, eta, terms.bias_e);
+    terms.bias_e.array() += body.damping.array() * etadot.array();
   }
-  flexbody::calc_elastic_force(body.elasticity, eta, terms.bias_e);
-  terms.bias_e.array() += body.damping.array() * etadot.array();
+  add_maxwell_force(body, state.maxwell, terms.bias_e);
 }
 
 // Level one-way: centrifugal force of the undeformed body. (Its Euler force
@@ -201,7 +203,8 @@ void reset_forces(const SystemModel& model, const SystemState& state,
     if (body.modes > 0) {
       const ConstModes etadot = modes_of(body, state.etadot);
       terms.dissipated_power +=
-          (body.damping.array() * etadot.array().square()).sum();
+          (body.damping.array() * etadot.array().square()).sum() +
+          find_maxwell_loss(body, state.maxwell);
     }
   }
   reset_full_forces(model, state, terms);

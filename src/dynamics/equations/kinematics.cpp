@@ -122,6 +122,7 @@ SystemState make_state(const SystemModel& model) {
   state.bodies.resize(model.bodies.size());
   state.eta = VectorX::Zero(model.modal_count);
   state.etadot = VectorX::Zero(model.modal_count);
+  state.maxwell = VectorX::Zero(model.maxwell_count);
   state.X_WH.resize(model.full_bodies.size());
   state.u_H = VectorX::Zero(model.nodal_count);
   state.udot_H = VectorX::Zero(model.nodal_count);

@@ -20,7 +20,8 @@ constexpr auto fields_of(const ControllerState*) {
 
 constexpr auto fields_of(const SystemState*) {
   return list_fields("state", "time [s]", "bodies", "eta [kg^1/2 m]",
-                     "etadot [kg^1/2 m/s]", "homes", "nodal displacements [m]",
+                     "etadot [kg^1/2 m/s]", "Maxwell elements [kg^1/2 m]",
+                     "homes", "nodal displacements [m]",
                      "nodal velocities [m/s]", "memories", "inputs",
                      "controllers", "pair memories", "far pairs");
 }

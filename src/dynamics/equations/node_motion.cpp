@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/flexbody/model/mode_products.hpp"
@@ -84,10 +85,14 @@ void place_full(const SystemModel& model, const BodyModel& body,
 
 }  // namespace
 
-void calc_coordinates(const BodyModel& body, const SystemState& state,
-                      VectorX& out) {
+void calc_stress_coordinates(const BodyModel& body, const SystemState& state,
+                             VectorX& out) {
   out.resize(count_coordinates(body));
   set_coordinates(body, state, out.data());
+  if (body.maxwell.size() == 0) return;
+  out.head(body.modes) +=
+      maxwell_of(body, state.maxwell) * body.maxwell.strengths;
+  out *= body.maxwell.scale;
 }
 
 void calc_node_deformations(const SystemModel& model, BodyIndex body,

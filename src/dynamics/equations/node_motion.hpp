@@ -10,11 +10,12 @@
 /// row 3 i + c to component c of node i of ReducedBody::rows.
 namespace limber::dynamics {
 
-/// Modal coordinates of a reduced body [kg^1/2 m], then, at level `nonlinear`,
-/// their products [kg m^2]: in these its points and its stress are linear.
+/// Coordinates in which the stress of a reduced body is linear: its modes
+/// [kg^1/2 m] and, at level `nonlinear`, their products [kg m^2], times the
+/// static stiffness of its material, with the stress of Maxwell elements.
 /// @param out count_coordinates(body)
-void calc_coordinates(const BodyModel& body, const SystemState& state,
-                      VectorX& out);
+void calc_stress_coordinates(const BodyModel& body, const SystemState& state,
+                             VectorX& out);
 
 /// Deformations in the body frame, 3n x K [m].
 ///

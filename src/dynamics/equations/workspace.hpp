@@ -30,6 +30,9 @@ struct BodyTerms {
   /// which fills it but over a step; empty if elasticity is diagonal
   /// [rad^2/s^2].
   MatrixX stiffness;
+  /// Of Maxwell elements over the step, relative to the elastic one; set by
+  /// integrators, else 0 [-].
+  double maxwell_stiffness = 0.0;
   VectorX scratch_J2;  ///< 6m: J2 eta [kg^1/2 m]
   VectorX scratch_b1;  ///< 3m: beta eta [kg^1/2 m]
   VectorX scratch_b2;  ///< 3m: beta etadot [kg^1/2 m/s]

@@ -14,7 +14,8 @@ CentralDifferences::CentralDifferences(const SystemModel& model)
       terms_(make_terms(model)),
       a_(make_accelerations(model)),
       a_next_(make_accelerations(model)),
-      next_(make_state(model)) {}
+      next_(make_state(model)),
+      maxwell_(model, flexbody::set_linear_step) {}
 
 void CentralDifferences::start(const SystemState& state, double /*h*/) {
   next_ = state;
@@ -50,6 +51,8 @@ void CentralDifferences::displace(const SystemState& from, double h,
   }
   next_.eta = from.eta + h * from.etadot + half * a_.etaddot;
   next_.etadot = from.etadot + h * a_.etaddot;
+  maxwell_.set_step(h, terms_);
+  maxwell_.advance(from, next_);
   next_.u_H = from.u_H + h * from.udot_H + half * a_.uddot_H;
   next_.udot_H = from.udot_H + h * a_.uddot_H;
 }

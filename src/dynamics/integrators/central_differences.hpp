@@ -3,6 +3,7 @@
 
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
+#include "limber/dynamics/integrators/maxwell_motion.hpp"
 
 namespace limber::dynamics {
 
@@ -41,6 +42,7 @@ class CentralDifferences final : public Integrator {
   double power_load_ = 0.0;
   double power_loss_ = 0.0;
   SystemState next_;
+  MaxwellMotion maxwell_;
 };
 
 }  // namespace limber::dynamics

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -12,6 +13,28 @@ namespace {
 // Largest dissipation relative to the trapezoidal rule's: more is round-off
 // [-].
 constexpr double kMostByPath = 1.1;
+
+// Work of a body's Maxwell dampers by the paths of the dampers, less that by
+// powers.
+double find_maxwell_correction(const BodyModel& body, const SystemState& from,
+                               const SystemState& to, double h) {
+  const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < body.maxwell.size(); ++j) {
+    const auto first = maxwell_of(body, from.maxwell).col(j);
+    const auto last = maxwell_of(body, to.maxwell).col(j);
+    const double rate = h / body.maxwell.times[j];
+    for (Eigen::Index k = 0; k < body.modes; ++k) {
+      const double d0 = first[k];
+      const double d1 = last[k];
+      const Eigen::Index i = body.offset + k;
+      const double path = (d0 + d1) * (to.eta[i] - from.eta[i] - (d1 - d0));
+      sum += 0.5 * body.maxwell.strengths[j] * lambda[k] *
+             (std::max(path, 0.0) - rate * (d0 * d0 + d1 * d1));
+    }
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -85,6 +108,7 @@ double DamperWork::advance(const SystemState& from, const SystemState& to,
       sum += 0.5 * body.damping[k] *
              (std::max(path, 0.0) - h * (v0 * v0 + v1 * v1));
     }
+    sum += find_maxwell_correction(body, from, to, h);
   }
   return sum;
 }

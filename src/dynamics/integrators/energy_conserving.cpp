@@ -10,6 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/newton/applied_wrenches.hpp"
 #include "limber/dynamics/newton/cayley.hpp"
 #include "limber/dynamics/system/body_model.hpp"
@@ -55,6 +56,7 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       end_(make_terms(model)),
       mean_(make_terms(model)),
       motion_(make_step_motion(model)),
+      maxwell_(model, flexbody::set_middle_step),
       elastic_(VectorX::Zero(model.modal_count)),
       middle_(make_state(model)),
       next_(make_state(model)),
@@ -72,19 +74,20 @@ void EnergyConserving::predict(const SystemState& from, double h) {
     middle_.bodies[b].v_WB_W = from.bodies[b].v_WB_W;
     middle_.bodies[b].w_WB_B = from.bodies[b].w_WB_B;
     const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
-    const bool is_diagonal = flexbody::is_diagonal(body.elasticity);
-    if (!is_diagonal) {
+    auto elastic = elastic_.segment(body.offset, body.modes);
+    if (flexbody::is_diagonal(body.elasticity)) {
+      elastic = lambda.cwiseProduct(modes_of(body, from.eta));
+    } else {
       flexbody::calc_elastic_force(body.elasticity, modes_of(body, from.eta),
-                                   elastic_.segment(body.offset, body.modes));
+                                   elastic);
     }
+    add_maxwell_force(body, from.maxwell, elastic);
+    const double stiffness = 1.0 + maxwell_.step_of(b).stiffness;
     for (int k = 0; k < body.modes; ++k) {
       const Eigen::Index i = body.offset + k;
-      const double half_impulse = is_diagonal
-                                      ? 0.5 * h * lambda[k] * from.eta[i]
-                                      : 0.5 * h * elastic_[i];
-      middle_.etadot[i] =
-          (from.etadot[i] - half_impulse) /
-          (1.0 + 0.5 * h * body.damping[k] + 0.25 * h * h * lambda[k]);
+      middle_.etadot[i] = (from.etadot[i] - 0.5 * h * elastic_[i]) /
+                          (1.0 + 0.5 * h * body.damping[k] +
+                           0.25 * h * h * stiffness * lambda[k]);
     }
   }
   if (has_wrenches_) return;
@@ -117,6 +120,8 @@ void EnergyConserving::advance(const SystemState& from, double h, double end) {
   next_.eta = from.eta + h * middle_.etadot;
   next_.etadot = 2.0 * middle_.etadot - from.etadot;
   middle_.eta = 0.5 * (from.eta + next_.eta);
+  maxwell_.advance(from, next_);
+  middle_.maxwell = 0.5 * (from.maxwell + next_.maxwell);
   next_.t = end;
 }
 
@@ -139,12 +144,15 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
   const bool is_spun = body.has_rigid_motion() && body.modes > 0 &&
                        body.fidelity >= Fidelity::one_way;
   const Vector6 ww = is_spun ? half_product(w0, w1) : Vector6::Zero().eval();
-  const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);
-  if (lambda == nullptr) {
-    flexbody::calc_elastic_force_over_step(
-        body.elasticity, modes_of(body, from.eta), modes_of(body, next_.eta),
-        elastic_.segment(body.offset, body.modes));
+  auto elastic = elastic_.segment(body.offset, body.modes);
+  if (const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity)) {
+    elastic = lambda->cwiseProduct(modes_of(body, middle_.eta));
+  } else {
+    flexbody::calc_elastic_force_over_step(body.elasticity,
+                                           modes_of(body, from.eta),
+                                           modes_of(body, next_.eta), elastic);
   }
+  add_maxwell_force(body, middle_.maxwell, elastic);
   for (int k = 0; k < body.modes; ++k) {
     const Eigen::Index i = body.offset + k;
     double change = next_.etadot[i] - from.etadot[i];
@@ -158,10 +166,8 @@ void EnergyConserving::calc_body_residual(const SystemState& from, double h,
                          w0.dot(last.scratch_b2.segment<3>(3 * k)) -
                          w1.dot(first.scratch_b2.segment<3>(3 * k)));
     }
-    const double elastic =
-        lambda != nullptr ? (*lambda)[k] * middle_.eta[i] : elastic_[i];
     residual_[row + 6 + k] =
-        2.0 * (change / h - inertial + elastic +
+        2.0 * (change / h - inertial + elastic_[i] +
                body.damping[k] * middle_.etadot[i] - t.modal_force[k]);
   }
   residual_.segment<6>(row).setZero();
@@ -264,6 +270,7 @@ double EnergyConserving::measure_roundoff() const {
 
 StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   coefficients_ = {4.0 / (h * h), 2.0 / h};
+  maxwell_.set_step(h, mean_);
   copy_step_constants(state, next_);
   calc_terms(model_, state, Side::right, begin_);
   predict(state, h);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/dynamics/integrators/integrator.hpp"
+#include "limber/dynamics/integrators/maxwell_motion.hpp"
 #include "limber/dynamics/integrators/step_forces.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 
@@ -86,6 +87,7 @@ class EnergyConserving final : public Integrator {
   SystemTerms mean_;
   bool has_wrenches_ = false;
   StepMotion motion_;
+  MaxwellMotion maxwell_;
   VectorX elastic_;     // of modes that elasticity couples: at the begin, e_k
   SystemState middle_;  // velocities and eta; its positions are not used
   SystemState next_;

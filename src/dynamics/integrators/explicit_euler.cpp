@@ -13,7 +13,7 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
       accelerations_(make_accelerations(model)),
       next_(make_state(model)),
       modes_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty());
+  LIMBER_EXPECT(model.full_bodies.empty() && model.maxwell_count == 0);
 }
 
 void ExplicitEuler::move_modes(SystemState& state) const {

@@ -43,6 +43,7 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       matrix_(model),
       exact_(model),
       damper_work_(model),
+      maxwell_(model, flexbody::set_linear_step),
       next_(make_state(model)),
       terms_(make_terms(model)),
       residual_(VectorX::Zero(count_unknowns(model))),
@@ -83,14 +84,15 @@ void GeneralizedAlpha::fit_memory(double h) {
   memory_step_ = h;
   if (std::abs(ratio - 1.0) <= kSame) return;
   const double share = ratio <= kMostGrowth ? ratio : 0.0;
+  const auto fit = [share](auto& a, const auto& vdot) {
+    a = vdot + share * (a - vdot);
+  };
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    a_.translation[b] = vdot_.translation[b] +
-                        share * (a_.translation[b] - vdot_.translation[b]);
-    a_.rotation[b] =
-        vdot_.rotation[b] + share * (a_.rotation[b] - vdot_.rotation[b]);
+    fit(a_.translation[b], vdot_.translation[b]);
+    fit(a_.rotation[b], vdot_.rotation[b]);
   }
-  a_.modes = vdot_.modes + share * (a_.modes - vdot_.modes);
-  a_.nodes = vdot_.nodes + share * (a_.nodes - vdot_.nodes);
+  fit(a_.modes, vdot_.modes);
+  fit(a_.nodes, vdot_.nodes);
 }
 
 void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
@@ -114,6 +116,7 @@ void GeneralizedAlpha::set_coefficients(double h) {
   coefficients_.acceleration =
       (1.0 - p_.am) / ((1.0 - p_.af) * p_.beta * h * h);
   coefficients_.velocity = p_.gamma / (p_.beta * h);
+  maxwell_.set_step(h, terms_);
 }
 
 void GeneralizedAlpha::refactor(bool renews_full) {
@@ -229,16 +232,15 @@ void GeneralizedAlpha::advance(const SystemState& from, double h, double end) {
   }
   inc_.modes = h * from.etadot + inc_n * a_.modes + inc_next * a_next_.modes;
   next_.eta = from.eta + inc_.modes;
+  maxwell_.advance(from, next_);
   next_.etadot = from.etadot + v_n * a_.modes + v_next * a_next_.modes;
   vdot_next_.modes =
       d_next * a_next_.modes + d_n * a_.modes - d_old * vdot_.modes;
-  if (model_.nodal_count > 0) {
-    inc_.nodes = h * from.udot_H + inc_n * a_.nodes + inc_next * a_next_.nodes;
-    next_.u_H = from.u_H + inc_.nodes;
-    next_.udot_H = from.udot_H + v_n * a_.nodes + v_next * a_next_.nodes;
-    vdot_next_.nodes =
-        d_next * a_next_.nodes + d_n * a_.nodes - d_old * vdot_.nodes;
-  }
+  inc_.nodes = h * from.udot_H + inc_n * a_.nodes + inc_next * a_next_.nodes;
+  next_.u_H = from.u_H + inc_.nodes;
+  next_.udot_H = from.udot_H + v_n * a_.nodes + v_next * a_next_.nodes;
+  vdot_next_.nodes =
+      d_next * a_next_.nodes + d_n * a_.nodes - d_old * vdot_.nodes;
   next_.t = end;
 }
 
@@ -249,10 +251,8 @@ void GeneralizedAlpha::apply_increments(double h) {
   a_next_.nodes += share * x_.tail(model_.nodal_count);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
-    if (body.modes > 0) {
-      a_next_.modes.segment(body.offset, body.modes) +=
-          share * x_.segment(first_row(body, b) + 6, body.modes);
-    }
+    a_next_.modes.segment(body.offset, body.modes) +=
+        share * x_.segment(first_row(body, b) + 6, body.modes);
     if (!body.has_rigid_motion()) continue;
     const double* x = x_.data() + first_row(body, b);
     a_next_.translation[b] += share * Eigen::Map<const Vector3>(x);

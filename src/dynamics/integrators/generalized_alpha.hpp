@@ -9,6 +9,7 @@
 #include "limber/dynamics/integrators/alpha_parameters.hpp"
 #include "limber/dynamics/integrators/damper_work.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
+#include "limber/dynamics/integrators/maxwell_motion.hpp"
 #include "limber/dynamics/integrators/motion_scale.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/exact_correction.hpp"
@@ -109,6 +110,7 @@ class GeneralizedAlpha final : public Integrator {
   double power_load_ = 0.0;  // at the last state, for the audit [W]
   double power_loss_ = 0.0;
   DamperWork damper_work_;
+  MaxwellMotion maxwell_;
   double last_power_load_ = 0.0;  // at the previous state [W]
   double last_power_loss_ = 0.0;
 

@@ -60,6 +60,7 @@ void interpolate(const SystemModel& model, const SystemState& begin,
                       state.eta, state.etadot);
   interpolate_vectors(begin.u_H, begin.udot_H, end.u_H, end.udot_H, cubic,
                       state.u_H, state.udot_H);
+  state.maxwell = begin.maxwell + share * (end.maxwell - begin.maxwell);
   state.X_WH = end.X_WH;
   state.memory = begin.memory;
   // An input's line before its last jump is that of the step, too.

@@ -3,6 +3,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/finite_check.hpp"
 
@@ -41,6 +42,7 @@ void clear(SystemState& carry) {
   }
   carry.eta.setZero();
   carry.etadot.setZero();
+  carry.maxwell.setZero();
   carry.u_H.setZero();
   carry.udot_H.setZero();
 }
@@ -59,7 +61,8 @@ RungeKutta4::RungeKutta4(const SystemModel& model)
   const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
   const VectorX modes = VectorX::Zero(model.modal_count);
   const VectorX nodes = VectorX::Zero(model.nodal_count);
-  slopes_.fill({zero, zero, zero, zero, modes, modes, nodes, nodes});
+  const VectorX elements = VectorX::Zero(model.maxwell_count);
+  slopes_.fill({zero, zero, zero, zero, modes, modes, elements, nodes, nodes});
 }
 
 void RungeKutta4::exchange_memory(Archive& archive, const SystemState& state) {
@@ -80,6 +83,13 @@ void RungeKutta4::calc_slope(const SystemState& at,
   }
   slope.etadot = at.etadot;
   slope.etaddot = accelerations_.etaddot;
+  for (const BodyModel& body : model_.bodies) {
+    for (Eigen::Index j = 0; j < body.maxwell.size(); ++j) {
+      maxwell_of(body, slope.maxwelldot).col(j) =
+          maxwell_of(body, at.maxwell).col(j) / -body.maxwell.times[j];
+    }
+  }
+  stretch_maxwell(model_, at.etadot, 1.0, slope.maxwelldot);
   slope.udot_H = at.udot_H;
   slope.uddot_H = accelerations_.uddot_H;
 }
@@ -98,6 +108,7 @@ void RungeKutta4::displace(const SystemState& from, const Slope& slope,
   }
   stage_.eta = from.eta + h * slope.etadot;
   stage_.etadot = from.etadot + h * slope.etaddot;
+  stage_.maxwell = from.maxwell + h * slope.maxwelldot;
   stage_.X_WH = from.X_WH;
   stage_.u_H = from.u_H + h * slope.udot_H;
   stage_.udot_H = from.udot_H + h * slope.uddot_H;
@@ -123,6 +134,8 @@ void RungeKutta4::advance(const SystemState& from, const Slope& slope, double h,
   add(from.eta, left_.eta, h * slope.etadot, carry_.eta, stage_.eta);
   add(from.etadot, left_.etadot, h * slope.etaddot, carry_.etadot,
       stage_.etadot);
+  add(from.maxwell, left_.maxwell, h * slope.maxwelldot, carry_.maxwell,
+      stage_.maxwell);
   stage_.X_WH = from.X_WH;
   add(from.u_H, left_.u_H, h * slope.udot_H, carry_.u_H, stage_.u_H);
   add(from.udot_H, left_.udot_H, h * slope.uddot_H, carry_.udot_H,
@@ -160,8 +173,8 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   mean(&Slope::thetadot);
   mean(&Slope::vdot);
   mean(&Slope::wdot);
-  for (const auto member :
-       {&Slope::etadot, &Slope::etaddot, &Slope::udot_H, &Slope::uddot_H}) {
+  for (const auto member : {&Slope::etadot, &Slope::etaddot, &Slope::maxwelldot,
+                            &Slope::udot_H, &Slope::uddot_H}) {
     VectorX& sum = k[0].*member;
     sum += 2.0 * k[1].*member + 2.0 * k[2].*member + k[3].*member;
     sum /= 6.0;

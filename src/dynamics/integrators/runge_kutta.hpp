@@ -28,7 +28,7 @@ class RungeKutta4 final : public Integrator {
  private:
   struct Slope {
     std::vector<Vector3> pdot, thetadot, vdot, wdot;
-    VectorX etadot, etaddot;
+    VectorX etadot, etaddot, maxwelldot;
     VectorX udot_H, uddot_H;  // of unreduced bodies
   };
   void calc_slope(const SystemState& at, const std::vector<Vector3>& theta,

@@ -14,7 +14,7 @@ Splitting::Splitting(const SystemModel& model)
       next_(make_state(model)),
       middle_(make_state(model)),
       modes_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty());
+  LIMBER_EXPECT(model.full_bodies.empty() && model.maxwell_count == 0);
 }
 
 void Splitting::drift(SystemState& state, double& dissipated) const {

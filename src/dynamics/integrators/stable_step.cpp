@@ -9,6 +9,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -157,6 +158,8 @@ class Iteration {
       displaced_.udot_H = state_.udot_H + e * x_.uddot_H;
     } else {
       displaced_.eta = state_.eta + e * x_.etaddot;
+      displaced_.maxwell = state_.maxwell;
+      stretch_maxwell(model_, x_.etaddot, e, displaced_.maxwell);
       displaced_.u_H = state_.u_H + e * x_.uddot_H;
     }
     find_accelerations(displaced_, x_);
@@ -178,6 +181,17 @@ class Iteration {
   bool has_modes_;
 };
 
+// Of Maxwell elements [1/s].
+double find_fastest_relaxation(const SystemModel& model) {
+  double fastest = 0.0;
+  for (const BodyModel& body : model.bodies) {
+    for (const double time : body.maxwell.times) {
+      fastest = std::max(fastest, 1.0 / time);
+    }
+  }
+  return fastest;
+}
+
 }  // namespace
 
 double find_stable_step(const SystemModel& model, const SystemState& state,
@@ -195,7 +209,9 @@ double find_stable_step(const SystemModel& model, const SystemState& state,
     case IntegratorKind::splitting:
       return divide(2.0, std::max(c, std::sqrt(omega_squared)));
     case IntegratorKind::runge_kutta_4:
-      return divide(2.6, 0.5 * (c + std::sqrt(c * c + 4.0 * omega_squared)));
+      return divide(2.6,
+                    std::max(0.5 * (c + std::sqrt(c * c + 4.0 * omega_squared)),
+                             find_fastest_relaxation(model)));
     case IntegratorKind::generalized_alpha:
     case IntegratorKind::explicit_euler:
     case IntegratorKind::implicit_euler:

@@ -3,6 +3,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_forces.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/equations/transmission.hpp"
 #include "limber/dynamics/integrators/step_pairs.hpp"
@@ -257,6 +258,7 @@ void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
   t.moment_B.setZero();
   t.modal_force.setZero();
   terms.products[b].force.setZero();
+  terms.dissipated_power += find_maxwell_loss(body, step.middle.maxwell);
   for (int k = 0; k < body.modes; ++k) {
     const double rate = step.middle.etadot[body.offset + k];
     terms.dissipated_power += body.damping[k] * rate * rate;

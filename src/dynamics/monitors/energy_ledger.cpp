@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "limber/dynamics/equations/full_terms.hpp"
+#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/monitors/peak_watch.hpp"
 
@@ -102,6 +103,8 @@ void EnergyLedger::evaluate_body(std::size_t b, const SystemState& state,
     power += (t.modal_force[k] - body.damping[k] * etadot) * etadot;
     h += t.H.col(k) * etadot;
   }
+  elastic += find_maxwell_energy(body, state.maxwell);
+  power -= find_maxwell_loss(body, state.maxwell);
   if (body.has_rigid_motion()) {
     const Vector3& w = rigid.w_WB_B;
     kinetic += 0.5 * body.mass * rigid.v_WB_W.squaredNorm() +

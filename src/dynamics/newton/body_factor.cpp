@@ -41,11 +41,14 @@ void BodyFactor::update_modes(const BodyModel& body, const BodyTerms& terms,
   if (!coupled_modes_) {
     const VectorX& lambda = *flexbody::find_eigenvalues(body.elasticity);
     inverse_modes_.array() =
-        (c.acceleration + c.velocity * body.damping.array() + lambda.array())
+        (c.acceleration + c.velocity * body.damping.array() +
+         (1.0 + terms.maxwell_stiffness) * lambda.array())
             .inverse();
     return;
   }
-  diagonal_.array() = c.acceleration + c.velocity * body.damping.array();
+  diagonal_.array() = c.acceleration + c.velocity * body.damping.array() +
+                      terms.maxwell_stiffness *
+                          flexbody::rest_stiffness(body.elasticity).array();
   if (coupled_modes_->factor(diagonal_, terms.stiffness)) return;
   throw NumericalError(fmt::format(
       "body '{}': the matrix of its modes' inertia and elasticity is singular",

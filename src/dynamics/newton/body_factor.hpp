@@ -21,7 +21,8 @@ void calc_stiffness(const SystemModel& model, const SystemState& state,
 /// factor, O(modes^3), and D^-1 costs O(modes^2).
 ///
 /// Equation   D = [c m, 0, 0; 0, S, c H; 0, c H' T, c + v zeta + K],
-///            K = diag(lambda) or BodyTerms::stiffness,
+///            K = diag(lambda) or BodyTerms::stiffness, plus lambda times
+///            BodyTerms::maxwell_stiffness,
 ///            S = (c J + v (w x J - (J w) x)) T; c, v: derivatives of
 ///            acceleration and velocity at the step's end, T: of the step's
 ///            rotation

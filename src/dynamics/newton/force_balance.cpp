@@ -174,6 +174,7 @@ SystemState stop(const SystemState& state) {
     body.w_WB_B.setZero();
   }
   rest.etadot.setZero();
+  rest.maxwell.setZero();
   rest.udot_H.setZero();
   return rest;
 }

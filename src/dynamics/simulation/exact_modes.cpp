@@ -106,6 +106,7 @@ void ExactModes::prepare(const std::vector<double>& times) {
 void ExactModes::join_rest(const SystemState& rest, SystemState& whole) const {
   whole.t = rest.t;
   whole.bodies = rest.bodies;
+  whole.maxwell = rest.maxwell;
   whole.X_WH = rest.X_WH;
   whole.u_H = rest.u_H;
   whole.udot_H = rest.udot_H;

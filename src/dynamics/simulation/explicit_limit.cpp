@@ -29,7 +29,7 @@ constexpr double kMostEnergyGrowth = 1.05;
 // A small change of a state, velocities times the step.
 struct Change {
   std::vector<Vector3> p, turn, v, w;
-  VectorX eta, etadot, u, udot;
+  VectorX eta, etadot, maxwell, u, udot;
 };
 
 template <typename Visit>
@@ -45,6 +45,7 @@ void for_each_vector(const SystemModel& model, Change& x, const Visit& visit) {
   }
   visit(x.eta, 1.0);
   visit(x.etadot, 1.0);
+  visit(x.maxwell, 1.0);
   for (const FullModel& full : model.full_bodies) {
     const double mass = full.mesh->node_mass.sum();
     const double weight =
@@ -67,7 +68,8 @@ class StepDerivative {
     const std::vector<Vector3> zero(model.bodies.size(), Vector3::Zero());
     const VectorX modes = VectorX::Zero(model.modal_count);
     const VectorX nodes = VectorX::Zero(model.nodal_count);
-    x_ = {zero, zero, zero, zero, modes, modes, nodes, nodes};
+    const VectorX elements = VectorX::Zero(model.maxwell_count);
+    x_ = {zero, zero, zero, zero, modes, modes, elements, nodes, nodes};
     std::mt19937 random(1);
     for_each_vector(model_, x_, [&](auto&& part, double weight) {
       for (Eigen::Index i = 0; i < part.size(); ++i) {
@@ -120,6 +122,7 @@ class StepDerivative {
     }
     moved.eta += e * x_.eta;
     moved.etadot += e / h_ * x_.etadot;
+    moved.maxwell += e * x_.maxwell;
     moved.u_H += e * x_.u;
     moved.udot_H += e / h_ * x_.udot;
     return moved;
@@ -139,6 +142,7 @@ class StepDerivative {
     }
     x_.eta = (moved.eta - end_.eta) / e;
     x_.etadot = h_ / e * (moved.etadot - end_.etadot);
+    x_.maxwell = (moved.maxwell - end_.maxwell) / e;
     x_.u = (moved.u_H - end_.u_H) / e;
     x_.udot = h_ / e * (moved.udot_H - end_.udot_H);
   }

@@ -142,6 +142,7 @@ bool has_closed_modal_loads(const SystemModel& model, BodyIndex index) {
   const BodyModel& body = get_body(model, index);
   if (body.modes == 0 || body.fidelity != Fidelity::uncoupled) return false;
   if (!flexbody::is_diagonal(body.elasticity)) return false;
+  if (body.maxwell.size() > 0) return false;
   const auto is_here = [&](AttachmentIndex i) {
     return get_attachment(model, i).body == index;
   };

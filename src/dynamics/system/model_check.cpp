@@ -73,6 +73,7 @@ class ModelCheck {
 
   void check_bodies() {
     int offset = 0;
+    int maxwell_offset = 0;
     for (const BodyModel& body : model_.bodies) {
       const auto expect = [&](bool holds, const char* problem) {
         require(holds, "body", body.name, problem);
@@ -89,7 +90,21 @@ class ModelCheck {
       expect(body.inertia != nullptr, "its inertia by mode is missing");
       expect(body.full < 0 || has(model_.full_bodies, body.full),
              "its mesh is missing");
+      const flexbody::MaxwellElements& maxwell = body.maxwell;
+      expect(body.maxwell_offset == maxwell_offset,
+             "its Maxwell elements do not follow those of the body before it");
+      expect(maxwell.strengths.size() == maxwell.size() &&
+                 (maxwell.strengths.array() >= 0.0).all() &&
+                 (maxwell.times.array() > 0.0).all() &&
+                 maxwell.strengths.allFinite() && maxwell.times.allFinite(),
+             "its Maxwell elements are not finite strengths >= 0 and times > "
+             "0");
       offset += body.modes;
+      maxwell_offset += body.modes * static_cast<int>(maxwell.size());
+    }
+    if (maxwell_offset != model_.maxwell_count) {
+      add(fmt::format("the bodies have {} Maxwell elements together, not {}",
+                      maxwell_offset, model_.maxwell_count));
     }
     if (offset != model_.modal_count) {
       add(fmt::format("the bodies have {} modal coordinates together, not {}",

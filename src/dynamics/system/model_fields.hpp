@@ -69,7 +69,8 @@ constexpr auto fields_of(const ModalInertia*) {
 constexpr auto fields_of(const BodyModel*) {
   return list_fields("body", "name", "level", "clamped", "mass [kg]",
                      "inertia [kg m^2]", "modes", "offset", "elasticity",
-                     "damping [1/s]", "inertia by mode", "P [kg^1/2]",
+                     "damping [1/s]", "Maxwell elements",
+                     "first Maxwell element", "inertia by mode", "P [kg^1/2]",
                      "reduced", "full");
 }
 
@@ -123,10 +124,11 @@ constexpr auto fields_of(const Pair*) {
 }
 
 constexpr auto fields_of(const SystemModel*) {
-  return list_fields(
-      "system", "bodies", "attachments", "couplers", "transmissions", "loads",
-      "body loads", "gravity [m/s^2]", "modal coordinates", "unreduced bodies",
-      "nodal coordinates", "inputs", "controllers", "pairs", "pair memories");
+  return list_fields("system", "bodies", "attachments", "couplers",
+                     "transmissions", "loads", "body loads", "gravity [m/s^2]",
+                     "modal coordinates", "Maxwell elements",
+                     "unreduced bodies", "nodal coordinates", "inputs",
+                     "controllers", "pairs", "pair memories");
 }
 
 }  // namespace limber::dynamics

@@ -23,6 +23,16 @@ MatrixX multiply_mass(const flexbody::FullBody& full, const MatrixX& columns) {
   return product;
 }
 
+// All strains are sqrt(scale) times those of the material, so that the
+// potential is `scale` times.
+flexbody::QuadraticStrain make_quadratic_strain(
+    const flexbody::ReducedBody& reduced, double scale) {
+  const flexbody::QuadraticManifold& manifold = *reduced.manifold;
+  const double root = std::sqrt(scale);
+  return flexbody::QuadraticStrain({scale * reduced.lambda, manifold.paired,
+                                    root * manifold.Q, root * manifold.self});
+}
+
 // Columns of the products behind those of the modes.
 Matrix3X join_products(const Attachment& attachment, const BodyModel& body) {
   Matrix3X joined = Matrix3X::Zero(3, count_coordinates(body));
@@ -55,6 +65,8 @@ BodyIndex SystemBuilder::add_body(const std::string& name, BodyModel body) {
   body.name = name;
   body.offset = model_.modal_count;
   model_.modal_count += body.modes;
+  body.maxwell_offset = model_.maxwell_count;
+  model_.maxwell_count += body.modes * static_cast<int>(body.maxwell.size());
   model_.bodies.push_back(std::move(body));
   return BodyIndex(model_.bodies.size() - 1);
 }
@@ -80,6 +92,7 @@ BodyIndex SystemBuilder::add_flexible_body(
     const ModalDamping& damping,
     const std::optional<flexbody::ModalElasticity>& elasticity) {
   LIMBER_EXPECT(reduced != nullptr);
+  LIMBER_EXPECT(!elasticity || damping.maxwell.size() == 0);
   const std::string what = names_.check("body", name);
   if (fidelity < Fidelity::rigid || fidelity >= Fidelity::full) {
     throw ContractError(what +
@@ -95,16 +108,16 @@ BodyIndex SystemBuilder::add_flexible_body(
     body.modes = reduced->mode_count();
     if (fidelity == Fidelity::nonlinear) {
       check_manifold(what, *reduced, elasticity.has_value());
-      body.elasticity = flexbody::QuadraticStrain(
-          {reduced->lambda, reduced->manifold->paired, reduced->manifold->Q,
-           reduced->manifold->self});
+      body.elasticity = make_quadratic_strain(*reduced, damping.maxwell.scale);
     } else {
-      body.elasticity = elasticity.value_or(flexbody::DiagonalStiffness(
-          flexbody::DiagonalStiffness::Parameters{reduced->lambda}));
+      body.elasticity = elasticity.value_or(
+          flexbody::DiagonalStiffness(flexbody::DiagonalStiffness::Parameters{
+              damping.maxwell.scale * reduced->lambda}));
     }
     check_elasticity(what, body.elasticity, body.modes, damping);
     body.damping =
         check_damping(what, damping, flexbody::rest_stiffness(body.elasticity));
+    body.maxwell = damping.maxwell;
     if (body.clamped) {
       body.P = fidelity == Fidelity::nonlinear
                    ? reduced->integrals.P
@@ -122,6 +135,7 @@ BodyIndex SystemBuilder::add_full_body(
     std::shared_ptr<const flexbody::FullBody> full,
     const ModalDamping& damping) {
   LIMBER_EXPECT(reduced != nullptr && full != nullptr);
+  LIMBER_EXPECT(damping.maxwell.size() == 0);
   const std::string what = names_.check("body", name);
   check_reduced(what, *reduced, true);
   check_same_nodes(what, *reduced, *full);

@@ -14,6 +14,7 @@
 #include "limber/dynamics/system/nodal_frame.hpp"
 #include "limber/dynamics/system/time_function.hpp"
 #include "limber/flexbody/elasticity/modal_elasticity.hpp"
+#include "limber/flexbody/modal/maxwell_elements.hpp"
 #include "limber/flexbody/model/nodal_load.hpp"
 #include "limber/flexbody/model/quadratic_frame.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
@@ -45,6 +46,8 @@ struct BodyModel {
   int offset = 0;  ///< index of the first modal coordinate in the state
   flexbody::ModalElasticity elasticity;  ///< of m modes
   VectorX damping;                       ///< m, diagonal of C [1/s]
+  flexbody::MaxwellElements maxwell;     ///< J of each mode; J = 0: none
+  int maxwell_offset = 0;  ///< index of the first in SystemState::maxwell
   /// Without columns when rigid; never null.
   std::shared_ptr<const ModalInertia> inertia =
       std::make_shared<const ModalInertia>();
@@ -154,6 +157,7 @@ struct SystemModel {
   std::vector<BodyLoad> body_loads;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
   int modal_count = 0;                  ///< number of modes of all bodies
+  int maxwell_count = 0;                ///< number of their Maxwell elements
   std::vector<FullModel> full_bodies;
   Eigen::Index nodal_count = 0;  ///< number 3N of all unreduced bodies together
   std::vector<Input> inputs;

@@ -35,6 +35,9 @@ struct SystemState {
   std::vector<BodyState> bodies;  ///< one per body
   VectorX eta;     ///< modal coordinates of all bodies [kg^1/2 m]
   VectorX etadot;  ///< [kg^1/2 m/s]
+  /// Extensions of Maxwell elements (flexbody/modal/maxwell_elements.hpp): for
+  /// each body m x J by columns; 0 in equilibrium [kg^1/2 m].
+  VectorX maxwell;
   /// Unreduced bodies, one after the other. Their home frames H are fixed in
   /// the world, by default at the initial B: node i is at X_WH (x_i + u_i), so
   /// that displacements keep their digits.

@@ -30,12 +30,14 @@ constexpr double kMassShare = 0.01;
 }  // namespace
 
 Assembly::Assembly(const Scene& scene, const BodyPlans& plans,
-                   const std::vector<LinkMotion>& motions)
+                   const std::vector<LinkMotion>& motions,
+                   const std::optional<flexbody::FrequencyBand>& band)
     : scene_(scene),
       plans_(plans),
       motions_(motions),
+      band_(band),
       sites_(scene, plans, motions, body_index_) {
-  builder_.set_gravity(scene.scenario.gravity);
+  if (band) builder_.set_gravity(scene.scenario.gravity);
 }
 
 void Assembly::add_bodies() {
@@ -53,13 +55,8 @@ void Assembly::add_body(const BodyPlan& plan) {
     return;
   }
   const Link& link = scene_.robot.links[index(plan.links.front())];
-  const dynamics::ModalDamping& damping = link.flexible->damping;
   const dynamics::Fidelity level = scene_.scenario.level_of(link.name);
-  body_index_.push_back(
-      plan.full
-          ? builder_.add_full_body(plan.name, plan.reduced, plan.full, damping)
-          : builder_.add_flexible_body(plan.name, plan.reduced, level,
-                                       damping));
+  body_index_.push_back(add_flexible_body(plan, link));
   if (plan.piece > 0) return;
   double mass = 0.0;
   for (const BodyPlan& piece : find_bodies(plans_, plan.links.front())) {
@@ -77,6 +74,49 @@ void Assembly::add_body(const BodyPlan& plan) {
         "link '{}' is rigid in this run: its initial deformation is left out",
         link.name));
   }
+}
+
+dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
+                                                const Link& link) {
+  using dynamics::Fidelity;
+  Fidelity level = scene_.scenario.level_of(link.name);
+  if (!band_) {
+    if (level != Fidelity::rigid) level = Fidelity::coupled;
+    return builder_.add_flexible_body(plan.name, plan.reduced, level, {});
+  }
+  dynamics::ModalDamping damping = link.flexible->damping;
+  const double loss_factor = link.flexible->loss_factor;
+  if (damping.rayleigh_mass > 0.0 && !plan.reduced->clamped) {
+    throw InputError(fmt::format(
+        "link '{}': rayleigh_mass would damp its motion relative to its own "
+        "moving frame, not to what holds it, so that little of it is left in "
+        "the modes of the arm; only a link with a <clamp> takes it. Give a "
+        "ratio or a loss_factor",
+        link.name));
+  }
+  if (plan.full) {
+    if (loss_factor > 0.0) {
+      if (!damping.ratios.empty()) {
+        throw InputError(fmt::format(
+            "link '{}': at level full it takes a loss factor or per_mode, not "
+            "both",
+            link.name));
+      }
+      damping.ratios = {0.5 * loss_factor};
+      warnings_.push_back(fmt::format(
+          "link '{}' is at level full: its damping ratio of {:g} acts on the "
+          "modes of the body as its reduction holds it, and those of the arm "
+          "are damped less; at other levels it is that of all modes",
+          link.name, 0.5 * loss_factor));
+    }
+    return builder_.add_full_body(plan.name, plan.reduced, plan.full, damping);
+  }
+  if (loss_factor > 0.0) {
+    damping.maxwell = with_context("link '" + link.name + "'", [&] {
+      return flexbody::find_maxwell_elements(loss_factor, *band_);
+    });
+  }
+  return builder_.add_flexible_body(plan.name, plan.reduced, level, damping);
 }
 
 void Assembly::add_inputs() { scene::add_inputs(scene_.scenario, builder_); }

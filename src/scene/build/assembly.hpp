@@ -18,8 +18,11 @@ namespace limber::scene {
 /// Builds a scene's system, part by part.
 class Assembly {
  public:
+  /// @param band of frequencies for loss factors; without it all flexible
+  /// bodies are linear and undamped, at level coupled, as find_band needs them
   Assembly(const Scene& scene, const BodyPlans& plans,
-           const std::vector<LinkMotion>& motions);
+           const std::vector<LinkMotion>& motions,
+           const std::optional<flexbody::FrequencyBand>& band);
 
   void add_bodies();
   void add_inputs();
@@ -45,6 +48,8 @@ class Assembly {
 
  private:
   void add_body(const BodyPlan& plan);
+  [[nodiscard]] dynamics::BodyIndex add_flexible_body(const BodyPlan& plan,
+                                                      const Link& link);
   void check_moment(const LoadSpec& load, const AttachmentSite& site) const;
   void add_load(const LoadSpec& load);
   void add_nodal_load(const LoadSpec& load);
@@ -62,6 +67,7 @@ class Assembly {
   const Scene& scene_;
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& motions_;
+  std::optional<flexbody::FrequencyBand> band_;
   std::vector<dynamics::BodyIndex> body_index_;  ///< one per plan
   AttachmentSites sites_;
   dynamics::SystemBuilder builder_;

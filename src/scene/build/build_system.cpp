@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/scene/build/build_system.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/analysis/elastic_band.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
@@ -44,6 +46,29 @@ void settle(const Scene& scene, BuiltScene& built) {
   }
 }
 
+bool has_loss_factor(const Scene& scene) {
+  return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
+                     [](const Link& link) {
+                       return link.flexible && link.flexible->loss_factor > 0.0;
+                     });
+}
+
+/// The band of the whole scene's frequencies at its start, which its links'
+/// loss factors hold in; the same at all levels. Without loss factors any.
+flexbody::FrequencyBand find_band(const Scene& scene, BodyPlans plans,
+                                  const std::vector<LinkMotion>& motions) {
+  constexpr flexbody::FrequencyBand kAny{1.0, 2.0};
+  if (!has_loss_factor(scene)) return kAny;
+  for (BodyPlan& plan : plans.bodies) plan.full.reset();
+  Assembly assembly(scene, plans, motions, {});
+  assembly.add_bodies();
+  assembly.add_inputs();
+  assembly.add_couplers();
+  const dynamics::SystemModel model = assembly.build();
+  return dynamics::find_elastic_band(model, assembly.make_initial_state(model))
+      .value_or(kAny);
+}
+
 }  // namespace
 
 BuiltScene build_system(const Scene& scene, const Reducer& reducer,
@@ -56,7 +81,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   const Reductions reductions = find_reductions(scene, reducer, cache, known);
   BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
   add_full_bodies(scene, make_full, plans);
-  Assembly assembly(scene, plans, motions);
+  Assembly assembly(scene, plans, motions, find_band(scene, plans, motions));
   assembly.add_bodies();
   assembly.add_inputs();
   assembly.add_couplers();

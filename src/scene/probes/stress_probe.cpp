@@ -103,7 +103,7 @@ void append_values(const StressProbe& probe, const dynamics::SystemModel& model,
     if (!is_principal) append_largest(probe, find_largest(probe), values);
   } else {
     VectorX& at = probe.scratch.coordinates;
-    calc_coordinates(body, state, at);
+    calc_stress_coordinates(body, state, at);
     LIMBER_EXPECT(at.size() == probe.Sigma_L.cols());
     if (is_principal) {
       all.resize(probe.Sigma_L.rows());

@@ -65,16 +65,25 @@ std::vector<flexbody::MaterialRegion> read_material(
   return {region};
 }
 
+/// As a loss factor, of which a damping ratio is half.
+double read_loss_factor(XmlElement& element) {
+  const auto ratio = element.number("ratio", {0.0, 0.5, false, false});
+  const auto loss_factor =
+      element.number("loss_factor", {0.0, 1.0, false, false});
+  if (ratio && loss_factor) {
+    element.fail(
+        "has both 'ratio' and 'loss_factor', twice the ratio; keep one");
+  }
+  return loss_factor.value_or(2.0 * ratio.value_or(0.0));
+}
+
 dynamics::ModalDamping read_damping(XmlElement& element) {
   dynamics::ModalDamping damping;
   damping.rayleigh_mass =
       element.number("rayleigh_mass", kNonNegative).value_or(0.0);
   damping.rayleigh_stiffness =
       element.number("rayleigh_stiffness", kNonNegative).value_or(0.0);
-  const std::optional<double> ratio = element.number("ratio", kNonNegative);
-  const auto ratios = element.numbers("ratios", kNonNegative);
-  if (ratio && ratios) element.fail("has both 'ratio' and 'ratios'; keep one");
-  if (ratio) damping.ratios = {*ratio};
+  const auto ratios = element.numbers("per_mode", kNonNegative);
   if (ratios) damping.ratios = *ratios;
   return damping;
 }
@@ -216,7 +225,11 @@ FlexibleLink read_flexible(XmlElement& element,
            link.materials.push_back(region);
          }
        }},
-      {"damping", [&](XmlElement& e) { link.damping = read_damping(e); }},
+      {"damping",
+       [&](XmlElement& e) {
+         link.loss_factor = read_loss_factor(e);
+         link.damping = read_damping(e);
+       }},
       {"basis", [&](XmlElement& e) { read_basis(e, link); }},
       {"clamp",
        [&](XmlElement& e) {

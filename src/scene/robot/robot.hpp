@@ -40,7 +40,8 @@ struct FlexibleLink {
   std::filesystem::path reduced_file;  ///< a saved reduced body
   Pose X_LM;                           ///< mesh frame in the link frame
   std::vector<flexbody::MaterialRegion> materials;
-  dynamics::ModalDamping damping;
+  double loss_factor = 0.0;        ///< of its material [-]
+  dynamics::ModalDamping damping;  ///< of its modes alone
   flexbody::BasisOptions basis;
   flexbody::KeptRows rows;
   std::vector<std::string> clamped_groups;

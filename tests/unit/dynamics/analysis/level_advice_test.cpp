@@ -163,6 +163,13 @@ TEST(LevelAdvice, AsksForNonlinearWhereAnOscillationRunsAhead) {
   EXPECT_EQ(level(), Fidelity::nonlinear);
   model.bodies[0].damping.setConstant(20.0);  // forgotten in 0.1 s
   EXPECT_LE(level(), Fidelity::coupled);
+  model.bodies[0].damping.setZero();
+  EXPECT_EQ(level(), Fidelity::nonlinear);
+  const VectorX& lambda = flexbody::rest_stiffness(model.bodies[0].elasticity);
+  const double omega = std::sqrt(lambda.minCoeff());
+  model.bodies[0].maxwell = flexbody::find_maxwell_elements(
+      20.0 / omega, {omega, std::sqrt(lambda.maxCoeff())});
+  EXPECT_LE(level(), Fidelity::coupled);
 }
 
 TEST(LevelAdvice, AsksForMoreWhereInterfacesTurn) {

@@ -12,9 +12,17 @@
 namespace limber::dynamics::allocation_test {
 namespace {
 
-SystemModel loaded_chain(SystemState& state) {
-  testing::Chain chain = testing::make_chain(
-      {.bodies = 5, .modes = 20, .joint = joints::JointKind::revolute});
+// Bodies with Maxwell elements, where schemes take them.
+SystemModel loaded_chain(SystemState& state, bool has_maxwell = true) {
+  ModalDamping damping;
+  if (has_maxwell) {
+    damping.maxwell = flexbody::find_maxwell_elements(0.1, {10.0, 1e4});
+  }
+  testing::Chain chain =
+      testing::make_chain({.bodies = 5,
+                           .modes = 20,
+                           .joint = joints::JointKind::revolute,
+                           .body_damping = damping});
   chain.builder.add_load("push", chain.last_interfaces.back(), {0, 50, 5},
                          {1, 0, 0}, LoadFrame::body,
                          Sinusoid{.frequency = 3.0, .phase = 1.0});
@@ -72,7 +80,7 @@ TEST(Allocation, AStepOfTheEnergyConservingSchemeMakesNone) {
 
 TEST(Allocation, AStepOfTheSplittingSchemeMakesNone) {
   SystemState state;
-  const SystemModel model = loaded_chain(state);
+  const SystemModel model = loaded_chain(state, false);
   Splitting scheme(model);
   scheme.step(state, 1e-6, state.t + 1e-6);
   const long before = limber::testing::allocations;

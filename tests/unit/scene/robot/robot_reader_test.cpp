@@ -116,6 +116,7 @@ TEST(RobotReader, ReadsTheExtension) {
   EXPECT_EQ(link.mesh.unit, 1e-3);
   EXPECT_EQ(link.mesh.file.filename(), "m.msh");
   EXPECT_EQ(link.X_LM.p, Vector3::UnitZ());
+  EXPECT_EQ(link.loss_factor, 0.04);
   EXPECT_EQ(link.basis.eigenmodes, 4);
   EXPECT_FALSE(link.basis.interface_modes);
   EXPECT_EQ(link.rows, flexbody::parse_rows({"root", "tip"}));
