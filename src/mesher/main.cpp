@@ -18,6 +18,7 @@
 #include "limber/common/process/child_process.hpp"
 #include "limber/fem/gmsh/gmsh_reader.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/gmsh/raw_block.hpp"
 #include "limber/fem/mesh/mesher.hpp"
 #include "limber/mesher/sandbox.hpp"
 #include "limber/mesher/trace.hpp"

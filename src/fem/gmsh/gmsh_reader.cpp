@@ -13,15 +13,15 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/fem/gmsh/bulk_mesh.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/gmsh/raw_block.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 
 namespace limber::fem {
 namespace {
-
-using Tags = std::vector<std::size_t>;
 
 /// Runs a Gmsh call and turns its errors into an InputError.
 template <typename Call>
@@ -61,43 +61,7 @@ void mesh_geometry(const MeshOptions& options) {
   if (!has_solids()) gmsh::model::mesh::generate(3);
 }
 
-/// Makes element types once and shares them.
-class ElementTypes {
- public:
-  explicit ElementTypes(std::string source) : source_(std::move(source)) {}
-
-  /// @throws InputError naming the file, for a type that is not supported.
-  std::shared_ptr<const ReferenceElement> get(int gmsh_type) {
-    auto& entry = types_[gmsh_type];
-    if (!entry) entry = make(gmsh_type);
-    return entry;
-  }
-
- private:
-  std::shared_ptr<const ReferenceElement> make(int gmsh_type) const {
-    try {
-      return std::make_shared<const ReferenceElement>(
-          make_reference_element(gmsh_type));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", source_, error.what()));
-    }
-  }
-
-  std::string source_;
-  std::map<int, std::shared_ptr<const ReferenceElement>> types_;
-};
-
-/// Elements as Gmsh returns them, nodes by tag.
-struct RawBlock {
-  int type = 0;
-  int nodes_each = 0;
-  Tags elements;
-  Tags nodes;
-  std::vector<int> regions;
-};
-
-void append_entity(std::map<int, RawBlock>& blocks, int dimension, int entity,
-                   int region) {
+void append_entity(RawBlocks& blocks, int dimension, int entity, int region) {
   std::vector<int> types;
   std::vector<Tags> elements;
   std::vector<Tags> nodes;
@@ -159,15 +123,15 @@ std::vector<RawGroup> read_groups() {
 }
 
 /// Solid elements of the whole model, and which groups each volume is in.
-std::map<int, RawBlock> read_solids(const std::filesystem::path& file,
-                                    const std::vector<RawGroup>& groups,
-                                    bool is_geometry, Mesh& mesh) {
+RawBlocks read_solids(const std::filesystem::path& file,
+                      const std::vector<RawGroup>& groups, bool is_geometry,
+                      Mesh& mesh) {
   const bool only_grouped =
       is_geometry && std::any_of(groups.begin(), groups.end(),
                                  [](auto& g) { return g.dimension == 3; });
   gmsh::vectorpair volumes;
   gmsh::model::getEntities(volumes, 3);
-  std::map<int, RawBlock> blocks;
+  RawBlocks blocks;
   for (const auto& [dimension, entity] : volumes) {
     std::vector<std::string> names;
     for (const RawGroup& group : groups)
@@ -183,60 +147,12 @@ std::map<int, RawBlock> read_solids(const std::filesystem::path& file,
   return blocks;
 }
 
-/// Index of each node tag that a solid element uses; -1 elsewhere.
-class NodeIndex {
- public:
-  explicit NodeIndex(const std::map<int, RawBlock>& solids) {
-    for (const auto& [type, block] : solids)
-      for (const std::size_t tag : block.nodes) used_.insert(tag);
-    int next = 0;
-    for (const std::size_t tag : used_) index_[tag] = next++;
-  }
-  [[nodiscard]] int of(std::size_t tag) const {
-    const auto found = index_.find(tag);
-    return found == index_.end() ? -1 : found->second;
-  }
-  [[nodiscard]] Tags tags() const { return {used_.begin(), used_.end()}; }
-
- private:
-  std::set<std::size_t> used_;
-  std::unordered_map<std::size_t, int> index_;
-};
-
-/// With nodes as indices; elements off the solid are omitted.
-ElementBlock make_block(const RawBlock& raw, const NodeIndex& index,
-                        ElementTypes& types) {
-  ElementBlock block;
-  block.element = types.get(raw.type);
-  const auto each = static_cast<std::size_t>(raw.nodes_each);
-  for (std::size_t e = 0; e < raw.elements.size(); ++e) {
-    std::vector<int> nodes;
-    for (std::size_t i = 0; i < each; ++i)
-      nodes.push_back(index.of(raw.nodes[e * each + i]));
-    if (std::count(nodes.begin(), nodes.end(), -1) > 0) continue;
-    block.tags.push_back(raw.elements[e]);
-    block.regions.push_back(raw.regions[e]);
-    block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
-  }
-  return block;
-}
-
-PhysicalGroup make_group(const RawGroup& raw, const NodeIndex& index,
+PhysicalGroup read_group(const RawGroup& raw, const NodeIndex& index,
                          ElementTypes& types) {
-  std::map<int, RawBlock> blocks;
+  RawBlocks blocks;
   for (const int entity : raw.entities)
     append_entity(blocks, raw.dimension, entity, 0);
-  PhysicalGroup group;
-  group.name = raw.name;
-  group.dimension = raw.dimension;
-  std::set<int> nodes;
-  for (const auto& [type, block] : blocks) {
-    group.blocks.push_back(make_block(block, index, types));
-    nodes.insert(group.blocks.back().nodes.begin(),
-                 group.blocks.back().nodes.end());
-  }
-  group.nodes.assign(nodes.begin(), nodes.end());
-  return group;
+  return make_group(raw.name, raw.dimension, blocks, index, types);
 }
 
 void read_positions(const NodeIndex& index, double unit, Mesh& mesh) {
@@ -258,14 +174,13 @@ Mesh take_mesh(const std::filesystem::path& file, const MeshOptions& options,
   Mesh mesh;
   mesh.source = file.string();
   const std::vector<RawGroup> groups = read_groups();
-  const std::map<int, RawBlock> solids =
-      read_solids(file, groups, is_geometry, mesh);
+  const RawBlocks solids = read_solids(file, groups, is_geometry, mesh);
   const NodeIndex index(solids);
   ElementTypes types(mesh.source);
   for (const auto& [type, block] : solids)
     mesh.blocks.push_back(make_block(block, index, types));
   for (const RawGroup& raw : groups) {
-    PhysicalGroup group = make_group(raw, index, types);
+    PhysicalGroup group = read_group(raw, index, types);
     if (!group.nodes.empty()) mesh.groups.push_back(std::move(group));
   }
   read_positions(index, options.unit, mesh);
@@ -311,6 +226,8 @@ RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
                   const MeshOptions& options) {
   const MeshFileKind kind = find_mesh_file_kind(file);
   check_mesh_options(file, kind, options);
+  if (kind == MeshFileKind::bulk_data)
+    return read_bulk_mesh(file, options.unit);
   const bool is_geometry = kind == MeshFileKind::geometry;
   // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "limber/fem/mesh/mesh.hpp"
 #include "limber/fem/mesh/mesh_options.hpp"
@@ -20,12 +18,7 @@ namespace limber::fem {
                                         const MeshOptions& options = {});
 
 class GmshSession;
-/// A mesh as Gmsh made it, before complete_mesh().
-struct RawMesh {
-  Mesh mesh;
-  /// Changes made to the mesh to make it usable.
-  std::vector<std::string> notices;
-};
+struct RawMesh;
 /// Meshes the file in this session.
 [[nodiscard]] RawMesh make_mesh(GmshSession& session,
                                 const std::filesystem::path& file,

@@ -149,6 +149,25 @@ void check_shared_face(const Mesh& mesh, const KeyedFace* first,
       mesh.source, last - first, tag(first[0]), tag(first[1]), tag(first[2])));
 }
 
+/// Faces that two elements share have all their nodes in common.
+void check_face_orders(const Mesh& mesh) {
+  for (const auto& [a, b] : find_shared_faces(mesh)) {
+    std::vector<int> nodes_a = face_nodes(mesh, a);
+    std::vector<int> nodes_b = face_nodes(mesh, b);
+    if (nodes_a.size() == nodes_b.size()) {
+      std::sort(nodes_a.begin(), nodes_a.end());
+      std::sort(nodes_b.begin(), nodes_b.end());
+      if (nodes_a == nodes_b) continue;
+    }
+    throw InputError(fmt::format(
+        "{}: {} and {} share the corners of a face, but not its other nodes "
+        "({} and {} nodes), so that they would part there. Expected the same "
+        "nodes; give both elements the same order.",
+        mesh.source, describe_element(mesh, a), describe_element(mesh, b),
+        nodes_a.size(), nodes_b.size()));
+  }
+}
+
 }  // namespace
 
 Matrix3X element_positions(const Mesh& mesh, const ElementBlock& block,
@@ -205,6 +224,7 @@ void find_boundary(Mesh& mesh) {
 }
 
 void check_faces(const Mesh& mesh) {
+  check_face_orders(mesh);
   const std::vector<KeyedTriple> triples = boundary_triples(mesh);
   for (std::size_t i = 1; i < triples.size(); ++i)
     if (triples[i].key == triples[i - 1].key)

@@ -27,8 +27,9 @@ using SharedFace = std::array<BoundaryFace, 2>;
 void find_boundary(Mesh& mesh);
 
 /// @throws InputError for elements that are inverted or degenerate (with tag
-/// and Jacobian), for boundary faces that share three corners but not all, and
-/// for a mesh in several parts that share no face.
+/// and Jacobian), for boundary faces that share three corners but not all, for
+/// shared faces whose mid-side nodes differ, and for a mesh in several parts
+/// that share no face.
 void check_elements(const Mesh& mesh);
 void check_faces(const Mesh& mesh);
 void check_connected(const Mesh& mesh);

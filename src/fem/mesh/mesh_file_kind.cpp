@@ -64,9 +64,16 @@ bool is_iges(std::string_view head) {
   return line.size() >= 73 && (line[72] == 'S' || line[72] == 'C');
 }
 
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
 bool is_nastran(std::string_view head) {
-  return head.find('\0') == std::string_view::npos &&
-         (has(head, "GRID") || has(head, "BEGIN BULK"));
+  if (has(head, std::string_view("\0", 1))) return false;
+  const std::string text = upper(std::string(head));
+  return has(text, "GRID") || has(text, "BEGIN BULK") || has(text, "INCLUDE ");
 }
 
 bool is_unv(std::string_view head) {
@@ -103,7 +110,7 @@ const std::vector<Format>& formats() {
       {{".step", ".stp"}, "STEP geometry", geometry, is_step},
       {{".brep"}, "OpenCASCADE geometry", geometry, is_brep},
       {{".iges", ".igs"}, "IGES geometry", geometry, is_iges},
-      {{".bdf", ".nas"}, "Nastran mesh", mesh, is_nastran},
+      {{".bdf", ".nas", ".dat"}, "Nastran mesh", bulk_data, is_nastran},
       {{".unv"}, "I-deas mesh", mesh, is_unv},
       {{".med"}, "MED mesh", mesh, is_med},
       {{".vtk"}, "VTK mesh", mesh, is_vtk},
@@ -114,12 +121,6 @@ const std::vector<Format>& formats() {
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return std::toupper(c); });
   return text;
 }
 
@@ -180,7 +181,7 @@ void check_mesh_options(const std::filesystem::path& file, MeshFileKind kind,
                     "file's own.",
                     name, options.order));
   const bool asks = options.size > 0.0 || options.order > 0;
-  if (kind == MeshFileKind::mesh && asks)
+  if (kind != MeshFileKind::geometry && asks)
     problems.push_back(fmt::format(
         "{}: a mesh size or order was given, but the file is a finished mesh. "
         "Leave them out, or give its geometry (.geo, .step).",

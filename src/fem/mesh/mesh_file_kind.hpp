@@ -9,8 +9,9 @@
 
 namespace limber::fem {
 
-/// Whether a file holds nodes and elements, or a geometry to be meshed.
-enum class MeshFileKind { mesh, geometry };
+/// Whether a file holds nodes and elements, as a Nastran deck or in a format
+/// that Gmsh reads, or a geometry to be meshed.
+enum class MeshFileKind { mesh, bulk_data, geometry };
 
 /// By the file's extension, which must agree with how its content begins: Gmsh
 /// runs any unrecognised content as a geometry program.
@@ -20,9 +21,9 @@ enum class MeshFileKind { mesh, geometry };
     const std::filesystem::path& file);
 
 /// All known extensions, in lower case.
-inline constexpr std::array<std::string_view, 12> kMeshFileExtensions = {
-    ".msh", ".geo", ".step", ".stp", ".brep", ".iges",
-    ".igs", ".bdf", ".nas",  ".unv", ".med",  ".vtk"};
+inline constexpr std::array<std::string_view, 13> kMeshFileExtensions = {
+    ".msh", ".geo", ".step", ".stp", ".brep", ".iges", ".igs",
+    ".bdf", ".nas", ".dat",  ".unv", ".med",  ".vtk"};
 
 /// @throws InputError naming every option that is out of range or does not
 /// apply to a finished mesh.

@@ -82,6 +82,7 @@ std::filesystem::path convert(const std::filesystem::path& source,
   if (form.order > 0) gmsh::model::mesh::setOrder(form.order);
   gmsh::option::setNumber("Mesh.MshFileVersion", form.version);
   gmsh::option::setNumber("Mesh.Binary", form.binary ? 1 : 0);
+  gmsh::option::setNumber("Mesh.BdfFieldFormat", form.bulk_fields);
   gmsh::write(file.string());
   return file;
 }

@@ -56,6 +56,7 @@ struct MshForm {
   bool binary = false;
   int order = 0;             ///< 0: as it is
   bool serendipity = false;  ///< second order without face and inner nodes
+  int bulk_fields = 1;       ///< of .bdf: 0 free, 1 small, 2 large
 };
 
 /// Opens `source` (.geo, .msh), meshes it if it is not, raises its order, and

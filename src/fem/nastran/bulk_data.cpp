@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/fem/nastran/bulk_data.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_set>
+
+#include "limber/common/echo.hpp"
+#include "limber/common/errors.hpp"
+#include "limber/fem/nastran/bulk_card.hpp"
+#include "limber/fem/nastran/card_effect.hpp"
+#include "limber/fem/nastran/grid_table.hpp"
+#include "limber/fem/nastran/solid_card.hpp"
+
+namespace limber::fem {
+namespace {
+
+/// Cards of one name.
+struct CardCount {
+  const DeckLine* first = nullptr;
+  int count = 0;
+};
+using CardCounts = std::map<std::string, CardCount, std::less<>>;
+
+void count_card(const BulkCard& card, CardCounts& counts,
+                std::string_view with = "") {
+  CardCount& entry = counts[std::string(card.name) + std::string(with)];
+  if (entry.count++ == 0) entry.first = card.line;
+}
+
+const SolidCard* find_solid_card(std::string_view name) {
+  const auto* const found =
+      std::find_if(kSolidCards.begin(), kSolidCards.end(),
+                   [&](const SolidCard& card) { return card.name == name; });
+  return found == kSolidCards.end() ? nullptr : found;
+}
+
+class BulkReader {
+ public:
+  explicit BulkReader(const std::filesystem::path& file)
+      : deck_(read_deck(file)), problems_(deck_), grids_(problems_) {}
+
+  BulkData read() {
+    CardReader reader(deck_, problems_);
+    BulkCard card;
+    while (reader.next(card)) add(card);
+    if (!has_properties_) pass_over_marks();
+    for (const auto& [name, refused] : refused_) refuse(name, refused);
+    set_positions();
+    problems_.check();
+    report_unused();
+    return std::move(data_);
+  }
+
+ private:
+  void add(const BulkCard& card) {
+    has_properties_ |= is_property(card.name);
+    if (const SolidCard* const solid = find_solid_card(card.name)) {
+      add_solid(card, *solid);
+    } else if (card.name == "GRID") {
+      grids_.add_grid(card);
+      count_supports(card);
+    } else if (card.name == "GRDSET") {
+      grids_.add_default(card);
+      count_supports(card);
+    } else if (is_coordinate_system(card.name)) {
+      grids_.add_system(card);
+    } else if (card.name == "PSOLID") {
+      add_property(card);
+    } else if (find_card_effect(card.name) == CardEffect::on_body) {
+      count_card(card, refused_);
+    } else if (find_card_effect(card.name) == CardEffect::outside) {
+      count_card(card, unused_);
+    }
+  }
+
+  void count_supports(const BulkCard& card) {
+    constexpr std::size_t kPermanent = 6;
+    const std::string_view fixed = card.field(kPermanent);
+    if (!fixed.empty() && fixed != "0")
+      count_card(card, unused_, " with supports (PS)");
+  }
+
+  void add_property(const BulkCard& card) {
+    constexpr std::size_t kMaterial = 1;
+    constexpr std::size_t kFunction = 6;
+    if (card.field(kFunction) == "PFLUID")
+      problems_.add(*card.line,
+                    "PSOLID with PFLUID is a fluid. Expected solids.");
+    const std::optional<int> id = card.integer(0, std::nullopt, problems_);
+    if (id) materials_[*id] = card.field(kMaterial);
+  }
+
+  void add_solid(const BulkCard& card, const SolidCard& solid) {
+    const std::optional<int> id = card.integer(0, std::nullopt, problems_);
+    const std::optional<int> property =
+        card.integer(1, id.value_or(0), problems_);
+    const std::optional<std::vector<std::size_t>> nodes =
+        read_nodes(card, solid);
+    if (!id || !property || !nodes) return;
+    if (*id < 1 || !elements_.insert(*id).second) {
+      problems_.add(*card.line,
+                    fmt::format("element {} is there twice, or below 1. "
+                                "Expected a number of its own.",
+                                *id));
+      return;
+    }
+    const bool is_linear =
+        nodes->size() == static_cast<std::size_t>(solid.corners);
+    BulkSolids& block =
+        find_block(is_linear ? solid.linear_type : solid.quadratic_type);
+    block.nodes_each = static_cast<int>(nodes->size());
+    block.elements.push_back(static_cast<std::size_t>(*id));
+    block.properties.push_back(*property);
+    for (std::size_t i = 0; i < nodes->size(); ++i)
+      block.nodes.push_back((*nodes)[static_cast<std::size_t>(solid.order[i])]);
+    lines_[block.gmsh_type].push_back(card.line);
+  }
+
+  BulkSolids& find_block(int gmsh_type) {
+    for (BulkSolids& block : data_.solids)
+      if (block.gmsh_type == gmsh_type) return block;
+    data_.solids.emplace_back().gmsh_type = gmsh_type;
+    return data_.solids.back();
+  }
+
+  /// All corners, and all or none of the mid-side nodes.
+  std::optional<std::vector<std::size_t>> read_nodes(const BulkCard& card,
+                                                     const SolidCard& solid) {
+    constexpr std::size_t kFirst = 2;
+    const std::size_t count =
+        card.fields.size() < kFirst ? 0 : card.fields.size() - kFirst;
+    const auto corners = static_cast<std::size_t>(solid.corners);
+    const auto all = static_cast<std::size_t>(solid.nodes);
+    std::vector<std::size_t> nodes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::optional<int> node = card.integer(kFirst + i, 0, problems_);
+      if (!node) return std::nullopt;
+      // 0 as a mid-side node is the same as blank
+      if (*node > 0) {
+        nodes.push_back(static_cast<std::size_t>(*node));
+      } else if (*node < 0 || i < corners) {
+        problems_.add(*card.line,
+                      fmt::format("{}'s node G{} is blank or below 1. Expected "
+                                  "a GRID.",
+                                  card.name, i + 1));
+        return std::nullopt;
+      }
+    }
+    if (count > all || (nodes.size() != corners && nodes.size() != all)) {
+      problems_.add(
+          *card.line,
+          fmt::format("{} has {} nodes. Expected {} corners, and none or all "
+                      "{} mid-side nodes: an element with some of them is not "
+                      "supported, give the others their places in the middle "
+                      "of the edges.",
+                      card.name, nodes.size(), corners, all - corners));
+      return std::nullopt;
+    }
+    if (std::set<std::size_t>(nodes.begin(), nodes.end()).size() !=
+        nodes.size()) {
+      problems_.add(*card.line,
+                    fmt::format("{} has a node twice. Expected different "
+                                "nodes; a collapsed element is a CPENTA, "
+                                "CPYRAM or CTETRA.",
+                                card.name));
+      return std::nullopt;
+    }
+    return nodes;
+  }
+
+  void pass_over_marks() {
+    for (auto entry = refused_.begin(); entry != refused_.end();) {
+      const auto next = std::next(entry);
+      if (is_mark_of_surface(entry->first))
+        marks_.insert(refused_.extract(entry));
+      entry = next;
+    }
+  }
+
+  void refuse(const std::string& name, const CardCount& refused) {
+    problems_.add(
+        *refused.first,
+        fmt::format(
+            "{}{} {} and would be lost. Expected solid elements only "
+            "(CTETRA, CPENTA, CHEXA, CPYRAM): mesh it with solids, or "
+            "remove it and model it in the scene by links and joints.",
+            name,
+            refused.count == 1
+                ? std::string()
+                : fmt::format(" ({} cards, the first here)", refused.count),
+            name == "MPC" ? "constrains nodes" : "is not a solid"));
+  }
+
+  void set_positions() {
+    std::vector<int> ids;
+    for (const auto& [id, grid] : grids_.grids()) ids.push_back(id);
+    std::sort(ids.begin(), ids.end());
+    data_.grids.assign(ids.begin(), ids.end());
+    data_.x.resize(3, static_cast<Eigen::Index>(ids.size()));
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      data_.x.col(static_cast<Eigen::Index>(i)) =
+          grids_.find_position(grids_.grids().at(ids[i]));
+    check_nodes();
+  }
+
+  /// Every element's nodes are there.
+  void check_nodes() {
+    for (const BulkSolids& block : data_.solids) {
+      const std::vector<const DeckLine*>& lines = lines_[block.gmsh_type];
+      const auto each = static_cast<std::size_t>(block.nodes_each);
+      for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+        used_.insert(static_cast<int>(block.nodes[i]));
+        if (grids_.grids().contains(static_cast<int>(block.nodes[i]))) continue;
+        problems_.add(*lines[i / each],
+                      fmt::format("element {} has node {}, which is missing. "
+                                  "Expected its GRID.",
+                                  block.elements[i / each], block.nodes[i]));
+      }
+    }
+  }
+
+  void report_unused() {
+    report_unused_grids();
+    report_materials();
+    if (!marks_.empty())
+      data_.notices.push_back(fmt::format(
+          "{}: left out as marks of the surface, as the deck has no "
+          "properties: {}.",
+          deck_.files[0].string(), list_counts(marks_)));
+    if (!unused_.empty())
+      data_.notices.push_back(
+          fmt::format("{}: not used: {}. Supports and loads are those of the "
+                      "scene.",
+                      deck_.files[0].string(), list_counts(unused_)));
+    if (!deck_.has_end)
+      data_.notices.push_back(
+          fmt::format("{}: it has no ENDDATA, so whether it is complete is not "
+                      "known.",
+                      deck_.files[0].string()));
+  }
+
+  [[nodiscard]] std::string list_counts(const CardCounts& counts) const {
+    std::vector<std::string> texts;
+    for (const auto& [name, cards] : counts)
+      texts.push_back(fmt::format("{} {} (line {} of {})", cards.count, name,
+                                  cards.first->number,
+                                  deck_.files[cards.first->file].string()));
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  void report_unused_grids() {
+    constexpr std::size_t kListed = 5;
+    std::vector<std::size_t> unused;
+    std::copy_if(
+        data_.grids.begin(), data_.grids.end(), std::back_inserter(unused),
+        [&](std::size_t id) { return !used_.contains(static_cast<int>(id)); });
+    if (unused.empty()) return;
+    const auto listed =
+        static_cast<std::ptrdiff_t>(std::min(unused.size(), kListed));
+    data_.notices.push_back(fmt::format(
+        "{}: {} of {} GRIDs belong to no solid element and are left out: "
+        "{}{}.",
+        deck_.files[0].string(), unused.size(), data_.grids.size(),
+        fmt::join(unused.begin(), unused.begin() + listed, ", "),
+        unused.size() > kListed ? " ..." : ""));
+  }
+
+  void report_materials() {
+    std::set<int> properties;
+    for (const BulkSolids& block : data_.solids)
+      properties.insert(block.properties.begin(), block.properties.end());
+    std::set<std::string> used;
+    for (const int property : properties) used.insert(materials_[property]);
+    if (used.size() < 2) return;
+    data_.notices.push_back(fmt::format(
+        "{}: its solids have {} materials, which are not read. Give each of "
+        "the groups {} (PSOLID numbers) its material.",
+        deck_.files[0].string(), used.size(), fmt::join(properties, ", ")));
+  }
+
+  Deck deck_;
+  DeckProblems problems_;
+  GridTable grids_;
+  BulkData data_;
+  std::map<int, std::vector<const DeckLine*>> lines_;  // of data_.solids
+  std::unordered_set<int> elements_;
+  std::unordered_set<int> used_;
+  std::map<int, std::string> materials_;
+  CardCounts refused_;
+  CardCounts marks_;
+  CardCounts unused_;
+  bool has_properties_ = false;
+};
+
+}  // namespace
+
+BulkData read_bulk_data(const std::filesystem::path& file) {
+  return BulkReader(file).read();
+}
+
+}  // namespace limber::fem

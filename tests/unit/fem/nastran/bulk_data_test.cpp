@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Format: MSC Nastran Quick Reference Guide, "Bulk Data Entries".
+#include "limber/fem/nastran/bulk_data.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "limber/common/errors.hpp"
+#include "unit/fem/meshes.hpp"
+
+namespace limber::fem::bulk_data_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::write_file;
+
+std::string deck(const std::string& cards) {
+  return "SOL 103\nCEND\nBEGIN BULK\n" + cards + "ENDDATA\n";
+}
+
+BulkData read_cards(const std::string& cards) {
+  return read_bulk_data(write_file("deck.bdf", deck(cards)));
+}
+
+std::string find_error(const std::string& text) {
+  try {
+    static_cast<void>(read_bulk_data(write_file("deck.bdf", text)));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted:\n" << text;
+  return {};
+}
+
+/// Corners 0, x, y, z of a tetrahedron, from line 4 of the deck on.
+const std::string kGrids =
+    "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n";
+const std::string kMiddles =
+    "GRID,5,,.5,0.,0.\nGRID,6,,.5,.5,0.\nGRID,7,,0.,.5,0.\n"
+    "GRID,8,,0.,0.,.5\nGRID,9,,.5,0.,.5\nGRID,10,,0.,.5,.5\n";
+const std::string kTetra = kGrids + "CTETRA,1,1,1,2,3,4\n";
+
+/// Ten nodes in each form of a card; Gmsh swaps Nastran's last two.
+class ElementForm : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ElementForm, IsReadWithAllItsNodes) {
+  const BulkData data = read_cards(kGrids + kMiddles + GetParam());
+  ASSERT_EQ(data.solids.size(), 1U);
+  EXPECT_EQ(data.solids[0].gmsh_type, 11);
+  EXPECT_THAT(data.solids[0].elements, ElementsAre(77));
+  EXPECT_THAT(data.solids[0].properties, ElementsAre(3));
+  EXPECT_THAT(data.solids[0].nodes, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 10, 9));
+  EXPECT_THAT(data.notices, IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, ElementForm,
+    ::testing::Values(
+        "CTETRA,77,3,1,2,3,4,5,6\n,7,8,9,10\n",
+        "CTETRA,77,3,1,2,3,4,5,6,+A\n+A,7,8,9,10\n",
+        "ctetra, 77, 3, 1, 2, 3, 4, 5, 6, +\n+, 7, 8, 9, 10\n",
+        "CTETRA,77,3,1,2,3,4,5,6\r\n$ a comment\r\n\r\n,7,8,9,10 $ here\r\n",
+        "CTETRA  77      3       1       2       3       4       5       6\n"
+        "        7       8       9       10\n",
+        "CTETRA        77       3       1       2       3       4       5"
+        "       6+E77\n+E77           7       8       9      10\n",
+        "CTETRA\t77\t3\t1\t2\t3\t4\t5\t6\n\t7\t8\t9\t10\n",
+        "CTETRA* 77              3               1               2\n"
+        "*       3               4               5               6\n"
+        "*       7               8               9               10\n",
+        "CTETRA* 77              3               1               2\n"
+        "*       3               4               5               6\n"
+        "        7       8       9       10\n",
+        "CTETRA*,77,3,1,2\n*,3,4,5,6\n*,7,8,9,10\n",
+        "Ctetra  77      3       1       2       3       4       5       6"
+        "       ABC\n+BC     7       8       9       10\n"));
+
+TEST(BulkData, NumbersHaveNastransForms) {
+  const BulkData data = read_cards(
+      "GRID,1,,7.+1,-1.5-3,1.D2\nGRID           2        2.5E+1     .25  -4.e-1"
+      "\nGRID*                  3                              0."
+      "   1.23456789012\n*                -1.5D-1\nGRID,4,,+1.,0,\n"
+      "CTETRA,1,,1,2,3,4\n");
+  EXPECT_EQ(data.x.col(0), Vector3(70.0, -0.0015, 100.0));
+  EXPECT_EQ(data.x.col(1), Vector3(25.0, 0.25, -0.4));
+  EXPECT_EQ(data.x.col(2), Vector3(0.0, 1.23456789012, -0.15));
+  EXPECT_EQ(data.x.col(3), Vector3(1.0, 0.0, 0.0));
+  EXPECT_THAT(data.solids[0].properties, ElementsAre(1));  // PID: its EID
+}
+
+TEST(BulkData, CoordinateSystemsLeadToTheBasicOne) {
+  // 7: cylindrical about y through (1, 0, 0), angles from z on. 8: rectangular,
+  // given in 7's coordinates. 9: spherical by the grids 1, 2, 3: basic axes.
+  const BulkData data = read_cards(
+      "GRDSET,,7\n"
+      "CORD2C,7,0,1.,0.,0.,1.,1.,0.\n,1.,0.,1.\n"
+      "CORD2R,8,7,2.,90.,0.,2.,90.,1.\n,3.,90.,0.\n"
+      "CORD1S,9,1,2,3\n"
+      "GRID,1,0,0.,0.,0.\nGRID,2,0,0.,0.,3.\nGRID,3,0,2.,0.,0.\n"
+      "GRID,4,,2.,90.,5.\nGRID,5,8,.5,.25,.125\nGRID,6,9,2.,90.,90.\n"
+      "GRID,7,9,2.,60.,0.\nGRID,8,7,2.,0.,5.\n"
+      "CHEXA,1,1,1,2,3,4,5,6\n,7,8\n");
+  const auto expect_at = [&](Eigen::Index grid, const Vector3& x) {
+    EXPECT_LT((data.x.col(grid - 1) - x).norm(), 1e-14) << "grid " << grid;
+  };
+  expect_at(4, {3.0, 5.0, 0.0});      // e_r at 90 degrees is y x z = x
+  expect_at(8, {1.0, 5.0, 2.0});      // at 0 it is z
+  expect_at(5, {3.5, 0.125, -0.25});  // origin (3, 0, 0), z = y, x = x
+  expect_at(6, {0.0, 2.0, 0.0});      // y
+  expect_at(7, {std::sqrt(3.0), 0.0, 1.0});
+}
+
+TEST(BulkData, IncludedFilesStandInTheirPlace) {
+  const auto folder = testing::make_test_folder();
+  std::filesystem::create_directories(folder / "part");
+  write_file("part/grids.inc", "include 'more.inc'\nGRID,1,,0.,0.,0.\n");
+  write_file("part/more.inc",
+             "GRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n");
+  const BulkData data =
+      read_cards("Include \"part/grids.inc\"\nCTETRA,1,1,1,2,3,4\n");
+  EXPECT_THAT(data.grids, ElementsAre(1, 2, 3, 4));
+  write_file("part/more.inc", "include 'grids.inc'\n");
+  EXPECT_THAT(find_error(deck("INCLUDE part/grids.inc\n")),
+              AllOf(HasSubstr("nested"), HasSubstr(".inc:1:")));
+  EXPECT_THAT(find_error(deck("INCLUDE 'absent.inc'\n")),
+              AllOf(HasSubstr("deck.bdf:4: "), HasSubstr("'absent.inc'")));
+  EXPECT_THAT(find_error(deck("INCLUDE 'part/\ngrids.inc'\n")),
+              AllOf(HasSubstr("deck.bdf:4: "), HasSubstr("on one line")));
+}
+
+/// Line 9 of a deck that is right without it, and what is said of it.
+struct BadCard {
+  const char* text;
+  const char* message;
+};
+class BadCardOf : public ::testing::TestWithParam<BadCard> {};
+
+TEST_P(BadCardOf, IsRefusedByItsLine) {
+  const auto& [text, message] = GetParam();
+  EXPECT_THAT(find_error(deck(kTetra + text + "\nPSOLID,1,1\n")),
+              AllOf(HasSubstr("deck.bdf:9: "), HasSubstr(message)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, BadCardOf,
+    ::testing::Values(
+        BadCard{"CQUAD4,9,3,1,2,3,4", "CQUAD4 is not a solid"},
+        BadCard{"ctria3,9,3,1,2,3", "CTRIA3 is not a solid"},
+        BadCard{"CBAR,9,4,1,3,0.,0.,1.", "CBAR is not a solid"},
+        BadCard{"RBE2,9,1,123456,3,4", "RBE2 is not a solid"},
+        BadCard{"CONM2,9,1,,5.", "CONM2 is not a solid"},
+        BadCard{"CELAS2,9,1.+3,1,1,2,1", "CELAS2 is not a solid"},
+        BadCard{"CHEXA27,9,1,1", "is not a solid"},
+        BadCard{"MPC,9,1,1,1.,2,1,-1.", "MPC constrains nodes"},
+        BadCard{"CORD3G,9,1,1,1,1", "CORD3G is not"},
+        BadCard{"CTETRA,9,1,1,2,3,4,5,6", "has 6 nodes"},
+        BadCard{"CTETRA,9,1,1,2,3,4,5,\n,7,8,9,10", "has 9 nodes"},
+        BadCard{"CTETRA,9,1,1,2,3", "has 3 nodes"},
+        BadCard{"CTETRA,9,1,1,,3,4", "G2 is blank"},
+        BadCard{"CTETRA,9,1,1,2,3,3", "a node twice"},
+        BadCard{"CTETRA,9,1,1,2,3,99", "node 99, which is missing"},
+        BadCard{"CTETRA,1,1,1,2,3,4", "element 1 is there twice"},
+        BadCard{"CTETRA,9,1,1,2,3,4,,,,,1", "more than 8"},
+        BadCard{"CTETRA,9,1,1,2,3,x", "'X' in field 7"},
+        BadCard{"CTETRA,9,1.5,1,2,3,4", "'1.5' in field 3"},
+        BadCard{"GRID,4,,0.,0.,0.", "GRID 4 is there twice"},
+        BadCard{"GRID,9,,1,5x,0.", "'5X' in field 5"},
+        BadCard{"GRID,9,8,1.,0.,0.", "coordinate system 8 is missing"},
+        BadCard{"GRID 9 0 1.0 0.0 0.0", "not the name of a card"},
+        BadCard{"GRID           9        0,00000 1,00000", "name of a card"},
+        BadCard{"=,*(1),=,=", "not the name of a card"},
+        BadCard{"GRDSET,,5x", "'5X'"},
+        BadCard{"CORD2R,7,0,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,9,7", "line"},
+        BadCard{"CORD2R,7,7,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,9,7",
+                "depends on itself"},
+        BadCard{"CORD1R,7,1,2,88\nGRID,9,7", "GRID 88 is missing"},
+        BadCard{"PSOLID,9,1,,,,,PFLUID", "a fluid"}));
+
+TEST(BulkData, ContinuationsMustFollowTheirCard) {
+  EXPECT_THAT(find_error(deck("+A,7,8,9,10\n" + kTetra)),
+              HasSubstr("deck.bdf:4: continuation '+A' does not follow"));
+  EXPECT_THAT(find_error(deck(kGrids + "CTETRA,1,1,1,2,3,4,,,+A\n")),
+              AllOf(HasSubstr("deck.bdf:8: "), HasSubstr("is missing")));
+  EXPECT_THAT(find_error(deck(kGrids + kMiddles +
+                              "CTETRA,1,1,1,2,3,4,5,6,+A\n"
+                              "+B,7,8,9,10\n")),
+              HasSubstr("deck.bdf:15: continuation '+B' does not follow"));
+}
+
+TEST(BulkData, ProblemsComeTogether) {
+  const std::string error = find_error(
+      deck(kTetra + "CBAR,9,4,1,3\nCBAR,10,4,1,3\nGRID,4\nPSOLID,1,1\n"));
+  EXPECT_THAT(error, HasSubstr("CBAR (2 cards, the first here)"));
+  EXPECT_THAT(error, HasSubstr("deck.bdf:11: "));
+}
+
+TEST(BulkData, ATruncatedDeckIsRefused) {
+  const std::string whole = deck(kTetra);
+  for (std::size_t size = whole.find("BULK") + 5; size + 2 < whole.size();
+       size += 7)
+    EXPECT_THAT(find_error(whole.substr(0, size)), HasSubstr("truncated"));
+}
+
+TEST(BulkData, WithoutBeginBulkAllIsBulkData) {
+  const auto file = write_file("punch.bdf", kTetra);
+  const BulkData data = read_bulk_data(file);
+  EXPECT_EQ(data.grids.size(), 4U);
+  EXPECT_THAT(data.notices, ElementsAre(HasSubstr("no ENDDATA")));
+}
+
+TEST(BulkData, OtherTextAndBinariesAreRefused) {
+  EXPECT_THAT(find_error("$ GRID\n*NODE\n1, 0., 0., 0.\n"),
+              HasSubstr("deck.bdf:2: "));
+  EXPECT_THAT(find_error(std::string("GRID\0\x01\x02", 7)),
+              HasSubstr("not text"));
+  EXPECT_THAT(find_error("GRID \x01\x1b[2J \xff\xfe\n"),
+              AllOf(HasSubstr("\\x1b"), ::testing::Not(HasSubstr("\xff"))));
+  EXPECT_THAT(find_error("BEGIN SUPER=1\n" + kTetra + "ENDDATA\n"),
+              HasSubstr("superelement"));
+}
+
+TEST(BulkData, CardsAndGridsWithoutEffectAreReported) {
+  const BulkData data = read_cards(
+      kTetra +
+      "GRID,21,,9.,9.,9.\nGRID,22,,9.,9.,9.,,123\nSPC1,1,123,1\nSPC1,1,123,2\n"
+      "FORCE,1,4,0,1.,0.,0.,1.\nMAT1,1,7.+10,,.3,2700.\nPARAM,POST,-1\n"
+      "PSOLID,1,1\nEIGRL,1,,,10\n");
+  ASSERT_EQ(data.notices.size(), 2U);
+  EXPECT_THAT(data.notices[0],
+              AllOf(HasSubstr("2 of 6 GRIDs"), HasSubstr("21, 22")));
+  EXPECT_THAT(data.notices[1],
+              AllOf(HasSubstr("2 SPC1 (line 11 "), HasSubstr("1 FORCE"),
+                    HasSubstr("1 GRID with supports"),
+                    ::testing::Not(HasSubstr("MAT1"))));
+}
+
+/// Mesh generators write faces and edges of the solid as shells and bars, for
+/// want of names. With properties they are parts of the structure.
+TEST(BulkData, ShellsAreMarksOfTheSurfaceInADeckWithoutAnyProperties) {
+  const std::string marks = "CTRIA3,9,2,1,2,3\nCBAR,10,2,1,2\n";
+  const BulkData data = read_cards(kTetra + marks);
+  EXPECT_EQ(data.solids.size(), 1U);
+  EXPECT_THAT(data.notices, ElementsAre(AllOf(HasSubstr("1 CBAR (line 10 "),
+                                              HasSubstr("1 CTRIA3"),
+                                              HasSubstr("no properties"))));
+  EXPECT_THAT(find_error(deck(kTetra + marks + "PSOLID,1,1\n")),
+              AllOf(HasSubstr("CTRIA3 is not"), HasSubstr("CBAR is not")));
+  EXPECT_THAT(find_error(deck(kTetra + marks + "CONM2,9,1,,5.\n")),
+              HasSubstr("CONM2 is not"));
+}
+
+TEST(BulkData, SeveralMaterialsAreReported) {
+  const std::string elements = kTetra +
+                               "GRID,5,,1.,1.,1.\n"
+                               "CTETRA,2,7,2,3,4,5\n";
+  EXPECT_THAT(read_cards(elements + "PSOLID,1,1\nPSOLID,7,1\n").notices,
+              IsEmpty());
+  EXPECT_THAT(read_cards(elements + "PSOLID,1,1\nPSOLID,7,2\n").notices,
+              ElementsAre(HasSubstr("groups 1, 7")));
+}
+
+}  // namespace
+}  // namespace limber::fem::bulk_data_test
