@@ -15,6 +15,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/fem/gmsh/bulk_mesh.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
+#include "limber/fem/gmsh/mesh_losses.hpp"
 #include "limber/fem/gmsh/raw_block.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
@@ -228,6 +229,8 @@ RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
   check_mesh_options(file, kind, options);
   if (kind == MeshFileKind::bulk_data)
     return read_bulk_mesh(file, options.unit);
+  std::optional<UnvContent> content;
+  if (kind == MeshFileKind::universal) content = check_unv(file, options.unit);
   const bool is_geometry = kind == MeshFileKind::geometry;
   // Before the file, so that the file may override it.
   gmsh::option::setNumber("Mesh.ElementOrder", 2);
@@ -238,8 +241,17 @@ RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
     guarded(session, file, "mesh", [&] { mesh_geometry(options); });
   guarded(session, file, "use", [&] {
     raw.mesh = take_mesh(file, options, is_geometry);
-    if (is_geometry) straighten_curved(file, options, raw);
+    if (is_geometry) {
+      check_merged_files(session, file);
+      straighten_curved(file, options, raw);
+    } else {
+      if (content) check_counts(file, *content);
+      raw.notices = find_mesh_losses(session, file, raw.mesh);
+    }
   });
+  if (content)
+    raw.notices.insert(raw.notices.end(), content->notices.begin(),
+                       content->notices.end());
   return raw;
 }
 

@@ -75,19 +75,36 @@ void GmshSession::enable_output() {
   gmsh::option::setNumber("General.Terminal", 1);
 }
 
+std::vector<std::string> GmshSession::find_lines(
+    std::string_view prefix) const {
+  const std::vector<std::string> log = read_log();
+  std::vector<std::string> found;
+  for (std::size_t i = host_lines_; i < log.size(); ++i)
+    if (log[i].starts_with(prefix))
+      found.push_back(log[i].substr(prefix.size()));
+  return found;
+}
+
 std::vector<std::string> GmshSession::errors() const {
-  constexpr std::string_view kPrefix = "Error: ";
   // Reported for third-order prisms. Closures match the faces of two elements
   // in Gmsh's own solvers; nothing here uses them.
-  constexpr std::string_view kHarmless = "Error: FaceClosureFull";
-  const std::vector<std::string> log = read_log();
-  std::vector<std::string> errors;
-  for (std::size_t i = host_lines_; i < log.size(); ++i) {
-    const std::string& line = log[i];
-    if (line.starts_with(kPrefix) && !line.starts_with(kHarmless))
-      errors.push_back(line.substr(kPrefix.size()));
-  }
+  constexpr std::string_view kHarmless = "FaceClosureFull";
+  std::vector<std::string> errors = find_lines("Error: ");
+  std::erase_if(errors, [&](const std::string& line) {
+    return line.starts_with(kHarmless);
+  });
   return errors;
+}
+
+std::vector<std::string> GmshSession::warnings() const {
+  return find_lines("Warning: ");
+}
+
+std::vector<std::string> GmshSession::files_read() const {
+  std::vector<std::string> files;
+  for (const std::string& rest : find_lines("Info: Reading '"))
+    files.push_back(rest.substr(0, rest.find('\'')));
+  return files;
 }
 
 }  // namespace limber::fem

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace limber::fem {
@@ -26,8 +27,16 @@ class GmshSession {
 
   /// Gmsh's error messages since the session began.
   [[nodiscard]] std::vector<std::string> errors() const;
+  /// Its warnings, likewise.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+  /// Files that it has read, likewise, as they were named.
+  [[nodiscard]] std::vector<std::string> files_read() const;
 
  private:
+  /// What follows `prefix` in the lines of the log that begin with it.
+  [[nodiscard]] std::vector<std::string> find_lines(
+      std::string_view prefix) const;
+
   std::unique_lock<std::mutex> lock_;
   bool is_guest_ = false;       ///< whether the session is the caller's
   std::string host_model_;      ///< the caller's current model

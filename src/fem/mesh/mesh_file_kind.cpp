@@ -111,7 +111,7 @@ const std::vector<Format>& formats() {
       {{".brep"}, "OpenCASCADE geometry", geometry, is_brep},
       {{".iges", ".igs"}, "IGES geometry", geometry, is_iges},
       {{".bdf", ".nas", ".dat"}, "Nastran mesh", bulk_data, is_nastran},
-      {{".unv"}, "I-deas mesh", mesh, is_unv},
+      {{".unv"}, "I-deas mesh", universal, is_unv},
       {{".med"}, "MED mesh", mesh, is_med},
       {{".vtk"}, "VTK mesh", mesh, is_vtk},
       {{".geo"}, "Gmsh geometry", geometry, is_geo}};

@@ -9,9 +9,10 @@
 
 namespace limber::fem {
 
-/// Whether a file holds nodes and elements, as a Nastran deck or in a format
-/// that Gmsh reads, or a geometry to be meshed.
-enum class MeshFileKind { mesh, bulk_data, geometry };
+/// Whether a file holds nodes and elements, as a Nastran deck, an I-deas
+/// universal file or in another format that Gmsh reads, or a geometry to be
+/// meshed.
+enum class MeshFileKind { mesh, bulk_data, universal, geometry };
 
 /// By the file's extension, which must agree with how its content begins: Gmsh
 /// runs any unrecognised content as a geometry program.
