@@ -64,6 +64,8 @@ py::tuple reduce(const py::dict& wish) {
         app::make_reducer(watch).make_mesh(recipe.mesh);
     body = std::make_shared<ReducedBody>(mesh.reduce(recipe));
     notices = mesh.record.notices;
+    if (const auto text = describe_locking(body->locking))
+      notices.push_back(*text);
   }
   return py::make_tuple(body, notices);
 }

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/solid/assembly.hpp"
+#include "limber/fem/solid/locking.hpp"
 #include "limber/reduction/contact_groups.hpp"
 
 namespace limber::flexbody {
@@ -81,5 +85,26 @@ MeshedBody::MeshedBody(const Recipe& recipe,
       support(assemble_support(mesh, recipe, interfaces, M_s, progress)),
       inverse(support.matrices, support.R,
               mesh.x(Eigen::all, support.free_nodes), progress) {}
+
+std::optional<MeshLocking> find_locking(const MeshedBody& body,
+                                        const Recipe& recipe,
+                                        const VectorX& lambda,
+                                        const MatrixX& Phi) {
+  // Locking may change the order of the lowest modes.
+  constexpr Eigen::Index kModes = 4;
+  const Eigen::Index count = std::min(kModes, lambda.size());
+  if (count == 0 || !fem::is_first_order(body.mesh)) return std::nullopt;
+  const auto at_all = [&](const MatrixX& part) {
+    return put_rows(part, body.support.free_nodes, body.mesh.x.cols());
+  };
+  const VectorX refined = fem::calc_refined_eigenvalues(
+      body.mesh, find_materials(body.mesh, recipe),
+      {lambda.head(count), at_all(Phi.leftCols(count)), at_all(body.support.R),
+       find_clamped_nodes(body.mesh, recipe)});
+  const auto to_hertz = [](double eigenvalue) {
+    return std::sqrt(eigenvalue) / (2.0 * std::numbers::pi);
+  };
+  return MeshLocking{to_hertz(lambda[0]), to_hertz(refined.minCoeff())};
+}
 
 }  // namespace limber::flexbody

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "limber/common/progress.hpp"
@@ -10,6 +11,7 @@
 #include "limber/fem/solid/elastic_inverse.hpp"
 #include "limber/fem/solid/hyperelastic.hpp"
 #include "limber/fem/solid/material.hpp"
+#include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/reduction/interfaces.hpp"
 #include "limber/reduction/support.hpp"
@@ -45,5 +47,11 @@ struct MeshedBody {
   Support support;
   fem::ElasticInverse inverse;  ///< of the free nodes
 };
+
+/// Of a mesh of first order, by its lowest modes on the free nodes.
+[[nodiscard]] std::optional<MeshLocking> find_locking(const MeshedBody& body,
+                                                      const Recipe& recipe,
+                                                      const VectorX& lambda,
+                                                      const MatrixX& Phi);
 
 }  // namespace limber::flexbody

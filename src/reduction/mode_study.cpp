@@ -65,6 +65,7 @@ ModeStudy study(const MeshedBody& body, const Recipe& recipe,
   result.p_MoBcm_M = inertia.center;
   result.inertia = inertia.S0.trace() * Matrix3::Identity() - inertia.S0;
   result.lambda = modes.lambda;
+  result.locking = find_locking(body, recipe, modes.lambda, modes.Phi);
   result.cases = study_loads(body, recipe, modes, progress);
   if (result.clamped) result.base = study_base(body, modes);
   report(progress, "studied", 1.0);

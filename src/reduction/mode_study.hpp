@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limber/common/progress.hpp"
+#include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 
 namespace limber::flexbody {
@@ -39,6 +40,7 @@ struct ModeStudy {
   VectorX lambda;                       ///< m eigenvalues [rad^2/s^2]
   std::vector<LoadCaseStudy> cases;     ///< of the recipe's loads, if any
   std::optional<BaseMotionStudy> base;  ///< of a clamped body
+  std::optional<MeshLocking> locking;   ///< of a mesh of first order
   std::vector<std::string> notices;     ///< of its mesh
 };
 

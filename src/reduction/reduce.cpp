@@ -82,6 +82,7 @@ ReducedBody reduce(const MeshedBody& meshed, const Recipe& recipe,
   body.integrals =
       calc_shape_integrals(meshed.M_s, mesh.x.colwise() - inertia.center, Phi);
   body.lambda = basis.lambda;
+  body.locking = find_locking(meshed, recipe, basis.lambda, basis.Phi);
   body.selection = finish_record(chosen, basis);
   body.load_modes = modes.loads;
   body.initial = project_initial_fields(meshed, recipe, basis);

@@ -63,6 +63,8 @@ void find_modes(const ModesOptions& options) {
       recipe, options.static_terms.has_value(), make_progress_bar());
   clear_progress_bar();
   print_warnings(study.notices);
+  if (const auto text = describe_locking(study.locking))
+    print_warnings({*text});
   if (options.json) {
     fmt::print("{}\n", to_text(to_json(study)));
   } else {

@@ -74,6 +74,7 @@ flexbody::Recipe make_recipe(const ReduceOptions& options) {
 }
 
 void warn(const flexbody::ReducedBody& body) {
+  if (const auto text = describe_locking(body.locking)) print_warnings({*text});
   if (body.selection) print_warnings(describe_shortfalls(*body.selection));
   for (const flexbody::LoadModesRecord& record : body.load_modes)
     if (const auto text = describe_left_out(record)) print_warnings({*text});

@@ -51,8 +51,10 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       ->required();
   command.add_option("--size", options.size,
                      "Element size when meshing geometry [mesh units]");
-  command.add_option("--order", options.order,
-                     "Element order when meshing geometry: 1, 2 or 3");
+  command.add_option(
+      "--order", options.order,
+      "Element order when meshing geometry: 1, 2 or 3; 2 also makes a "
+      "finished mesh of first order one of second order");
   command.add_option("--unit", options.unit,
                      "Metres per mesh unit, e.g. 0.001 for millimetres");
 }

@@ -87,4 +87,10 @@ Json to_json(const flexbody::SelectionRecord& record) {
               {"cases", cases}};
 }
 
+Json to_json(const flexbody::MeshLocking& locking) {
+  return Json{{"frequency_hz", locking.frequency},
+              {"refined_frequency_hz", locking.refined_frequency},
+              {"error", locking.error()}};
+}
+
 }  // namespace limber::app

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "limber/app/console/json.hpp"
+#include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
 
@@ -32,5 +33,6 @@ void apply(const ModeOptions& options, flexbody::BasisOptions& basis);
 
 /// A selection for `info`, summaries and --json; modes are counted from 1.
 [[nodiscard]] Json to_json(const flexbody::SelectionRecord& record);
+[[nodiscard]] Json to_json(const flexbody::MeshLocking& locking);
 
 }  // namespace limber::app

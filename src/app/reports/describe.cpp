@@ -141,6 +141,7 @@ Json describe_field(const flexbody::ProjectedField& field) {
 }  // namespace
 
 void add_choices(const flexbody::ReducedBody& body, Json& json) {
+  if (body.locking) json["locking"] = to_json(*body.locking);
   if (body.selection) json["automatic_modes"] = to_json(*body.selection);
   if (const auto& field = body.initial.displacement)
     json["initial_displacement"] = describe_field(*field);

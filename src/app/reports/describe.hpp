@@ -18,7 +18,8 @@ namespace limber::app {
 [[nodiscard]] Json describe_mesh(const std::filesystem::path& file,
                                  double unit);
 
-/// Adds the selection of a body's modes and its initial deformation, if any.
+/// Adds the locking of its mesh, the selection of a body's modes and its
+/// initial deformation, if any.
 void add_choices(const flexbody::ReducedBody& body, Json& json);
 
 }  // namespace limber::app

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "limber/app/options/mode_options.hpp"
+
 namespace limber::app {
 namespace {
 
@@ -146,6 +148,7 @@ Json to_json(const ModeStudy& study) {
             {"inertia", to_json(study.inertia)},
             {"eigenvalues", to_json(study.lambda)},
             {"frequencies_hz", to_json(frequencies(study))}};
+  if (study.locking) json["locking"] = to_json(*study.locking);
   if (!study.cases.empty()) json["load_cases"] = Json::array();
   for (const LoadCaseStudy& item : study.cases)
     json["load_cases"].push_back(describe_case(item));

@@ -16,6 +16,7 @@
 #include "limber/fem/gmsh/bulk_mesh.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
 #include "limber/fem/gmsh/mesh_losses.hpp"
+#include "limber/fem/gmsh/promotion.hpp"
 #include "limber/fem/gmsh/raw_block.hpp"
 #include "limber/fem/mesh/mesh_checks.hpp"
 #include "limber/fem/mesh/mesh_file_kind.hpp"
@@ -221,12 +222,8 @@ void straighten_curved(const std::filesystem::path& file,
   raw.mesh = std::move(straight);
 }
 
-}  // namespace
-
-RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
-                  const MeshOptions& options) {
-  const MeshFileKind kind = find_mesh_file_kind(file);
-  check_mesh_options(file, kind, options);
+RawMesh make_as_it_is(GmshSession& session, const std::filesystem::path& file,
+                      MeshFileKind kind, const MeshOptions& options) {
   if (kind == MeshFileKind::bulk_data)
     return read_bulk_mesh(file, options.unit);
   std::optional<UnvContent> content;
@@ -252,6 +249,18 @@ RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
   if (content)
     raw.notices.insert(raw.notices.end(), content->notices.begin(),
                        content->notices.end());
+  return raw;
+}
+
+}  // namespace
+
+RawMesh make_mesh(GmshSession& session, const std::filesystem::path& file,
+                  const MeshOptions& options) {
+  const MeshFileKind kind = find_mesh_file_kind(file);
+  check_mesh_options(file, kind, options);
+  RawMesh raw = make_as_it_is(session, file, kind, options);
+  // A finished mesh, also one that a geometry merges.
+  if (options.order == 2) promote_to_second_order(raw.mesh);
   return raw;
 }
 

@@ -92,6 +92,12 @@ Vector3 Mesh::size() const {
   return x.rowwise().maxCoeff() - x.rowwise().minCoeff();
 }
 
+bool is_first_order(const Mesh& mesh) {
+  return std::all_of(
+      mesh.blocks.begin(), mesh.blocks.end(),
+      [](const ElementBlock& block) { return block.element->order == 1; });
+}
+
 std::size_t find_group(const Mesh& mesh, const std::string& name) {
   std::vector<std::string> known;
   std::vector<std::size_t> found;

@@ -60,6 +60,9 @@ struct Mesh {
   [[nodiscard]] Vector3 size() const;
 };
 
+/// Whether all elements are of first order.
+[[nodiscard]] bool is_first_order(const Mesh& mesh);
+
 /// Index of the group called `name`. @throws InputError, naming the nearest.
 [[nodiscard]] std::size_t find_group(const Mesh& mesh, const std::string& name);
 

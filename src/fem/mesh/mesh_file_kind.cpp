@@ -180,11 +180,13 @@ void check_mesh_options(const std::filesystem::path& file, MeshFileKind kind,
         fmt::format("{}: element order {}; expected 1, 2 or 3, or 0 for the "
                     "file's own.",
                     name, options.order));
-  const bool asks = options.size > 0.0 || options.order > 0;
+  const bool asks =
+      options.size > 0.0 || (options.order > 0 && options.order != 2);
   if (kind != MeshFileKind::geometry && asks)
     problems.push_back(fmt::format(
         "{}: a mesh size or order was given, but the file is a finished mesh. "
-        "Leave them out, or give its geometry (.geo, .step).",
+        "Expected none, or order 2, which a mesh of first order can be given; "
+        "or its geometry (.geo, .step).",
         name));
   if (!problems.empty()) throw InputError(problems);
 }

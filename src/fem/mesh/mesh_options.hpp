@@ -5,7 +5,9 @@ namespace limber::fem {
 
 struct MeshOptions {
   double size = 0.0;  ///< element size [mesh units]; 0: the file's
-  int order = 0;      ///< 1 to 3; 0: the file's, else 2 [-]
+  /// 1 to 3; 0: the file's, else 2. Of a finished mesh 2 alone: nodes in the
+  /// middle of the edges, if it is of first order [-].
+  int order = 0;
   double unit = 1.0;  ///< metres per mesh unit [m]
 };
 

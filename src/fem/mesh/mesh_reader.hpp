@@ -13,9 +13,10 @@
 namespace limber::fem {
 
 /// Reads a mesh, or meshes a geometry; docs/formats/meshes.md lists the kinds.
-/// `size` and `order` belong to geometry; with a finished mesh they are errors.
-/// Of a geometry with physical volumes only these are used, as when Gmsh saves
-/// a mesh. Nodes that no solid element uses are removed.
+/// `size` and `order` belong to geometry; with a finished mesh they are errors,
+/// except order 2, which puts nodes in the middle of first-order elements'
+/// edges. Of a geometry with physical volumes only these are used, as when Gmsh
+/// saves a mesh. Nodes that no solid element uses are removed.
 ///
 /// Gmsh runs in a separate process, the mesher, which can only read files: a
 /// geometry is a program and may be hostile. fem/gmsh/gmsh_reader.hpp runs Gmsh

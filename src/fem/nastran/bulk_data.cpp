@@ -249,10 +249,15 @@ class BulkReader {
   [[nodiscard]] std::string list_counts(const CardCounts& counts) const {
     std::vector<std::string> texts;
     for (const auto& [name, cards] : counts)
-      texts.push_back(fmt::format("{} {} (line {} of {})", cards.count, name,
+      texts.push_back(fmt::format("{} {} (line {}{})", cards.count, name,
                                   cards.first->number,
-                                  deck_.files[cards.first->file].string()));
+                                  name_of_included(*cards.first)));
     return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  [[nodiscard]] std::string name_of_included(const DeckLine& line) const {
+    if (line.file == 0) return {};
+    return " of " + deck_.files[line.file].filename().string();
   }
 
   void report_unused_grids() {

@@ -67,11 +67,9 @@ Moduli calc_moduli(Elasticity law, const LameConstants<double>& lame,
 
 }  // namespace
 
-MatrixX calc_element_stiffness(const ReferenceElement& element,
-                               const Matrix3X& x,
-                               const ElasticMaterial& material) {
-  const ElementGradients gradients = calc_gradients(element, x);
-  const Eigen::Index n = element.node_count;
+MatrixX calc_stiffness(const ElementGradients& gradients,
+                       const ElasticMaterial& material) {
+  const Eigen::Index n = gradients.at.at(0).cols();
   MatrixX G(3 * n, gradients.measure.size());
   for (Eigen::Index q = 0; q < G.cols(); ++q)
     G.col(q) = gradients.at[static_cast<std::size_t>(q)].reshaped();
@@ -85,6 +83,12 @@ MatrixX calc_element_stiffness(const ReferenceElement& element,
                                     mu * block.trace() * Matrix3::Identity();
     }
   return K;
+}
+
+MatrixX calc_element_stiffness(const ReferenceElement& element,
+                               const Matrix3X& x,
+                               const ElasticMaterial& material) {
+  return calc_stiffness(calc_gradients(element, x), material);
 }
 
 MatrixX calc_element_tangent(const ReferenceElement& element, const Matrix3X& x,

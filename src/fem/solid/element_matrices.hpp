@@ -24,11 +24,13 @@ struct ElementGradients {
 [[nodiscard]] MatrixX calc_element_mass(const ReferenceElement& element,
                                         const Matrix3X& x, double density);
 
-/// Stiffness of one element, 3 nodes x 3 nodes [N/m].
+/// Stiffness of one element, 3 nodes x 3 nodes [N/m], or of any functions.
 ///
 /// Equation   K_ab = lambda S_ab + mu S_ab^T + mu tr(S_ab) I,
 ///            S_ab = int grad N_a grad N_b^T dV
 /// Source     Hughes, The Finite Element Method, sec. 2.7 and 3.10
+[[nodiscard]] MatrixX calc_stiffness(const ElementGradients& gradients,
+                                     const ElasticMaterial& material);
 [[nodiscard]] MatrixX calc_element_stiffness(const ReferenceElement& element,
                                              const Matrix3X& x,
                                              const ElasticMaterial& material);

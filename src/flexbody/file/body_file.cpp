@@ -175,6 +175,7 @@ void write_content(Hdf5File& out, const ReducedBody& body) {
   write_rows(out, body);
   write_groups(out, body);
   write_interfaces(out, body);
+  write_locking(out, body.locking);
   write_selection(out, body.selection);
   write_load_modes(out, body.load_modes);
   write_field(out, "initial/displacement/", body.initial.displacement,
@@ -363,6 +364,7 @@ ReducedBody read_body(const std::filesystem::path& file) {
   const auto counts = reader.sizes("counts", 2);
   read_groups(reader, counts[0], body);
   read_interfaces(reader, counts[1], body);
+  body.locking = read_locking(reader);
   body.selection = read_selection(reader);
   body.load_modes = read_load_modes(reader);
   body.initial.displacement = read_field(reader, "initial/displacement/", m);

@@ -63,6 +63,22 @@ void write_selection(Hdf5File& out,
   out.write("selection/case_modes", asked, "1", "these, case by case, from 0");
 }
 
+void write_locking(Hdf5File& out, const std::optional<MeshLocking>& locking) {
+  if (!locking) return;
+  out.write(
+      "locking",
+      MatrixX(Eigen::Vector2d(locking->frequency, locking->refined_frequency)),
+      "Hz", "lowest frequency of the first-order mesh, and refined");
+}
+
+std::optional<MeshLocking> read_locking(const BodyFileReader& reader) {
+  if (!reader.in().has("locking")) return std::nullopt;
+  const MatrixX values = reader.matrix("locking", 2, 1);
+  if (!(values.minCoeff() > 0.0))
+    reader.fail("'locking' has a frequency that is not positive");
+  return MeshLocking{values(0, 0), values(1, 0)};
+}
+
 void write_load_modes(Hdf5File& out,
                       const std::vector<LoadModesRecord>& records) {
   std::string names;

@@ -8,6 +8,7 @@
 #include "limber/flexbody/file/body_file_reader.hpp"
 #include "limber/flexbody/model/initial_deformation.hpp"
 #include "limber/flexbody/model/load_modes_record.hpp"
+#include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
 
 /// Further content of a body file: how the modes were chosen, and the initial
@@ -17,6 +18,11 @@ namespace limber::flexbody {
 void write_selection(Hdf5File& out,
                      const std::optional<SelectionRecord>& selection);
 [[nodiscard]] std::optional<SelectionRecord> read_selection(
+    const BodyFileReader& reader);
+
+void write_locking(Hdf5File& out, const std::optional<MeshLocking>& locking);
+/// None if the body has no record of it.
+[[nodiscard]] std::optional<MeshLocking> read_locking(
     const BodyFileReader& reader);
 
 void write_load_modes(Hdf5File& out,

@@ -71,14 +71,14 @@ constexpr auto fields_of(const InitialDeformation*) {
   return list_fields("initial", "displacement", "velocity");
 }
 
-// The records of how modes were chosen are for information only.
+// Records of locking and of how modes were chosen are for information only.
 constexpr auto fields_of(const ReducedBody*) {
   return list_fields("reduced body", "name", "clamped", "mass [kg]",
                      "centre of mass [m]", "size [m]", "integrals", "levers",
                      "eigenvalues [rad^2/s^2]", "rows", "groups", "interfaces",
                      "triangles", "contact surfaces", "mesh nodes",
                      "mesh elements", "mesh boundary nodes", nullptr, nullptr,
-                     "initial", "content key", "manifold", "stress");
+                     nullptr, "initial", "content key", "manifold", "stress");
 }
 
 constexpr auto fields_of(const NodeSet*) {

@@ -11,6 +11,7 @@
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/flexbody/model/initial_deformation.hpp"
 #include "limber/flexbody/model/load_modes_record.hpp"
+#include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/quadratic_manifold.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
@@ -111,8 +112,9 @@ struct ReducedBody {
   std::size_t mesh_nodes = 0;                         ///< count
   std::size_t mesh_elements = 0;                      ///< count
   std::size_t mesh_boundary_nodes = 0;                ///< count
-  std::optional<SelectionRecord> selection;           ///< of automatic modes
-  std::vector<LoadModesRecord> load_modes;            ///< of nodal forces
+  std::optional<MeshLocking> locking;        ///< of a mesh of first order
+  std::optional<SelectionRecord> selection;  ///< of automatic modes
+  std::vector<LoadModesRecord> load_modes;   ///< of nodal forces
   InitialDeformation initial;  ///< projections of the recipe's fields
   std::string content_key;     ///< hash of all inputs
   std::optional<QuadraticManifold> manifold;  ///< if asked for

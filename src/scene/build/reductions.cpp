@@ -146,6 +146,9 @@ class Reduction {
         result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
       }
     };
+    // Pieces of a link share its mesh.
+    if (const auto text = describe_locking(body->locking))
+      if (reported_.insert("locking of " + link).second) add({*text});
     if (body->selection) add(flexbody::describe_shortfalls(*body->selection));
     for (const flexbody::LoadModesRecord& record : body->load_modes) {
       if (const auto text = describe_left_out(record)) add({*text});

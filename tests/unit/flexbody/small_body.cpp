@@ -203,6 +203,7 @@ ReducedBody make_small_body(unsigned seed) {
   body.p_MoBcm_M = numbers.matrix(3, 1);
   body.size = numbers.matrix(3, 1);
   body.mesh_nodes = 1001 + seed;
+  if (seed % 2 == 1) body.locking = MeshLocking{18.4 + seed, 12.3};
   body.mesh_elements = 1002 + seed;
   body.mesh_boundary_nodes = 1003 + seed;
   body.lambda = numbers.matrix(m, 1);
@@ -278,6 +279,11 @@ std::vector<std::pair<std::string, std::string>> list_fields(
   fields.add("x_B", MatrixX(body.rows.x_B));
   fields.add("Phi_B", MatrixX(body.rows.Phi_B));
   fields.add("mesh_nodes", body.mesh_nodes);
+  fields.add("locking", body.locking.has_value());
+  if (body.locking) {
+    fields.add("locking frequency", body.locking->frequency);
+    fields.add("locking refined", body.locking->refined_frequency);
+  }
   fields.add("mesh_elements", body.mesh_elements);
   fields.add("mesh_boundary_nodes", body.mesh_boundary_nodes);
   fields.add("content_key", body.content_key);

@@ -241,7 +241,7 @@ TEST(BulkData, CardsAndGridsWithoutEffectAreReported) {
   EXPECT_THAT(data.notices[0],
               AllOf(HasSubstr("2 of 6 GRIDs"), HasSubstr("21, 22")));
   EXPECT_THAT(data.notices[1],
-              AllOf(HasSubstr("2 SPC1 (line 11 "), HasSubstr("1 FORCE"),
+              AllOf(HasSubstr("2 SPC1 (line 11)"), HasSubstr("1 FORCE"),
                     HasSubstr("1 GRID with supports"),
                     ::testing::Not(HasSubstr("MAT1"))));
 }
@@ -252,7 +252,7 @@ TEST(BulkData, ShellsAreMarksOfTheSurfaceInADeckWithoutAnyProperties) {
   const std::string marks = "CTRIA3,9,2,1,2,3\nCBAR,10,2,1,2\n";
   const BulkData data = read_cards(kTetra + marks);
   EXPECT_EQ(data.solids.size(), 1U);
-  EXPECT_THAT(data.notices, ElementsAre(AllOf(HasSubstr("1 CBAR (line 10 "),
+  EXPECT_THAT(data.notices, ElementsAre(AllOf(HasSubstr("1 CBAR (line 10)"),
                                               HasSubstr("1 CTRIA3"),
                                               HasSubstr("no properties"))));
   EXPECT_THAT(find_error(deck(kTetra + marks + "PSOLID,1,1\n")),
