@@ -363,6 +363,12 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
                             load_memory(numbers_of(deepest, memory)).speed);
 }
 
+void ContactPair::end_touch(std::span<double> memory) const {
+  for (std::size_t i = 0; i < count_features(); ++i) {
+    save_memory({}, numbers_of(i, memory));
+  }
+}
+
 joints::TouchReading ContactPair::read(const PairBodies& bodies,
                                        const Instant& now,
                                        std::span<const double> memory,

@@ -75,6 +75,7 @@ class ContactPair final : public joints::PairInteraction,
   [[nodiscard]] joints::TouchReach find_reach_A() const override;
   [[nodiscard]] joints::TouchReach find_reach_B() const override;
   [[nodiscard]] double find_size() const override { return size_; }
+  void end_touch(std::span<double> memory) const override;
   double begin_touch(const joints::PairBodies& bodies, double t,
                      std::span<double> memory,
                      joints::PairResponse& scratch) const override;

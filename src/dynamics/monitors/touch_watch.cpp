@@ -18,7 +18,8 @@ namespace {
 constexpr int kMostLooks = 1000;
 // Factor on the speeds at a step's ends that bounds those between them [-].
 constexpr double kSpeedMargin = 1.5;
-// Motion in a step that counts as zero, over that at the present rate [-].
+// Distance that counts as zero, over the motion in a step, or over the bodies'
+// size there, if that is smaller [-].
 constexpr double kNoWay = 1e-4;
 constexpr double kLeastWay = 1e-12;  // [m]
 // Fraction of a step between looks at separating bodies, and the largest one
@@ -139,8 +140,10 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   const double reach = speed * h;
   double clearance = find_clearance(watched, before);
   if (clearance > reach) return std::nullopt;
-  const double none = kNoWay * reach + kLeastWay;
-  const double part_of_size = kPartOfSize * watched.law->find_size() / reach;
+  const double size = watched.law->find_size();
+  const double none = kNoWay * std::min(reach, size) + kLeastWay;
+  watched.near = 2.0 * none;
+  const double part_of_size = kPartOfSize * size / reach;
   const double part = std::min(kLeastAdvance, part_of_size);
   double least = clearance <= none
                      ? find_least_advance(watched, before, part_of_size)
@@ -304,8 +307,16 @@ double TouchWatch::find_excess(std::size_t index, const SystemState& state) {
 
 double TouchWatch::find_tolerance(std::size_t index, const SystemState& state,
                                   double h) {
-  const double speed = find_speed_bound(pairs_[index], state);
-  return 2.0 * kNoWay * kSpeedMargin * speed * h + 2.0 * kLeastWay;
+  Watched& watched = pairs_[index];
+  if (!watched.is_touching) return watched.near;
+  const double way = kSpeedMargin * h * find_speed_bound(watched, state);
+  return 2.0 * (kNoWay * std::min(way, watched.law->find_size()) + kLeastWay);
+}
+
+bool TouchWatch::is_deep(std::size_t index, const SystemState& state) {
+  Watched& watched = pairs_[index];
+  return find_touch(watched, state).depth >
+         kPartOfSize * watched.law->find_size();
 }
 
 void TouchWatch::pass(std::size_t index, SystemState& state,
@@ -319,7 +330,10 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
   watched.since = state.t;
   watched.is_clear = false;
   state.far_pairs[watched.pair] = 0;
-  if (!watched.is_touching) return;
+  if (!watched.is_touching) {
+    watched.law->end_touch(memory_of(pair, state));
+    return;
+  }
   watched.rate = touch.rate;
   watched.steps = 0;
   watched.impact_duration =

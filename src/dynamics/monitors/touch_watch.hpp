@@ -71,10 +71,13 @@ class TouchWatch {
   /// Signed distance of a pair from the touch or leave that was found: < 0
   /// before it, > 0 after it [m].
   [[nodiscard]] double find_excess(std::size_t index, const SystemState& state);
-  /// Distance that counts as zero for a pair that moves as at `state`, in steps
-  /// of h [s] [m].
+  /// Distance that counts as zero for a pair [m]: apart, in the search that
+  /// found its touch; touching, as it moves at `state`, in steps of h [s].
   [[nodiscard]] double find_tolerance(std::size_t index,
                                       const SystemState& state, double h);
+
+  /// Whether a pair overlaps by more than a twentieth of the bodies' size.
+  [[nodiscard]] bool is_deep(std::size_t index, const SystemState& state);
 
   /// Marks the pair as touching, or as apart, from here on.
   void pass(std::size_t index, SystemState& state, std::vector<Event>& events);
@@ -122,6 +125,7 @@ class TouchWatch {
     int steps = 0;                 // accepted since the touch
     // Travel of both bodies up to which they cannot touch [m].
     double look_at = 0.0;
+    double near = 0.0;      // distance that counts as a touch [m]
     bool is_clear = false;  // in the step last searched
     joints::PairResponse scratch;
     PairMotion motion;

@@ -171,6 +171,7 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   const auto touch = touches_.find_first(before_, state);
   const double share =
       std::min(crossing ? crossing->share : 1.0, touch ? touch->share : 1.0);
+  if (cut_ == kMostCut && touch) check_missed_touch(touch->index, state);
   if (share > 1.0 - kSameEvent || cut_ == kMostCut) {
     cut_ = 0;
     add_last();
@@ -205,6 +206,19 @@ void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
       "where their surfaces first face each other, which would add {:.3g} J",
       model_.pairs[touches_.pair_of(index)].name, t, touch.depth,
       touch.energy));
+}
+
+// After many cuts touches are moved to a step's end, unless that is deep in
+// one.
+void EventStepper::check_missed_touch(std::size_t index, SystemState& state) {
+  if (touches_.is_touching(index) || !touches_.is_deep(index, state)) return;
+  const double t = state.t;
+  cut_ = 0;
+  take_back(state);
+  throw NumericalError(fmt::format(
+      "contact '{}': a step to t = {:.9g} s ends deep in a touch that {} cuts "
+      "of steps did not reach",
+      model_.pairs[touches_.pair_of(index)].name, t, kMostCut));
 }
 
 // Two bodies deep in each other cannot separate in a step.

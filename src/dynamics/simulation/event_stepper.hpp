@@ -89,6 +89,7 @@ class EventStepper {
   // the step is reverted.
   void check_deep_touch(std::size_t index, SystemState& state);
   void check_leave(std::size_t index, SystemState& state);
+  void check_missed_touch(std::size_t index, SystemState& state);
   void settle_touch(const TouchWatch::Crossing& crossing, SystemState& state,
                     double nominal_h);
   bool advance_to(double share, SystemState& state);

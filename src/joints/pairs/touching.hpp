@@ -70,6 +70,8 @@ class Touching {
   virtual double begin_touch(const PairBodies& bodies, double t,
                              std::span<double> memory,
                              PairResponse& scratch) const = 0;
+  /// Resets the memory where both leave each other: the next touch is new.
+  virtual void end_touch(std::span<double> memory) const = 0;
   [[nodiscard]] virtual TouchReading read(const PairBodies& bodies,
                                           const Instant& now,
                                           std::span<const double> memory,

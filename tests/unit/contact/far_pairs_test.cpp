@@ -76,6 +76,9 @@ class CountingPair final : public joints::PairInteraction,
     return pair_.find_reach_B();
   }
   double find_size() const override { return pair_.find_size(); }
+  void end_touch(std::span<double> memory) const override {
+    pair_.end_touch(memory);
+  }
   double begin_touch(const joints::PairBodies& bodies, double t,
                      std::span<double> memory,
                      joints::PairResponse& scratch) const override {
