@@ -20,10 +20,8 @@ constexpr double kProbe = 1e-7;
 constexpr double kLongestCorrection = 0.2;
 // Tolerance of the linear solution of a correction.
 constexpr double kLinear = 1e-4;
-// Corrections below this share of the extent may be round-off.
-constexpr double kFineLength = 1e-9;
-// A slow step's correction of forces that balance, relative to the extent.
-constexpr double kBalancedLength = 1e-12;
+// Forces that balance, relative to those that were left at first.
+constexpr double kLeft = 1e-11;
 // Above this residual the matrix is singular.
 constexpr double kSolved = 0.1;
 constexpr int kKrylovVectors = 60;
@@ -171,11 +169,8 @@ double StaticNewton::measure_slow_step(const SystemState& state) {
   return measure(correction_);
 }
 
-bool StaticNewton::correct(const SystemState& state, const VectorX& target) {
-  const VectorX right = target - calc_forces_left(state);
+bool StaticNewton::correct(const SystemState& state, const VectorX& right) {
   factor(state);
-  matrix_.solve(model_, terms_, -right, correction_);
-  slow_ = measure(correction_);
   // Unknowns are lengths, so that norms are means over the system.
   const VectorX scale =
       (weights_.array() > 0.0).select(weights_.cwiseInverse(), 1.0);
@@ -200,11 +195,15 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
   (void)calc_forces_left(state);
   wrenches_ = laws_;
   double last = 0.0;
+  double first = 0.0;  // force left
   for (int i = 0; i < settings.max_iterations; ++i) {
     ++iterations_;
-    if (!correct(state, target)) return i > 0 && slow_ < kFineLength * extent_;
+    const VectorX right = target - calc_forces_left(state);
+    const double force = measure_force(right);
+    if (i == 0) first = force;
     // Free motion makes the matrix singular: it has no solution for round-off.
-    if (i > 0 && slow_ <= kBalancedLength * extent_) return true;
+    if (i > 0 && force <= kLeft * first) return true;
+    if (!correct(state, right)) return false;
     const double length = measure(correction_);
     const double share = std::min(1.0, kLongestCorrection * extent_ / length);
     matrix_.find_wrench_changes(terms_, correction_, changes_);
@@ -213,6 +212,7 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
     const double left = length / extent_;
     if (share == 1.0 && left <= settings.tolerance) return true;
     // Round-off: corrections no longer decrease.
+    constexpr double kFineLength = 1e-9;
     if (i > 0 && left < kFineLength && length > 0.5 * last) return true;
     last = length;
   }

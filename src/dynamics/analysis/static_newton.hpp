@@ -52,7 +52,7 @@ class StaticNewton {
   void evaluate(const SystemState& state, WrenchSource source,
                 SystemTerms& terms, VectorX& residual) const;
   void factor(const SystemState& state);
-  bool correct(const SystemState& state, const VectorX& target);
+  bool correct(const SystemState& state, const VectorX& right);
   VectorX apply(const SystemState& state, const VectorX& direction);
 
   const SystemModel& model_;
@@ -70,7 +70,6 @@ class StaticNewton {
   VectorX residual_;  ///< of the laws
   VectorX base_;      ///< of the wrenches
   VectorX correction_;
-  double slow_ = 0.0;  ///< length of the slow step's correction [m]
   int iterations_ = 0;
 };
 

@@ -19,7 +19,9 @@ struct EnergyRecord {
   Extreme elastic;          ///< of bodies [J]
   Extreme coupler;          ///< in couplers and transmissions [J]
   double throughput = 0.0;  ///< [J]
-  double roundoff = 0.0;    ///< possible round-off of the drift [J]
+  /// Possible round-off of the drift, and what stiff joints may lose without a
+  /// visible displacement (HoldWatch::find_negligible_energy) [J].
+  double roundoff = 0.0;
   /// Largest contributor to the drift at its extreme, as "body 'link'"; empty:
   /// none.
   std::string place;

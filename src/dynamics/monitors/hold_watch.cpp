@@ -136,6 +136,15 @@ std::vector<std::string> HoldWatch::find_warnings() const {
   return warnings;
 }
 
+double HoldWatch::find_negligible_energy() const {
+  constexpr double kTimes = 10.0;
+  double energy = 0.0;
+  for (const Hold& hold : holds_) {
+    if (hold.largest() <= kNegligible) energy += kTimes * hold.energy;
+  }
+  return energy;
+}
+
 std::optional<std::string> HoldWatch::find_overpowered() const {
   const auto worst = std::max_element(
       holds_.begin(), holds_.end(),

@@ -39,6 +39,10 @@ class HoldWatch {
   /// Smaller displacements have no share, of a body's size [-].
   static constexpr double kNegligible = 1e-6;
 
+  /// Energy that joints may lose in vibration that no step resolves, by
+  /// displacements up to kNegligible: ten times the largest that they had [J].
+  [[nodiscard]] double find_negligible_energy() const;
+
   /// The joint that was displaced most, if by more than kOverpowered; nothing
   /// if none was.
   [[nodiscard]] std::optional<std::string> find_overpowered() const;

@@ -62,6 +62,12 @@ void StepAudit::include(const SystemState& state, const SystemTerms* terms,
   limits_.include(state, *now, events);
 }
 
+EnergyRecord StepAudit::find_energy() const {
+  EnergyRecord record = ledger_.find_record();
+  record.roundoff += holds_.find_negligible_energy();
+  return record;
+}
+
 void StepAudit::add_warnings(std::vector<std::string>& warnings) const {
   for (const auto& texts : {holds_.find_warnings(), limits_.find_warnings()}) {
     warnings.insert(warnings.end(), texts.begin(), texts.end());

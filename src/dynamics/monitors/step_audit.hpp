@@ -34,9 +34,7 @@ class StepAudit {
                const StepResult& totals, bool is_last,
                std::vector<Event>& events);
 
-  [[nodiscard]] EnergyRecord find_energy() const {
-    return ledger_.find_record();
-  }
+  [[nodiscard]] EnergyRecord find_energy() const;
   void add_warnings(std::vector<std::string>& warnings) const;
 
   /// Saves or restores its state for checkpoints.
