@@ -189,5 +189,63 @@ TEST_F(Pieces, BendAsAnArcInItsPlaneAndOutOfIt) {
   EXPECT_LT(find_error(kArc, {0.0, 0.0, 0.15 * kUnit / 4.0}), 0.003);
 }
 
+/// Tip deflection and lowest two frequencies of a bar on the joint.
+struct Response {
+  double tip = 0.0;     ///< [m]
+  double first = 0.0;   ///< [Hz]
+  double second = 0.0;  ///< [Hz]
+};
+
+class Cuts : public Pieces {
+ protected:
+  Response find_response(const Beam& beam, int pieces) const {
+    const scene::BuiltScene built =
+        build(beam, {0.0, 3.0, 1.0}, pieces, Fidelity::coupled);
+    const auto found = find_equilibrium(built.model, built.initial).state;
+    const std::vector<double> tip =
+        scene::evaluate_all(built.probes, built.model, found);
+    const VectorX frequencies =
+        find_natural_frequencies(built.model, built.initial);
+    return {std::hypot(tip.at(1), tip.at(2)), frequencies[0], frequencies[1]};
+  }
+
+  void expect_whole(const Beam& beam, int pieces, double allowed) const {
+    SCOPED_TRACE(pieces);
+    const Response whole = find_response(beam, 1);
+    const Response cut = find_response(beam, pieces);
+    EXPECT_NEAR(cut.tip / whole.tip, 1.0, allowed);
+    EXPECT_NEAR(cut.first / whole.first, 1.0, allowed);
+    EXPECT_NEAR(cut.second / whole.second, 1.0, allowed);
+  }
+};
+
+// Numbers of pieces that do not divide the number of layers, too.
+TEST_F(Cuts, OfSweptLayersCostLittleWhateverTheirNumber) {
+  const Beam bar{section(0.008, 0.02, 2) + sweep("{0.2, 0, 0}", 6),
+                 3e9,
+                 0.3,
+                 1500.0,
+                 1e11,
+                 1e8};
+  for (const int pieces : {2, 3, 4, 5}) expect_whole(bar, pieces, 0.01);
+}
+
+TEST_F(Cuts, OfTetrahedraCostLittleAlthoughTheyAreRagged) {
+  const Beam bar{
+      "SetFactory(\"OpenCASCADE\"); Box(1)={0,-0.01,-0.01,0.2,0.02,0.02};\n"
+      "Physical Volume(\"body\")={1};\n"
+      "e()=Surface In BoundingBox{-1e-6,-1,-1,1e-6,1,1};\n"
+      "Physical Surface(\"root\")={e()};\n"
+      "f()=Surface In BoundingBox{0.2-1e-6,-1,-1,0.2+1e-6,1,1};\n"
+      "Physical Surface(\"tip\")={f()};\n"
+      "Mesh.ElementOrder=2; Mesh.MeshSizeMax=0.02; Mesh.MeshSizeMin=0.02;\n",
+      3e9,
+      0.3,
+      1500.0,
+      1e11,
+      1e8};
+  for (const int pieces : {2, 3, 4}) expect_whole(bar, pieces, 0.014);
+}
+
 }  // namespace
 }  // namespace limber::pieces_slow

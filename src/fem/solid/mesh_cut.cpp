@@ -127,22 +127,34 @@ std::vector<OrderedElement> order_elements(const Mesh& mesh, const VectorX& f) {
   return elements;
 }
 
-/// Number of ordered elements before the cut near the volume `target`: where f
-/// has the largest step within `window`, minus a penalty for the distance.
+/// Number of ordered elements before the cut near the volume `target`: the
+/// nearest step of f of at least half the largest within `window`, since those
+/// are between layers.
 std::size_t place_cut(const std::vector<OrderedElement>& elements,
                       double target, double window) {
-  std::size_t best = 0;
-  double best_score = -1.0;
+  constexpr double kBetweenLayers = 0.5;
+  struct Candidate {
+    std::size_t count;
+    double off;
+    double step;
+  };
+  std::vector<Candidate> candidates;
+  double largest = 0.0;
   double before = 0.0;
   for (std::size_t i = 1; i < elements.size(); ++i) {
     before += elements[i - 1].volume;
-    const double off = (before - target) / window;
-    if (std::abs(off) >= 1.0) continue;
-    const double score =
-        (elements[i].f - elements[i - 1].f) * (1.0 - off * off);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = i;
+    const double off = std::abs(before - target) / window;
+    if (off >= 1.0) continue;
+    const double step = elements[i].f - elements[i - 1].f;
+    candidates.push_back({i, off, step});
+    largest = std::max(largest, step);
+  }
+  std::size_t best = 0;
+  double least = 1.0;
+  for (const Candidate& one : candidates) {
+    if (one.step < kBetweenLayers * largest || one.off >= least) continue;
+    least = one.off;
+    best = one.count;
   }
   return best;
 }

@@ -13,8 +13,8 @@ namespace limber::fem {
 /// Equation   elements in the order of f, the lowest mode of diffusion in the
 ///            solid: div grad f + mu f = 0, no flow through the surface. Along
 ///            a straight or curved bar f is a cosine of the place on its
-///            centre line, so that cuts are across it. A cut is moved to where
-///            f makes a step nearby, between two layers of elements
+///            centre line, so that cuts are across it. A cut is moved to the
+///            nearest large step of f, between two layers of elements
 /// Source     spectral bisection: [@fiedler1975]; here of the solid itself
 /// Limits     needs a body with one long direction: throws if a piece would
 ///            consist of two parts, as in a ring cut into three
