@@ -121,7 +121,7 @@ TEST(FullRun, TellsItsStableStepAndKeepsBelowIt) {
   ASSERT_EQ(result.status, 0) << result.errors;
   const json summary = read_summary(place);
   const double stable = summary["stable_step"];
-  EXPECT_GT(stable, 1e-6);
+  EXPECT_GT(stable, 5e-7);
   EXPECT_LT(stable, 2e-5);
   EXPECT_GE(summary["steps"].get<double>(), 0.001 / stable);
 }

@@ -88,7 +88,7 @@ TEST(NonlinearContactRun, OfALinkThatBendsFarIsThatOfItsMesh) {
   EXPECT_LT(across, -0.1 * 0.3);
   EXPECT_NEAR(read_tip(nonlinear, "tip.uz"), across, 0.005 * std::abs(across));
   EXPECT_NEAR(read_tip(nonlinear, "tip.ux"), along, 0.01 * std::abs(along));
-  EXPECT_GT(read_tip(coupled, "tip.ux"), 0.5 * along);  // linear elasticity
+  EXPECT_GT(read_tip(coupled, "tip.ux"), 0.6 * along);  // linear elasticity
 }
 
 }  // namespace

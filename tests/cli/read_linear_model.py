@@ -21,7 +21,9 @@ ROBOT = """<robot name='r'><link name='world'/>
 <joint name='shoulder' type='continuous'><parent link='world'/><child link='upper'/>
  <axis xyz='0 0 1'/></joint>
 <joint name='elbow' type='continuous'><origin xyz='0.4 0 0'/><parent link='upper'/>
- <child link='lower'/><axis xyz='0 0 1'/></joint></robot>
+ <child link='lower'/><axis xyz='0 0 1'/></joint>
+<coupler joint='shoulder' translational_stiffness='4e7' rotational_stiffness='2e6'/>
+<coupler joint='elbow' translational_stiffness='4e7' rotational_stiffness='2e6'/></robot>
 """
 
 SCENARIO = """robot = 'robot.urdf'

@@ -65,7 +65,7 @@ TEST_P(ShippedModel, AgreesWithSimbodyOnEqualBushings) {
 INSTANTIATE_TEST_SUITE_P(
     All, ShippedModel,
     ::testing::Values(Example{"report_beam.toml", 0.1, 1e-4},
-                      Example{"struck_finger.toml", 0.02, 2e-6}));
+                      Example{"struck_finger.toml", 0.02, 1e-6}));
 
 /// The capture arm with joints of `k` N/m, and N m/rad for every square
 /// centimetre, so well damped that the strike leaves no vibration.

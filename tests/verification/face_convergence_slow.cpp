@@ -33,7 +33,6 @@ struct Element {
   bool is_recombined = true;  ///< across, into quadrangles
   bool is_extruded = true;    ///< hexahedra or prisms; else tetrahedra
   bool is_serendipity = false;
-  bool is_equal = false;  ///< weighting of the interface
 };
 
 std::string write_script(const Element& e, int along, int across) {
@@ -67,10 +66,8 @@ Answer solve(const Element& element, int along, int across) {
   recipe.mesh.file = file;
   recipe.materials = {{"", {kModulus, kPoisson, kDensity}}};
   recipe.basis.eigenmodes = 10;
-  const auto weighting = element.is_equal ? flexbody::Weighting::equal
-                                          : flexbody::Weighting::uniform;
-  recipe.interfaces = {{"root", flexbody::GroupNodes{"root"}, weighting},
-                       {"tip", flexbody::GroupNodes{"tip"}, weighting}};
+  recipe.interfaces = {{"root", flexbody::GroupNodes{"root"}},
+                       {"tip", flexbody::GroupNodes{"tip"}}};
   const auto body =
       std::make_shared<const flexbody::ReducedBody>(flexbody::reduce(recipe));
   dynamics::SystemBuilder builder;
@@ -146,8 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Element{"hexahedra27"},
                       Element{"prisms15", false, true, true},
                       Element{"prisms18", false, true},
-                      Element{"tetrahedra10", false, false},
-                      Element{"hexahedra20Equal", true, true, true, true}),
+                      Element{"tetrahedra10", false, false}),
     [](const auto& element) { return element.param.name; });
 
 }  // namespace

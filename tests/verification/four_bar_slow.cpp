@@ -179,11 +179,12 @@ class FourBarsRod : public ::testing::Test {
 };
 
 // The formula neglects the share (Omega / omega)^2 of terms that change at
-// Omega: a hundredth at three times the crank's rate.
+// Omega: a hundredth at three times the crank's rate. And the rod's loss factor
+// of 0.01 makes it softer by that, at rest.
 TEST_F(FourBarsRod, BendsOnAverageAsABeamUnderItsOwnInertia) {
   const double off =
       find_largest(subtract(smooth(deflection_), smooth(formula_)));
-  EXPECT_LT(off, 0.02 * find_largest(formula_));
+  EXPECT_LT(off, 0.03 * find_largest(formula_));
 }
 
 TEST_F(FourBarsRod, RingsAtTheFrequencyOfABeamBetweenPinsThatTheLinksCarry) {

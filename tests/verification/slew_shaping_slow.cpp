@@ -31,7 +31,9 @@ class Slew : public ::testing::Test {
   static double find_first_frequency() {
     const scene::BuiltScene built =
         scene::build_system(load(), app::make_reducer({}), cache());
-    return dynamics::find_natural_frequencies(built.model, built.initial)[0];
+    return dynamics::find_natural_modes(built.model, built.initial)
+        .modes.at(0)
+        .frequency();
   }
 
   /// How far the tip swings after the last command, across where the arm has

@@ -95,9 +95,9 @@ TEST_F(BuilderJoint, IsTheSameByATableAndAtEveryLevel) {
     EXPECT_EQ(held->translational, expected->translational);
     EXPECT_EQ(held->rotational, expected->rotational);
   }
-  // A hundred times as stiff as the interface.
+  // Two hundred times as stiff as the interface.
   EXPECT_DOUBLE_EQ(law(model, "name").find_hold_stiffness()->translational,
-                   1e8);
+                   2e8);
 }
 
 TEST_F(BuilderJoint, TakesAnAxisOfAnyLengthAndWhatActsAlongIt) {

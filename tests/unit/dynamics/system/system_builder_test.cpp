@@ -401,33 +401,21 @@ TEST(FullBodyBuilder, RefusesNodesThatItDoesNotHave) {
   Lattice lattice;
   SystemBuilder& builder = lattice.builder;
   const int count = static_cast<int>(lattice.full->node_count());
-  const auto attach = [&](const flexbody::NodeSet& nodes) {
-    builder.attach_nodes("f", BodyIndex(0), nodes, {});
+  const auto attach = [&](int last, const VectorX& weights, int moments) {
+    builder.attach_nodes(
+        "f", BodyIndex(0),
+        {"set", {0, last}, weights, Matrix3X::Zero(3, moments)}, {});
   };
-  expect_refused<ContractError>(
-      [&] {
-        attach({"set",
-                {0, count},
-                VectorX::Constant(2, 0.5),
-                Matrix3X::Zero(3, 2)});
-      },
-      "frame 'f', node set 'set'", "there is no node");
-  expect_refused<ContractError>(
-      [&] {
-        attach({"set", {0, 1}, VectorX::Ones(1), Matrix3X::Zero(3, 2)});
-      },
-      "frame 'f'", "2 nodes and 1 weights");
-  expect_refused<InputError>(
-      [&] {
-        attach({"set", {0, 1}, VectorX::Ones(2), Matrix3X::Zero(3, 2)});
-      },
-      "frame 'f'", "sum to 2");
-  expect_refused<ContractError>(
-      [&] {
-        attach(
-            {"set", {0, 1}, VectorX::Constant(2, 0.5), Matrix3X::Zero(3, 1)});
-      },
-      "frame 'f'", "1 moments");
+  const VectorX half = VectorX::Constant(2, 0.5);
+  expect_refused<ContractError>([&] { attach(count, half, 2); },
+                                "frame 'f', node set 'set'",
+                                "there is no node");
+  expect_refused<ContractError>([&] { attach(1, VectorX::Ones(1), 2); },
+                                "frame 'f'", "2 nodes and 1 weights");
+  expect_refused<InputError>([&] { attach(1, VectorX::Ones(2), 2); },
+                             "frame 'f'", "sum to 2");
+  expect_refused<ContractError>([&] { attach(1, half, 1); }, "frame 'f'",
+                                "1 moments");
   expect_refused<ContractError>(
       [&] { builder.attach_interface("f", BodyIndex(0), {}, {}); }, "frame 'f'",
       "at level full");
