@@ -79,6 +79,7 @@ Reference run_to_tolerance(const Scene& scene, double length) {
   settings.integrator = dynamics::IntegratorKind::generalized_alpha;
   settings.step = settings.end_time;
   settings.tolerance = 1e-3 * length;
+  settings.passes = dynamics::TolerancePasses::verified;
   constexpr int kTrials = 4;
   for (int i = 0; i < kTrials; ++i) {
     const Run result = run(scene, settings);

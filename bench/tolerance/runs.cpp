@@ -76,6 +76,7 @@ Run SceneRuns::run_to(double tolerance) const {
   settings.step = span();
   settings.step_changes.clear();
   settings.tolerance = tolerance;
+  settings.passes = dynamics::TolerancePasses::verified;
   return run(settings);
 }
 

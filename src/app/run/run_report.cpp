@@ -13,6 +13,7 @@
 #include "limber/app/run/run_scene.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/results/energy_audit.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
 
 namespace limber::app {
 namespace {
@@ -39,6 +40,24 @@ void print_probes(const results::History& history,
   }
 }
 
+void print_tolerance(const Run& run) {
+  const double tolerance = run.built.settings.tolerance;
+  const bool is_chosen =
+      run.scene.scenario.settings.tolerance == scene::kToleranceToChoose;
+  const std::string chosen =
+      is_chosen ? ", 1e-4 of the largest body's size, as no step is given" : "";
+  if (run.statistics.passes > 1) {
+    fmt::print(
+        "error   {:.2g} m at most, estimated from {} passes; tolerance {:.3g} "
+        "m{}\n",
+        run.statistics.estimated_error, run.statistics.passes, tolerance,
+        chosen);
+    return;
+  }
+  fmt::print("error   aimed at by each step: tolerance {:.3g} m{}\n", tolerance,
+             chosen);
+}
+
 void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("{} bodies, {} modes ({} in closed form), {} couplers\n",
              run.built.model.bodies.size(), run.built.model.modal_count,
@@ -53,13 +72,7 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
   fmt::print("online  {:.3g} s, {} steps, {} Newton iterations\n",
              run.statistics.seconds, run.statistics.steps,
              run.statistics.newton_iterations);
-  if (run.statistics.passes > 0) {
-    fmt::print(
-        "error   {:.2g} m at most, estimated from {} passes; tolerance {:g} "
-        "m\n",
-        run.statistics.estimated_error, run.statistics.passes,
-        run.built.settings.tolerance);
-  }
+  if (run.statistics.passes > 0) print_tolerance(run);
   if (run.statistics.halved_steps > 0) {
     fmt::print("        steps were halved {} times\n",
                run.statistics.halved_steps);

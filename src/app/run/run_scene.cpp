@@ -229,7 +229,9 @@ Json summarize(const Run& run) {
     json["steps_rejected"] = run.statistics.rejected_steps;
     json["passes"] = run.statistics.passes;
     json["tolerance"] = run.built.settings.tolerance;
-    json["estimated_error"] = run.statistics.estimated_error;
+    if (run.statistics.passes > 1) {
+      json["estimated_error"] = run.statistics.estimated_error;
+    }
   }
   // 0: not computed; infinite: nothing vibrates.
   const double stable_step = run.statistics.stable_step;

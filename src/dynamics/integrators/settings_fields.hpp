@@ -13,7 +13,7 @@ constexpr auto fields_of(const StepChange*) {
 
 constexpr auto fields_of(const SimulationSettings*) {
   return list_fields("settings", "integrator", "end [s]", "step [s]",
-                     "tolerance [m]", "most steps", "step changes",
+                     "tolerance [m]", "passes", "most steps", "step changes",
                      "output times [s]", "rho_inf", "Newton's tolerance",
                      "Newton's iterations", "exact modes");
 }

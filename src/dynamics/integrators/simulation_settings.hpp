@@ -13,6 +13,12 @@ struct StepChange {
   double step = 0.0;  ///< > 0 [s]
 };
 
+/// How a run meets a tolerance.
+enum class TolerancePasses {
+  one,       ///< steps with an error that usually meets it; no estimate
+  verified,  ///< again with shorter steps until the difference shows it
+};
+
 struct SimulationSettings {
   IntegratorKind integrator = IntegratorKind::generalized_alpha;
   double end_time = 0.0;  ///< > start [s]
@@ -21,6 +27,7 @@ struct SimulationSettings {
   /// varying length up to `step` [m]; 0: fixed steps. For adaptive integrators
   /// (IntegratorTraits::is_adaptive).
   double tolerance = 0.0;
+  TolerancePasses passes = TolerancePasses::one;  ///< to a tolerance
   /// Largest number of steps to a tolerance, over all passes, including
   /// repeated steps.
   long most_steps = 5'000'000;

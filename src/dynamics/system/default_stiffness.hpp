@@ -56,7 +56,7 @@ inline constexpr double kRigidShare = 1e-4;
 inline constexpr double kDampingRatio = 0.01;
 /// The same of two rigid sides with the default stiffness, whose vibration no
 /// step resolves: without numerical dissipation only this ends it [-].
-inline constexpr double kRigidDampingRatio = 0.2;
+inline constexpr double kRigidDampingRatio = 0.1;
 
 /// Natural frequency of a free body on a stop [Hz]: contact lasts 10 ms, at any
 /// speed.

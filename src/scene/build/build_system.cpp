@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/analysis/elastic_band.hpp"
@@ -14,11 +15,25 @@
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
 #include "limber/scene/control/controller_assembly.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
 #include "limber/scene/text/error_context.hpp"
 
 namespace limber::scene {
 
 namespace {
+
+/// Of the size of the largest body, which does not depend on how far apart
+/// bodies are: its bounding box' diagonal, or twice its radius of gyration [m].
+double choose_tolerance(const dynamics::SystemModel& model) {
+  constexpr double kShare = 1e-4;
+  double largest = 0.0;
+  for (const dynamics::BodyModel& body : model.bodies) {
+    largest = std::max(
+        largest, body.reduced ? body.reduced->size.norm()
+                              : std::sqrt(2.0 * body.J0.trace() / body.mass));
+  }
+  return largest > 0.0 ? kShare * largest : kShare;
+}
 
 void spin(const Scene& scene, BuiltScene& built) {
   if (scene.scenario.equilibrium == dynamics::EquilibriumMethod::relaxation) {
@@ -102,6 +117,9 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
     built.links.push_back(assembly.place_link(link));
   }
   built.settings = scene.scenario.settings;
+  if (built.settings.tolerance == kToleranceToChoose) {
+    built.settings.tolerance = choose_tolerance(built.model);
+  }
   for (const auto* warnings : {&scene.robot.warnings, &scene.scenario.warnings,
                                &reductions.warnings, &assembly.warnings()}) {
     built.warnings.insert(built.warnings.end(), warnings->begin(),

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/names.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 
 namespace limber::scene {
@@ -107,19 +108,33 @@ std::vector<double> read_output_times(
   return *times;
 }
 
-/// A `tolerance`, with the longest step if there is one; one `step`; or `steps
+dynamics::TolerancePasses parse_passes(std::string_view name) {
+  static const std::vector<std::string> names = {"one", "verified"};
+  return static_cast<dynamics::TolerancePasses>(
+      find_name("tolerance_passes", name, names));
+}
+
+/// Nothing, for a tolerance to be chosen; a `tolerance`, with the longest step
+/// if there is one; one `step`; or `steps
 /// = { from = [...], size = [...] }`: from each time on the step of that size,
 /// the first from the start.
 void read_step_settings(TomlTable& table,
                         dynamics::SimulationSettings& settings) {
   const toml::table* steps = table.table("steps");
   settings.tolerance = table.number("tolerance", kPositive).value_or(0.0);
+  settings.passes =
+      read_name(table, "tolerance_passes", settings.passes, &parse_passes);
   if (steps == nullptr && table.has("tolerance")) {
     settings.step = table.number("step", kPositive).value_or(settings.end_time);
     return;
   }
-  if (steps == nullptr) {
+  if (steps == nullptr && table.has("step")) {
     settings.step = table.required_number("step", kPositive);
+    return;
+  }
+  if (steps == nullptr) {
+    settings.step = settings.end_time;
+    settings.tolerance = kToleranceToChoose;
     return;
   }
   if (table.number("step", kPositive)) {
@@ -156,6 +171,11 @@ dynamics::SimulationSettings read_time_settings(
   read_step_settings(table, settings);
   settings.integrator = read_name(table, "integrator", settings.integrator,
                                   &dynamics::parse_integrator);
+  if (settings.tolerance == kToleranceToChoose &&
+      !dynamics::traits_of(settings.integrator).is_adaptive) {
+    settings.tolerance = 0.0;
+    settings.step = table.required_number("step", kPositive);
+  }
   settings.rho_inf = table.number("rho_inf", {0.0, 1.0, false, false})
                          .value_or(settings.rho_inf);
   settings.newton_tolerance =

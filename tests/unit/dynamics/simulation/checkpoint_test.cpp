@@ -232,6 +232,7 @@ TEST(Checkpoint, OfStepsToAToleranceGoesOnInItsPass) {
   SimulationSettings settings =
       make_settings(IntegratorKind::generalized_alpha, 0.5, 0.5);
   settings.tolerance = 1e-6;
+  settings.passes = TolerancePasses::verified;
   expect_runs_go_on(make_spinning_chain(), settings);
 }
 
@@ -240,6 +241,7 @@ TEST(Checkpoint, OfALongRunIsNoLargerThanOfAShortOne) {
   SimulationSettings settings =
       make_settings(IntegratorKind::generalized_alpha, 2.0, 0.5);
   settings.tolerance = 1e-6;
+  settings.passes = TolerancePasses::verified;
   settings.output_times = sample(2.0, 2000);
   std::vector<Kept> kept;
   const Trace whole = run(make_spinning_chain(), settings, &kept, nullptr);

@@ -38,6 +38,7 @@ SimulationSettings make_settings(double tolerance = 0.0) {
   settings.end_time = 0.2;
   settings.step = 1e-4;
   settings.tolerance = tolerance;
+  settings.passes = TolerancePasses::verified;
   settings.output_times = {0.0, 0.1, 0.2};
   return settings;
 }

@@ -30,6 +30,7 @@ SimulationSettings to_tolerance(double tolerance, double end, int outputs) {
   settings.end_time = end;
   settings.step = end;
   settings.tolerance = tolerance;
+  settings.passes = TolerancePasses::verified;
   settings.output_times = sample(end, outputs);
   return settings;
 }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+/// A ball dropped from rest, with steps of every kind: it bounces each time
+/// with the restitution asked for, at the times of free fall between.
+namespace limber::test::bounce_test {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kHeight = 0.2;    // of the gap at the start [m]
+constexpr double kRestitution = 0.8;
+
+const char* const kBall =
+    "<robot name='ball'><link name='ball'><inertial><mass value='0.26'/>"
+    "<inertia ixx='4e-5' iyy='4e-5' izz='4e-5' ixy='0' ixz='0' iyz='0'/>"
+    "</inertial><collision><geometry><sphere radius='0.02'/></geometry>"
+    "</collision></link><contact link='ball' youngs_modulus='210e9' "
+    "poisson_ratio='0.3'/></robot>";
+
+std::string write_scene(const std::string& steps) {
+  return fmt::format(
+      "robot = 'ball.urdf'\n[time]\nduration = 1.1\n{}\n"
+      "output_interval = 0.01\n"
+      "[gravity]\nacceleration = [0.0, 0.0, -9.81]\n"
+      "[initial.base]\nposition = [0.0, 0.0, 0.22]\n"
+      "[[obstacle]]\nname = 'floor'\nshape = 'plane'\nnormal = [0, 0, 1]\n"
+      "position = [0, 0, 0]\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\n"
+      "[[contact]]\nbetween = ['ball', 'floor']\nfriction = 0.0\n"
+      "restitution = 0.8\n[output]\npictures = false\n",
+      steps);
+}
+
+/// Times of touches; impacts last 0.13 ms.
+std::vector<double> find_touches() {
+  const double speed = std::sqrt(2.0 * kGravity * kHeight);
+  std::vector<double> times = {speed / kGravity};
+  for (int bounce = 1; bounce < 4; ++bounce) {
+    times.push_back(times.back() +
+                    2.0 * speed * std::pow(kRestitution, bounce) / kGravity);
+  }
+  return times;
+}
+
+json run(const Workspace& place, const std::string& steps) {
+  place.write("ball.urdf", kBall);
+  place.write("s.toml", write_scene(steps));
+  const CommandResult result = place.limber("run s.toml --json --out o");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(result.out);
+}
+
+class Bounces : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Bounces, KeepTheirRestitutionAndTheTimesOfFreeFall) {
+  const Workspace place;
+  const json report = run(place, GetParam());
+  const json& contacts = report["contacts"];
+  ASSERT_GE(contacts.size(), 4U) << report.dump(1);
+  const std::vector<double> times = find_touches();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_NEAR(contacts[i]["restitution"].get<double>(), kRestitution, 0.005);
+    // Impacts add 0.13 ms each.
+    EXPECT_NEAR(contacts[i]["time"].get<double>(), times[i],
+                5e-3 + 2e-4 * static_cast<double>(i));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, Bounces,
+                         ::testing::Values("", "tolerance = 1e-3",
+                                           "tolerance = 1e-4",
+                                           "tolerance = 1e-6", "step = 5e-6"));
+
+TEST(StepsWithoutAChoice, TakeATenThousandthOfTheLargestBodysSize) {
+  const Workspace place;
+  place.write("ball.urdf", kBall);
+  place.write("s.toml", write_scene(""));
+  const CommandResult text = place.limber("run s.toml --out o");
+  // Twice the radius of gyration, 2 sqrt(1.5 4e-5 / 0.26) = 0.0304 m.
+  EXPECT_THAT(text.out, ::testing::HasSubstr(
+                            "tolerance 3.04e-06 m, 1e-4 of the largest body's "
+                            "size, as no step is given"));
+  const json report = run(place, "");
+  EXPECT_NEAR(report["tolerance"].get<double>(), 3.04e-6, 1e-8);
+  EXPECT_EQ(report["passes"], 1);
+  EXPECT_FALSE(report.contains("estimated_error"));
+  const json verified =
+      run(place, "tolerance = 1e-4\ntolerance_passes = 'verified'");
+  EXPECT_GE(verified["passes"].get<int>(), 2);
+  EXPECT_LE(verified["estimated_error"].get<double>(), 1e-4);
+}
+
+TEST(StepsWithoutAChoice, AreAnErrorForOtherIntegratorsAndOtherWords) {
+  const Workspace place;
+  place.write("ball.urdf", kBall);
+  place.write("s.toml", write_scene("integrator = 'runge-kutta-4'"));
+  const CommandResult explicit_one = place.limber("run s.toml --out o");
+  EXPECT_EQ(explicit_one.status, 2);
+  EXPECT_THAT(explicit_one.errors, ::testing::HasSubstr("'step'"));
+  place.write("s.toml", write_scene("tolerance_passes = 'two'"));
+  const CommandResult word = place.limber("run s.toml --out o");
+  EXPECT_EQ(word.status, 2);
+  EXPECT_THAT(word.errors, ::testing::HasSubstr("tolerance_passes"));
+}
+
+}  // namespace
+}  // namespace limber::test::bounce_test
