@@ -27,7 +27,7 @@ py::tuple find_static(const scene::Scene& scene,
     return std::make_shared<const app::StaticRun>(
         app::find_static(scene, chosen, cache, watch));
   });
-  const auto recorded = std::make_shared<RecordedRun>();
+  auto recorded = std::make_shared<RecordedRun>();
   recorded->run.scene = found->scene;
   recorded->run.built = found->built;
   recorded->run.history = found->history;

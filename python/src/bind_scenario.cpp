@@ -114,7 +114,7 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
   clear_cause();
   const Progress watch = make_watch(progress);
   const std::vector<GivenLaw> given = read_laws(laws);
-  const auto recorded = std::make_shared<RecordedRun>();
+  auto recorded = std::make_shared<RecordedRun>();
   {
     const py::gil_scoped_release release;
     results::Scenery scenery;

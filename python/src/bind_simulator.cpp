@@ -38,7 +38,7 @@ std::shared_ptr<RecordedRun> simulate(const SystemModel& model,
                                       const py::object& progress) {
   clear_cause();
   const Progress watch = make_watch(progress);
-  const auto recorded = std::make_shared<RecordedRun>();
+  auto recorded = std::make_shared<RecordedRun>();
   {
     const py::gil_scoped_release release;
     scene::BuiltScene built;
