@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "limber/dynamics/analysis/principal_basis.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
@@ -18,7 +17,7 @@ constexpr double kNarrowest = 2.0;     // high / low
 
 /// Of the bodies' own modes; of none low > high.
 struct OwnModes {
-  double low = std::numeric_limits<double>::infinity();
+  double low = kInfinity;
   double high = 0.0;
   int bodies = 0;
 };

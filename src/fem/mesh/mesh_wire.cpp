@@ -266,8 +266,6 @@ std::string find_mesh_content(const Mesh& mesh) {
   wire(parts);
   Digest digest;
   digest.add(kMagic);
-  // Bodies of such meshes that earlier versions made have no record of it.
-  if (is_first_order(mesh)) digest.add("locking");
   digest.add_bytes(wire.bytes().data(), wire.bytes().size());
   return digest.text();
 }

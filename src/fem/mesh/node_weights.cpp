@@ -23,11 +23,15 @@ struct Share {
 using Shares = std::map<int, Share>;
 using Tangents = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
+/// Normal of a face, as long as its area ratio.
+Vector3 calc_normal(const Tangents& tangents) {
+  return Vector3(tangents.col(0)).cross(Vector3(tangents.col(1)));
+}
+
 /// Length, area or volume ratio of a map with these tangents.
 double calc_measure(const Tangents& tangents) {
   if (tangents.cols() == 3) return Matrix3(tangents).determinant();
-  if (tangents.cols() == 2)
-    return Vector3(tangents.col(0)).cross(Vector3(tangents.col(1))).norm();
+  if (tangents.cols() == 2) return calc_normal(tangents).norm();
   return tangents.col(0).norm();
 }
 
@@ -59,10 +63,6 @@ void add_face(const Mesh& mesh, const BoundaryFace& face,
   add_shares(block.element->face_rules[static_cast<std::size_t>(face.face)], 2,
              element_positions(mesh, block, face.element),
              block.element_nodes(face.element), measure, shares);
-}
-
-Vector3 calc_normal(const Tangents& tangents) {
-  return Vector3(tangents.col(0)).cross(Vector3(tangents.col(1)));
 }
 
 /// int n dA over faces [m^2].
