@@ -82,7 +82,8 @@ std::optional<Rival> find_rival(const SceneRuns& runs,
   std::vector<double> ratios;
   for (int i = 0; i < repeats; ++i) {
     const double fixed = search.run(rival.rung.step).seconds;
-    ratios.push_back(fixed / runs.run_to(tolerance).seconds);
+    ratios.push_back(
+        fixed / runs.run_to(tolerance, dynamics::TolerancePasses::one).seconds);
   }
   rival.times_dearer = find_median(ratios);
   return rival;

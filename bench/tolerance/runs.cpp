@@ -71,12 +71,13 @@ Run SceneRuns::run(const dynamics::SimulationSettings& settings) const {
   return run;
 }
 
-Run SceneRuns::run_to(double tolerance) const {
+Run SceneRuns::run_to(double tolerance,
+                      dynamics::TolerancePasses passes) const {
   dynamics::SimulationSettings settings = built_.settings;
   settings.step = span();
   settings.step_changes.clear();
   settings.tolerance = tolerance;
-  settings.passes = dynamics::TolerancePasses::verified;
+  settings.passes = passes;
   return run(settings);
 }
 
@@ -135,7 +136,8 @@ Reference find_reference(const SceneRuns& runs, double smallest) {
       break;
     }
   }
-  const Run free = runs.run_to(kFine * smallest);
+  const Run free =
+      runs.run_to(kFine * smallest, dynamics::TolerancePasses::verified);
   const double free_uncertainty =
       free.stopped.empty() ? free.statistics.estimated_error : INFINITY;
   reference.from_other = runs.measure_distance(free, ladder.back().run);

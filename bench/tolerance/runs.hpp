@@ -48,7 +48,8 @@ class SceneRuns {
   }
   [[nodiscard]] double span() const;  ///< of time [s]
 
-  [[nodiscard]] Run run_to(double tolerance) const;
+  [[nodiscard]] Run run_to(double tolerance,
+                           dynamics::TolerancePasses passes) const;
   [[nodiscard]] Run run_fixed(double step) const;
   /// In the file's own steps, all times such a factor that the longest is
   /// `longest` [s].

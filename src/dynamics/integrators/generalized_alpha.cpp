@@ -98,7 +98,7 @@ void GeneralizedAlpha::fit_memory(double h) {
 void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
   const double constant = 1.0 / 6.0 - p_.beta - 0.5 * (p_.am - p_.af);
   const MotionScale::Largest largest =
-      scale_->measure_change(a_, a_next_, constant * h * h);
+      scale_->measure_change(a_, a_next_, constant * h * h, p_.beta * h * h);
   result.error = largest.displacement;
   result.error_body = largest.body;
 }

@@ -41,7 +41,10 @@ MotionScale::MotionScale(const SystemModel& model) {
     scale.moves = body.has_rigid_motion();
     scale.offset = body.offset;
     scale.reach = find_reach(model, static_cast<BodyIndex>(b));
-    if (body.modes > 0) scale.sizes = DisplacementMeasure(body).mode_sizes();
+    if (body.modes > 0) {
+      scale.sizes = DisplacementMeasure(body).mode_sizes();
+      scale.lambda = body.reduced->lambda.head(body.modes);
+    }
     bodies_.push_back(std::move(scale));
   }
   for (const FullModel& full : model.full_bodies) {
@@ -51,7 +54,8 @@ MotionScale::MotionScale(const SystemModel& model) {
 }
 
 MotionScale::Largest MotionScale::measure_change(const Rates& a, const Rates& b,
-                                                 double factor) const {
+                                                 double factor,
+                                                 double filter) const {
   Largest largest;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
@@ -63,7 +67,8 @@ MotionScale::Largest MotionScale::measure_change(const Rates& a, const Rates& b,
     }
     for (Eigen::Index k = 0; k < body.sizes.size(); ++k) {
       const Eigen::Index at = body.offset + k;
-      const double moved = body.sizes[k] * (b.modes[at] - a.modes[at]);
+      const double moved = body.sizes[k] * (b.modes[at] - a.modes[at]) /
+                           (1.0 + filter * body.lambda[k]);
       squared += moved * moved;
     }
     include(factor * factor * squared, i, largest);

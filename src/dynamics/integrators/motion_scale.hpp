@@ -25,10 +25,13 @@ class MotionScale {
     double displacement = 0.0;  ///< [m]
     std::size_t body = 0;       ///< its index
   };
-  /// Of the increments `factor` (b - a), which have the units of positions.
-  /// @param factor [s] for velocities, [s^2] for accelerations
+  /// Of the increments `factor` (b - a) of accelerations, which mode k's own
+  /// stiffness reduces to 1 / (1 + filter lambda_k) of it: a vibration that a
+  /// step does not resolve can err by its amplitude, not by the acceleration
+  /// times h^2 [@hairer1996, eq. IV.8.19].
+  /// @param factor [s^2] @param filter beta h^2 of the scheme [s^2]
   [[nodiscard]] Largest measure_change(const Rates& a, const Rates& b,
-                                       double factor) const;
+                                       double factor, double filter) const;
   /// Of the difference of two states at the same time.
   [[nodiscard]] Largest measure_distance(const SystemState& a,
                                          const SystemState& b) const;
@@ -39,6 +42,7 @@ class MotionScale {
     int offset = 0;      // of its modes
     double reach = 0.0;  // [m]
     VectorX sizes;       // of modes [kg^-1/2]
+    VectorX lambda;      // of modes [rad^2/s^2]
   };
   struct Nodes {
     std::size_t body = 0;

@@ -15,6 +15,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of the limits of steps that do not depend on their errors, in the only pass
+// to a tolerance [-].
+constexpr double kOnePassRefinement = 0.5;
+
 // Adds its lifetime to `seconds`.
 class Stopwatch {
  public:
@@ -64,16 +68,20 @@ void simulate(const SystemModel& model, SystemState& state,
     refuse_hidden_memory(model, "a checkpoint must continue alike");
   }
   const Stopwatch stopwatch(statistics.seconds);
+  const bool is_verified =
+      settings.tolerance > 0.0 && settings.passes == TolerancePasses::verified;
   const auto warn = [&] {
     warn_of_energy(settings.integrator, record.energy, statistics.warnings);
   };
   try {
-    if (settings.tolerance > 0.0) {
+    if (is_verified) {
       run_to_tolerance(model, state, settings, observer, progress, statistics,
                        continuation, followed, record);
     } else {
+      statistics.passes = settings.tolerance > 0.0 ? 1 : 0;
       run_once(model, state, settings, observer, progress, statistics,
-               continuation, followed, record);
+               continuation, followed, record,
+               settings.tolerance > 0.0 ? kOnePassRefinement : 1.0);
     }
   } catch (const NumericalError&) {
     warn();

@@ -6,8 +6,9 @@
 namespace limber::dynamics {
 
 /// simulate() for checked settings, with one pass over the whole time. A
-/// tolerance bounds the error of each step, not that of the outputs
-/// (run_to_tolerance, dynamics/simulation/tolerance_loop.hpp).
+/// tolerance is shared by the errors of all steps (TolerancePasses::one), or is
+/// the error of each step in one of several passes (run_to_tolerance,
+/// dynamics/simulation/tolerance_loop.hpp).
 /// @param refinement factor of the other limits of steps, see StepControl [-]
 void run_once(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,

@@ -16,9 +16,9 @@ constexpr double kMostTurn = 1.0;  // [rad]
 
 }  // namespace
 
-StepControl::StepControl(double allowed, double span, double longest,
+StepControl::StepControl(const ErrorBudget& budget, double span, double longest,
                          double refinement)
-    : allowed_(allowed),
+    : budget_(budget),
       longest_(refinement * longest),
       most_turn_(refinement * kMostTurn),
       h_(std::min(longest_, refinement * kFirstShare * span)) {}
@@ -35,10 +35,11 @@ double StepControl::propose(const SystemState& state, double left) const {
 }
 
 bool StepControl::accepts(double h, double error) {
+  const double allowed = budget_.allowed();
   // NaN propagates through the root and is clamped below.
   const double factor =
-      error == 0.0 ? kMostGrowth : std::cbrt(kSafety * allowed_ / error);
-  const bool accepted = error <= allowed_;
+      error == 0.0 ? kMostGrowth : std::cbrt(kSafety * allowed / error);
+  const bool accepted = error <= allowed;
   if (!accepted) {
     h_ = h * (factor > kMostShrinking ? std::min(factor, 0.9) : kMostShrinking);
   } else if (factor < 1.0) {
@@ -46,6 +47,7 @@ bool StepControl::accepts(double h, double error) {
   } else if (h >= 0.99 * h_ && !was_rejected_ && factor >= kWorthGrowing) {
     h_ = h * std::min(factor, kMostGrowth);
   }
+  if (accepted) budget_.count(h);
   was_rejected_ = !accepted;
   return accepted;
 }

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/simulation/error_budget.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
-/// Chooses the lengths of steps such that their errors are equal.
+/// Chooses the lengths of steps such that each has the error that it may have.
 ///
 /// Equation   the error of a step of a second-order scheme grows as h^3, so
 ///            that the next step is h cbrt(0.8 allowed / error)
@@ -20,11 +21,11 @@ namespace limber::dynamics {
 ///            limits by `refinement`, in proportion to its other steps.
 class StepControl {
  public:
-  /// @param allowed error of a step [m]
+  /// @param budget errors that steps may have
   /// @param span duration of the run [s]
   /// @param longest step [s]
   /// @param refinement factor of the limits, at most 1 [-]
-  StepControl(double allowed, double span, double longest,
+  StepControl(const ErrorBudget& budget, double span, double longest,
               double refinement = 1.0);
 
   /// Length of the next step from `state`, at most `left` [s].
@@ -37,11 +38,16 @@ class StepControl {
 
   /// Length of the next step [s].
   [[nodiscard]] double step() const { return h_; }
+  /// Error that the next step may have [m].
+  [[nodiscard]] double allowed() const { return budget_.allowed(); }
   /// Saves or restores the history.
-  void exchange_memory(Archive& archive) { archive(h_, was_rejected_); }
+  void exchange_memory(Archive& archive) {
+    archive(h_, was_rejected_);
+    budget_.exchange_memory(archive);
+  }
 
  private:
-  double allowed_;    // [m]
+  ErrorBudget budget_;
   double longest_;    // [s]
   double most_turn_;  // [rad]
   double h_;          // [s]

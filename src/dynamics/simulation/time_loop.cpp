@@ -19,6 +19,13 @@ namespace {
 constexpr long kStepsBetweenLooks = 32;         // checks of the energy
 constexpr long kStepsBetweenCheckpoints = 256;  // at least
 
+ErrorBudget make_budget(const SimulationSettings& settings, double start) {
+  if (settings.passes == TolerancePasses::one) {
+    return ErrorBudget::in_all(settings.tolerance, settings.end_time - start);
+  }
+  return ErrorBudget::each(settings.tolerance);
+}
+
 }  // namespace
 
 TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
@@ -35,8 +42,8 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       refinement_(refinement),
       stepper_(model, settings, statistics.events),
       sampling_(model, find_same_time(state.t, settings)),
-      control_(settings.tolerance, settings.end_time - state.t, settings.step,
-               refinement),
+      control_(make_budget(settings, state.t), settings.end_time - state.t,
+               settings.step, refinement),
       peaks_(model, followed),
       audit_(model, settings.integrator),
       contacts_(model, settings.integrator),

@@ -128,7 +128,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
                      "step may have asks for steps below {:.3g} s",
                      model_.bodies[stepper_.last().error_body].name, state.t,
-                     settings_.tolerance, h_));
+                     control_.allowed(), h_));
   }
   bool counts = false;
   const std::size_t events = statistics_.events.size();

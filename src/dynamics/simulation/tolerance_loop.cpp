@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostPasses = 8;
 // Error of a step in the first pass, relative to the tolerance [-].
 constexpr double kFirst = 1.0 / 3.0;
-// In the second, with steps of half the length, and in an only one.
+// In the second, with steps of half the length.
 constexpr double kSecond = kFirst / 8.0;
 constexpr double kToleranceSafety =
     0.5;  // target of later passes, of the tolerance [-]
@@ -107,7 +107,7 @@ class ToleranceLoop {
       keeper_.keep = [this, keep = continuation.keeper.keep](
                          const Checkpoint& inner) { keep(wrap(inner)); };
     }
-    course_.allowed = (is_verified() ? kFirst : kSecond) * settings.tolerance;
+    course_.allowed = kFirst * settings.tolerance;
     if (continuation.from) unwrap(*continuation.from);
   }
 
@@ -156,13 +156,8 @@ class ToleranceLoop {
     finish();
   }
 
-  [[nodiscard]] bool is_verified() const {
-    return settings_.passes == TolerancePasses::verified;
-  }
-
   // Estimates the error of the last complete pass.
   bool is_good_enough() {
-    if (!is_verified()) return true;
     if (course_.pass < 2) return false;
     const double distance = measure_distance(scale_, before_, now_);
     const double shrinkage = to_error(course_.allowed_before / course_.allowed);

@@ -5,9 +5,10 @@
 
 namespace limber::dynamics {
 
-/// simulate() to settings.tolerance, for checked settings: passes over the
-/// whole time with decreasing steps, until the difference of two shows that the
-/// last is within the tolerance. The observer is called for the last pass only.
+/// simulate() to settings.tolerance with TolerancePasses::verified, for checked
+/// settings: passes over the whole time with decreasing steps, until the
+/// difference of two shows that the last is within the tolerance. The observer
+/// is called for the last pass only.
 ///
 /// Equation   with an error eps of each step, the sum of their errors, and so
 ///            the error of a pass, is proportional to eps^(2/3), since errors

@@ -50,11 +50,11 @@ class MotionScaleTest : public ::testing::Test {
 TEST_F(MotionScaleTest, TakesTheBodyWhosePointsMoveMost) {
   b_.translation[0] = Vector3(0.3, 0.0, 0.0);
   b_.translation[1] = Vector3(0.0, 0.0, 0.2);
-  const auto largest = scale_.measure_change(a_, b_, 0.5);
+  const auto largest = scale_.measure_change(a_, b_, 0.5, 0.0);
   EXPECT_EQ(largest.body, 0);
   EXPECT_NEAR(largest.displacement, 0.15, 1e-15);
   b_.rotation[1] = Vector3(0.0, 1.0, 0.0);
-  EXPECT_EQ(scale_.measure_change(a_, b_, 0.5).body, 1);
+  EXPECT_EQ(scale_.measure_change(a_, b_, 0.5, 0.0).body, 1);
 }
 
 TEST_F(MotionScaleTest, AddsSquaresOfTranslationRotationAndModes) {
@@ -68,7 +68,17 @@ TEST_F(MotionScaleTest, AddsSquaresOfTranslationRotationAndModes) {
       0.01 *
       std::sqrt(0.25 + std::pow(2.0 * farthest(), 2) +
                 std::pow(0.3 * size_of(0), 2) + std::pow(0.5 * size_of(1), 2));
-  EXPECT_NEAR(scale_.measure_change(a_, b_, 0.01).displacement, expected,
+  EXPECT_NEAR(scale_.measure_change(a_, b_, 0.01, 0.0).displacement, expected,
+              1e-14);
+}
+
+TEST_F(MotionScaleTest, TakesOfAModeWhatItsStiffnessLeaves) {
+  b_.modes << 1.0, 0.3;
+  const VectorX& lambda = cloud_.reduced.lambda;
+  const double filter = 3.0 / lambda[1];
+  const double expected = std::hypot(size_of(0) / (1.0 + filter * lambda[0]),
+                                     0.3 * size_of(1) / 4.0);
+  EXPECT_NEAR(scale_.measure_change(a_, b_, 1.0, filter).displacement, expected,
               1e-14);
 }
 
@@ -95,7 +105,7 @@ TEST_F(MotionScaleTest, MeasuresTheDistanceOfTwoStates) {
 TEST_F(MotionScaleTest, TellsTheBodyThatIsNotANumber) {
   b_.translation[0] = Vector3(5.0, 0.0, 0.0);
   b_.modes[1] = std::nan("");
-  const auto largest = scale_.measure_change(a_, b_, 1.0);
+  const auto largest = scale_.measure_change(a_, b_, 1.0, 0.0);
   EXPECT_EQ(largest.body, 1);
   EXPECT_TRUE(std::isnan(largest.displacement));
 }

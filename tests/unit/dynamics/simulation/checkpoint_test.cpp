@@ -232,8 +232,10 @@ TEST(Checkpoint, OfStepsToAToleranceGoesOnInItsPass) {
   SimulationSettings settings =
       make_settings(IntegratorKind::generalized_alpha, 0.5, 0.5);
   settings.tolerance = 1e-6;
-  settings.passes = TolerancePasses::verified;
-  expect_runs_go_on(make_spinning_chain(), settings);
+  for (const auto passes : {TolerancePasses::one, TolerancePasses::verified}) {
+    settings.passes = passes;
+    expect_runs_go_on(make_spinning_chain(), settings);
+  }
 }
 
 // Each contains the state and logs new results only: none grows with time.

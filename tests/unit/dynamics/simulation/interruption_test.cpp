@@ -33,12 +33,14 @@ Scene make_scene() {
   return {chain.builder.build(), chain.state};
 }
 
-SimulationSettings make_settings(double tolerance = 0.0) {
+SimulationSettings make_settings(
+    double tolerance = 0.0,
+    TolerancePasses passes = TolerancePasses::verified) {
   SimulationSettings settings;
   settings.end_time = 0.2;
   settings.step = 1e-4;
   settings.tolerance = tolerance;
-  settings.passes = TolerancePasses::verified;
+  settings.passes = passes;
   settings.output_times = {0.0, 0.1, 0.2};
   return settings;
 }
@@ -104,6 +106,17 @@ TEST(Interruption, KeepsACheckpointThatGoesOnToTheBit) {
 
 TEST(Interruption, OfPassesToAToleranceDoesToo) {
   expect_same_end(make_scene(), make_settings(1e-6));
+  expect_same_end(make_scene(), make_settings(1e-6, TolerancePasses::one));
+}
+
+// Several passes have outputs in their last alone.
+TEST(Interruption, OfTheOnlyPassToAToleranceKeepsItsOutputs) {
+  std::optional<Checkpoint> kept;
+  const End stopped =
+      run(make_scene(), make_settings(1e-6, TolerancePasses::one),
+          keep_in(kept), ask_after(0.6));
+  EXPECT_THAT(stopped.words, HasSubstr("asked to end at t = "));
+  EXPECT_EQ(stopped.outputs, 2U);
 }
 
 TEST(Interruption, KeepsWhatWasComputed) {

@@ -17,7 +17,7 @@ SystemState make_spinning(double rate) {
 
 // A run of 1 s, whose first step is 1e-4 s.
 StepControl make_control(double longest = 1.0, double refinement = 1.0) {
-  return {1e-6, 1.0, longest, refinement};
+  return {ErrorBudget::each(1e-6), 1.0, longest, refinement};
 }
 
 TEST(StepControl, StartsWithATenThousandthOfTheRun) {
@@ -124,8 +124,12 @@ TEST(StepControl, ShortensAllLimitsByTheRefinement) {
     }
     return h;
   };
-  EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), resting), 0.075);
-  EXPECT_DOUBLE_EQ(settle(StepControl(1.0, 1.0, 0.3, 0.25), turning), 0.0025);
+  EXPECT_DOUBLE_EQ(
+      settle(StepControl(ErrorBudget::each(1.0), 1.0, 0.3, 0.25), resting),
+      0.075);
+  EXPECT_DOUBLE_EQ(
+      settle(StepControl(ErrorBudget::each(1.0), 1.0, 0.3, 0.25), turning),
+      0.0025);
 }
 
 }  // namespace

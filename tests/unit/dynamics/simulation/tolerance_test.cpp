@@ -94,6 +94,26 @@ TEST_P(ToleranceOf, HoldsAtEveryOutputOfAnOscillator) {
 
 INSTANTIATE_TEST_SUITE_P(, ToleranceOf, ::testing::Values(1e-3, 1e-5, 1e-7));
 
+// Errors of thousands of steps add up, so that each has its share.
+TEST(Tolerance, IsKeptInOnePassHoweverManyStepsItTakes) {
+  const Oscillator o = make_oscillator();
+  for (const double end : {0.3, 3.0, 30.0}) {
+    for (const double tolerance : {1e-2, 1e-4}) {
+      SimulationSettings settings = to_tolerance(tolerance, end, 100);
+      settings.passes = TolerancePasses::one;
+      const RunOutcome r = run_from(o.model, o.state, settings);
+      EXPECT_EQ(r.statistics.passes, 1);
+      double largest = 0.0;
+      for (const SystemState& state : r.states) {
+        const double right = std::cos(10.0 * state.t);
+        largest = std::max(largest, std::abs(state.bodies[0].p_WB.x() - right));
+      }
+      EXPECT_LT(largest, 1.5 * tolerance) << end;
+      EXPECT_GT(largest, 0.01 * tolerance) << end;
+    }
+  }
+}
+
 TEST(Tolerance, CountsTheSolutionsOfAllPasses) {
   const Oscillator o = make_oscillator();
   const SimulationStatistics statistics =
@@ -202,7 +222,7 @@ TEST(StepControl, TakesTheFewestStepsForTheSumOfTheirErrors) {
   // A step of h errs by C h^3, for a moment a million times more.
   const double fast = 0.05;
   const auto rate = [&](double t) { return t < fast ? 1e6 : 1.0; };
-  StepControl control(1e-9, 1.0, 1.0);
+  StepControl control(ErrorBudget::each(1e-9), 1.0, 1.0);
   const SystemState no_bodies;
   double t = 0.0;
   double errors = 0.0;
