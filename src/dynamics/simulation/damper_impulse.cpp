@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
-#include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
@@ -24,8 +26,11 @@ constexpr int kPasses = 3;
 constexpr double kScale = 1e30;
 // A damper whose power falls by less is resolved by the step [-].
 constexpr double kResolved = 0.9;
-// Energy relative to the kinetic energy below which no impulse is applied [-].
+// Energy relative to that of the joined bodies' relative motion below which no
+// impulse is applied [-].
 constexpr double kHarmless = 1e-6;
+// Round-off of a relative velocity, relative to the velocities [-].
+constexpr double kVelocityNoise = 8.0 * std::numeric_limits<double>::epsilon();
 
 double find_target_rate(const Transmission& transmission,
                         const joints::ScalarMotion& motion,
@@ -39,10 +44,6 @@ double find_target_rate(const Transmission& transmission,
     first += static_cast<std::size_t>(joints::switch_count(law));
   }
   return sum.rate();
-}
-
-double find_kinetic(const EnergyBalance& energy) {
-  return energy.kinetic_rigid + energy.kinetic_modal;
 }
 
 void add_velocities(const SystemModel& model, const VectorX& x,
@@ -75,21 +76,58 @@ class DamperFilter {
         residual_(VectorX::Zero(count_unknowns(model))),
         x_(residual_) {}
 
-  // Powers dissipated by couplers, transmissions, pairs and, last, all modes
-  // [W].
+  // Powers dissipated by couplers, transmissions, pairs and the modes of each
+  // body [W].
   std::vector<double> find_powers(const SystemState& state) {
     calc_terms(model_, state, Side::right, terms_);
     std::vector<double> powers;
-    double rest = terms_.dissipated_power;
-    const auto add = [&](double power) {
-      powers.push_back(power);
-      rest -= power;
-    };
-    for (const auto& c : terms_.couplers) add(c.response.dissipation);
-    for (const auto& t : terms_.transmissions) add(t.response.dissipation);
-    for (const auto& pair : terms_.pairs.responses) add(pair.dissipation);
-    powers.push_back(rest);
+    for (const auto& c : terms_.couplers) {
+      powers.push_back(c.response.dissipation);
+    }
+    for (const auto& t : terms_.transmissions) {
+      powers.push_back(t.response.dissipation);
+    }
+    for (const auto& pair : terms_.pairs.responses) {
+      powers.push_back(pair.dissipation);
+    }
+    for (const BodyModel& body : model_.bodies) {
+      const auto rate = state.etadot.segment(body.offset, body.modes);
+      powers.push_back(rate.dot(body.damping.cwiseProduct(rate)));
+    }
     return powers;
+  }
+
+  // The part of each that is round-off of velocities, after find_powers [W].
+  [[nodiscard]] std::vector<double> find_power_noise() const {
+    std::vector<double> noise;
+    for (std::size_t i = 0; i < model_.couplers.size(); ++i) {
+      const Coupler& coupler = model_.couplers[i];
+      const AttachmentMotion& F = motion_of(coupler.frame_F);
+      const AttachmentMotion& M = motion_of(coupler.frame_M);
+      const double v = F.v_WF_W.norm() + M.v_WF_W.norm();
+      const double w = F.w_WF_W.norm() + M.w_WF_W.norm();
+      Vector6 gap;
+      gap << v, v, v, w, w, w;
+      gap *= kVelocityNoise;
+      noise.push_back(
+          gap.dot(terms_.couplers[i].response.damping.cwiseAbs() * gap));
+    }
+    noise.resize(noise.size() + model_.transmissions.size() +
+                     model_.pairs.size() + model_.bodies.size(),
+                 0.0);
+    return noise;
+  }
+
+  // Change of the kinetic energy, without the energy of common motion that a
+  // difference of two energies would round [J].
+  double find_kinetic_change(const SystemState& before,
+                             const SystemState& after) {
+    leave_dampers_alone();
+    const VectorX from = collect_velocities(before);
+    const VectorX to = collect_velocities(after);
+    set_rates(to - from);
+    calc_residual(model_, rates_, terms_, residual_);
+    return 0.5 * residual_.dot(from + to);
   }
 
   // Changes the velocities of the last find_powers. @returns the work of drives
@@ -110,6 +148,37 @@ class DamperFilter {
   }
 
  private:
+  [[nodiscard]] const AttachmentMotion& motion_of(AttachmentIndex i) const {
+    return terms_.attachments[static_cast<std::size_t>(i)];
+  }
+
+  [[nodiscard]] VectorX collect_velocities(const SystemState& state) const {
+    VectorX v = VectorX::Zero(x_.size());
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyModel& body = model_.bodies[b];
+      const Eigen::Index row = first_row(body, b);
+      v.segment(row + 6, body.modes) =
+          state.etadot.segment(body.offset, body.modes);
+      if (!body.has_rigid_motion()) continue;
+      v.segment<3>(row) = state.bodies[b].v_WB_W;
+      v.segment<3>(row + 3) = state.bodies[b].w_WB_B;
+    }
+    v.tail(model_.nodal_count) = state.udot_H;
+    return v;
+  }
+
+  void set_rates(const VectorX& x) {
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const BodyModel& body = model_.bodies[b];
+      const Eigen::Index row = first_row(body, b);
+      rates_.translation[b] = x.segment<3>(row);
+      rates_.rotation[b] = x.segment<3>(row + 3);
+      rates_.modes.segment(body.offset, body.modes) =
+          x.segment(row + 6, body.modes);
+    }
+    rates_.nodes = x.tail(model_.nodal_count);
+  }
+
   [[nodiscard]] std::size_t link_count() const {
     return model_.couplers.size() + model_.transmissions.size();
   }
@@ -152,15 +221,7 @@ class DamperFilter {
   // X x = x - (M + h C)^-1 M x: unlike h C x, without round-off of large
   // damping in undamped directions.
   void filter_increments() {
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyModel& body = model_.bodies[b];
-      const Eigen::Index row = first_row(body, b);
-      rates_.translation[b] = x_.segment<3>(row);
-      rates_.rotation[b] = x_.segment<3>(row + 3);
-      rates_.modes.segment(body.offset, body.modes) =
-          x_.segment(row + 6, body.modes);
-    }
-    rates_.nodes = x_.tail(model_.nodal_count);
+    set_rates(x_);
     calc_residual(model_, rates_, terms_, residual_);
     residual_ *= -kScale / h_;
     for (Vector6& gap : gaps_) gap.setZero();
@@ -211,21 +272,42 @@ class DamperFilter {
   VectorX x_;
 };
 
-// Decrease of the power of dampers that the step does not resolve, and the
-// entry with the largest.
+// The bodies of each entry of DamperFilter::find_powers.
+std::vector<JoinedBodies> list_joined_bodies(const SystemModel& model) {
+  std::vector<JoinedBodies> all;
+  for (const Coupler& c : model.couplers) {
+    all.push_back(find_joined_bodies(model, c));
+  }
+  for (const Transmission& t : model.transmissions) {
+    all.push_back(find_joined_bodies(model, t));
+  }
+  for (const Pair& pair : model.pairs) all.push_back(find_joined_bodies(pair));
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) all.push_back({b});
+  return all;
+}
+
+// Decrease of the power of dampers that the step does not resolve, each beside
+// its own bodies' motion; the entry with the largest.
 struct Fall {
-  double power = 0.0;  // [W]
+  double power = 0.0;    // [W]
+  double kinetic = 0.0;  // of those bodies [J]
   std::size_t most = 0;
 };
 
+// @param kinetic energies of the relative motions [J]
+// @param noise decreases that are round-off [W]
 Fall find_fall(const std::vector<double>& before,
-               const std::vector<double>& after) {
+               const std::vector<double>& after,
+               const std::vector<double>& kinetic,
+               const std::vector<double>& noise, double h) {
   Fall fall;
   double most = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (!(after[i] < kResolved * before[i])) continue;
     const double by = before[i] - after[i];
+    if (!(h * by > kHarmless * kinetic[i]) || by <= noise[i]) continue;
     fall.power += by;
+    fall.kinetic += kinetic[i];
     if (by <= most) continue;
     most = by;
     fall.most = i;
@@ -246,23 +328,30 @@ std::string name_link(const SystemModel& model, std::size_t link) {
 std::optional<DamperImpulse> apply_damper_impulse(const SystemModel& model,
                                                   double h,
                                                   SystemState& state) {
-  SystemTerms terms = make_terms(model);
-  DamperImpulse impulse;
-  impulse.kinetic = find_kinetic(calc_energy(model, state, terms));
-  const double harmless = kHarmless * impulse.kinetic;
-  if (!(h * terms.dissipated_power > harmless)) return std::nullopt;
-  DamperFilter filter(model, h, std::move(terms));
+  DamperFilter filter(model, h, make_terms(model));
   const std::vector<double> before = filter.find_powers(state);
+  if (std::all_of(before.begin(), before.end(),
+                  [](double power) { return power == 0.0; })) {
+    return std::nullopt;
+  }
+  const std::vector<double> noise = filter.find_power_noise();
+  std::vector<double> kinetic;
+  for (const JoinedBodies& bodies : list_joined_bodies(model)) {
+    kinetic.push_back(find_relative_kinetic(model, state, bodies));
+  }
+  DamperImpulse impulse;
   SystemState changed = state;
   impulse.work = filter.apply(changed);
-  const Fall fall = find_fall(before, filter.find_powers(changed));
-  if (!(h * fall.power > harmless)) return std::nullopt;
+  const Fall fall =
+      find_fall(before, filter.find_powers(changed), kinetic, noise, h);
+  if (fall.power == 0.0) return std::nullopt;
   for (int i = 1; i < kPasses; ++i) {
     impulse.work += filter.apply(changed);
     static_cast<void>(filter.find_powers(changed));
   }
-  impulse.dissipated = impulse.kinetic + impulse.work -
-                       find_kinetic(calc_energy(model, changed));
+  impulse.kinetic = fall.kinetic;
+  impulse.dissipated =
+      impulse.work - filter.find_kinetic_change(state, changed);
   impulse.coupler = name_link(model, fall.most);
   impulse.relaxation = 2.0 * impulse.dissipated / fall.power;
   state = changed;
@@ -277,7 +366,7 @@ std::string describe(const DamperImpulse& impulse, double t, double h) {
       "at t = {:.9g} s bodies move in ways that dampers, most {}, end within "
       "{:.2g} s, far less than the step of {:.3g} s: an impulse brought their "
       "velocities onto what the dampers allow; it took {:.3g} J of {:.3g} J "
-      "of kinetic energy{}",
+      "in the relative motion of the bodies joined there{}",
       t, where, impulse.relaxation, h, impulse.dissipated, impulse.kinetic,
       impulse.work != 0.0
           ? fmt::format(", and drives did {:.3g} J of work", impulse.work)

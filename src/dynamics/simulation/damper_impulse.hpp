@@ -11,7 +11,7 @@ namespace limber::dynamics {
 /// Effect of an impulse of dampers.
 struct DamperImpulse {
   std::string coupler;      ///< with the largest loss of damper power, or empty
-  double kinetic = 0.0;     ///< energy before [J]
+  double kinetic = 0.0;     ///< energy before, of the motion damped [J]
   double dissipated = 0.0;  ///< [J]
   double work = 0.0;        ///< of drives [J]
   double relaxation = 0.0;  ///< approximate time in which dampers act [s]
@@ -37,7 +37,8 @@ struct DamperImpulse {
 ///            friction is excluded.
 ///
 /// Does nothing unless a damper's power falls by more than a tenth, and the
-/// energy of this decrease over the step exceeds 1e-6 of the kinetic energy.
+/// energy of this decrease over the step exceeds 1e-6 of that of the relative
+/// motion of the bodies it joins (find_relative_kinetic).
 /// @param h the following step [s]
 /// @throws NumericalError naming the coupler, as its forces do.
 [[nodiscard]] std::optional<DamperImpulse> apply_damper_impulse(

@@ -99,6 +99,66 @@ TEST(DamperImpulse, LeavesDampersAloneThatTheStepFollows) {
   }
 }
 
+// 1 mm/s beside a common velocity, a common rotation or another body's motion
+// with energies 1e14 times as large: 1e-6 of all kinetic energy would be more
+// than a damper can take.
+struct Company {
+  Vector3 velocity = Vector3::Zero();  // of all [m/s]
+  double spin = 0.0;                   // about the pair's centre [rad/s]
+  double stranger = 0.0;               // mass of a third body [kg]
+};
+
+DamperImpulse impulse_in(const Company& company, Vector3& gap) {
+  SystemBuilder builder;
+  const testing::Mass a = testing::add_mass(builder, "a", kMassA);
+  const testing::Mass b = testing::add_mass(builder, "b", kMassB);
+  joints::Bushing::Parameters pad;
+  pad.translational_damping = 1e8 * Matrix3::Identity();
+  builder.add_coupler("pad", joints::Bushing(pad), a.frame, b.frame);
+  if (company.stranger > 0.0) {
+    testing::add_mass(builder, "stranger", company.stranger);
+  }
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  for (BodyState& body : state.bodies) {
+    body.v_WB_W = company.velocity;
+    body.w_WB_B = {0.0, 0.0, company.spin};
+  }
+  state.bodies[1].v_WB_W += Vector3(1e-3, 0.0, 0.0);
+  if (company.stranger > 0.0) state.bodies[2].v_WB_W = {0.0, 7500.0, 0.0};
+  const auto impulse = apply_damper_impulse(model, 1e-3, state);
+  if (!impulse) return {};
+  gap = state.bodies[1].v_WB_W - state.bodies[0].v_WB_W;
+  return *impulse;
+}
+
+TEST(DamperImpulse, DoesNotDependOnCommonMotionOrStrangers) {
+  const double lost = 0.5 * kMassA * kMassB / (kMassA + kMassB) * 1e-6;
+  for (const Company& company :
+       {Company{}, Company{.velocity = {7500.0, 0.0, 0.0}},
+        Company{.velocity = {-3000.0, 6000.0, 1000.0}, .spin = 100.0},
+        Company{.stranger = 1e4},
+        Company{.velocity = {0.0, 0.0, 7500.0}, .stranger = 1e-3}}) {
+    Vector3 gap = Vector3::Ones();
+    const DamperImpulse impulse = impulse_in(company, gap);
+    EXPECT_EQ(impulse.coupler, "pad");
+    EXPECT_LT(gap.norm(), 1e-11);  // round-off at 7500 m/s is 1e-12
+    EXPECT_NEAR(impulse.dissipated, lost, 1e-6 * lost);
+  }
+}
+
+// The relative velocity of a rigid motion is round-off.
+TEST(DamperImpulse, DoesNotActOnRoundOff) {
+  Pair pair = make_pair(1e14, 1e12);
+  const Vector3 w(0.3, -1.0, 2.0);
+  const Vector3 v(7.1e3, -3.3e3, 1.7);
+  for (std::size_t b = 0; b < 2; ++b) {
+    pair.state.bodies[b].w_WB_B = w;
+    pair.state.bodies[b].v_WB_W = v + 1e-15 * v * static_cast<double>(b);
+  }
+  EXPECT_FALSE(apply_damper_impulse(pair.model, 1e-3, pair.state));
+}
+
 TEST(DamperImpulse, LeavesMotionAloneThatDampersAllow) {
   Pair pair = make_pair(1e14, 1e8);
   const Vector3 w(0.3, -1.0, 2.0);
