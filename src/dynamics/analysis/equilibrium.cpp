@@ -97,7 +97,7 @@ class Continuation {
       }
       step = 0.5 * (next - reached);
       if (step < settings_.smallest_share)
-        fail(reached, newton_.measure_force(unbalanced));
+        fail(reached, newton_.lengths().measure_forces(unbalanced).maxCoeff());
     }
     return steps;
   }
@@ -173,22 +173,21 @@ class Fall {
 /// Without loads, unstressed couplers have only round-off of their wrenches.
 bool is_balanced(const SystemModel& model, StaticNewton& newton,
                  const SystemState& state) {
-  constexpr double kNothing = 1e-9;  // of the extent
+  constexpr double kNothing = 1e-9;  // of the extents
   for (const Load& load : model.loads) {
     if (evaluate(load.function, now_of(state)) != 0.0) return false;
   }
   if (!model.body_loads.empty() || !model.gravity_W.isZero(0.0)) return false;
-  return newton.measure_slow_step(state) <= kNothing * newton.extent();
+  return newton.measure_slow_step(state) <= kNothing;
 }
 
 int relax(const SystemModel& model, StaticNewton& newton,
           const EquilibriumSettings& settings, SystemState& state) {
-  constexpr double kNear = 0.1;  // of the extent, to a peak's equilibrium
+  constexpr double kNear = 0.1;  // of the extents, to a peak's equilibrium
   constexpr double kSteps = 0.1;
   const VectorX balanced = VectorX::Zero(count_unknowns(model));
-  const double acceleration =
-      newton.measure_acceleration(newton.calc_forces_left(state));
-  const double time = std::sqrt(newton.extent() / acceleration);
+  const double time = 1.0 / std::sqrt(newton.lengths().measure_acceleration(
+                                newton.calc_forces_left(state)));
   const double t = state.t;
   // The scheme evaluates loads before their edges.
   state.t += 1e-9 * (std::abs(t) + time);
@@ -200,8 +199,8 @@ int relax(const SystemModel& model, StaticNewton& newton,
         if (!try_solve(newton, balanced,
                        {settings.tolerance, settings.newton_iterations},
                        trial) ||
-            newton.measure(find_increments(model, at, trial)) >
-                kNear * newton.extent()) {
+            newton.lengths().measure(find_increments(model, at, trial)) >
+                kNear) {
           return false;
         }
         at = trial;
@@ -235,7 +234,7 @@ Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
   Equilibrium found;
   found.state = stop(start);
   StaticNewton newton(model, found.state);
-  found.extent = newton.extent();
+  found.extent = newton.lengths().largest_extent();
   const VectorX unbalanced = newton.calc_forces_left(found.state);
   check_balance(model, found.state, newton.terms());
   if (unbalanced.isZero(0.0) || is_balanced(model, newton, found.state)) {
@@ -250,8 +249,8 @@ Equilibrium find_equilibrium(const SystemModel& model, const SystemState& start,
   }
   update_mean_frames(model, found.state);
   found.newton_iterations = newton.iterations();
-  found.distance =
-      newton.measure(find_increments(model, stop(start), found.state));
+  found.distance = newton.lengths().measure_length(
+      find_increments(model, stop(start), found.state));
   report(progress, "equilibrium", 1.0);
   return found;
 }

@@ -21,7 +21,7 @@ enum class EquilibriumMethod {
 
 struct EquilibriumSettings {
   EquilibriumMethod method = EquilibriumMethod::newton;
-  double tolerance = 1e-12;       ///< last correction over the extent [-]
+  double tolerance = 1e-12;       ///< last correction over the extents [-]
   int newton_iterations = 20;     ///< largest number per load step
   double smallest_share = 1e-4;   ///< of the load, a load step [-]
   double largest_share = 1.0;     ///< of the load, a load step [-]
@@ -34,8 +34,8 @@ struct Equilibrium {
   int load_steps = 0;         ///< count; 0: the start is in equilibrium
   int newton_iterations = 0;  ///< count
   int relaxation_steps = 0;   ///< count
-  double distance = 0.0;      ///< from the start, mass-weighted [m]
-  double extent = 0.0;        ///< of the system [m]
+  double distance = 0.0;      ///< from the start, mass-weighted in a group [m]
+  double extent = 0.0;        ///< of the largest group [m]
 };
 
 /// Static equilibrium under loads, gravity, couplers and drives at their

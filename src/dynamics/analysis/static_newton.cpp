@@ -14,12 +14,15 @@
 namespace limber::dynamics {
 namespace {
 
-// Step of force differences relative to the extent.
+// Step of force differences, relative to the extents of groups.
 constexpr double kProbe = 1e-7;
-// Largest correction relative to the extent.
+// Largest correction, likewise.
 constexpr double kLongestCorrection = 0.2;
-// Tolerance of the linear solution of a correction.
+// Tolerance of the linear solution of a correction, and where corrections do
+// not decrease: beside large motion of soft coordinates the former can leave
+// forces in stiff couplers.
 constexpr double kLinear = 1e-4;
+constexpr double kFineLinear = 1e-9;
 // Forces that balance, relative to those that were left at first.
 constexpr double kLeft = 1e-11;
 // Above this residual the matrix is singular.
@@ -71,8 +74,7 @@ class SlowStep {
 
 StaticNewton::StaticNewton(const SystemModel& model, const SystemState& start)
     : model_(model),
-      weights_(find_length_weights(model)),
-      extent_(find_extent(model, start)),
+      lengths_(model, start),
       no_acceleration_(make_rates(model)),
       terms_(make_terms(model)),
       probed_(make_terms(model)),
@@ -81,8 +83,8 @@ StaticNewton::StaticNewton(const SystemModel& model, const SystemState& start)
       residual_(VectorX::Zero(count_unknowns(model))),
       base_(residual_),
       correction_(residual_) {
-  const double acceleration = measure_acceleration(calc_forces_left(start));
-  slowness_ = std::max(acceleration / extent_, 1e-12);
+  slowness_ =
+      std::max(lengths_.measure_acceleration(calc_forces_left(start)), 1e-12);
   wrenches_ = laws_;
 }
 
@@ -98,29 +100,13 @@ const VectorX& StaticNewton::calc_forces_left(const SystemState& state) {
   return residual_;
 }
 
-double StaticNewton::measure_force(const VectorX& residual) const {
-  // m r / m for translations, m r / (m r^2) for rotations, sqrt(m) r for modes,
-  // each times its weight: equal to r over weight.
-  double squared = 0.0;
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (weights_[i] > 0.0) squared += std::pow(residual[i] / weights_[i], 2);
-  }
-  return std::sqrt(squared);
-}
-
-double StaticNewton::measure_acceleration(const VectorX& residual) const {
-  double mass = 0.0;
-  for (const BodyModel& body : model_.bodies) mass += body.mass;
-  return measure_force(residual) / mass;
-}
-
 BodyIndex StaticNewton::most_moved() const {
   BodyIndex most(0);
   double largest = -1.0;
   for (BodyIndex b(0); b < std::ssize(model_.bodies); ++b) {
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
     const Eigen::Index row = first_row(body, index(b));
-    const VectorX moved = correction_.cwiseProduct(weights_);
+    const VectorX moved = correction_.cwiseProduct(lengths_.weights());
     double squared = moved.segment(row, 6 + body.modes).squaredNorm();
     if (body.full >= 0) {
       const auto& full =
@@ -140,9 +126,9 @@ BodyIndex StaticNewton::most_moved() const {
 /// motion.
 VectorX StaticNewton::apply(const SystemState& state,
                             const VectorX& direction) {
-  const double length = measure(direction);
+  const double length = lengths_.measure(direction);
   if (!(length > 0.0)) return VectorX::Zero(direction.size());
-  const double share = kProbe * extent_ / length;
+  const double share = kProbe / length;
   matrix_.find_wrench_changes(terms_, direction, changes_);
   set_applied(wrenches_ + share * changes_, probed_);
   SystemState near = state;
@@ -166,14 +152,16 @@ double StaticNewton::measure_slow_step(const SystemState& state) {
   wrenches_ = laws_;
   factor(state);
   matrix_.solve(model_, terms_, left, correction_);
-  return measure(correction_);
+  return lengths_.measure(correction_);
 }
 
-bool StaticNewton::correct(const SystemState& state, const VectorX& right) {
+bool StaticNewton::correct(const SystemState& state, const VectorX& right,
+                           double tolerance) {
   factor(state);
-  // Unknowns are lengths, so that norms are means over the system.
+  // Unknowns are lengths, so that norms are means over groups.
+  const VectorX& weights = lengths_.weights();
   const VectorX scale =
-      (weights_.array() > 0.0).select(weights_.cwiseInverse(), 1.0);
+      (weights.array() > 0.0).select(weights.cwiseInverse(), 1.0);
   const MatrixFree map(scale.size(), [&](const VectorX& lengths) {
     return apply(state, scale.cwiseProduct(lengths));
   });
@@ -185,7 +173,7 @@ bool StaticNewton::correct(const SystemState& state, const VectorX& right) {
   });
   solver.set_restart(std::min<Eigen::Index>(kKrylovVectors, scale.size()));
   solver.setMaxIterations(kKrylovIterations);
-  solver.setTolerance(kLinear);
+  solver.setTolerance(tolerance);
   correction_ = scale.cwiseProduct(VectorX(solver.solve(right)));
   return solver.error() <= kSolved && correction_.allFinite();
 }
@@ -195,26 +183,27 @@ bool StaticNewton::solve(const VectorX& target, const Settings& settings,
   (void)calc_forces_left(state);
   wrenches_ = laws_;
   double last = 0.0;
-  double first = 0.0;  // force left
+  double tolerance = kLinear;
+  VectorX first;  // forces left of groups
   for (int i = 0; i < settings.max_iterations; ++i) {
     ++iterations_;
     const VectorX right = target - calc_forces_left(state);
-    const double force = measure_force(right);
-    if (i == 0) first = force;
+    const VectorX forces = lengths_.measure_forces(right);
+    if (i == 0) first = forces;
     // Free motion makes the matrix singular: it has no solution for round-off.
-    if (i > 0 && force <= kLeft * first) return true;
-    if (!correct(state, right)) return false;
-    const double length = measure(correction_);
-    const double share = std::min(1.0, kLongestCorrection * extent_ / length);
+    if (i > 0 && (forces.array() <= kLeft * first.array()).all()) return true;
+    if (!correct(state, right, tolerance)) return false;
+    const double left = lengths_.measure(correction_);
+    const double share = std::min(1.0, kLongestCorrection / left);
     matrix_.find_wrench_changes(terms_, correction_, changes_);
     wrenches_ += share * (laws_ - wrenches_ + changes_);
     displace(model_, correction_, share, state);
-    const double left = length / extent_;
     if (share == 1.0 && left <= settings.tolerance) return true;
     // Round-off: corrections no longer decrease.
     constexpr double kFineLength = 1e-9;
-    if (i > 0 && left < kFineLength && length > 0.5 * last) return true;
-    last = length;
+    if (i > 0 && left < kFineLength && left > 0.5 * last) return true;
+    if (i > 0 && left > 0.5 * last) tolerance = kFineLinear;
+    last = left;
   }
   return false;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "limber/dynamics/analysis/group_lengths.hpp"
 #include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
@@ -12,7 +13,7 @@ namespace limber::dynamics {
 class StaticNewton {
  public:
   struct Settings {
-    double tolerance = 1e-12;  ///< last correction over the extent [-]
+    double tolerance = 1e-12;  ///< last correction over the extents [-]
     int max_iterations = 20;   ///< count
   };
 
@@ -24,14 +25,8 @@ class StaticNewton {
   [[nodiscard]] const VectorX& calc_forces_left(const SystemState& state);
   [[nodiscard]] const SystemTerms& terms() const { return terms_; }
 
-  /// Force on the whole mass for the acceleration below [N].
-  [[nodiscard]] double measure_force(const VectorX& residual) const;
-
-  /// Root mean square acceleration that such forces cause [m/s^2].
-  [[nodiscard]] double measure_acceleration(const VectorX& residual) const;
-
-  /// Length of the preconditioner's correction at `state`: round-off if forces
-  /// balance [m].
+  /// The preconditioner's correction at `state`, by lengths().measure:
+  /// round-off if forces balance [-].
   [[nodiscard]] double measure_slow_step(const SystemState& state);
 
   /// Moves `state` to where calc_forces_left is `target`.
@@ -40,24 +35,20 @@ class StaticNewton {
              SystemState& state);
 
   [[nodiscard]] int iterations() const { return iterations_; }
-  [[nodiscard]] double extent() const { return extent_; }
+  [[nodiscard]] const GroupLengths& lengths() const { return lengths_; }
   /// Body that the last correction moved most.
   [[nodiscard]] BodyIndex most_moved() const;
-  /// Mass-weighted length of increments [m].
-  [[nodiscard]] double measure(const VectorX& increments) const {
-    return increments.cwiseProduct(weights_).norm();
-  }
 
  private:
   void evaluate(const SystemState& state, WrenchSource source,
                 SystemTerms& terms, VectorX& residual) const;
   void factor(const SystemState& state);
-  bool correct(const SystemState& state, const VectorX& right);
+  bool correct(const SystemState& state, const VectorX& right,
+               double tolerance);
   VectorX apply(const SystemState& state, const VectorX& direction);
 
   const SystemModel& model_;
-  VectorX weights_;
-  double extent_ = 0.0;
+  GroupLengths lengths_;
   double slowness_ = 0.0;  ///< coefficient of acceleration [1/s^2]
   Rates no_acceleration_;
   SystemTerms terms_;   ///< at the iterate

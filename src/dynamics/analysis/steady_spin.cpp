@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/dynamics/analysis/group_lengths.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/integrators/motion_scale.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -19,7 +22,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kSame = 1e-9;        // velocities of one rotation
+constexpr double kSame = 1e-9;  // velocities of one rotation
+// Of a velocity, relative to the common one.
+constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr double kTolerance = 1e-12;  // of the extent
 constexpr double kFine = 1e-9;        // from here corrections may be round-off
 constexpr double kLongest = 0.2;      // largest correction, of the extent
@@ -41,8 +46,7 @@ class Spin {
         v_0_(start.bodies.front().v_WB_W),
         terms_(make_terms(model)),
         rates_(make_rates(model)),
-        weights_(find_length_weights(model)),
-        extent_(find_extent(model, start)) {
+        lengths_(model, start) {
     check_model();
     check_velocities(start);
     check_loads(start);
@@ -53,7 +57,7 @@ class Spin {
     for (int i = 0; i < kIterations; ++i) {
       turn(state);
       const VectorX correction = correct(state);
-      const double length = correction.cwiseProduct(weights_).norm() / extent_;
+      const double length = lengths_.measure(correction);
       if (!std::isfinite(length)) break;
       displace(model_, correction, std::min(1.0, kLongest / length), state);
       const bool is_round_off = length < kFine && length > 0.5 * last;
@@ -91,11 +95,13 @@ class Spin {
   void check_velocities(const SystemState& start) const {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyState& at = start.bodies[b];
-      const double scale = w_.norm() * extent_ + v_0_.norm();
+      const double scale = w_.norm() * ((at.p_WB - p_0_).norm() +
+                                        find_reach(model_, BodyIndex(b)));
+      const double rounding = kRounding * v_0_.norm();
       const bool turns =
           (at.quat_WB * at.w_WB_B - w_).norm() <= kSame * w_.norm();
-      const bool follows =
-          (at.v_WB_W - find_velocity(at.p_WB)).norm() <= kSame * scale;
+      const bool follows = (at.v_WB_W - find_velocity(at.p_WB)).norm() <=
+                           kSame * scale + rounding;
       if (turns && follows && model_.bodies[b].has_rigid_motion()) continue;
       throw InputError(fmt::format(
           "body '{}' does not rotate with the others at ({:.6g}, {:.6g}, "
@@ -233,8 +239,7 @@ class Spin {
   Vector3 v_0_;    // and its velocity [m/s]
   SystemTerms terms_;
   Rates rates_;
-  VectorX weights_;
-  double extent_;
+  GroupLengths lengths_;
 };
 
 }  // namespace

@@ -77,51 +77,91 @@ std::vector<std::vector<BodyIndex>> collect_groups(const SystemModel& model,
   return by_root;
 }
 
-/// Force and moment about the world's origin.
+/// Force and moment about a point.
 struct Wrench {
+  Vector3 point;
   Vector3 force = Vector3::Zero();
   Vector3 moment = Vector3::Zero();
 
   void add(const Vector3& p, const Vector3& f, const Vector3& m) {
     force += f;
-    moment += p.cross(f) + m;
+    moment += (p - point).cross(f) + m;
   }
 };
+
+/// The bodies of a free group, and where they are.
+struct Group {
+  std::vector<BodyIndex> bodies;
+  std::vector<char> has;  ///< of all bodies, whether it is one of them
+  Vector3 centre;         ///< of mass [m]
+  double reach = 0.0;     ///< from it, with the radius of gyration [m]
+
+  [[nodiscard]] bool contains(BodyIndex b) const {
+    return b != kWorld && has[static_cast<std::size_t>(b)] != 0;
+  }
+};
+
+Group describe_group(const SystemModel& model, const SystemState& state,
+                     const std::vector<BodyIndex>& bodies) {
+  Group group{bodies, std::vector<char>(model.bodies.size(), 0),
+              Vector3::Zero()};
+  double mass = 0.0;
+  for (const BodyIndex b : bodies) {
+    const auto i = static_cast<std::size_t>(b);
+    group.has[i] = 1;
+    mass += model.bodies[i].mass;
+    group.centre += model.bodies[i].mass * state.bodies[i].p_WB;
+  }
+  group.centre /= mass;
+  for (const BodyIndex b : bodies) {
+    const auto i = static_cast<std::size_t>(b);
+    group.reach =
+        std::max(group.reach, (state.bodies[i].p_WB - group.centre).norm() +
+                                  radius_of_gyration(model.bodies[i]));
+  }
+  return group;
+}
 
 /// Sums of magnitudes, without cancellation.
 struct Magnitudes {
   double force = 0.0;   ///< [N]
-  double moment = 0.0;  ///< about any point within the system [N m]
+  double moment = 0.0;  ///< about any point within the group [N m]
 };
 
 Magnitudes find_magnitudes(const SystemModel& model, const SystemState& state,
-                           const SystemTerms& terms) {
+                           const SystemTerms& terms, const Group& group) {
   Magnitudes sum;
+  const auto holds = [&](AttachmentIndex a) {
+    return group.contains(model.attachments[static_cast<std::size_t>(a)].body);
+  };
   for (const Load& load : model.loads) {
+    if (!holds(load.where)) continue;
     const double c = std::abs(evaluate(load.function, now_of(state)));
     sum.force += c * load.force.norm();
     sum.moment += c * load.moment.norm();
   }
-  for (const CouplerTerms& coupler : terms.couplers) {
-    sum.force += coupler.applied.head<3>().norm();
-    sum.moment += coupler.applied.tail<3>().norm();
+  for (std::size_t i = 0; i < model.couplers.size(); ++i) {
+    const Coupler& coupler = model.couplers[i];
+    if (!holds(coupler.frame_F) && !holds(coupler.frame_M)) continue;
+    sum.force += terms.couplers[i].applied.head<3>().norm();
+    sum.moment += terms.couplers[i].applied.tail<3>().norm();
   }
-  for (const joints::PairResponse& pair : terms.pairs.responses) {
-    for (const joints::PairPoint& point : pair.points()) {
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    const Pair& pair = model.pairs[i];
+    if (!group.contains(pair.body_A) && !group.contains(pair.body_B)) continue;
+    for (const auto& point : terms.pairs.responses[i].points()) {
       sum.force += point.force_W.norm();
     }
   }
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
+  for (const BodyIndex b : group.bodies) {
+    const auto i = static_cast<std::size_t>(b);
+    const BodyModel& body = model.bodies[i];
     sum.force += body.mass * model.gravity_W.norm() +
-                 std::sqrt(body.mass) * terms.bodies[b].modal_force.norm();
+                 std::sqrt(body.mass) * terms.bodies[i].modal_force.norm();
+    if (body.full < 0) continue;
+    sum.force += terms.full[static_cast<std::size_t>(body.full)].force.norm();
   }
-  for (const FullTerms& full : terms.full) sum.force += full.force.norm();
-  double reach = find_extent(model, state);
-  for (const BodyState& body : state.bodies) {
-    reach = std::max(reach, body.p_WB.norm());
-  }
-  sum.moment += reach * sum.force;
+  sum.moment += group.reach * sum.force;
   return sum;
 }
 
@@ -236,17 +276,6 @@ VectorX find_length_weights(const SystemModel& model) {
   return weights / std::sqrt(mass);
 }
 
-double find_extent(const SystemModel& model, const SystemState& state) {
-  double radius = 0.0;
-  double distance = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    radius = std::max(radius, radius_of_gyration(model.bodies[b]));
-    distance = std::max(
-        distance, (state.bodies[b].p_WB - state.bodies.front().p_WB).norm());
-  }
-  return radius + distance;
-}
-
 std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
   return collect_groups(model, find_groups(model));
 }
@@ -259,11 +288,12 @@ std::vector<std::vector<BodyIndex>> find_linked_groups(
 void check_balance(const SystemModel& model, const SystemState& state,
                    const SystemTerms& terms) {
   constexpr double kBalanced = 1e-10;  // of the magnitudes: round-off
-  const Magnitudes all = find_magnitudes(model, state, terms);
-  for (const std::vector<BodyIndex>& group : find_free_groups(model)) {
-    Wrench sum;
-    for (const BodyIndex b : group) add_body(model, state, terms, b, sum);
-    const std::string who = name_group(model, group);
+  for (const std::vector<BodyIndex>& bodies : find_free_groups(model)) {
+    const Group group = describe_group(model, state, bodies);
+    const Magnitudes all = find_magnitudes(model, state, terms, group);
+    Wrench sum{group.centre};
+    for (const BodyIndex b : bodies) add_body(model, state, terms, b, sum);
+    const std::string who = name_group(model, bodies);
     if (sum.force.norm() > kBalanced * all.force) {
       refuse(who, "force", sum.force, "N", "along");
     }

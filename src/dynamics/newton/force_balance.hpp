@@ -26,11 +26,6 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
 ///            + m |du|^2 / N) / sum_b m,   r the radius of gyration
 [[nodiscard]] VectorX find_length_weights(const SystemModel& model);
 
-/// Extent of a configuration: the largest distance between two bodies'
-/// origins plus the largest radius of gyration [m].
-[[nodiscard]] double find_extent(const SystemModel& model,
-                                 const SystemState& state);
-
 /// Groups of connected bodies without a connection to the world.
 [[nodiscard]] std::vector<std::vector<BodyIndex>> find_free_groups(
     const SystemModel& model);

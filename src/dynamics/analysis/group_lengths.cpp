@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/analysis/group_lengths.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limber/common/index.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
+
+namespace limber::dynamics {
+namespace {
+
+using Group = std::vector<BodyIndex>;
+
+double sum_masses(const SystemModel& model, const Group& group) {
+  double mass = 0.0;
+  for (const BodyIndex b : group) mass += model.bodies[index(b)].mass;
+  return mass;
+}
+
+Vector3 find_centre(const SystemModel& model, const SystemState& state,
+                    const Group& group) {
+  Vector3 sum = Vector3::Zero();
+  for (const BodyIndex b : group) {
+    sum += model.bodies[index(b)].mass * state.bodies[index(b)].p_WB;
+  }
+  return sum / sum_masses(model, group);
+}
+
+double find_extent(const SystemModel& model, const SystemState& state,
+                   const Group& group) {
+  const Vector3 centre = find_centre(model, state, group);
+  double radius = 0.0;
+  double distance = 0.0;
+  for (const BodyIndex b : group) {
+    const BodyModel& body = model.bodies[index(b)];
+    radius = std::max(radius, std::sqrt(0.5 * body.J0.trace() / body.mass));
+    distance =
+        std::max(distance, (state.bodies[index(b)].p_WB - centre).norm());
+  }
+  return radius + 2.0 * distance;
+}
+
+}  // namespace
+
+GroupLengths::GroupLengths(const SystemModel& model, const SystemState& start)
+    : group_of_row_(static_cast<std::size_t>(count_unknowns(model)), 0),
+      weights_(find_length_weights(model)) {
+  const std::vector<Group> groups = find_linked_groups(model);
+  extents_.resize(std::ssize(groups));
+  masses_.resize(std::ssize(groups));
+  double mass = 0.0;
+  for (const BodyModel& body : model.bodies) mass += body.mass;
+  weights_ *= std::sqrt(mass);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto place = static_cast<Eigen::Index>(g);
+    extents_[place] = find_extent(model, start, groups[g]);
+    masses_[place] = sum_masses(model, groups[g]);
+    for (const BodyIndex b : groups[g]) include_body(model, b, g);
+  }
+  for (Eigen::Index i = 0; i < weights_.size(); ++i) {
+    const Eigen::Index g = group_of_row_[static_cast<std::size_t>(i)];
+    weights_[i] /= std::sqrt(masses_[g]);
+  }
+}
+
+void GroupLengths::include_body(const SystemModel& model, BodyIndex b,
+                                std::size_t group) {
+  const BodyModel& body = model.bodies[index(b)];
+  const auto mark = [&](Eigen::Index first, Eigen::Index count) {
+    std::fill_n(group_of_row_.begin() + first, count,
+                static_cast<Eigen::Index>(group));
+  };
+  mark(first_row(body, index(b)), 6 + body.modes);
+  if (body.full < 0) return;
+  const FullModel& full =
+      model.full_bodies[static_cast<std::size_t>(body.full)];
+  mark(first_node_row(model) + full.first, full.dofs());
+}
+
+VectorX GroupLengths::sum_squares(const VectorX& weighted) const {
+  VectorX sums = VectorX::Zero(extents_.size());
+  for (Eigen::Index i = 0; i < weighted.size(); ++i) {
+    sums[group_of_row_[static_cast<std::size_t>(i)]] +=
+        weighted[i] * weighted[i];
+  }
+  return sums;
+}
+
+double GroupLengths::measure(const VectorX& increments) const {
+  const VectorX squares = sum_squares(increments.cwiseProduct(weights_));
+  // NaN counts as the largest.
+  return squares.cwiseSqrt()
+      .cwiseQuotient(extents_)
+      .maxCoeff<Eigen::PropagateNaN>();
+}
+
+double GroupLengths::measure_length(const VectorX& increments) const {
+  const VectorX squares = sum_squares(increments.cwiseProduct(weights_));
+  return std::sqrt(squares.maxCoeff());
+}
+
+double GroupLengths::largest_extent() const { return extents_.maxCoeff(); }
+
+// m r / m for translations, m r / (m r^2) for rotations, sqrt(m) r for modes,
+// each times its weight: equal to r over weight.
+VectorX GroupLengths::measure_forces(const VectorX& residual) const {
+  const VectorX over =
+      (weights_.array() > 0.0).select(residual.cwiseQuotient(weights_), 0.0);
+  return sum_squares(over).cwiseSqrt();
+}
+
+double GroupLengths::measure_acceleration(const VectorX& residual) const {
+  return measure_forces(residual)
+      .cwiseQuotient(masses_)
+      .cwiseQuotient(extents_)
+      .maxCoeff();
+}
+
+}  // namespace limber::dynamics
