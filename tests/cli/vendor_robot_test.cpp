@@ -65,6 +65,41 @@ TEST_F(VendorRobot, FallsWithANoteUnlessItsBaseIsFixed) {
   EXPECT_NEAR(still["probes"]["z.uz"]["final"].get<double>(), 0.0, 1e-6);
 }
 
+TEST_F(VendorRobot, IsSaidOnceToFallByEveryCommandThatItMattersTo) {
+  const std::string note = "note: link 'a' falls freely";
+  const auto count = [&](const std::string& text) {
+    int found = 0;
+    for (std::size_t i = text.find(note); i != std::string::npos;
+         i = text.find(note, i + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  place_.write("study.toml",
+               "scenario = 's.toml'\n[design]\nkind = 'monte-carlo'\nsamples "
+               "= 2\nseed = 1\n[[factor]]\nname = 'step'\npath = 'time.step'\n"
+               "uniform = [5e-4, 1e-3]\n[[response]]\nname = 'z'\nprobe = "
+               "'z.uz'\n");
+  for (const char* command :
+       {"run s.toml --out o", "static s.toml --out t", "frequencies s.toml",
+        "linearize s.toml -o m.json",
+        "linearize s.toml -o m.json --at "
+        "equilibrium",
+        "compare s.toml --out c", "study study.toml --out d"}) {
+    const CommandResult falls = place_.limber(command);
+    EXPECT_EQ(count(falls.errors), 1) << command << "\n" << falls.errors;
+    if (std::string(command).starts_with("study")) continue;
+    const CommandResult stands =
+        place_.limber(std::string(command) + " --set robot.base=fixed");
+    EXPECT_EQ(count(stands.errors), 0) << command << "\n" << stands.errors;
+  }
+  for (const char* command :
+       {"frequencies s.toml --json", "linearize s.toml -o m.json --json"}) {
+    const json report = json::parse(place_.limber(command).out);
+    EXPECT_EQ(report["notes"].size(), 1U) << command;
+  }
+}
+
 TEST_F(VendorRobot, FindsItsPackagesInEveryCommand) {
   EXPECT_THAT(place_.limber("run s.toml --out o").errors,
               AllOf(HasSubstr("1 <visual> left out of pictures"),

@@ -11,6 +11,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
@@ -18,7 +19,6 @@
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/charts/level_picture.hpp"
-#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -34,7 +34,7 @@ struct AdviseOptions {
 };
 
 scene::Scene load_advise_scene(const AdviseOptions& options) {
-  scene::Scene scene = scene::load_scene(
+  scene::Scene scene = load_with_notes(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   dynamics::AdviceSettings& advice = scene.scenario.advice;
   const auto replace = [](auto& value, const auto& other) {

@@ -14,6 +14,7 @@
 #include "limber/app/console/percent.hpp"
 #include "limber/app/console/text_file.hpp"
 #include "limber/app/options/list_option.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
@@ -207,7 +208,7 @@ void compare(const CompareOptions& options) {
   const std::optional<Demand> demand = make_demand(options);
   const ComparisonSettings settings = make_settings(options);
   const scene::Scene scene =
-      scene::load_scene(options.scenario, {.settings = settings.settings});
+      load_with_notes(options.scenario, {.settings = settings.settings});
   const ComparisonPlan plan = make_plan(axes, wish, scene);
   // Errors of the scene are found before anything is written.
   for (const Choice& choice : plan.runs) {

@@ -8,11 +8,11 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/reports/frequency_report.hpp"
-#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -27,7 +27,7 @@ struct FrequenciesOptions {
 };
 
 void report_frequencies(const FrequenciesOptions& options) {
-  const scene::Scene scene = scene::load_scene(
+  const scene::Scene scene = load_with_notes(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   FrequencyReport report =
       find_frequencies(scene, options.cache, make_progress_bar());
@@ -36,6 +36,7 @@ void report_frequencies(const FrequenciesOptions& options) {
     report.warnings.push_back(fmt::format(
         "--count {}: there are {}", *options.count, report.modes.modes.size()));
   }
+  print_more_notes(scene, report.notes);
   print_warnings(report.warnings);
   constexpr int kDefaultCount = 20;
   const int count = options.count.value_or(kDefaultCount);

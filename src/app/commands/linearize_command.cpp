@@ -11,12 +11,12 @@
 #include "limber/app/console/json.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/list_option.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
 #include "limber/app/run/linear_run.hpp"
 #include "limber/results/linear_model_file.hpp"
-#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -37,11 +37,12 @@ LinearRun find_linear_run(const LinearizeOptions& options) {
   results::check_linear_model_ending(options.file);
   const LinearRequest request = {parse_reference(options.at), options.selection,
                                  options.states};
-  const scene::Scene scene = scene::load_scene(
+  const scene::Scene scene = load_with_notes(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
   const Progress progress = make_progress_bar();
   LinearRun run = linearise_scene(scene, request, options.cache, progress);
   clear_progress_bar();
+  print_more_notes(scene, run.notes);
   return run;
 }
 
@@ -74,6 +75,7 @@ void print_linear_json(const LinearizeOptions& options,
     json["error_bound"] = record.bound;
   }
   json["file"] = options.file;
+  json["notes"] = found.notes;
   json["warnings"] = record.warnings;
   fmt::print("{}\n", to_text(json));
 }

@@ -8,6 +8,7 @@
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/options/validators.hpp"
@@ -18,7 +19,6 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/system/fidelity.hpp"
 #include "limber/results/checkpoint_file.hpp"
-#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -75,7 +75,7 @@ void run_scenario(const RunOptions& options) {
   } else if (scenario.empty()) {
     throw InputError("limber run needs a scenario, or --from");
   }
-  scene::Scene scene = scene::load_scene(scenario, overrides);
+  scene::Scene scene = load_with_notes(scenario, overrides);
   if (!name.empty()) scene.scenario.name = name;
   const OutputFolder folder(find_run_folder(options, scene.scenario));
   DeferredSignals signals;

@@ -7,13 +7,13 @@
 
 #include "limber/app/commands/commands.hpp"
 #include "limber/app/console/terminal.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/setting_options.hpp"
 #include "limber/app/options/shared_options.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/app/run/static_run.hpp"
 #include "limber/common/errors.hpp"
-#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -30,7 +30,7 @@ struct StaticOptions {
 };
 
 scene::Scene load_static_scene(const StaticOptions& options) {
-  return scene::load_scene(
+  return load_with_notes(
       options.scenario, to_overrides(options.settings_given, options.fidelity));
 }
 
@@ -68,6 +68,7 @@ void report_equilibrium(const StaticOptions& options) {
   folder.write([&](const std::filesystem::path& place) {
     write_static(run, place, options.xdmf || run.scene.scenario.output.xdmf);
   });
+  print_more_notes(scene, run.built.notes);
   print_warnings(run.warnings);
   if (options.json) {
     Json summary = summarize(run);

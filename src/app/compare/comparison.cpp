@@ -9,6 +9,7 @@
 
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/energy_audit.hpp"
@@ -114,6 +115,7 @@ class Runner {
                        progress, {}, settings_.keep_runs);
     done_ += cost;
     clear_progress_bar();
+    note(scene, run.built.notes);
     warn(run.built.warnings);
     return run;
   }
@@ -153,6 +155,12 @@ class Runner {
                            [this](const std::string& key, double seconds) {
                              reduction_seconds_[key] = seconds;
                            });
+  }
+
+  void note(const scene::Scene& scene, const std::vector<std::string>& notes) {
+    for (const std::string& text : notes) {
+      if (noted_.insert(text).second) print_more_notes(scene, {text});
+    }
   }
 
   void warn(const std::vector<std::string>& warnings) {
@@ -246,6 +254,7 @@ class Runner {
   double total_ = 1.0;  ///< of all runs
   std::map<std::string, double> reduction_seconds_;  ///< by content key
   std::set<std::string> warned_;
+  std::set<std::string> noted_;
 };
 
 }  // namespace

@@ -139,6 +139,10 @@ void print_error(const std::string& text) noexcept {
   print_line("error:", kRed, text);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& text : notes) print_line("note:", "", text);
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& text : warnings) {
     print_line("warning:", kYellow, text);

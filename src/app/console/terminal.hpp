@@ -22,6 +22,9 @@ void print_error(const std::string& text) noexcept;
 /// The same without "error: ".
 void print_notice(const std::string& text) noexcept;
 
+/// "limber: note: ..." lines likewise.
+void print_notes(const std::vector<std::string>& notes);
+
 /// "limber: warning: ..." lines likewise.
 void print_warnings(const std::vector<std::string>& warnings);
 

@@ -95,10 +95,12 @@ FrequencyReport find_frequencies(const scene::Scene& scene,
       scene, make_reducer(progress), cache, make_full_maker(progress));
   warn_of_unused_cache(cache, built);
   FrequencyReport report{
-      scene.scenario.file.string(), scene.scenario.name,
+      scene.scenario.file.string(),
+      scene.scenario.name,
       dynamics::find_natural_modes(built.model, built.initial),
       dynamics::find_natural_frequencies(built.model, built.initial),
-      built.warnings};
+      built.warnings,
+      built.notes};
   warn(report);
   return report;
 }
@@ -122,6 +124,7 @@ Json to_json(const FrequencyReport& f, int count) {
     if (std::ssize(json["modes"]) == count) break;
     json["modes"].push_back(list_mode(f, mode));
   }
+  json["notes"] = f.notes;
   json["warnings"] = f.warnings;
   return json;
 }

@@ -19,6 +19,7 @@ struct FrequencyReport {
   dynamics::NaturalModes modes;
   VectorX undamped;  ///< natural frequencies without damping, increasing [Hz]
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< as scene::BuiltScene
 };
 
 /// Natural modes of a scene about its start.

@@ -10,6 +10,7 @@
 #include "limber/app/console/numbered_stages.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
@@ -188,6 +189,7 @@ std::vector<BodyLevel> advise_scene(const scene::Scene& scene,
   const scene::BuiltScene rigid =
       build_at_level(scene, dynamics::Fidelity::rigid, flexible.known, cache);
   clear_progress_bar();
+  print_more_notes(scene, flexible.notes);
   print_warnings(flexible.warnings);
   std::optional<dynamics::LevelSurvey> survey(flexible.model);
   dynamics::Followed followed;

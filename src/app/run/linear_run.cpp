@@ -121,6 +121,7 @@ LinearRun linearise_scene(const scene::Scene& scene,
   run.linear = scene::linearise(scene.scenario, built.model, reference.state,
                                 built.probes, request.selection);
   run.record.warnings = built.warnings;
+  run.notes = built.notes;
   add_linear_warnings(reference.where, run);
   run.record.model = run.linear.model;
   if (request.states > 0) truncate(request.states, run);

@@ -32,7 +32,8 @@ struct LinearRequest {
 struct LinearRun {
   scene::LinearScene linear;  ///< with all states
   std::optional<dynamics::TruncatedModel> truncated;
-  results::LinearRecord record;  ///< the model that was asked for
+  results::LinearRecord record;    ///< the model that was asked for
+  std::vector<std::string> notes;  ///< as scene::BuiltScene
 };
 
 /// @param cache empty for the default one

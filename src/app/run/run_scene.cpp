@@ -9,6 +9,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/mode_options.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/app/reports/contact_report.hpp"
 #include "limber/app/reports/cut_contacts.hpp"
@@ -201,9 +202,7 @@ Run run_scene(const scene::Scene& scene, const std::filesystem::path& cache,
   Run run = simulate_scene(scene, make_reducer(progress), cache, progress,
                            checkpoints, true);
   clear_progress_bar();
-  for (const std::string& note : scene.scenario.notes) {
-    print_notice("note: " + note);
-  }
+  print_more_notes(scene, run.built.notes);
   print_warnings(run.built.warnings);
   print_warnings(run.statistics.warnings);
   return run;
@@ -256,7 +255,7 @@ Json summarize(const Run& run) {
   for (const BodyLevel& level : run.levels) {
     json["levels"].push_back(to_json(level));
   }
-  json["notes"] = run.scene.scenario.notes;
+  json["notes"] = run.built.notes;
   json["warnings"] = run.built.warnings;
   for (const auto& texts : {run.statistics.warnings, run.printed_warnings}) {
     for (const std::string& text : texts) json["warnings"].push_back(text);

@@ -143,6 +143,7 @@ Json summarize(const StaticRun& run) {
         Json{{"value", run.history.probe_rows[0][i]},
              {"unit", run.history.columns[i].unit}};
   }
+  json["notes"] = run.built.notes;
   json["probes"] = probes;
   if (run.scene.scenario.output.stress) json["stress"] = to_json(run.stress);
   json["warnings"] = run.warnings;

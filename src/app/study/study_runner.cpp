@@ -15,13 +15,13 @@
 #include "limber/app/console/interruption.hpp"
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
+#include "limber/app/options/scene_loading.hpp"
 #include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/run_manifest.hpp"
 #include "limber/app/study/study_worker.hpp"
 #include "limber/common/duration.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
-#include "limber/scene/build/load_scene.hpp"
 
 namespace limber::app {
 namespace {
@@ -218,12 +218,13 @@ StudyBase make_base(const Study& study, const Design& design,
                     const std::filesystem::path& cache) {
   StudyBase base;
   base.scene =
-      scene::load_scene(study.scenario, to_overrides(study, design.front()));
+      load_with_notes(study.scenario, to_overrides(study, design.front()));
   const Progress progress = make_progress_bar();
   base.built = scene::build_system(base.scene, make_reducer(progress), cache,
                                    make_full_maker(progress));
   warn_of_unused_cache(cache, base.built);
   clear_progress_bar();
+  print_more_notes(base.scene, base.built.notes);
   print_warnings(base.built.warnings);
   check_responses(study, base.scene, base.built);
   base.manifest =

@@ -123,7 +123,11 @@ void Assembly::add_inputs() { scene::add_inputs(scene_.scenario, builder_); }
 
 void Assembly::add_couplers() {
   add_piece_joints(scene_, plans_, sites_, builder_);
-  CouplerAssembly(scene_, plans_, sites_, builder_, warnings_).add_all();
+  CouplerAssembly couplers(scene_, plans_, sites_, builder_, warnings_);
+  couplers.add_all();
+  if (auto note = couplers.describe_explicit_defaults()) {
+    notes_.push_back(std::move(*note));
+  }
 }
 
 void Assembly::add_loads() {

@@ -45,6 +45,7 @@ class Assembly {
   [[nodiscard]] const std::vector<std::string>& warnings() const {
     return warnings_;
   }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void add_body(const BodyPlan& plan);
@@ -73,6 +74,7 @@ class Assembly {
   dynamics::SystemBuilder builder_;
   std::vector<PlacedPair> touching_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace limber::scene

@@ -125,6 +125,9 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
     built.warnings.insert(built.warnings.end(), warnings->begin(),
                           warnings->end());
   }
+  built.notes = scene.scenario.notes;
+  built.notes.insert(built.notes.end(), assembly.notes().begin(),
+                     assembly.notes().end());
   built.known = reductions.known;
   built.bodies_reduced = reductions.reduced;
   built.bodies_cached = reductions.cached;

@@ -23,6 +23,8 @@ struct BuiltScene {
   std::vector<Probe> probes;
   std::vector<PlacedLink> links;  ///< one per link of the robot
   std::vector<std::string> warnings;
+  /// What a user may not expect: the scenario's, then those of building it.
+  std::vector<std::string> notes;
   KnownBodies known;             ///< all that were reduced or cached
   int bodies_reduced = 0;        ///< number of reductions done now
   int bodies_cached = 0;         ///< number of reductions from the cache

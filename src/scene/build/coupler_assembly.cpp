@@ -111,6 +111,36 @@ double CouplerAssembly::choose_rigid_frequency(const Vector3& p_W) const {
              : dynamics::kLeastRigidFrequency;
 }
 
+// Couplers of two rigid sides that hold them by a default stiffness.
+void CouplerAssembly::record_default(const std::string& name,
+                                     const CouplerOptions& options,
+                                     const AttachmentSite& F,
+                                     const AttachmentSite& M,
+                                     const joints::HoldStiffness& held) {
+  if (F.side.flexibility || M.side.flexibility) return;
+  if ((!options.translational_stiffness && held.translational > 0.0) ||
+      (!options.rotational_stiffness && held.rotational > 0.0)) {
+    rigid_defaults_.push_back(name);
+  }
+}
+
+std::optional<std::string> CouplerAssembly::describe_explicit_defaults() const {
+  const dynamics::IntegratorTraits& scheme =
+      dynamics::traits_of(scene_.scenario.settings.integrator);
+  if (scheme.is_implicit || rigid_defaults_.empty()) return std::nullopt;
+  const std::size_t count = rigid_defaults_.size();
+  return fmt::format(
+      "{} is explicit, and its steps resolve joints: {} of rigid links, "
+      "{}'{}', {} a default stiffness on which the masses of both sides "
+      "vibrate at {:g} Hz ({:g} Hz with implicit integrators); "
+      "translational_stiffness and rotational_stiffness of a <coupler> set "
+      "another",
+      scheme.name, count == 1 ? "1 joint" : fmt::format("{} joints", count),
+      count == 1 ? "" : "the first ", rigid_defaults_.front(),
+      count == 1 ? "has" : "have", dynamics::kLeastRigidFrequency,
+      dynamics::kRigidFrequency);
+}
+
 void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
                                 const AttachmentSite& M) {
   const joints::JointParameters held =
@@ -127,11 +157,12 @@ void CouplerAssembly::add_joint(const JointSpec& spec, const AttachmentSite& F,
                           make_drive(drive, spec.max_effort, spec.max_speed)});
     });
   }
-  const dynamics::CouplerIndex coupler =
-      add_coupler(spec.name,
-                  joints::make_joint(spec.kind, spec.axis, spec.second, held,
-                                     std::move(elements)),
-                  F, M);
+  const joints::CouplerLaw law = joints::make_joint(
+      spec.kind, spec.axis, spec.second, held, std::move(elements));
+  record_default(
+      spec.name, spec.coupler, F, M,
+      joints::find_hold_stiffness(law).value_or(joints::HoldStiffness{}));
+  const dynamics::CouplerIndex coupler = add_coupler(spec.name, law, F, M);
   if (coordinates.size() == 1) {
     geared_[spec.name] = {
         coupler, find_hold(coordinates[0], held), coordinates, {F, M}};
@@ -197,23 +228,21 @@ void CouplerAssembly::add_connector(const Connector& connector) {
 }
 
 void CouplerAssembly::add_latch(const Latch& latch) {
-  const Vector3 p_W = sites_.find_pose(latch.from, sites_.start()).p;
-  const auto site = [&](const ConnectorEnd& end) {
-    return sites_.find_site(end, sites_.find_pose(end, sites_.start()),
-                            sites_.start());
-  };
-  const AttachmentSite F = site(latch.from);
-  const AttachmentSite M = site(latch.to);
+  const std::vector<LinkMotion>& start = sites_.start();
+  const Pose X_WF = sites_.find_pose(latch.from, start);
+  const AttachmentSite F = sites_.find_site(latch.from, X_WF, start);
+  const AttachmentSite M =
+      sites_.find_site(latch.to, sites_.find_pose(latch.to, start), start);
   Latch released = latch;
   const auto time = scene_.scenario.releases.find(latch.name);
   if (time != scene_.scenario.releases.end()) {
     released.release_time = time->second;
   }
-  add_coupler(latch.name,
-              make_latch(released, find_joint_parameters(
-                                       latch.coupler, F.side, M.side, {},
-                                       choose_rigid_frequency(p_W))),
-              F, M);
+  const joints::JointParameters held = find_joint_parameters(
+      latch.coupler, F.side, M.side, {}, choose_rigid_frequency(X_WF.p));
+  record_default(latch.name, latch.coupler, F, M,
+                 {held.translational_stiffness, held.rotational_stiffness});
+  add_coupler(latch.name, make_latch(released, held), F, M);
 }
 
 void CouplerAssembly::add_tendon(const Tendon& tendon) {

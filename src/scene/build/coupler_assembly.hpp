@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ class CouplerAssembly {
                   std::vector<std::string>& warnings);
 
   void add_all();
+
+  /// A note if an explicit scheme has given default joints of rigid sides
+  /// another stiffness than the implicit ones would.
+  [[nodiscard]] std::optional<std::string> describe_explicit_defaults() const;
 
  private:
   /// Specification of a joint or loop between two sites.
@@ -47,6 +52,9 @@ class CouplerAssembly {
   };
 
   [[nodiscard]] double choose_rigid_frequency(const Vector3& p_W) const;
+  void record_default(const std::string& name, const CouplerOptions& options,
+                      const AttachmentSite& F, const AttachmentSite& M,
+                      const joints::HoldStiffness& held);
   void add_joint(int index);
   void add_joint(const JointSpec& spec, const AttachmentSite& F,
                  const AttachmentSite& M);
@@ -75,6 +83,7 @@ class CouplerAssembly {
   std::vector<LinkMotion> at_zero_;           ///< links with all joints at zero
   std::map<std::string, JointStart> starts_;  ///< of the tree, including gears
   std::map<std::string, Geared> geared_;
+  std::vector<std::string> rigid_defaults_;  ///< see record_default
 };
 
 }  // namespace limber::scene
