@@ -2,6 +2,7 @@
 #include "limber/scene/build/body_plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -130,10 +131,10 @@ class Planner {
       moment += inertia->mass * (plans_.X_BL[index(link)] * inertia->p_LBcm);
     }
     if (!(body.mass > 0.0)) {
-      problems_.add(0, fmt::format("link '{}' moves but has no mass; give it "
+      problems_.add(0, fmt::format("link '{}' moves but has no mass{} give it "
                                    "an <inertial>, or fix it to a link that "
                                    "has one",
-                                   body.name));
+                                   body.name, describe_neighbours(body)));
       return;
     }
     const Vector3 center = moment / body.mass;
@@ -146,6 +147,26 @@ class Planner {
                       steiner(inertia->mass, X_BL * inertia->p_LBcm);
     }
     check_inertia(body);
+  }
+
+  /// The joints of a body without mass, and what can stand for two of them.
+  [[nodiscard]] std::string describe_neighbours(const BodyPlan& body) const {
+    std::string on;
+    std::vector<std::string> carries;
+    for (const int i : plans_.coupled_joints) {
+      const Joint& joint = robot_.joints[index(i)];
+      if (joint.child == body.links.front()) on = joint.name;
+      const auto& own = body.links;
+      if (std::find(own.begin(), own.end(), joint.parent) != own.end()) {
+        carries.push_back("'" + joint.name + "'");
+      }
+    }
+    if (on.empty() || carries.empty()) return ";";
+    return fmt::format(
+        ", between joints '{}' and {}: only their forces would move it. Where "
+        "their axes meet, one <coupler> of kind \"universal\" (axes at a right "
+        "angle) or \"ball\" (three axes) can stand for them; else",
+        on, fmt::join(carries, ", "));
   }
 
   void check_inertia(const BodyPlan& body) {

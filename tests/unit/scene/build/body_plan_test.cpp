@@ -65,6 +65,41 @@ TEST(BodyPlan, RefusesAMovingBodyWithoutMass) {
   EXPECT_THAT(text, ::testing::HasSubstr("link 'b' moves but has no mass"));
 }
 
+TEST(BodyPlan, NamesTheJointsOnBothSidesOfABodyWithoutMass) {
+  Robot robot;
+  robot.links = {make_link("a", 1), make_link("flange", 0),
+                 make_link("tool0", 0), make_link("hand", 1)};
+  robot.joints = {make_joint(0, 1, joints::JointKind::revolute),
+                  make_joint(1, 2, joints::JointKind::fixed),
+                  make_joint(2, 3, joints::JointKind::revolute)};
+  const std::string text = test::input_error(
+      [&] { (void)plan_bodies(robot, std::vector<ReducedPieces>(4)); });
+  EXPECT_THAT(text, ::testing::AllOf(
+                        ::testing::HasSubstr("link 'flange' moves but"),
+                        ::testing::HasSubstr("between joints 'j1' and 'j3'"),
+                        ::testing::HasSubstr("universal"),
+                        ::testing::HasSubstr("<inertial>")));
+}
+
+// Frames such as `flange` and `tool0`, before and behind a joint that moves.
+TEST(BodyPlan, MergesLinksWithoutMassThroughFixedJoints) {
+  Robot robot;
+  robot.links = {make_link("foot", 0), make_link("a", 1), make_link("tool", 0),
+                 make_link("flange", 0), make_link("b", 3)};
+  robot.joints = {make_joint(0, 1, joints::JointKind::fixed),
+                  make_joint(1, 2, joints::JointKind::fixed),
+                  make_joint(2, 3, joints::JointKind::revolute),
+                  make_joint(3, 4, joints::JointKind::fixed)};
+  const BodyPlans plans = plan_bodies(robot, std::vector<ReducedPieces>(5));
+  ASSERT_EQ(plans.bodies.size(), 2U);
+  EXPECT_EQ(plans.bodies[0].mass, 1.0);
+  EXPECT_EQ(plans.bodies[1].mass, 3.0);
+  // The joint's frame on both bodies, from their centres of mass.
+  EXPECT_LT((plans.X_BL[2].p - Vector3::UnitX()).norm(), kRoundOff);
+  EXPECT_LT((plans.X_BL[3].p + Vector3::UnitX()).norm(), kRoundOff);
+  EXPECT_EQ(plans.coupled_joints, std::vector<int>{2});
+}
+
 std::shared_ptr<const flexbody::ReducedBody> make_piece(double mass, double x) {
   flexbody::ReducedBody body;
   body.mass = mass;
