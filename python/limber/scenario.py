@@ -46,9 +46,9 @@ class Controller:
     to sample, (k,), which it changes in place.
 
     ``memory``: its initial value, k numbers, possibly none: ``[]``. It is part of
-    the run's state, so that runs to a tolerance, which repeat samples, can restore
-    it. Without it the law is called as ``law(t, measured)`` and may have memory of
-    its own; a run to a tolerance then refuses it.
+    the run's state, so that runs to a verified tolerance, which repeat samples, can
+    restore it. Without it the law is called as ``law(t, measured)`` and may have
+    memory of its own; a run with ``tolerance_passes = "verified"`` then refuses it.
 
     ``measures``: columns of probes, as ``["tip.ux"]``; by default those of the
     scenario's controller. ``period`` [s]: by default the scenario's.

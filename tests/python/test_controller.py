@@ -52,9 +52,39 @@ def test_it_is_called_once_a_sample_with_its_own_memory(rotor):
     assert numpy.abs(numpy.array(times) - PERIOD * numpy.arange(51)).max() < 1e-12
 
 
-def test_an_adaptive_run_repeats_with_memory_and_is_refused_without(rotor):
+ADAPTIVE = {"time.tolerance": 1e-6, "time.integrator": "generalized-alpha"}
+
+
+def test_one_pass_to_a_tolerance_samples_once_in_order(rotor):
+    """Also where steps are rejected: an arm whose torque jumps every 5th sample."""
+    robot = rotor.parent / "robot.urdf"
+    robot.write_text(robot.read_text().replace(
+        "<inertial>", "<inertial><origin xyz='0.3 0 0'/>"))
+    own, kept = [], []
+
+    def hidden(t, measured):
+        own.append(t)
+        return kick(len(own)) - measured[0]
+
+    def declared(t, measured, memory):
+        memory[0] += 1.0
+        kept.append(t)
+        return kick(memory[0]) - measured[0]
+
+    def kick(count):
+        return 400.0 if count % 5 == 0 else 0.0
     scenario = limber.load(
-        rotor, set={"time.tolerance": 1e-6, "time.integrator": "generalized-alpha"})
+        rotor, set={**ADAPTIVE, "time.tolerance": 1e-4, "time.step": PERIOD})
+    one = scenario.run(controllers=[limber.Controller("pd", hidden)])
+    two = scenario.run(controllers=[limber.Controller("pd", declared, memory=[0.0])])
+    assert one.summary["steps_rejected"] > 0
+    assert numpy.array_equal(own, kept)
+    assert numpy.abs(numpy.array(own) - PERIOD * numpy.arange(51)).max() < 1e-12
+    assert numpy.array_equal(one.probes["angle"], two.probes["angle"])
+
+
+def test_verified_passes_repeat_with_memory_and_are_refused_without(rotor):
+    scenario = limber.load(rotor, set={**ADAPTIVE, "time.tolerance_passes": "verified"})
 
     def integral(t, measured, memory):
         memory[0] += PERIOD * measured[0]

@@ -60,9 +60,11 @@ void simulate(const SystemModel& model, SystemState& state,
               const Continuation& continuation, const Followed& followed,
               RunRecord& record) {
   check_settings(model, state, settings);
-  if (settings.tolerance > 0.0) {
+  if (settings.tolerance > 0.0 &&
+      settings.passes == TolerancePasses::verified) {
     refuse_hidden_memory(model,
-                         "a tolerance takes several passes; give a step");
+                         "a verified tolerance takes several passes; take one "
+                         "pass, or a step");
   }
   if (continuation.keeper.keep || continuation.from) {
     refuse_hidden_memory(model, "a checkpoint must continue alike");

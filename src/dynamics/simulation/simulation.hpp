@@ -29,7 +29,7 @@ SimulationStatistics simulate(const SystemModel& model, SystemState& state,
 /// @param state at the start, also when resuming
 /// @throws InputError also for a checkpoint that is damaged, and for a
 /// controller with hidden memory where the run keeps checkpoints, continues
-/// from one, or is repeated to meet a tolerance.
+/// from one, or is repeated to verify a tolerance.
 void simulate(const SystemModel& model, SystemState& state,
               const SimulationSettings& settings, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,

@@ -64,8 +64,8 @@ class Controller {
   virtual void describe(Manifest& out) const = 0;
 
   /// Whether it keeps data between samples outside of its memory. A run with
-  /// such a law cannot be repeated: no checkpoints and no tolerance are
-  /// possible.
+  /// such a law cannot be repeated: no checkpoints and no verified tolerance
+  /// are possible.
   [[nodiscard]] virtual bool has_hidden_memory() const { return false; }
 };
 
