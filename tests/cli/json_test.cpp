@@ -68,6 +68,26 @@ TEST(Json, OfRunHasThePromisedKeysAndLeavesResults) {
   EXPECT_EQ(kept["probes"], run["probes"]);
 }
 
+TEST(Json, OfInfoHasTheToleranceOrTheStepOfAScenario) {
+  const Workspace place;
+  const auto info = [&](const std::string& time) {
+    place.write("s.toml", "robot = 'r.urdf'\n[time]\nduration = 2.0\n" + time);
+    return parse(place.limber("info s.toml --json"));
+  };
+  const json fixed = info("step = 0.1\n");
+  EXPECT_EQ(fixed["step"], 0.1);
+  EXPECT_FALSE(fixed.contains("tolerance"));
+  const json chosen = info("");
+  EXPECT_FALSE(chosen.contains("step"));
+  EXPECT_EQ(chosen["tolerance"], "1e-4 of the largest body's size");
+  const json given = info("tolerance = 1e-5\n");
+  EXPECT_FALSE(given.contains("step"));
+  EXPECT_EQ(given["tolerance"], 1e-5);
+  const json bounded = info("tolerance = 1e-5\nstep = 0.1\n");
+  EXPECT_EQ(bounded["step"], 0.1);
+  EXPECT_EQ(bounded["tolerance"], 1e-5);
+}
+
 TEST(Json, OfCompareTabulatesErrorsAndCosts) {
   const Workspace place;
   const json compare = parse(

@@ -11,6 +11,7 @@
 #include "limber/results/results_file.hpp"
 #include "limber/scene/robot/robot_reader.hpp"
 #include "limber/scene/scenario/scenario_reader.hpp"
+#include "limber/scene/scenario/time_settings_reader.hpp"
 #ifdef LIMBER_HAS_REDUCTION
 #include "limber/fem/mesh/mesh_reader.hpp"
 #endif
@@ -149,6 +150,18 @@ void add_choices(const flexbody::ReducedBody& body, Json& json) {
     json["initial_velocity"] = describe_field(*field);
 }
 
+/// The tolerance, or how it is chosen, and the longest step if there is one.
+void add_step_settings(const dynamics::SimulationSettings& settings,
+                       Json& json) {
+  if (settings.tolerance == scene::kToleranceToChoose) {
+    json["tolerance"] = "1e-4 of the largest body's size";
+  } else if (settings.tolerance > 0.0) {
+    json["tolerance"] = settings.tolerance;
+  }
+  if (settings.tolerance > 0.0 && settings.step == settings.end_time) return;
+  json["step"] = settings.step;
+}
+
 Json describe_scenario(const std::filesystem::path& file) {
   const scene::Scenario scenario = scene::read_scenario(file);
   std::vector<std::string> loads;
@@ -161,16 +174,16 @@ Json describe_scenario(const std::filesystem::path& file) {
   for (const auto& robot : scenario.robots) {
     robots[robot.name] = robot.file.string();
   }
-  return Json{
-      {"kind", "scenario"},
-      {"robot", robots.empty() ? Json(scenario.robot.string()) : robots},
-      {"duration", scenario.settings.end_time},
-      {"step", scenario.settings.step},
-      {"outputs", scenario.settings.output_times.size()},
-      {"fidelity", std::string(dynamics::to_string(scenario.fidelity))},
-      {"loads", loads},
-      {"drives", drives},
-      {"probes", probes}};
+  Json json{{"kind", "scenario"},
+            {"robot", robots.empty() ? Json(scenario.robot.string()) : robots},
+            {"duration", scenario.settings.end_time}};
+  add_step_settings(scenario.settings, json);
+  json["outputs"] = scenario.settings.output_times.size();
+  json["fidelity"] = std::string(dynamics::to_string(scenario.fidelity));
+  json["loads"] = loads;
+  json["drives"] = drives;
+  json["probes"] = probes;
+  return json;
 }
 
 Json describe_robot(const std::filesystem::path& file) {
