@@ -117,24 +117,19 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
   auto recorded = std::make_shared<RecordedRun>();
   {
     const py::gil_scoped_release release;
-    results::Scenery scenery;
-    scene::BuiltScene built;
+    app::PicturedScene made;
     {
       const auto lock = app::lock_libraries();
-      std::vector<std::string> unread;
-      scenery = app::read_scenery(scene, unread);
-      built = scene::build_system(scene, app::make_reducer(watch), cache,
-                                  app::make_full_maker(watch));
-      built.warnings.insert(built.warnings.end(), unread.begin(), unread.end());
+      made = app::build_pictured(scene, app::make_reducer(watch), cache,
+                                 app::make_full_maker(watch));
     }
     for (const GivenLaw& law : given) {
       check_period(law);
-      replace_law(law, built);
+      replace_law(law, made.built);
     }
-    recorded->run =
-        app::simulate_built(scene, std::move(built), cache, watch, {}, judges);
-    app::place_shapes(scene, recorded->run.built, scenery);
-    recorded->run.scenery = std::move(scenery);
+    recorded->run = app::simulate_built(scene, std::move(made.built), cache,
+                                        watch, {}, judges);
+    recorded->run.scenery = std::move(made.scenery);
   }
   recorded->cause = take_cause();
   return recorded;

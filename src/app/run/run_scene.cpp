@@ -143,16 +143,12 @@ int count_modes(const Run& run) { return run.built.model.modal_count; }
 Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
                    const std::filesystem::path& cache, const Progress& progress,
                    const CheckpointPlan& checkpoints, bool judges) {
-  std::vector<std::string> unread;
-  results::Scenery scenery = read_scenery(scene, unread);
-  scene::BuiltScene built =
-      scene::build_system(scene, reducer, cache, make_full_maker(progress));
-  built.warnings.insert(built.warnings.end(), unread.begin(), unread.end());
-  warn_of_unused_cache(cache, built);
-  Run run = simulate_built(scene, std::move(built), cache, progress,
+  PicturedScene made =
+      build_pictured(scene, reducer, cache, make_full_maker(progress));
+  warn_of_unused_cache(cache, made.built);
+  Run run = simulate_built(scene, std::move(made.built), cache, progress,
                            checkpoints, judges);
-  place_shapes(scene, run.built, scenery);
-  run.scenery = std::move(scenery);
+  run.scenery = std::move(made.scenery);
   return run;
 }
 

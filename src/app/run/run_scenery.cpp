@@ -94,18 +94,10 @@ void add_link(const scene::Link& link, results::Scenery& scenery,
   }
 }
 
-void warn_of_unread(const std::vector<std::string>& unread,
-                    std::vector<std::string>& warnings) {
-  if (unread.empty()) return;
-  warnings.push_back(
-      fmt::format("meshes that are not drawn: {}, {}{}", unread.size(),
-                  unread.size() > 1 ? "the first: " : "", unread.front()));
-}
-
-}  // namespace
-
+/// Shapes in the frames of their links.
+/// @param unread why shapes of links are missing
 results::Scenery read_scenery(const scene::Scene& scene,
-                              std::vector<std::string>& warnings) {
+                              std::vector<std::string>& unread) {
   results::Scenery scenery;
   scenery.name = scene.scenario.name;
   scenery.scenario = read_whole(scene.scenario.file);
@@ -118,15 +110,21 @@ results::Scenery read_scenery(const scene::Scene& scene,
   for (const scene::Setting& setting : scene.settings) {
     scenery.settings += to_string(setting) + "\n";
   }
-  std::vector<std::string> unread;
   for (const scene::Link& link : scene.robot.links) {
     if (!link.flexible) add_link(link, scenery, unread);
     if (link.flexible && scene::wants_stress(scene.scenario, link.name)) {
       scenery.stressed.push_back(link.name);
     }
   }
-  warn_of_unread(unread, warnings);
   return scenery;
+}
+
+void warn_of_unread(const std::vector<std::string>& unread,
+                    std::vector<std::string>& warnings) {
+  if (unread.empty()) return;
+  warnings.push_back(
+      fmt::format("meshes that are not drawn: {}, {}{}", unread.size(),
+                  unread.size() > 1 ? "the first: " : "", unread.front()));
 }
 
 void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
@@ -146,6 +144,21 @@ void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
           {obstacle.name, dynamics::kWorld, obstacle.X_WS, std::move(*form)});
     }
   }
+}
+
+}  // namespace
+
+PicturedScene build_pictured(const scene::Scene& scene,
+                             const scene::Reducer& reducer,
+                             const std::filesystem::path& cache,
+                             const scene::FullMaker& make_full) {
+  std::vector<std::string> unread;
+  PicturedScene made;
+  made.scenery = read_scenery(scene, unread);
+  made.built = scene::build_system(scene, reducer, cache, make_full);
+  warn_of_unread(unread, made.built.warnings);
+  place_shapes(scene, made.built, made.scenery);
+  return made;
 }
 
 }  // namespace limber::app

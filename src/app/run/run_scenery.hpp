@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include <filesystem>
 
 #include "limber/results/scenery.hpp"
 #include "limber/scene/build/build_system.hpp"
@@ -10,17 +9,21 @@
 
 namespace limber::app {
 
-/// Content of files for pictures, as they are now: the scenario's name, its
-/// text and those of its robots, the settings applied to them, and the shapes
-/// of rigid links, <visual> or else <collision>, in the frames of their links.
-/// @param warnings one more if meshes cannot be read, which are left out
-[[nodiscard]] results::Scenery read_scenery(const scene::Scene& scene,
-                                            std::vector<std::string>& warnings);
+/// A built scene with what pictures of it show.
+struct PicturedScene {
+  scene::BuiltScene built;
+  /// The scenario's name, its text and those of its robots as they were before
+  /// building, the settings applied to them, and shapes of rigid links
+  /// (<visual> or else <collision>) and obstacles in the frames of their
+  /// bodies.
+  results::Scenery scenery;
+};
 
-/// Puts the shapes of links into the frames of their bodies, and adds those of
-/// obstacles.
-/// @param scenery read_scenery(scene)
-void place_shapes(const scene::Scene& scene, const scene::BuiltScene& built,
-                  results::Scenery& scenery);
+/// scene::build_system, and the scenery; shapes that cannot be read are left
+/// out with a warning among those of the scene.
+[[nodiscard]] PicturedScene build_pictured(const scene::Scene& scene,
+                                           const scene::Reducer& reducer,
+                                           const std::filesystem::path& cache,
+                                           const scene::FullMaker& make_full);
 
 }  // namespace limber::app

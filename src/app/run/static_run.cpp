@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "limber/app/console/numbered_stages.hpp"
 #include "limber/app/console/terminal.hpp"
@@ -100,16 +101,13 @@ StaticRun find_static(const scene::Scene& scene,
   const Progress making = number_stage(progress, 1, 2);
   StaticRun run;
   run.scene = scene;
-  std::vector<std::string> unread;
-  run.scenery = read_scenery(run.scene, unread);
   run.method = method;
   run.scene.scenario.equilibrium.reset();
-  run.built = scene::build_system(run.scene, make_reducer(making), cache,
-                                  make_full_maker(making));
-  run.built.warnings.insert(run.built.warnings.end(), unread.begin(),
-                            unread.end());
+  PicturedScene made = build_pictured(run.scene, make_reducer(making), cache,
+                                      make_full_maker(making));
+  run.built = std::move(made.built);
+  run.scenery = std::move(made.scenery);
   warn_of_unused_cache(cache, run.built);
-  place_shapes(run.scene, run.built, run.scenery);
   run.found =
       find_equilibrium(run.built.model, run.built.initial,
                        {.method = run.method}, number_stage(progress, 2, 2));
@@ -143,9 +141,9 @@ Json summarize(const StaticRun& run) {
         Json{{"value", run.history.probe_rows[0][i]},
              {"unit", run.history.columns[i].unit}};
   }
-  json["notes"] = run.built.notes;
   json["probes"] = probes;
   if (run.scene.scenario.output.stress) json["stress"] = to_json(run.stress);
+  json["notes"] = run.built.notes;
   json["warnings"] = run.warnings;
   return json;
 }
