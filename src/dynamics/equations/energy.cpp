@@ -7,6 +7,19 @@
 
 namespace limber::dynamics {
 
+double find_elastic_energy(const SystemModel& model, const SystemState& state,
+                           const SystemTerms& terms) {
+  double elastic = 0.0;
+  for (const BodyModel& body : model.bodies) {
+    elastic +=
+        flexbody::calc_elastic_energy(
+            body.elasticity, state.eta.segment(body.offset, body.modes)) +
+        find_maxwell_energy(body, state.maxwell);
+  }
+  for (const FullTerms& full : terms.full) elastic += full.strain_energy;
+  return elastic;
+}
+
 EnergyBalance calc_energy(const SystemModel& model, const SystemState& state) {
   SystemTerms terms = make_terms(model);
   return calc_energy(model, state, terms);
@@ -16,15 +29,13 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
                           SystemTerms& terms) {
   calc_terms(model, state, Side::right, terms);
   EnergyBalance balance;
+  balance.elastic = find_elastic_energy(model, state, terms);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const BodyState& rigid = state.bodies[b];
     const BodyTerms& t = terms.bodies[b];
-    const auto eta = state.eta.segment(body.offset, body.modes);
     const auto etadot = state.etadot.segment(body.offset, body.modes);
 
-    balance.elastic += flexbody::calc_elastic_energy(body.elasticity, eta) +
-                       find_maxwell_energy(body, state.maxwell);
     balance.kinetic_modal += 0.5 * etadot.squaredNorm();
     if (!body.has_rigid_motion()) continue;
     const Vector3 h = t.H * etadot;

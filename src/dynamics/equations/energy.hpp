@@ -7,6 +7,12 @@
 
 namespace limber::dynamics {
 
+/// Elastic energy of all bodies: of their modes, of the Maxwell elements on
+/// these, and of unreduced ones [J]. @param terms at `state`
+[[nodiscard]] double find_elastic_energy(const SystemModel& model,
+                                         const SystemState& state,
+                                         const SystemTerms& terms);
+
 /// All fields except `dissipated` and `work`, which depend on the history.
 [[nodiscard]] EnergyBalance calc_energy(const SystemModel& model,
                                         const SystemState& state);

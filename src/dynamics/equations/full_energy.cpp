@@ -10,7 +10,6 @@ void add_body(const SystemModel& model, std::size_t f, const SystemState& state,
   const ConstNodes udot = nodes_of(full, state.udot_H);
   t.solver->multiply_mass(udot, t.scratch);  // momenta
   const double kinetic = 0.5 * t.scratch.cwiseProduct(udot).sum();
-  balance.elastic += t.strain_energy;
   if (model.bodies[static_cast<std::size_t>(full.body)].clamped) {
     balance.kinetic_modal += kinetic;
     return;

@@ -7,8 +7,7 @@
 
 namespace limber::dynamics {
 
-/// Adds energies and momenta of unreduced bodies; needs the strain energies of
-/// calc_inertia_terms.
+/// Adds kinetic energies and momenta of unreduced bodies.
 ///
 /// Equation   kinetic_rigid = m v^2/2 + w' J w/2 of the mean-axis frame, J of
 ///            the deformed nodes; kinetic_modal = u'' M u' / 2 less that

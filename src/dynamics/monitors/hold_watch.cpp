@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 
 namespace limber::dynamics {
@@ -54,17 +55,6 @@ HoldWatch::HoldWatch(const SystemModel& model) : model_(model) {
   }
 }
 
-double HoldWatch::find_elastic(const SystemState& state,
-                               const SystemTerms& terms) const {
-  double elastic = 0.0;
-  for (const BodyModel& body : model_.bodies) {
-    elastic += flexbody::calc_elastic_energy(
-        body.elasticity, state.eta.segment(body.offset, body.modes));
-  }
-  for (const FullTerms& full : terms.full) elastic += full.strain_energy;
-  return elastic;
-}
-
 void HoldWatch::include(const SystemState& state, const SystemTerms& terms) {
   for (Hold& hold : holds_) {
     const joints::HoldGive give =
@@ -83,7 +73,7 @@ void HoldWatch::include(const SystemState& state, const SystemTerms& terms) {
         0.5 * hold.stiffness.rotational * give.turn * give.turn;
     if (energy > hold.energy) {
       hold.energy = energy;
-      hold.elastic = find_elastic(state, terms);
+      hold.elastic = find_elastic_energy(model_, state, terms);
       hold.energy_time = state.t;
     }
   }

@@ -75,8 +75,6 @@ class HoldWatch {
   };
   [[nodiscard]] std::string describe(const Hold& hold) const;
   [[nodiscard]] std::string describe_share(const Hold& hold) const;
-  [[nodiscard]] double find_elastic(const SystemState& state,
-                                    const SystemTerms& terms) const;
 
   const SystemModel& model_;
   std::vector<Hold> holds_;
