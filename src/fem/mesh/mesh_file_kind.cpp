@@ -13,6 +13,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
+#include "limber/common/upper_case.hpp"
 
 namespace limber::fem {
 namespace {
@@ -64,15 +65,9 @@ bool is_iges(std::string_view head) {
   return line.size() >= 73 && (line[72] == 'S' || line[72] == 'C');
 }
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return std::toupper(c); });
-  return text;
-}
-
 bool is_nastran(std::string_view head) {
   if (has(head, std::string_view("\0", 1))) return false;
-  const std::string text = upper(std::string(head));
+  const std::string text = to_upper(std::string(head));
   return has(text, "GRID") || has(text, "BEGIN BULK") || has(text, "INCLUDE ");
 }
 
@@ -132,7 +127,7 @@ const Format& find_format(const std::filesystem::path& file) {
         0) {
       continue;
     }
-    if (extension == small || extension == upper(extension)) return format;
+    if (extension == small || extension == to_upper(extension)) return format;
     throw InputError(
         fmt::format("{}: Gmsh does not know files by '{}'; call it '{}'.",
                     file.string(), extension, small));

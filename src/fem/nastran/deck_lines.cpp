@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <optional>
 #include <string_view>
 
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
+#include "limber/common/upper_case.hpp"
 
 namespace limber::fem {
 namespace {
@@ -27,15 +27,6 @@ std::string clean_line(std::string_view raw) {
     }
   }
   text.erase(text.find_last_not_of(" \r\f\v") + 1);
-  return text;
-}
-
-/// In upper case; ? for what is not ASCII, which no card has.
-std::string to_upper(std::string text) {
-  for (char& c : text)
-    c = static_cast<unsigned char>(c) < 0x80
-            ? static_cast<char>(std::toupper(c & 0xff))
-            : '?';
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <fstream>
 
+#include "limber/common/errors.hpp"
 #include "limber/fem/gmsh/gmsh_session.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -31,6 +32,16 @@ std::filesystem::path write_file(const std::string& name,
   std::filesystem::path file = make_test_folder() / name;
   std::ofstream(file) << text;
   return file;
+}
+
+std::string find_read_error(const std::filesystem::path& file) {
+  try {
+    static_cast<void>(read_mesh(file));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << file << " was accepted";
+  return {};
 }
 
 int MshText::add_node(const Vector3& x) {

@@ -21,6 +21,9 @@ inline const Vector3 kBoxSize{0.3, 0.2, 0.1};
 std::filesystem::path write_file(const std::string& name,
                                  const std::string& text);
 
+/// The InputError that read_mesh throws; a failure of the test if it does not.
+[[nodiscard]] std::string find_read_error(const std::filesystem::path& file);
+
 /// A linear mesh as .msh 2.2 text, built by hand.
 class MshText {
  public:

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "limber/common/errors.hpp"
 #include "limber/fem/mesh/mesh_reader.hpp"
 #include "unit/fem/meshes.hpp"
 
@@ -17,6 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using testing::find_read_error;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::MshText;
@@ -25,16 +25,6 @@ using testing::write_file;
 std::vector<std::string> notices_of(const std::filesystem::path& file,
                                     double unit = 1.0) {
   return read_traced_mesh(file, {.unit = unit}).notices;
-}
-
-std::string find_error(const std::filesystem::path& file) {
-  try {
-    static_cast<void>(read_mesh(file));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << file << " was accepted";
-  return {};
 }
 
 TEST(MeshLosses, AMeshWithoutAnyHasNoNotice) {
@@ -84,17 +74,17 @@ std::string unv_element(int number, int type, const std::string& nodes,
 TEST(MeshLosses, AUniversalFileIsComparedWithItsText) {
   EXPECT_THAT(notices_of(write_file("one.unv", unv(""))), IsEmpty());
   // A mass (161), of which Gmsh reports only the second; spring 136.
-  EXPECT_THAT(find_error(write_file("mass.unv",
-                                    unv(unv_element(2, 161, "         1", 1)))),
+  EXPECT_THAT(find_read_error(write_file(
+                  "mass.unv", unv(unv_element(2, 161, "         1", 1)))),
               AllOf(HasSubstr("mass.unv:16: "), HasSubstr("type 161")));
   EXPECT_THAT(
-      find_error(write_file(
+      find_read_error(write_file(
           "few.unv",
           unv(unv_element(2, 111, "         1         2         3", 4)))),
       AllOf(HasSubstr("few.unv:16: "), HasSubstr("4 nodes")));
-  EXPECT_THAT(
-      find_error(write_file("old.unv", "    -1\n   781\n    -1\n" + unv(""))),
-      HasSubstr("dataset 781"));
+  EXPECT_THAT(find_read_error(
+                  write_file("old.unv", "    -1\n   781\n    -1\n" + unv(""))),
+              HasSubstr("dataset 781"));
 }
 
 TEST(MeshLosses, ATruncatedUniversalFileIsRefused) {
@@ -104,11 +94,11 @@ TEST(MeshLosses, ATruncatedUniversalFileIsRefused) {
     for (std::size_t i = 0; i < lines; ++i) size = whole.find('\n', size) + 1;
     if (size >= whole.rfind("    -1")) break;
     EXPECT_FALSE(
-        find_error(write_file("cut.unv", whole.substr(0, size))).empty());
+        find_read_error(write_file("cut.unv", whole.substr(0, size))).empty());
   }
   // Behind the elements, too, where the names of groups are.
-  EXPECT_THAT(find_error(write_file("groups.unv",
-                                    unv("") + "    -1\n  2467\n         1\n")),
+  EXPECT_THAT(find_read_error(write_file(
+                  "groups.unv", unv("") + "    -1\n  2467\n         1\n")),
               AllOf(HasSubstr("groups.unv:17: "), HasSubstr("truncated")));
 }
 
@@ -123,7 +113,7 @@ TEST(MeshLosses, CoordinateSystemsOfUniversalFilesMustBeTheGlobalOne) {
               IsEmpty());
   for (const std::string& own :
        {system("         1", "0. 0. 0."), system("         0", "0. 0. 1.D-2")})
-    EXPECT_THAT(find_error(write_file("own.unv", unv("", own))),
+    EXPECT_THAT(find_read_error(write_file("own.unv", unv("", own))),
                 AllOf(HasSubstr("own.unv:14: "), HasSubstr("system 2")));
 }
 
@@ -142,7 +132,7 @@ TEST(MeshLosses, AGeometryMustNotMergeADeck) {
              "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n"
              "GRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\nCTETRA,1,1,1,2,3,4\n"
              "ENDDATA\n");
-  EXPECT_THAT(find_error(write_file("merge.geo", "Merge \"part.bdf\";\n")),
+  EXPECT_THAT(find_read_error(write_file("merge.geo", "Merge \"part.bdf\";\n")),
               AllOf(HasSubstr("merge.geo"), HasSubstr("part.bdf'")));
 }
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+namespace limber {
+
+/// Independent of the locale; '?' for what is not ASCII.
+[[nodiscard]] inline std::string to_upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    if (static_cast<unsigned char>(c) >= 0x80) return '?';
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return text;
+}
+
+}  // namespace limber
