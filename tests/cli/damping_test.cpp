@@ -194,6 +194,22 @@ TEST(Damping, RunDecaysByTheRatioAtEveryLevelOfModes) {
   }
 }
 
+TEST(Damping, RunDecaysByTheRatioWithEveryIntegrator) {
+  const Workspace place;
+  write_arm(place, {.holds = "clamp"});
+  for (const std::string scheme :
+       {"runge-kutta-4", "central-differences", "energy-conserving",
+        "splitting", "explicit-euler"}) {
+    const CommandResult r = place.limber(
+        "run s.toml --out o --unset time.rho_inf --set time.integrator=" +
+        scheme);
+    ASSERT_EQ(r.status, 0) << r.errors;
+    EXPECT_NEAR(find_decay_ratio(read_deflection(place, "o")), 0.02,
+                0.05 * 0.02)
+        << scheme;
+  }
+}
+
 TEST(Damping, RunWithATipMassDecaysByTheRatio) {
   const Workspace place;
   write_arm(place, {.tip_mass = 10.0, .duration = 1.5});

@@ -13,23 +13,7 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
       accelerations_(make_accelerations(model)),
       next_(make_state(model)),
       modes_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty() && model.maxwell_count == 0);
-}
-
-void ExplicitEuler::move_modes(SystemState& state) const {
-  for (std::size_t i = 0; i < modes_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double lambda = modes_.oscillator(i).lambda();
-    const flexbody::FreeResponse& r = modes_.response(i);
-    const double eta = state.eta[k];
-    const double etadot = state.etadot[k];
-    // Force on the mode without its own spring and damper.
-    const double load = accelerations_.etaddot[k] +
-                        modes_.oscillator(i).damping() * etadot + lambda * eta;
-    state.eta[k] = r.stay * eta + r.impulse * etadot + r.step * load;
-    state.etadot[k] =
-        -lambda * r.impulse * eta + r.keep * etadot + r.impulse * load;
-  }
+  LIMBER_EXPECT(model.full_bodies.empty());
 }
 
 StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
@@ -41,7 +25,8 @@ StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
   result.dissipated = h * terms_.dissipated_power;
   next_ = state;
   next_.t = end;
-  move_modes(next_);
+  modes_.add_own_forces(state, accelerations_.etaddot);
+  modes_.move(accelerations_.etaddot, next_);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     BodyState& body = next_.bodies[b];
     const Vector3& a = accelerations_.a_WB_W[b];

@@ -12,7 +12,7 @@ namespace limber::dynamics {
 ///
 /// Equation   p += h v + h^2 a / 2, v += h a,
 ///            R <- R exp(h w + h^2 dw / 2), w += h dw,
-///            each mode as an oscillator under f(t_n), by its closed form
+///            each mode under f(t_n) exactly (FreeVibration)
 /// Source     WOBBLE report (EPFL LSMS, 2023), Eqs. 12, 26-28
 /// Limits     first order; energy grows with rotation. For comparison and for
 ///            cheap runs; not for stiff couplers.
@@ -28,11 +28,9 @@ class ExplicitEuler final : public Integrator {
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
-  void move_modes(SystemState& state) const;
-
   const SystemModel& model_;
   SystemTerms terms_;
-  Accelerations accelerations_;
+  Accelerations accelerations_;  // of modes: the loads on them
   SystemState next_;
   FreeVibration modes_;  // over a step
 };

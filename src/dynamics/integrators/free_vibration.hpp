@@ -1,37 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "limber/common/dense/exponential.hpp"
 #include "limber/dynamics/system/system_model.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 #include "limber/flexbody/modal/modal_response_oscillator.hpp"
 
 namespace limber::dynamics {
 
-/// All modes of a model as damped oscillators, with their free response over a
-/// time that all share, by its closed form.
+/// All modes of a model on their own springs, dampers and Maxwell elements,
+/// moved exactly over a time that all share. Nothing is allocated but in the
+/// constructor.
+///
+/// Equation   q'' + c q' + lambda (q + sum_j g_j d_j) = f, f constant,
+///            d_j' = q' - d_j / tau_j: without elements by the closed form of
+///            an oscillator, with them by the exponential of their matrix
 class FreeVibration {
  public:
+  /// @param model outlives it
   explicit FreeVibration(const SystemModel& model);
 
-  /// @param time that the responses are over [s]
+  /// @param time over which modes are moved [s]
   void set_time(double time);
   [[nodiscard]] double time() const { return time_; }  ///< [s]
 
-  /// Number of modes, in the order of SystemState::eta.
-  [[nodiscard]] std::size_t size() const { return oscillators_.size(); }
-  [[nodiscard]] const flexbody::ModalOscillator& oscillator(
-      std::size_t i) const {
-    return oscillators_[i];
-  }
-  [[nodiscard]] const flexbody::FreeResponse& response(std::size_t i) const {
-    return responses_[i];
-  }
+  /// Moves modes and elements without a load. @returns the energy lost [J]
+  double move(SystemState& state);
+  /// The same with constant loads. @param loads f of all modes [kg^-1/2 N]
+  void move(const VectorX& loads, SystemState& state);
+
+  /// Adds c q' + lambda (q + sum_j g_j d_j), which makes the acceleration of a
+  /// mode the load on it.
+  void add_own_forces(const SystemState& state, VectorX& etaddot) const;
+  /// Power lost in dampers and elements [W].
+  [[nodiscard]] double find_loss(const SystemState& state) const;
 
  private:
-  std::vector<flexbody::ModalOscillator> oscillators_;
-  std::vector<flexbody::FreeResponse> responses_;
+  struct Mode {
+    flexbody::ModalOscillator oscillator;
+    const flexbody::MaxwellElements* elements;
+    Eigen::Index index;   // in SystemState::eta
+    Eigen::Index first;   // in SystemState::maxwell, of its first element
+    Eigen::Index stride;  // there, to its next element
+    flexbody::FreeResponse response{};  // over time_, without elements
+    // With J elements: from (q, q', d, f) to (q, q', d), 2+J x 3+J.
+    MatrixX flow{};
+  };
+  /// Matrices of modes with one number of elements.
+  struct Workspace {
+    explicit Workspace(Eigen::Index elements);
+    MatrixX rates;  // of (s q, q', s d, f), s = sqrt(lambda) [1/s]
+    VectorX begin;  // q, q', d, f
+    VectorX end;    // q, q', d
+    dense::Exponential exponential;
+  };
+  void add_body(const BodyModel& body);
+  Workspace& workspace_of(const Mode& mode);
+  void set_flow(Mode& mode);
+  void move(Mode& mode, double load, SystemState& state);
+  void move_with_elements(const Mode& mode, double load, SystemState& state);
+
+  std::vector<Mode> modes_;
+  std::vector<Workspace> workspaces_;  // by number of elements
   double time_ = 0.0;
 };
 

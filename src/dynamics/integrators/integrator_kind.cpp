@@ -24,10 +24,7 @@ IntegratorTraits make_traits(IntegratorKind kind) {
               .takes_full_bodies = true,
               .limit = StepLimit::growth};
     case IntegratorKind::explicit_euler:
-      return {.name = "explicit-euler",
-              .order = 1,
-              .takes_maxwell = false,
-              .takes_exact_modes = false};
+      return {.name = "explicit-euler", .order = 1, .takes_exact_modes = false};
     case IntegratorKind::central_differences:
       return {.name = "central-differences",
               .takes_full_bodies = true,
@@ -44,9 +41,7 @@ IntegratorTraits make_traits(IntegratorKind kind) {
               .is_implicit = true,
               .leaves_end_terms = true};
     case IntegratorKind::splitting:
-      return {.name = "splitting",
-              .takes_maxwell = false,
-              .limit = StepLimit::growth};
+      return {.name = "splitting", .limit = StepLimit::growth};
   }
   throw ContractError("an IntegratorKind without traits");
 }

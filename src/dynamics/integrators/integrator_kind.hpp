@@ -35,8 +35,6 @@ struct IntegratorTraits {
   bool is_adaptive = false;
   bool has_spectral_radius = false;  ///< reads SimulationSettings::rho_inf
   bool takes_full_bodies = false;    ///< integrates bodies at level `full`
-  /// Integrates Maxwell elements; else modes are moved as oscillators.
-  bool takes_maxwell = true;
   /// Modes driven by known loads only may be solved in closed form.
   bool takes_exact_modes = true;
   /// terms() belong to the end of the last step.

@@ -14,39 +14,24 @@ Splitting::Splitting(const SystemModel& model)
       next_(make_state(model)),
       middle_(make_state(model)),
       modes_(model) {
-  LIMBER_EXPECT(model.full_bodies.empty() && model.maxwell_count == 0);
+  LIMBER_EXPECT(model.full_bodies.empty());
 }
 
-void Splitting::drift(SystemState& state, double& dissipated) const {
+void Splitting::drift(SystemState& state, double& dissipated) {
   const double half = modes_.time();
   for (BodyState& body : state.bodies) {
     body.p_WB += half * body.v_WB_W;
     body.quat_WB = body.quat_WB * exp_quaternion(half * body.w_WB_B);
     body.quat_WB.normalize();
   }
-  for (std::size_t i = 0; i < modes_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double lambda = modes_.oscillator(i).lambda();
-    const flexbody::FreeResponse& r = modes_.response(i);
-    const double eta = state.eta[k];
-    const double etadot = state.etadot[k];
-    state.eta[k] = r.stay * eta + r.impulse * etadot;
-    state.etadot[k] = -lambda * r.impulse * eta + r.keep * etadot;
-    if (modes_.oscillator(i).damping() == 0.0) continue;
-    dissipated += 0.5 * (etadot * etadot - state.etadot[k] * state.etadot[k] +
-                         lambda * (eta * eta - state.eta[k] * state.eta[k]));
-  }
+  dissipated += modes_.move(state);
 }
 
 // At middle_.
 void Splitting::calc_kick() {
   calc_terms(model_, middle_, Side::right, terms_);
   solve_accelerations(model_, terms_, kick_);
-  for (std::size_t i = 0; i < modes_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    kick_.etaddot[k] += modes_.oscillator(i).lambda() * middle_.eta[k] +
-                        modes_.oscillator(i).damping() * middle_.etadot[k];
-  }
+  modes_.add_own_forces(middle_, kick_.etaddot);
 }
 
 void Splitting::kick(const SystemState& from, double h, SystemState& to) const {
@@ -71,11 +56,8 @@ StepResult Splitting::step(SystemState& state, double h, double end) {
   calc_kick();
   kick(next_, h, next_);
   result.load_work = h * terms_.load_power;
-  result.dissipated += h * terms_.dissipated_power;
-  for (std::size_t i = 0; i < modes_.size(); ++i) {
-    const double rate = middle_.etadot[static_cast<Eigen::Index>(i)];
-    result.dissipated -= h * modes_.oscillator(i).damping() * rate * rate;
-  }
+  result.dissipated +=
+      h * (terms_.dissipated_power - modes_.find_loss(middle_));
   drift(next_, result.dissipated);
   require_finite(model_, next_, h);
   std::swap(state, next_);

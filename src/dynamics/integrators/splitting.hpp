@@ -11,10 +11,11 @@ namespace limber::dynamics {
 /// forces.
 ///
 /// Equation   drift(h/2), kick(h), drift(h/2). Drift: p += h v / 2,
-///            R <- R exp(h w / 2), each mode as a free damped oscillator by
-///            its closed form. Kick: velocities change by all other forces at
-///            fixed positions and time, by the midpoint rule: a change over h/2
-///            with the velocities before, then over h with those midway.
+///            R <- R exp(h w / 2), each mode free, with its dampers and Maxwell
+///            elements, exactly (FreeVibration). Kick: velocities change by all
+///            other forces at fixed positions and time, by the midpoint rule: a
+///            change over h/2 with the velocities before, then over h with
+///            those midway.
 /// Source     [@strang1968]; with oscillators and impulses:
 ///            [@garciaarchilla1998]
 /// Limits     second order. Modes do not limit the step; the stiffness and
@@ -36,8 +37,8 @@ class Splitting final : public Integrator {
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
 
  private:
-  // Adds the energy dissipated by modal damping to `dissipated` [J].
-  void drift(SystemState& state, double& dissipated) const;
+  // Adds the energy dissipated by the modes' damping to `dissipated` [J].
+  void drift(SystemState& state, double& dissipated);
   void calc_kick();
   void kick(const SystemState& from, double h, SystemState& to) const;
 

@@ -63,16 +63,6 @@ std::string name_those(bool IntegratorTraits::*property) {
                        : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-void refuse_maxwell(const SystemModel& model, const std::string& scheme) {
-  for (const BodyModel& body : model.bodies) {
-    if (body.maxwell.size() == 0) continue;
-    throw InputError(fmt::format(
-        "body '{}' has a loss factor, but {} moves its modes as oscillators "
-        "with dampers of their own; use {}, or damping per mode",
-        body.name, scheme, name_those(&IntegratorTraits::takes_maxwell)));
-  }
-}
-
 }  // namespace
 
 void refuse_hidden_memory(const SystemModel& model, const std::string& why) {
@@ -142,7 +132,6 @@ void check_settings(const SystemModel& model, const SystemState& state,
         model.bodies[static_cast<std::size_t>(model.full_bodies[0].body)].name,
         traits.name, name_those(&IntegratorTraits::takes_full_bodies)));
   }
-  if (!traits.takes_maxwell) refuse_maxwell(model, traits.name);
 }
 
 }  // namespace limber::dynamics
