@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "places.hpp"
 
 namespace limber::test::locking_test {
 namespace {
@@ -121,6 +122,76 @@ TEST_F(LockingBar, WithOrderTwoHasABeamsFrequency) {
   EXPECT_LT(frequency(" --order 2"), euler);
   EXPECT_GT(frequency(" --order 2"), 0.94 * euler);
   EXPECT_GT(frequency(""), 1.15 * euler);
+}
+
+// tests/data/first_order_bar/README.md.
+class FirstOrderBar : public ::testing::Test {
+ protected:
+  FirstOrderBar() {
+    for (const char* name : {"bar.bdf", "bar.urdf", "bar.toml"}) {
+      place_.write(name, read_text(kData / name));
+    }
+  }
+
+  void promote() const {
+    std::string robot = read_text(kData / "bar.urdf");
+    const std::string unit = "unit=\"mm\"";
+    robot.insert(robot.find(unit) + unit.size(), " order=\"2\"");
+    place_.write("bar.urdf", robot);
+  }
+
+  /// Displacement of the tip in the direction of 10 N along an axis [m].
+  [[nodiscard]] double pull(int axis) const {
+    std::string force = "[0, 0, 0]";
+    force.replace(static_cast<std::size_t>(1 + 3 * axis), 1, "10");
+    const CommandResult r = place_.limber(
+        "static bar.toml --json --out o --set load.force.force='" + force +
+        "'");
+    EXPECT_EQ(r.status, 0) << r.errors;
+    const std::string column = fmt::format("tip.u{}", "xyz"[axis]);
+    return json::parse(r.out).at("probes").at(column).at("value").get<double>();
+  }
+
+  const std::filesystem::path kData =
+      std::filesystem::path(LIMBER_SOURCE_DIR) / "tests/data/first_order_bar";
+  Workspace place_;
+
+  static constexpr double kForce = 10.0, kPoisson = 0.33;
+  static constexpr double kArea = kSide * kSide;
+  static double find_timoshenko() {
+    const double kappa = 10.0 * (1.0 + kPoisson) / (12.0 + 11.0 * kPoisson);
+    const double shear = kModulus / (2.0 * (1.0 + kPoisson));
+    const double bending =
+        4.0 * std::pow(kLength, 3) / (kModulus * std::pow(kSide, 4));
+    return kForce * (bending + kLength / (kappa * shear * kArea));
+  }
+};
+
+// Within 1 %: the default joint and the root's face, held by its mean motion
+// alone, add up to half of that each.
+TEST_F(FirstOrderBar, WithOrderTwoBendsAsTimoshenkosCantilever) {
+  promote();
+  EXPECT_NEAR(pull(1) / find_timoshenko(), 1.0, 0.01);
+  EXPECT_NEAR(pull(2) / find_timoshenko(), 1.0, 0.01);
+}
+
+// What locks is bending alone. Within 2 %: faces whose mean is held and pulled
+// warp, as far in as their width, a tenth of the length.
+TEST_F(FirstOrderBar, StretchesAsARodWithEitherOrder) {
+  const double stretch = kForce * kLength / (kModulus * kArea);
+  EXPECT_NEAR(pull(0) / stretch, 1.0, 0.02);
+  promote();
+  EXPECT_NEAR(pull(0) / stretch, 1.0, 0.02);
+}
+
+// The warning's error is of a frequency, the root of a stiffness.
+TEST_F(FirstOrderBar, LocksAsMuchAsItsWarningSays) {
+  const CommandResult modes = place_.limber("modes bar.bdf --json" + kMaterial);
+  const double told =
+      json::parse(modes.out).at("locking").at("error").get<double>();
+  const double stiffer = find_timoshenko() / pull(2);
+  EXPECT_GT(stiffer, 1.5);
+  EXPECT_NEAR(std::sqrt(stiffer) - 1.0, told, 0.1 * told);
 }
 
 }  // namespace
