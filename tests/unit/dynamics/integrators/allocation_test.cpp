@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "limber/dynamics/integrators/energy_conserving.hpp"
+#include "limber/dynamics/integrators/explicit_euler.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
 #include "limber/dynamics/integrators/runge_kutta.hpp"
 #include "limber/dynamics/integrators/splitting.hpp"
@@ -12,12 +13,10 @@
 namespace limber::dynamics::allocation_test {
 namespace {
 
-// Bodies with Maxwell elements, where schemes take them.
-SystemModel loaded_chain(SystemState& state, bool has_maxwell = true) {
+// Bodies with Maxwell elements.
+SystemModel loaded_chain(SystemState& state) {
   ModalDamping damping;
-  if (has_maxwell) {
-    damping.maxwell = flexbody::find_maxwell_elements(0.1, {10.0, 1e4});
-  }
+  damping.maxwell = flexbody::find_maxwell_elements(0.1, {10.0, 1e4});
   testing::Chain chain =
       testing::make_chain({.bodies = 5,
                            .modes = 20,
@@ -80,12 +79,23 @@ TEST(Allocation, AStepOfTheEnergyConservingSchemeMakesNone) {
 
 TEST(Allocation, AStepOfTheSplittingSchemeMakesNone) {
   SystemState state;
-  const SystemModel model = loaded_chain(state, false);
+  const SystemModel model = loaded_chain(state);
   Splitting scheme(model);
   scheme.step(state, 1e-6, state.t + 1e-6);
   const long before = limber::testing::allocations;
   for (int i = 0; i < 100; ++i) scheme.step(state, 1e-6, state.t + 1e-6);
   scheme.step(state, 5e-7, state.t + 5e-7);
+  EXPECT_EQ(limber::testing::allocations - before, 0);
+}
+
+TEST(Allocation, AStepOfExplicitEulerMakesNone) {
+  SystemState state;
+  const SystemModel model = loaded_chain(state);
+  ExplicitEuler scheme(model);
+  scheme.step(state, 1e-7, state.t + 1e-7);
+  const long before = limber::testing::allocations;
+  for (int i = 0; i < 100; ++i) scheme.step(state, 1e-7, state.t + 1e-7);
+  scheme.step(state, 5e-8, state.t + 5e-8);
   EXPECT_EQ(limber::testing::allocations - before, 0);
 }
 
