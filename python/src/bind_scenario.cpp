@@ -127,9 +127,8 @@ std::shared_ptr<RecordedRun> run(const scene::Scene& scene,
       check_period(law);
       replace_law(law, made.built);
     }
-    recorded->run = app::simulate_built(scene, std::move(made.built), cache,
-                                        watch, {}, judges);
-    recorded->run.scenery = std::move(made.scenery);
+    recorded->run = app::simulate_pictured(scene, std::move(made), cache, watch,
+                                           {}, judges);
   }
   recorded->cause = take_cause();
   return recorded;

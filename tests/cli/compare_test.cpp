@@ -54,6 +54,27 @@ double error_of(const json& run, const std::string& field) {
   return run["error"][field]["relative"].get<double>();
 }
 
+// Errors of steps are of third order: a tenth takes 10^(1/3) = 2.15 times as
+// many, where nothing else bounds them.
+TEST(Compare, ReferenceOfATolerantScenarioStepsToATenthOfIt) {
+  const Workspace place;
+  write_push(place);
+  const auto compare = [&](const std::string& more) {
+    const CommandResult result = place.limber(
+        "compare push.toml --fidelity coupled --repeat 1 --json --out o "
+        "--unset time.step " +
+        more);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    const json report = json::parse(result.out);
+    EXPECT_TRUE(report["reference"]["step"].is_null());
+    EXPECT_EQ(report["reference"]["tolerance_share"], 0.1);
+    return report["reference"]["steps"].get<double>() /
+           report["runs"][0]["steps"].get<double>();
+  };
+  EXPECT_GE(compare(""), 1.0);
+  EXPECT_NEAR(compare("--set time.tolerance=1e-10"), std::cbrt(10.0), 0.25);
+}
+
 TEST(Compare, ErrorsOfModesInClosedFormFallWithTheirNumber) {
   const Workspace place;
   write_push(place);

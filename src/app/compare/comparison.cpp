@@ -10,6 +10,7 @@
 #include "limber/app/console/terminal.hpp"
 #include "limber/app/options/reducer.hpp"
 #include "limber/app/options/scene_loading.hpp"
+#include "limber/app/options/unused_cache.hpp"
 #include "limber/app/run/output_folder.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/results/energy_audit.hpp"
@@ -110,9 +111,13 @@ class Runner {
       report(settings_.watch, what, fraction);
       report_run(what, cost, fraction);
     };
-    Run run =
-        simulate_scene(scene, make_timed_reducer(progress), settings_.cache,
-                       progress, {}, settings_.keep_runs);
+    PicturedScene made =
+        build_pictured(scene, make_timed_reducer(progress), settings_.cache,
+                       make_full_maker(progress));
+    warn_of_unused_cache(settings_.cache, made.built);
+    made.built.settings.tolerance *= choice.tolerance_share;
+    Run run = simulate_pictured(scene, std::move(made), settings_.cache,
+                                progress, {}, settings_.keep_runs);
     done_ += cost;
     clear_progress_bar();
     note(scene, run.built.notes);

@@ -15,6 +15,9 @@ namespace {
 using dynamics::Fidelity;
 using scene::BasisChoice;
 
+/// Of the scenario's tolerance, for the reference [-].
+constexpr double kToleranceShare = 0.1;
+
 bool has_flexible_link(const scene::Scene& scene) {
   return std::any_of(scene.robot.links.begin(), scene.robot.links.end(),
                      [](const scene::Link& link) { return link.flexible; });
@@ -96,6 +99,11 @@ BasisChoice find_largest_basis(const Axes& axes, const ReferenceWish& wish) {
   return largest;
 }
 
+// Without a step of their own, compared runs step to the scenario's tolerance.
+bool steps_to_tolerance(const Axes& axes, const scene::Scene& scene) {
+  return axes.steps.empty() && scene.scenario.settings.tolerance > 0.0;
+}
+
 Choice find_reference(const Axes& axes, const ReferenceWish& wish,
                       const scene::Scene& scene) {
   Choice reference;
@@ -104,7 +112,11 @@ Choice find_reference(const Axes& axes, const ReferenceWish& wish,
     reference.basis = find_largest_basis(axes, wish);
   }
   reference.integrator = wish.integrator;
-  reference.step = wish.step.value_or(0.5 * find_shortest_step(axes, scene));
+  if (!wish.step && steps_to_tolerance(axes, scene)) {
+    reference.tolerance_share = kToleranceShare;
+  } else {
+    reference.step = wish.step.value_or(0.5 * find_shortest_step(axes, scene));
+  }
   return reference;
 }
 
@@ -120,7 +132,14 @@ void check_reference(const ComparisonPlan& plan, const Axes& axes,
         to_string(level), to_string(reference.level)));
   }
   const double shortest = find_shortest_step(axes, scene);
-  if (*reference.step > shortest) {
+  if (reference.integrator && !reference.step &&
+      !dynamics::traits_of(*reference.integrator).is_adaptive) {
+    problems.push_back(fmt::format(
+        "--reference-integrator: {} cannot step to the scenario's tolerance; "
+        "give --reference-step, too",
+        to_string(*reference.integrator)));
+  }
+  if (reference.step.value_or(0.0) > shortest) {
     problems.push_back(fmt::format(
         "--reference-step: {:g} s is longer than a compared step, {:g} s",
         *reference.step, shortest));
@@ -156,6 +175,13 @@ void check_runs(const ComparisonPlan& plan, const Axes& axes) {
   }
 }
 
+// Its step, or its share of the tolerance; empty if they are the scenario's.
+std::string describe_accuracy(const Choice& choice) {
+  if (choice.step) return fmt::format("{:g} s", *choice.step);
+  if (choice.tolerance_share == 1.0) return "";
+  return fmt::format("{:g} of the tolerance", choice.tolerance_share);
+}
+
 std::vector<std::string> list_details(const Choice& choice) {
   std::vector<std::string> details;
   const std::string sources = find_source_name(choice.basis);
@@ -163,7 +189,8 @@ std::vector<std::string> list_details(const Choice& choice) {
     details.push_back(fmt::format("{}", *choice.basis.eigenmodes));
   }
   if (!sources.empty()) details.push_back(sources);
-  if (choice.step) details.push_back(fmt::format("{:g} s", *choice.step));
+  const std::string accuracy = describe_accuracy(choice);
+  if (!accuracy.empty()) details.push_back(accuracy);
   return details;
 }
 
@@ -183,7 +210,8 @@ std::string describe_details(const Choice& choice) {
     parts.push_back(sources);
   }
   if (choice.integrator) parts.push_back(name_of(*choice.integrator));
-  if (choice.step) parts.push_back(fmt::format("{:g} s", *choice.step));
+  const std::string accuracy = describe_accuracy(choice);
+  if (!accuracy.empty()) parts.push_back(accuracy);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -293,7 +321,8 @@ std::string make_label(const Choice& choice) {
     }
   }
   if (!sources.empty()) parts.push_back(sources);
-  if (choice.step) parts.push_back(fmt::format("{:g} s", *choice.step));
+  const std::string accuracy = describe_accuracy(choice);
+  if (!accuracy.empty()) parts.push_back(accuracy);
   return fmt::format("{}", fmt::join(parts, " "));
 }
 

@@ -16,6 +16,7 @@ struct Choice {
   scene::BasisChoice basis;
   std::optional<double> step;  ///< [s]
   std::optional<dynamics::IntegratorKind> integrator = {};
+  double tolerance_share = 1.0;  ///< of the scenario's tolerance, if it has one
 
   bool operator==(const Choice&) const = default;
 };
@@ -57,8 +58,8 @@ struct ComparisonPlan {
 /// neither has a scene without flexible links, which has only one level. The
 /// reference has the most expensive level with a reduced basis, or a higher one
 /// if that is among the axes, the most eigenmodes and all sources among the
-/// axes, and half the shortest step of any run, so that the error of the step
-/// is visible in every run.
+/// axes, and half the shortest step of any run, or a tenth of the scenario's
+/// tolerance, so that the error of the step is visible in every run.
 /// @throws InputError for an unknown name, or a reference that computes less
 /// than a run.
 [[nodiscard]] ComparisonPlan make_plan(const Axes& axes,

@@ -16,7 +16,6 @@
 #include "limber/app/reports/event_report.hpp"
 #include "limber/app/reports/stress_report.hpp"
 #include "limber/app/run/run_manifest.hpp"
-#include "limber/app/run/run_scenery.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -146,6 +145,14 @@ Run simulate_scene(const scene::Scene& scene, const scene::Reducer& reducer,
   PicturedScene made =
       build_pictured(scene, reducer, cache, make_full_maker(progress));
   warn_of_unused_cache(cache, made.built);
+  return simulate_pictured(scene, std::move(made), cache, progress, checkpoints,
+                           judges);
+}
+
+Run simulate_pictured(const scene::Scene& scene, PicturedScene made,
+                      const std::filesystem::path& cache,
+                      const Progress& progress,
+                      const CheckpointPlan& checkpoints, bool judges) {
   Run run = simulate_built(scene, std::move(made.built), cache, progress,
                            checkpoints, judges);
   run.scenery = std::move(made.scenery);

@@ -8,6 +8,7 @@
 #include "limber/app/reports/levels.hpp"
 #include "limber/app/run/checkpoints.hpp"
 #include "limber/app/run/output_folder.hpp"
+#include "limber/app/run/run_scenery.hpp"
 #include "limber/common/progress.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/results/history.hpp"
@@ -41,7 +42,15 @@ struct Run {
                                  const CheckpointPlan& checkpoints = {},
                                  bool judges = false);
 
-/// The same for a scene that is already built.
+/// The same for a scene that is already built, with its pictures.
+[[nodiscard]] Run simulate_pictured(const scene::Scene& scene,
+                                    PicturedScene made,
+                                    const std::filesystem::path& cache,
+                                    const Progress& progress,
+                                    const CheckpointPlan& checkpoints = {},
+                                    bool judges = false);
+
+/// The same without its pictures.
 [[nodiscard]] Run simulate_built(const scene::Scene& scene,
                                  scene::BuiltScene built,
                                  const std::filesystem::path& cache,

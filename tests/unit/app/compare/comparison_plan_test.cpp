@@ -122,6 +122,26 @@ TEST(ComparisonPlan, TakesHalfTheShortestStepOfASchedule) {
   EXPECT_EQ(make_plan({}, {}, scene).reference.step, 2e-4);
 }
 
+TEST(ComparisonPlan, TakesATenthOfATolerance) {
+  scene::Scene scene = make_scene();
+  scene.scenario.settings.tolerance = 1e-4;
+  scene.scenario.settings.step = 2.0;  // the duration
+  const ComparisonPlan plan = make_plan({}, {}, scene);
+  EXPECT_FALSE(plan.reference.step);
+  EXPECT_EQ(plan.reference.tolerance_share, 0.1);
+  EXPECT_THAT(describe(plan.reference), HasSubstr("0.1 of the tolerance"));
+  for (const Choice& run : plan.runs) EXPECT_EQ(run.tolerance_share, 1.0);
+  Axes steps;
+  steps.steps = {1e-3};
+  EXPECT_EQ(make_plan(steps, {}, scene).reference.step, 5e-4);
+  ReferenceWish wish;
+  wish.integrator = dynamics::IntegratorKind::central_differences;
+  EXPECT_THAT(input_error([&] { (void)make_plan({}, wish, scene); }),
+              HasSubstr("give --reference-step"));
+  wish.step = 1e-5;
+  EXPECT_EQ(make_plan({}, wish, scene).reference.step, 1e-5);
+}
+
 TEST(ComparisonPlan, HoldsNoRunTwice) {
   Axes axes;
   axes.levels = {Fidelity::rigid, Fidelity::rigid, Fidelity::uncoupled};
