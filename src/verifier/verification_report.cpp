@@ -105,25 +105,31 @@ Json to_json(const VerificationReport& report) {
   for (std::size_t i = 0; i < result.runs.size(); ++i) {
     runs.push_back(to_json(result, i));
   }
-  return Json{{"scenario", report.scenario},
-              {"reference", reference::simbody_name()},
-              {"joints", joints_name(report)},
-              {"accuracy", report.options.simbody.accuracy},
-              {"reference_steps", result.simbody_steps},
-              {"integrator", dynamics::to_string(report.integrator)},
-              {"motion", to_json(result.motion)},
-              {"energy", result.energy},
-              {"runs", runs}};
+  Json json{{"scenario", report.scenario},
+            {"reference", reference::simbody_name()},
+            {"joints", joints_name(report)},
+            {"accuracy", report.options.simbody.accuracy},
+            {"reference_steps", result.simbody_steps},
+            {"integrator", dynamics::to_string(report.integrator)},
+            {"motion", to_json(result.motion)},
+            {"energy", result.energy},
+            {"runs", runs}};
+  if (report.tolerance > 0.0) json["tolerance"] = report.tolerance;
+  return json;
 }
 
 std::string describe_runs(const VerificationReport& report) {
   const Verification& result = report.result;
+  const std::string steps =
+      report.tolerance > 0.0
+          ? fmt::format("tolerance {:.3g} m", report.tolerance)
+          : fmt::format("step {:g} s", result.runs.back().step);
   return fmt::format(
       "{}: joints {}, accuracy {:g}, {} steps\n"
-      "limber: level rigid, {}, step {:g} s\n\n",
+      "limber: level rigid, {}, {}\n\n",
       reference::simbody_name(), joints_name(report),
       report.options.simbody.accuracy, result.simbody_steps,
-      dynamics::to_string(report.integrator), result.runs.back().step);
+      dynamics::to_string(report.integrator), steps);
 }
 
 std::string to_text(const VerificationReport& report) {

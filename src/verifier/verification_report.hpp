@@ -13,6 +13,7 @@ struct VerificationReport {
   std::string scenario;
   dynamics::IntegratorKind integrator =
       dynamics::IntegratorKind::generalized_alpha;
+  double tolerance = 0.0;  ///< of our steps [m]; 0: fixed ones
   reference::VerificationOptions options;
   reference::Verification result;
 };

@@ -117,6 +117,7 @@ void verify(const VerifyOptions& options) {
   }
   report.integrator = scene.scenario.settings.integrator;
   const scene::BuiltScene built = build(scene, options);
+  report.tolerance = built.settings.tolerance;
   if (!options.stiffen.empty()) {
     stiffen(options, folder, scene, built, report);
     return;

@@ -17,6 +17,23 @@ const std::string kExample = LIMBER_SOURCE_DIR "/examples/report_beam.toml";
 
 #ifdef LIMBER_HAS_REFERENCE
 
+TEST(VerifyCommand, NamesTheToleranceOfAScenarioWithoutAStep) {
+  const Workspace place;
+  place.write("r.urdf",
+              "<robot name='r'><link name='a'><inertial><mass value='2'/>"
+              "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+              "</inertial></link></robot>");
+  place.write("s.toml",
+              "robot = 'r.urdf'\n[time]\nduration = 0.1\n[initial.base]\n"
+              "velocity = [1, 0, 0]\n");
+  const CommandResult result = place.limber("verify s.toml");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  // 1e-4 of twice the radius of gyration, sqrt(2 * 3 / 2).
+  EXPECT_THAT(result.out, HasSubstr("tolerance 0.000173 m"));
+  const CommandResult fixed = place.limber("verify s.toml --step 0.01");
+  EXPECT_THAT(fixed.out, HasSubstr("step 0.01 s"));
+}
+
 TEST(VerifyCommand, TellsDifferencesByBodyAndTheirOrder) {
   const Workspace place;
   const CommandResult result =
