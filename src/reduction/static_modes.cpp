@@ -73,6 +73,15 @@ MatrixX find_force_modes(const MeshedBody& body, const NodalForces& nodal,
   return X * (weight * principal.vectors.rowwise().reverse().leftCols(taken));
 }
 
+Matrix6 find_mean_motion(const MeshedBody& body, const Interface& interface,
+                         const MatrixX& answers) {
+  const Matrix6 motion =
+      interface.motion.apply(
+          put_rows(answers, body.support.free_nodes, body.mesh.x.cols())) *
+      unit_wrenches(interface.motion).transpose();
+  return 0.5 * (motion + motion.transpose());
+}
+
 }  // namespace
 
 StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
@@ -84,12 +93,7 @@ StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
   for (const Interface& interface : body.interfaces) {
     const Matrix6X wrenches = unit_wrenches(interface.motion);
     const MatrixX answers = solve(interface.motion.spread(wrenches));
-    const Matrix6 flexibility =
-        interface.motion.apply(
-            put_rows(answers, body.support.free_nodes, body.mesh.x.cols())) *
-        wrenches.transpose();
-    modes.flexibility.emplace_back(0.5 *
-                                   (flexibility + flexibility.transpose()));
+    modes.flexibility.push_back(find_mean_motion(body, interface, answers));
     if (recipe.basis.interface_modes && interface.static_modes)
       append(answers, modes.vectors);
   }
@@ -102,6 +106,34 @@ StaticModes find_static_modes(const MeshedBody& body, const Recipe& recipe) {
   }
   modes.vectors = find_krylov_vectors(body, modes.vectors, recipe.basis.terms,
                                       recipe.basis.drop_tolerance);
+  return modes;
+}
+
+StaticModes estimate_static_modes(const MeshedBody& body) {
+  constexpr int kSteps = 3;
+  const std::vector<int>& free_nodes = body.support.free_nodes;
+  const fem::SparseMatrix& M_s = body.support.matrices.M_s;
+  MatrixX loads(body.support.matrices.dof_count(), 0);
+  for (const Interface& interface : body.interfaces)
+    append(take_rows(interface.motion.spread(unit_wrenches(interface.motion)),
+                     free_nodes),
+           loads);
+  StaticModes modes;
+  modes.vectors = loads;
+  if (loads.cols() == 0) return modes;
+  modes.vectors = body.inverse.solve_shifted(loads);
+  Eigen::Index column = 0;
+  for (const Interface& interface : body.interfaces) {
+    const Eigen::Index count = unit_wrenches(interface.motion).cols();
+    modes.flexibility.push_back(find_mean_motion(
+        body, interface, modes.vectors.middleCols(column, count)));
+    column += count;
+  }
+  MatrixX step = modes.vectors;
+  for (int i = 1; i < kSteps; ++i) {
+    step = body.inverse.solve_shifted(fem::multiply_mass(M_s, step));
+    append(step, modes.vectors);
+  }
   return modes;
 }
 

@@ -36,6 +36,13 @@ struct StaticModes {
 [[nodiscard]] StaticModes find_static_modes(const MeshedBody& body,
                                             const Recipe& recipe);
 
+/// For Recipe::is_estimate: three steps of inverse iteration from the unit
+/// forces and moments of the interfaces, with the factor's shift s. In their
+/// span the responses to these miss (s / lambda_1)^3 of the first mode, 1e-6.
+///
+/// Equation   [Y, A Y, A^2 Y], A = (K - s M)^-1 M, Y = (K - s M)^-1 F
+[[nodiscard]] StaticModes estimate_static_modes(const MeshedBody& body);
+
 /// Eigenmodes and static-deformation modes as one basis.
 /// @param drop_tolerance as for orthonormalise() [-]
 [[nodiscard]] ReducedBasis join_basis(const MeshedBody& body,

@@ -93,4 +93,17 @@ Json to_json(const flexbody::MeshLocking& locking) {
               {"error", locking.error()}};
 }
 
+Json to_json(const flexbody::PieceCheck& check) {
+  Json json{{"count", check.count}, {"differences", Json::array()}};
+  for (const flexbody::PieceDifference& one : check.differences) {
+    json["differences"].push_back(Json{{"quantity", one.quantity},
+                                       {"unit", one.unit},
+                                       {"whole", one.whole},
+                                       {"pieces", one.pieces},
+                                       {"error", one.error()}});
+  }
+  if (!check.obstacle.empty()) json["obstacle"] = check.obstacle;
+  return json;
+}
+
 }  // namespace limber::app

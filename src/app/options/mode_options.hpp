@@ -5,6 +5,7 @@
 #include <string>
 
 #include "limber/app/console/json.hpp"
+#include "limber/flexbody/modal/piece_check.hpp"
 #include "limber/flexbody/model/mesh_locking.hpp"
 #include "limber/flexbody/model/recipe.hpp"
 #include "limber/flexbody/model/selection_record.hpp"
@@ -34,5 +35,6 @@ void apply(const ModeOptions& options, flexbody::BasisOptions& basis);
 /// A selection for `info`, summaries and --json; modes are counted from 1.
 [[nodiscard]] Json to_json(const flexbody::SelectionRecord& record);
 [[nodiscard]] Json to_json(const flexbody::MeshLocking& locking);
+[[nodiscard]] Json to_json(const flexbody::PieceCheck& check);
 
 }  // namespace limber::app

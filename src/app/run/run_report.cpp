@@ -66,6 +66,10 @@ void print_text(const Run& run, const std::filesystem::path& folder) {
     if (!body.reduced || !body.reduced->selection) continue;
     fmt::print("'{}': {}\n", body.name, summarize(*body.reduced->selection));
   }
+  for (const flexbody::PieceCheck& check : run.built.piece_checks) {
+    fmt::print("'{}': its {} pieces {}\n", check.link, check.count,
+               describe_largest(check));
+  }
   fmt::print("offline {:.3g} s ({} reduced, {} from the cache)\n",
              run.built.seconds_offline, run.built.bodies_reduced,
              run.built.bodies_cached);

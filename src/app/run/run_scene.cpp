@@ -222,6 +222,9 @@ Json summarize(const Run& run) {
   json["modes"] = count_modes(run);
   const Json selections = summarize_selections(run);
   if (!selections.empty()) json["automatic_modes"] = selections;
+  for (const flexbody::PieceCheck& check : run.built.piece_checks) {
+    json["pieces"][check.link] = to_json(check);
+  }
   json["couplers"] = run.built.model.couplers.size();
   json["modes_exact"] = run.statistics.exact_modes;
   json["steps"] = run.statistics.steps;

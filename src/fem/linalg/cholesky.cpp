@@ -2,6 +2,7 @@
 #include "limber/fem/linalg/cholesky.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "limber/common/errors.hpp"
 #include "limber/fem/linalg/cholmod_view.hpp"
@@ -28,6 +29,21 @@ std::vector<int> order_dofs(const SparseMatrix& M_s) {
     for (int c = 0; c < 3; ++c) dofs.push_back(3 * node + c);
   return dofs;
 }
+
+namespace {
+
+/// Linux grants more memory than there is, and then ends the process.
+void check_memory(double bytes, const std::string& what) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (memory <= 0.0 || bytes < memory) return;
+  constexpr double kGigabyte = 1e9;
+  throw NumericalError(
+      fmt::format("{}: its factor takes {:.3g} GB, and the memory is {:.3g} GB",
+                  what, bytes / kGigabyte, memory / kGigabyte));
+}
+
+}  // namespace
 
 struct SparseCholesky::Impl {
   mutable CholmodCommon common;
@@ -62,6 +78,8 @@ SparseCholesky::SparseCholesky(const SparseMatrix& lower,
   impl_->flops = common->fl;
   impl_->what = what;
   impl_->causes = causes;
+  check_memory(sizeof(double) * static_cast<double>(impl_->factor->xsize),
+               what);
   factor(lower);
 }
 

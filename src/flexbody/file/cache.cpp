@@ -118,6 +118,7 @@ void add_request(const Recipe& recipe, Digest& digest) {
     digest.add(kStressVersion);
     if (recipe.manifold) digest.add(std::string("of products"));
   }
+  if (recipe.is_estimate) digest.add(std::string("estimate"));
   if (recipe.contact_groups.empty()) return;
   digest.add(kContactVersion);
   digest.add(recipe.contact_groups.size());

@@ -153,6 +153,9 @@ struct Recipe {
   bool manifold = false;  ///< with second-order kinematics, for level nonlinear
   MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of the manifold
   bool stress = false;  ///< with stress modes at the stored rows
+  /// Only what compares it with its pieces: the lowest frequencies and the
+  /// flexibility at and between its interfaces to some 1e-4, by few solutions.
+  bool is_estimate = false;
 };
 
 }  // namespace limber::flexbody

@@ -128,6 +128,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   built.notes = scene.scenario.notes;
   built.notes.insert(built.notes.end(), assembly.notes().begin(),
                      assembly.notes().end());
+  built.piece_checks = reductions.piece_checks;
   built.known = reductions.known;
   built.bodies_reduced = reductions.reduced;
   built.bodies_cached = reductions.cached;

@@ -25,6 +25,7 @@ struct BuiltScene {
   std::vector<std::string> warnings;
   /// What a user may not expect: the scenario's, then those of building it.
   std::vector<std::string> notes;
+  std::vector<flexbody::PieceCheck> piece_checks;  ///< of links in pieces
   KnownBodies known;             ///< all that were reduced or cached
   int bodies_reduced = 0;        ///< number of reductions done now
   int bodies_cached = 0;         ///< number of reductions from the cache

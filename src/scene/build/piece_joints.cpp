@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <string>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/flexbody/modal/piece_assembly.hpp"
 #include "limber/flexbody/model/piece.hpp"
 
 namespace limber::scene {
@@ -46,19 +46,7 @@ std::string name_joint(const BodyPlan& first, const BodyPlan& second,
 
 joints::Bushing make_cut_bushing(const Matrix6& F, const Matrix6& M,
                                  const dynamics::ModalDamping& damping) {
-  // Lengths in units of the flexibilities' own, for the inverse's accuracy.
-  const Matrix6 C = F + M;
-  const VectorX scale = C.diagonal().cwiseSqrt().cwiseInverse();
-  const Matrix6 unit = scale.asDiagonal() * C * scale.asDiagonal();
-  const Eigen::LLT<Matrix6> factor(unit);
-  if (factor.info() != Eigen::Success) {
-    throw InputError(
-        "its pieces cannot be joined: a cut is a line or a point of nodes");
-  }
-  const Matrix6 inverse = factor.solve(Matrix6::Identity());
-  Matrix6 K =
-      kCutStiffnessRatio * (scale.asDiagonal() * inverse * scale.asDiagonal());
-  K = 0.5 * (K + K.transpose()).eval();
+  const Matrix6 K = flexbody::calc_cut_stiffness(F, M);
   joints::Bushing::Parameters parameters;
   parameters.translational_stiffness = K.topLeftCorner<3, 3>();
   parameters.rotational_stiffness = K.bottomRightCorner<3, 3>();

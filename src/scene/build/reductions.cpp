@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <new>
 #include <optional>
 #include <set>
 
+#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/flexbody/file/body_file.hpp"
 #include "limber/flexbody/file/cache.hpp"
+#include "limber/flexbody/modal/piece_check.hpp"
 #include "limber/scene/build/expected_impacts.hpp"
 #include "limber/scene/build/link_motion.hpp"
 #include "limber/scene/build/recipes.hpp"
@@ -83,7 +86,29 @@ class Reduction {
     for (int i = 0; i < count; ++i) {
       pieces.push_back(reduce(recipe, link.name, once, {count, i}));
     }
+    if (count > 1) check_pieces(recipe, link.name, once, pieces);
     return pieces;
+  }
+
+  /// Compares pieces with the whole link, which may need more memory than they.
+  void check_pieces(const flexbody::Recipe& recipe, const std::string& link,
+                    const Reducer& reducer, const ReducedPieces& pieces) {
+    flexbody::PieceCheck check{link, static_cast<int>(pieces.size()), {}, {}};
+    try {
+      const ReducedPointer whole =
+          reduce(flexbody::make_whole_recipe(recipe), link, reducer, {});
+      check.differences = flexbody::compare_pieces(whole, pieces);
+      warn_of_locking(link, *whole);
+      reported_.insert("locking of " + link);
+    } catch (const dynamics::Interrupted&) {
+      throw;
+    } catch (const NumericalError& error) {
+      check.obstacle = error.what();
+    } catch (const std::bad_alloc&) {
+      check.obstacle = "memory runs out";
+    }
+    if (const auto text = describe_excess(check)) add_warnings(link, {*text});
+    result_.piece_checks.push_back(std::move(check));
   }
 
   int count_pieces(const flexbody::MeshSource& mesh, const Link& link,
@@ -140,15 +165,28 @@ class Reduction {
     return body;
   }
 
+  void add_warnings(const std::string& link,
+                    const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
+    }
+  }
+
+  /// Once for a link. Of pieces that are compared with the whole, the whole's
+  /// counts, whose first frequency is the link's.
+  void warn_of_locking(const std::string& link,
+                       const flexbody::ReducedBody& body) {
+    const auto text = describe_locking(body.locking);
+    if (text && reported_.insert("locking of " + link).second) {
+      add_warnings(link, {*text});
+    }
+  }
+
   void warn(const std::string& link, const ReducedPointer& body) {
     const auto add = [&](const std::vector<std::string>& texts) {
-      for (const std::string& text : texts) {
-        result_.warnings.push_back(fmt::format("link '{}': {}", link, text));
-      }
+      add_warnings(link, texts);
     };
-    // Pieces of a link share its mesh.
-    if (const auto text = describe_locking(body->locking))
-      if (reported_.insert("locking of " + link).second) add({*text});
+    warn_of_locking(link, *body);
     if (body->selection) add(flexbody::describe_shortfalls(*body->selection));
     for (const flexbody::LoadModesRecord& record : body->load_modes) {
       if (const auto text = describe_left_out(record)) add({*text});

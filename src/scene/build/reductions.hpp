@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limber/flexbody/file/cache.hpp"
+#include "limber/flexbody/modal/piece_check.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 #include "limber/scene/build/body_plan.hpp"
 #include "limber/scene/build/scene.hpp"
@@ -25,6 +26,7 @@ struct Reductions {
   std::vector<ReducedPieces> of_link;
   int reduced = 0;  ///< number of reductions done now
   int cached = 0;   ///< number of reductions from the cache
+  std::vector<flexbody::PieceCheck> piece_checks;  ///< of links in pieces
   /// Shortfalls of the bodies' bases, and notices of their meshes.
   std::vector<std::string> warnings;
   KnownBodies known;  ///< given, reduced and cached ones
