@@ -106,65 +106,6 @@ TEST(Equilibrium, OfAPendulumOnATorsionSpringIsTheClosedForm) {
   }
 }
 
-// A light bar on a soft spring, and a stranger that hangs on a spring of its
-// own: heavy and far away it would make the bar's whole motion round-off.
-TEST(Equilibrium, DoesNotDependOnStrangers) {
-  const auto solve = [](double mass, double distance) {
-    SystemBuilder builder;
-    builder.set_gravity({0, 0, -kGravity});
-    const BodyIndex bar = builder.add_rigid_body(
-        "bar", {0.02, Matrix3(Vector3(1e-3, 7e-3, 7e-3).asDiagonal())});
-    builder.add_coupler(
-        "hinge", make_hinge(1e6, {{0, make_spring(0.4)}}, 1e-3),
-        builder.attach_world("pin", {}),
-        builder.attach_frame("end", bar, {Matrix3::Identity(), {-1, 0, 0}}));
-    if (mass > 0.0) {
-      const BodyIndex stranger = builder.add_rigid_body(
-          "stranger", {mass, mass * Matrix3::Identity()});
-      builder.add_coupler("hold",
-                          make_hinge(1e4 * mass, {{0, make_spring(mass)}}),
-                          builder.attach_world(
-                              "place", {Matrix3::Identity(), {distance, 0, 0}}),
-                          builder.attach_frame("middle", stranger, {}));
-    }
-    const SystemModel model = builder.build();
-    SystemState start = make_state(model);
-    start.bodies[0].p_WB = {1, 0, 0};
-    if (mass > 0.0) start.bodies[1].p_WB = {distance, 0, 0};
-    return angle_of(find_equilibrium(model, start).state);
-  };
-  const double alone = solve(0.0, 0.0);
-  EXPECT_LT(alone, -0.3);
-  for (const double mass : {1e-6, 1.0, 1e6}) {
-    for (const double distance : {1.0, 1e3, 1e6}) {
-      EXPECT_NEAR(solve(mass, distance), alone, 1e-9)
-          << mass << ' ' << distance;
-    }
-  }
-}
-
-// A stranger's load would make the first one's round-off.
-TEST(Equilibrium, OfAFreeBodyUnderALoadIsRefusedBesideAStrongerLoad) {
-  SystemBuilder builder;
-  const BodyIndex free =
-      builder.add_rigid_body("free", {1.0, Matrix3::Identity()});
-  const BodyIndex held =
-      builder.add_rigid_body("held", {1.0, Matrix3::Identity()});
-  builder.add_coupler("hinge", make_hinge(1e8, {{0, make_spring(1.0)}}),
-                      builder.attach_world("pin", {}),
-                      builder.attach_frame("at_held", held, {}));
-  builder.add_load("weak", builder.attach_frame("at_free", free, {}),
-                   {1e-3, 0, 0}, Vector3::Zero(), LoadFrame::world,
-                   TimeFunction{});
-  builder.add_load("strong", builder.attach_frame("also_at_held", held, {}),
-                   {1e8, 0, 0}, Vector3::Zero(), LoadFrame::world,
-                   TimeFunction{});
-  const SystemModel model = builder.build();
-  EXPECT_THAT(
-      error_of([&] { (void)find_equilibrium(model, make_state(model)); }),
-      AllOf(HasSubstr("body 'free'"), HasSubstr("net force of 0.001 N")));
-}
-
 TEST(Equilibrium, IsWhereTheStartIsIfNothingPushes) {
   const Pendulum pendulum(0.3, 1e8);
   SystemModel model = pendulum.model;
