@@ -42,7 +42,7 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
                                  : find_alpha_parameters(settings.rho_inf)),
       matrix_(model),
       exact_(model),
-      damper_work_(model),
+      work_(model),
       maxwell_(model, flexbody::set_linear_step),
       next_(make_state(model)),
       terms_(make_terms(model)),
@@ -67,9 +67,9 @@ void GeneralizedAlpha::refresh() {
 
 void GeneralizedAlpha::exchange_memory(Archive& archive,
                                        const SystemState& state) {
-  archive(a_, vdot_, memory_step_, power_load_, power_loss_);
+  archive(a_, vdot_, memory_step_);
   plan_.exchange_memory(archive);
-  damper_work_.exchange_memory(archive);
+  work_.exchange_memory(archive);
   for (CouplerTerms& coupler : terms_.couplers) archive(coupler.applied);
   for (TransmissionTerms& t : terms_.transmissions) archive(t.applied);
   if (archive.reads()) next_ = state;
@@ -178,9 +178,7 @@ void GeneralizedAlpha::start(const SystemState& state, double h) {
   calc_terms(model_, next_, Side::right, terms_);
   calc_residual(model_, vdot_next_, terms_, residual_);
   add_quasi_static_accelerations();
-  power_load_ = terms_.load_power;
-  power_loss_ = terms_.dissipated_power;
-  damper_work_.start(terms_);
+  work_.start(next_, terms_);
 }
 
 void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
@@ -195,9 +193,7 @@ void GeneralizedAlpha::cross_jump(const SystemState& state, double h) {
   calc_residual(model_, vdot_next_, terms_, residual_);
   residual_ -= before;
   add_quasi_static_accelerations();
-  power_load_ = terms_.load_power;
-  power_loss_ = terms_.dissipated_power;
-  damper_work_.start(terms_);
+  work_.start(next_, terms_);
 }
 
 // The step's end that a_next_ implies.
@@ -421,16 +417,8 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
     }
   }
   plan_.finish_step(keeps, course);
-  result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
-  const double path = damper_work_.advance(state, next_, terms_, h);
-  result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power) + path;
-  result.begin = {power_load_, power_loss_ + path / h};
-  result.end = {terms_.load_power, terms_.dissipated_power + path / h};
+  work_.advance(state, next_, terms_, h, result);
   if (scale_) estimate_error(h, result);
-  last_power_load_ = power_load_;
-  last_power_loss_ = power_loss_;
-  power_load_ = terms_.load_power;
-  power_loss_ = terms_.dissipated_power;
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
   trend_step_ = h;
@@ -442,9 +430,7 @@ void GeneralizedAlpha::undo(const SystemState& /*before*/) {
   std::swap(a_, a_next_);
   std::swap(vdot_, vdot_next_);
   trend_step_ = 0.0;
-  damper_work_.undo();
-  power_load_ = last_power_load_;
-  power_loss_ = last_power_loss_;
+  work_.undo();
 }
 
 }  // namespace limber::dynamics

@@ -7,10 +7,10 @@
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/integrators/alpha_parameters.hpp"
-#include "limber/dynamics/integrators/damper_work.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
 #include "limber/dynamics/integrators/maxwell_motion.hpp"
 #include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/integrators/step_work.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/exact_correction.hpp"
 #include "limber/dynamics/newton/factor_plan.hpp"
@@ -107,12 +107,8 @@ class GeneralizedAlpha final : public Integrator {
   bool renews_full_ = false;    // also factors of unreduced bodies
   FactorPlan plan_;
   double trend_step_ = 0.0;  // vdot_next_ is from this long before, 0: not [s]
-  double power_load_ = 0.0;  // at the last state, for the audit [W]
-  double power_loss_ = 0.0;
-  DamperWork damper_work_;
+  StepWork work_;
   MaxwellMotion maxwell_;
-  double last_power_load_ = 0.0;  // at the previous state [W]
-  double last_power_loss_ = 0.0;
 
   SystemState next_;
   SystemTerms terms_;

@@ -170,4 +170,23 @@ double Drive::find_load(const ScalarMotion& motion, const Instant& now) const {
   return (p.pulls_only ? std::max(pull, 0.0) : std::abs(pull)) / p.max_effort;
 }
 
+std::optional<Supply> Drive::find_supply(const ScalarMotion& motion,
+                                         const Instant& now) const {
+  const Parameters& p = parameters_;
+  const ScalarResponse response = evaluate(motion, now);
+  const SignalValue command = find_command(now);
+  switch (p.mode) {
+    case DriveMode::position:
+      return Supply{response.force, command.value, command.rate};
+    case DriveMode::velocity:
+      if (const auto place = integrate(p.signal, now.t)) {
+        return Supply{response.force, *place, command.value};
+      }
+      return {};
+    case DriveMode::effort:
+      break;
+  }
+  return Supply{response.force, motion.z, motion.rate};
+}
+
 }  // namespace limber::joints

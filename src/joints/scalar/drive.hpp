@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "limber/joints/scalar/scalar_law_kind.hpp"
@@ -68,6 +69,10 @@ class Drive : public WithoutScalarSwitches, public WithoutBounds {
   /// 0 for an effort drive, whose command respects the limit.
   [[nodiscard]] double find_load(const ScalarMotion& motion,
                                  const Instant& now) const;
+  /// Along the command: of a position drive its value, of a velocity drive its
+  /// integral; of an effort drive along the coordinate.
+  [[nodiscard]] std::optional<Supply> find_supply(const ScalarMotion& motion,
+                                                  const Instant& now) const;
 
  private:
   // A value within the limits, and whether it was so before clipping.

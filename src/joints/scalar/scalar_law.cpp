@@ -67,6 +67,13 @@ double find_load(const ScalarLaw& law, const ScalarMotion& motion,
                     law);
 }
 
+std::optional<Supply> find_supply(const ScalarLaw& law,
+                                  const ScalarMotion& motion,
+                                  const Instant& now) {
+  return std::visit(
+      [&](const auto& own) { return own.find_supply(motion, now); }, law);
+}
+
 std::optional<BeyondBound> find_beyond_bound(const ScalarLaw& law,
                                              const ScalarMotion& motion) {
   return std::visit(

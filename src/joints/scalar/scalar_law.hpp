@@ -62,6 +62,12 @@ constexpr auto fields_of(const JointElement*) {
 [[nodiscard]] double find_load(const ScalarLaw& law, const ScalarMotion& motion,
                                const Instant& now);
 
+/// How a motor supplies power; nothing for a law without a command, or if the
+/// path of its command is not known.
+[[nodiscard]] std::optional<Supply> find_supply(const ScalarLaw& law,
+                                                const ScalarMotion& motion,
+                                                const Instant& now);
+
 /// The bound that the coordinate exceeds, if any.
 [[nodiscard]] std::optional<BeyondBound> find_beyond_bound(
     const ScalarLaw& law, const ScalarMotion& motion);

@@ -25,6 +25,14 @@ struct BeyondBound {
   double energy = 0.0;  ///< stored by the excess [J]
 };
 
+/// How a motor supplies power, as a force along a path: the work over a time is
+/// the integral of the force over the place.
+struct Supply {
+  double force = 0.0;  ///< [N or N m]
+  double place = 0.0;  ///< [m or rad]
+  double rate = 0.0;   ///< of the place [m/s or rad/s]
+};
+
 /// `evaluate_over_step` balances energies exactly (discrete_gradient.hpp).
 template <typename Law>
 concept ExertsScalarForce = requires(const Law& law, const ScalarMotion& motion,
@@ -60,7 +68,8 @@ struct WithoutScalarSwitches {
 /// A command: times at which it or one of its derivatives jumps, increasing
 /// [s]; the inputs that it follows; the rate at which the law's damper exerts
 /// no force [m/s or rad/s]; the largest effort [N or N m], and the ratio of the
-/// effort before clipping to it [-].
+/// effort before clipping to it [-]; the supply, whose force times rate is
+/// ScalarResponse::supplied, if its place is known.
 template <typename Law>
 concept HasCommand = requires(const Law& law, const Instant& now,
                               const ScalarMotion& motion) {
@@ -69,6 +78,7 @@ concept HasCommand = requires(const Law& law, const Instant& now,
   { law.find_target_rate(now) } -> std::same_as<double>;
   { law.max_effort() } -> std::same_as<double>;
   { law.find_load(motion, now) } -> std::same_as<double>;
+  { law.find_supply(motion, now) } -> std::same_as<std::optional<Supply>>;
 };
 struct WithoutCommand {
   [[nodiscard]] static std::vector<double> break_times() { return {}; }
@@ -82,6 +92,10 @@ struct WithoutCommand {
   [[nodiscard]] static double find_load(const ScalarMotion& /*motion*/,
                                         const Instant& /*now*/) {
     return 0.0;
+  }
+  [[nodiscard]] static std::optional<Supply> find_supply(
+      const ScalarMotion& /*motion*/, const Instant& /*now*/) {
+    return {};
   }
 };
 

@@ -95,6 +95,67 @@ SignalValue evaluate_base(const InputSignal& signal, const Instant& now,
   return {signal.factor * input.value, signal.factor * input.rate};
 }
 
+// Integral of a ramp's progress over the fraction `s` of the duration.
+double integrate_progress(const RampSignal& ramp, double s) {
+  switch (ramp.shape) {
+    case RampShape::smooth:
+      return s * s * s * s * (2.5 + s * (-3.0 + s));
+    case RampShape::trapezoid: {
+      const double a = ramp.rise;
+      const double top = 1.0 / (1.0 - a);
+      if (s < a) return top * s * s * s / (6.0 * a);
+      if (s <= 1.0 - a) {
+        return top * (a * a / 6.0 + 0.5 * s * (s - a));
+      }
+      const double left = 1.0 - s;
+      return 0.5 - left + top * left * left * left / (6.0 * a);
+    }
+    case RampShape::linear:
+      break;
+  }
+  return 0.5 * s * s;
+}
+
+double integrate_base(const ConstantSignal& signal, double t) {
+  return signal.value * t;
+}
+
+double integrate_base(const RampSignal& ramp, double t) {
+  const double s = (t - ramp.start) / ramp.duration;
+  if (s <= 0.0) return ramp.from * (t - ramp.start);
+  if (s >= 1.0) {
+    return ramp.duration * (0.5 * (ramp.from + ramp.to) + ramp.to * (s - 1.0));
+  }
+  return ramp.duration *
+         (ramp.from * s + (ramp.to - ramp.from) * integrate_progress(ramp, s));
+}
+
+double integrate_base(const TableSignal& table, double t) {
+  const auto& times = table.times;
+  const auto& values = table.values;
+  if (t <= times.front()) return values.front() * (t - times.front());
+  double sum = 0.0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double span = times[i] - times[i - 1];
+    const double share = std::min((t - times[i - 1]) / span, 1.0);
+    const double rise = values[i] - values[i - 1];
+    sum += span * share * (values[i - 1] + 0.5 * share * rise);
+    if (share < 1.0) return sum;
+  }
+  return sum + values.back() * (t - times.back());
+}
+
+double integrate_base(const SineSignal& sine, double t) {
+  const double omega = 2.0 * kPi * sine.frequency;
+  const double since = t - sine.start;
+  if (since <= 0.0) {
+    return (sine.mean + sine.amplitude * std::sin(sine.phase)) * since;
+  }
+  return sine.mean * since -
+         sine.amplitude / omega *
+             (std::cos(omega * since + sine.phase) - std::cos(sine.phase));
+}
+
 std::vector<double> base_breaks(const Signal& signal) {
   return std::visit(
       Overloaded{
@@ -212,6 +273,22 @@ SignalValue evaluate(const Signal& signal, const Instant& now) {
         signal.base);
     sum.value += impulse.share * part.value;
     sum.rate += impulse.share * part.rate;
+  }
+  return sum;
+}
+
+std::optional<double> integrate(const Signal& signal, double t) {
+  if (std::holds_alternative<InputSignal>(signal.base)) return {};
+  double sum = 0.0;
+  for (const Impulse& impulse : signal.shaper) {
+    std::visit(
+        [&](const auto& base) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(base)>,
+                                        InputSignal>) {
+            sum += impulse.share * integrate_base(base, t - impulse.delay);
+          }
+        },
+        signal.base);
   }
   return sum;
 }

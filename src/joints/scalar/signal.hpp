@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -79,6 +80,11 @@ struct SignalValue {
 /// `now.side` selects the limit.
 /// @throws ContractError for an input that `now` does not have.
 [[nodiscard]] SignalValue evaluate(const Signal& signal, const Instant& now);
+
+/// Integral of the value from a fixed time, in closed form: differences are the
+/// travel of a command of rates [unit of the command s]. Of an input, which is
+/// known at its samples only: nothing.
+[[nodiscard]] std::optional<double> integrate(const Signal& signal, double t);
 
 /// Times at which the value or one of its derivatives jumps, increasing and
 /// further apart than round-off [s]; none of an input, which jumps when its

@@ -64,6 +64,28 @@ class Signals : public ::testing::TestWithParam<NamedSignal> {
   std::vector<double> breaks_ = break_times(GetParam().signal);
 };
 
+// By Simpson's rule between breaks.
+TEST_P(Signals, HaveTheIntegralOfTheirValue) {
+  const Signal& signal = GetParam().signal;
+  std::vector<double> marks = break_times(signal);
+  marks.insert(marks.begin(), marks.front() - 0.3);
+  marks.push_back(marks.back() + 0.3);
+  for (std::size_t i = 1; i < marks.size(); ++i) {
+    constexpr int kParts = 200;
+    const double h = (marks[i] - marks[i - 1]) / kParts;
+    double sum = 0.0;
+    for (int k = 0; k < kParts; ++k) {
+      const double t = marks[i - 1] + k * h;
+      sum += h / 6.0 *
+             (evaluate(signal, {t, Side::right}).value +
+              4.0 * evaluate(signal, {t + 0.5 * h, Side::right}).value +
+              evaluate(signal, {t + h, Side::left}).value);
+      EXPECT_NEAR(*integrate(signal, t + h) - *integrate(signal, marks[i - 1]),
+                  sum, 1e-10);
+    }
+  }
+}
+
 TEST_P(Signals, ValueIsContinuousAtEachBreak) {
   for (const double t : breaks_) {
     EXPECT_NEAR(at(t, Side::left).value, at(t).value, 1e-14);

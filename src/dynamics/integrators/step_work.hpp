@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/dynamics/integrators/damper_work.hpp"
+#include "limber/dynamics/integrators/step_result.hpp"
+#include "limber/dynamics/integrators/supplied_work.hpp"
+
+namespace limber::dynamics {
+
+/// Work and dissipation of a step: the trapezoidal rule applied to the powers
+/// at both ends, with the corrections of DamperWork and SuppliedWork, which go
+/// by paths.
+class StepWork {
+ public:
+  explicit StepWork(const SystemModel& model)
+      : dampers_(model), supplies_(model) {}
+
+  /// Sets the beginning of the next step. @param terms at `state`
+  void start(const SystemState& state, const SystemTerms& terms);
+  /// Accounts for a step of `h` [s] from `from` to `to`, where `terms` apply;
+  /// the next step begins there. Sets the work and powers of `result`.
+  void advance(const SystemState& from, const SystemState& to,
+               const SystemTerms& terms, double h, StepResult& result);
+  /// Reverts the last advance().
+  void undo();
+
+  /// Saves or restores the history.
+  void exchange_memory(Archive& archive);
+
+ private:
+  DamperWork dampers_;
+  SuppliedWork supplies_;
+  StepPower power_;       // at the last state
+  StepPower last_power_;  // at the one before
+};
+
+}  // namespace limber::dynamics

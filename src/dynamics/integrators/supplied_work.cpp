@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/dynamics/integrators/supplied_work.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace limber::dynamics {
+namespace {
+
+constexpr double kRoundoff = 16.0 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+SuppliedWork::SuppliedWork(const SystemModel& model) : model_(model) {
+  list_drives();
+  list_loads();
+  if (!model.gravity_W.isZero(0.0)) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      if (model.bodies[b].has_rigid_motion()) bodies_.push_back(b);
+    }
+  }
+  now_.resize(drives_.size() + loads_.size() + bodies_.size());
+  before_ = now_;
+}
+
+void SuppliedWork::list_drives() {
+  const auto add = [&](const Driven& driven) {
+    if (std::holds_alternative<joints::Drive>(*driven.law)) {
+      drives_.push_back(driven);
+    }
+  };
+  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
+    for (const joints::JointElement& element :
+         joints::elements_of(model_.couplers[c].law)) {
+      add({false, c, static_cast<std::size_t>(element.coordinate),
+           &element.law});
+    }
+  }
+  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
+    for (const joints::ScalarLaw& law : model_.transmissions[i].laws) {
+      add({true, i, 0, &law});
+    }
+  }
+}
+
+void SuppliedWork::list_loads() {
+  for (std::size_t i = 0; i < model_.loads.size(); ++i) {
+    const Load& load = model_.loads[i];
+    const auto at = static_cast<std::size_t>(load.where);
+    const BodyIndex b = model_.attachments[at].body;
+    if (b == kWorld || !load.in_world || load.force.isZero(0.0)) continue;
+    const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
+    if (body.fidelity < Fidelity::coupled || body.full >= 0) continue;
+    loads_.push_back(i);
+  }
+}
+
+joints::ScalarMotion SuppliedWork::find_motion(const Driven& driven,
+                                               const SystemState& state,
+                                               const SystemTerms& terms) const {
+  if (driven.is_transmission) return terms.transmissions[driven.index].motion;
+  const joints::CoordinateValue value =
+      evaluate(joints::coordinates_of(
+                   model_.couplers[driven.index].law)[driven.coordinate],
+               terms.couplers[driven.index].motion,
+               state.memory[driven.index].near[driven.coordinate]);
+  return {value.z, value.rate};
+}
+
+void SuppliedWork::read(const SystemState& state, const SystemTerms& terms,
+                        Side side) {
+  const Instant now = now_of(state, side);
+  std::size_t n = 0;
+  for (const Driven& driven : drives_) {
+    const auto supply = joints::find_supply(
+        *driven.law, find_motion(driven, state, terms), now);
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    now_[n++] = supply ? Path{supply->force, supply->place, supply->rate,
+                              std::abs(supply->place)}
+                       : Path{0.0, unknown, 0.0, 0.0};
+  }
+  for (const std::size_t i : loads_) {
+    const Load& load = model_.loads[i];
+    const AttachmentMotion& at =
+        terms.attachments[static_cast<std::size_t>(load.where)];
+    now_[n++] = {evaluate(load.function, now), load.force.dot(at.p_WF),
+                 load.force.dot(at.v_WF_W), load.force.norm() * at.p_WF.norm()};
+  }
+  for (const std::size_t b : bodies_) {
+    const Vector3 weight = model_.bodies[b].mass * model_.gravity_W;
+    const BodyState& body = state.bodies[b];
+    now_[n++] = {1.0, weight.dot(body.p_WB), weight.dot(body.v_WB_W),
+                 weight.norm() * body.p_WB.norm()};
+  }
+}
+
+void SuppliedWork::start(const SystemState& state, const SystemTerms& terms) {
+  read(state, terms, Side::right);
+}
+
+double SuppliedWork::find_correction(const Path& first, const Path& last,
+                                     double h) {
+  const double mean = 0.5 * (first.force + last.force);
+  const double path =
+      mean * (last.place - first.place) +
+      (last.force - first.force) * (last.rate - first.rate) * h / 12.0;
+  const double power =
+      0.5 * h * (first.force * first.rate + last.force * last.rate);
+  const double noise = kRoundoff * std::abs(mean) * (first.size + last.size);
+  const double correction = path - power;
+  return std::abs(correction) > noise ? correction : 0.0;  // 0 if unknown
+}
+
+double SuppliedWork::advance(const SystemState& to, const SystemTerms& terms,
+                             double h) {
+  now_.swap(before_);
+  read(to, terms, Side::left);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    sum += find_correction(before_[i], now_[i], h);
+  }
+  return sum;
+}
+
+}  // namespace limber::dynamics

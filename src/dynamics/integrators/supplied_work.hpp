@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+
+namespace limber::dynamics {
+
+/// Work over a step of drives, of forces in the world's axes and of gravity, by
+/// the path of what they act along. The trapezoidal rule of their powers is
+/// wrong by any amount where a saturated drive's command, or a body, moves back
+/// and forth within a step.
+///
+/// Equation   W = (f_0 + f_1) / 2 (s_1 - s_0) + (f_1 - f_0) (s'_1 - s'_0) h /
+/// 12
+///            along a path s: a drive's command (joints::find_supply), or a
+///            force's direction times the place that it acts at. Exact for a
+///            constant f, and for f linear in time along a cubic s.
+/// Limits     moments, loads in body axes, on uncoupled or unreduced bodies,
+/// and
+///            velocity drives that follow an input keep the trapezoidal rule;
+///            so does a difference within the round-off of the places.
+class SuppliedWork {
+ public:
+  explicit SuppliedWork(const SystemModel& model);
+
+  /// Sets the beginning of the next step.
+  /// @param terms at `state`
+  void start(const SystemState& state, const SystemTerms& terms);
+  /// Accounts for a step of `h` [s] that ends at `to`, where `terms` apply; the
+  /// next step begins there. @returns the correction to add to the trapezoidal
+  /// rule [J]
+  double advance(const SystemState& to, const SystemTerms& terms, double h);
+  /// Reverts the last advance().
+  void undo() { now_.swap(before_); }
+
+  /// Saves or restores the history.
+  void exchange_memory(Archive& archive) { archive(now_); }
+
+ private:
+  struct Path {
+    double force = 0.0;  // [N, N m]
+    double place = 0.0;  // [m, rad]
+    double rate = 0.0;   // [m/s, rad/s]
+    double size = 0.0;   // of the terms that the place is a sum of [m, rad]
+  };
+  friend void exchange(Archive& archive, Path& path) {
+    archive(path.force, path.place, path.rate, path.size);
+  }
+  // A drive: an element of a coupler, or a law of a transmission.
+  struct Driven {
+    bool is_transmission = false;
+    std::size_t index = 0;
+    std::size_t coordinate = 0;
+    const joints::ScalarLaw* law = nullptr;
+  };
+  void list_drives();
+  void list_loads();
+  [[nodiscard]] joints::ScalarMotion find_motion(
+      const Driven& driven, const SystemState& state,
+      const SystemTerms& terms) const;
+  void read(const SystemState& state, const SystemTerms& terms, Side side);
+  static double find_correction(const Path& first, const Path& last, double h);
+
+  const SystemModel& model_;
+  std::vector<Driven> drives_;
+  std::vector<std::size_t> loads_;   // indices
+  std::vector<std::size_t> bodies_;  // with weight
+  std::vector<Path> now_;            // drives, loads, bodies
+  std::vector<Path> before_;
+};
+
+}  // namespace limber::dynamics
