@@ -10,7 +10,7 @@
 
 #include "limber/common/errors.hpp"
 
-/// Helpers for calls of the HDF5 C API. Internal to hdf5_file.cpp.
+/// Helpers for calls of the HDF5 C API. Internal to hdf5_*.cpp.
 namespace limber::hdf5 {
 
 /// A failure inside a file; `with_path` adds the file's name.
@@ -58,6 +58,9 @@ class Handle {
  public:
   using Closer = herr_t (*)(hid_t);
   Handle(hid_t id, Closer closer) : id_(checked(id)), closer_(closer) {}
+  Handle(Handle&& other) noexcept
+      : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&&) = delete;
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {

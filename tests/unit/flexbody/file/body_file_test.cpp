@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "limber/common/files/hdf5_exit.hpp"
+#include "support/foreign_hdf5.hpp"
 #include "unit/flexbody/files.hpp"
 #include "unit/flexbody/small_body.hpp"
 
@@ -172,6 +173,21 @@ TEST_F(BodyFile, HasTheOldLayoutUnlessThereAreContactSurfaces) {
   EXPECT_TRUE(has_layout(kBodyFileVersion));
   EXPECT_THAT(read_bytes(file()), Not(HasSubstr("contact")));
   EXPECT_EQ(find_difference(read_body(file()), body), "");
+}
+
+TEST_F(BodyFile, ThatKeepsValuesInAnotherFileIsRefused) {
+  const std::filesystem::path other = folder_.path() / "other.h5";
+  write_body(make_small_body(1), other);
+  for (const char* name : {"name", "lambda", "integrals"}) {
+    write_body(make_small_body(1), file());
+    limber::test::ForeignHdf5(file()).link_outside(name, other, name);
+    seal_body_file(file());
+    EXPECT_THAT(reading_error(), HasSubstr("by a link to another file"));
+  }
+  write_body(make_small_body(1), file());
+  limber::test::ForeignHdf5(file()).store_outside("lambda", other);
+  seal_body_file(file());
+  EXPECT_THAT(reading_error(), HasSubstr("'lambda' keeps its values in"));
 }
 
 TEST_F(BodyFile, WithAContactSurfaceThatDoesNotFitNamesTheDataset) {
