@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "limber/common/utf8.hpp"
+
 namespace limber {
 namespace {
 
 constexpr std::size_t kMostCharacters = 200;
+constexpr std::size_t kOne = 1;  // byte that is not UTF-8
 
 unsigned char byte_at(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);
@@ -32,28 +37,25 @@ std::string spell_out(std::string_view control) {
   return text;
 }
 
-bool continues(unsigned char byte) { return (byte & 0xc0U) == 0x80U; }
-
-// Length in bytes of at most this many UTF-8 characters.
+// Length in bytes of at most this many characters; a byte that is not UTF-8
+// counts as one.
 std::size_t measure_start(std::string_view text, std::size_t characters) {
-  std::size_t count = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    if (continues(byte_at(text, at)) && at < 4 * characters) continue;
-    if (count++ == characters) return at;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < characters && at < text.size(); ++i) {
+    at += std::max(measure_utf8(text, at), kOne);
   }
-  return text.size();
+  return at;
 }
 
 std::string rewrite(std::string_view text, bool keeps_lines) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t size = measure_control(text, at);
-    if (size == 0 || (keeps_lines && text[at] == '\n')) {
-      out += text[at++];
-      continue;
-    }
-    out += spell_out(text.substr(at, size));
-    at += size;
+    const std::size_t length = measure_utf8(text, at);
+    const std::string_view one = text.substr(at, std::max(length, kOne));
+    const bool is_shown = length > 0 && measure_control(one, 0) == 0;
+    out += is_shown || (keeps_lines && one == "\n") ? std::string(one)
+                                                    : spell_out(one);
+    at += one.size();
   }
   return out;
 }

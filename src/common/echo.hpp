@@ -11,7 +11,7 @@ namespace limber {
 constexpr std::size_t kMostNameBytes = 200;
 
 /// User input made safe to quote in a message: at most 200 characters, control
-/// characters escaped ("\x1b", "\n").
+/// characters and bytes that are not UTF-8 escaped ("\x1b", "\n", "\xff").
 [[nodiscard]] std::string echo(std::string_view text);
 
 /// The same for a whole message: any length, line breaks unchanged.

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/utf8.hpp"
 
 namespace limber::results {
 namespace {
@@ -33,15 +34,13 @@ std::vector<std::uint32_t> decode(const std::string& text) {
   constexpr std::uint32_t kUnknown = 0xFFFD;
   std::vector<std::uint32_t> points;
   for (std::size_t i = 0; i < text.size();) {
+    const std::size_t size = measure_utf8(text, i);
     const auto lead = static_cast<unsigned char>(text[i++]);
-    const int more = lead < 0x80 ? 0 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
-    std::uint32_t point = more == 0 ? lead : lead & (0x3FU >> more);
-    bool is_whole = lead < 0x80 || lead >= 0xC2;
-    for (int k = 0; k < more && is_whole; ++k) {
-      is_whole = i < text.size() && (text[i] & 0xC0) == 0x80;
-      if (is_whole) point = point << 6 | (text[i++] & 0x3FU);
+    std::uint32_t point = size == 1 ? lead : lead & (0x7FU >> size);
+    for (std::size_t k = 1; k < size; ++k) {
+      point = point << 6 | (text[i++] & 0x3FU);
     }
-    points.push_back(is_whole ? point : kUnknown);
+    points.push_back(size > 0 ? point : kUnknown);
   }
   return points;
 }

@@ -8,9 +8,11 @@
 #include <fstream>
 #include <string>
 
+#include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/hdf5_file.hpp"
 #include "limber/common/files/whole_file.hpp"
+#include "limber/common/utf8.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
 
 namespace limber::results {
@@ -156,6 +158,27 @@ void write_index(std::ostream& out, const MovingSurface& surface,
   out << "</Grid></Domain></Xdmf>\n";
 }
 
+// XDMF has no escape for these characters: a place is "FILE:/DATASET", with
+// blanks around it removed, and "|" between several.
+void check_data_name(const std::filesystem::path& file,
+                     const std::string& data) {
+  const char* problem = nullptr;
+  if (data.find_first_of(":|") != std::string::npos) {
+    problem = "has a ':' or '|'";
+  } else if (data.front() == ' ') {
+    problem = "begins with a blank";
+  } else if (has_control(data)) {
+    problem = "has a control character";
+  } else if (!is_utf8(data)) {
+    problem = "is not UTF-8";
+  }
+  if (problem == nullptr) return;
+  throw InputError(fmt::format(
+      "'{}': its name {}, so that readers of XDMF would not find '{}' beside "
+      "it; take another name",
+      echo(file.string()), problem, echo(data)));
+}
+
 }  // namespace
 
 Matrix6X turn_to_world(const Matrix6X& stress_B, const Matrix3& R_WB) {
@@ -170,6 +193,7 @@ void write_xdmf_file(const std::filesystem::path& file,
                      const MovingSurface& surface) {
   std::filesystem::path data = file;
   data.replace_extension(".h5");
+  check_data_name(file, data.filename().string());
   write_whole(data, [&](const std::filesystem::path& part) {
     write_data(part, surface);
   });

@@ -126,6 +126,38 @@ TEST(Names, WithControlCharactersAreRefusedWhenRead) {
   EXPECT_EQ(result.errors.find('\x1b'), std::string::npos);
 }
 
+// As in a robot that was saved as Latin-1. The message itself is UTF-8.
+TEST(Names, ThatAreNotUtf8AreRefusedWithTheirLine) {
+  for (const char* name : {"name='j'", "name='arm'", "name='r'"}) {
+    const Workspace place;
+    write_scene(place, "s.toml");
+    std::string robot = read_text(place.folder() / "r.urdf");
+    const std::size_t at = robot.find(name);
+    ASSERT_NE(at, std::string::npos) << name;
+    robot.insert(at + std::string(name).size() - 1, "\xe4");
+    place.write("r.urdf", robot);
+    for (const char* command : {"run s.toml --out o", "info r.urdf"}) {
+      const CommandResult result = place.limber(command);
+      EXPECT_EQ(result.status, 2) << command << name;
+      EXPECT_THAT(result.errors, AllOf(HasSubstr("r.urdf:"), HasSubstr("\\xe4"),
+                                       HasSubstr("not UTF-8")));
+      EXPECT_EQ(result.errors.find('\xe4'), std::string::npos);
+    }
+  }
+}
+
+TEST(Names, OfAScenarioThatAreNotUtf8AreRefusedWithTheirLine) {
+  const Workspace place;
+  write_scene(place, "s.toml", "p\xff");
+  const CommandResult result = place.limber("run s.toml --out o");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("s.toml:"));
+  EXPECT_EQ(result.errors.find('\xff'), std::string::npos);
+  EXPECT_EQ(
+      place.limber("run s.toml --out o --set probe.p.name=\"q\xff\"").status,
+      2);
+}
+
 TEST(Names, AreEchoedUpToTwoHundredCharacters) {
   const Workspace place;
   write_scene(place, "s.toml", std::string(100000, 'n'));

@@ -114,5 +114,29 @@ TEST(ForeignResults, ThatAreViewsOfAnotherFileAreRefused) {
   expect_not_shown(place, "'time' is a virtual data set");
 }
 
+TEST(Export, RefusesNamesThatXdmfCannotHold) {
+  const Workspace place;
+  place.write("beam.urdf",
+              "<robot name='b'><link name='beam'/><flexible link='beam'>"
+              "<mesh file='" LIMBER_SOURCE_DIR
+              "/meshes/beam579.msh'/><material youngs_modulus='200e9' "
+              "poisson_ratio='0' density='8000'/><basis eigenmodes='6'/>"
+              "</flexible></robot>");
+  place.write("s.toml",
+              "robot = 'beam.urdf'\n[output]\npictures = false\n"
+              "[time]\nduration = 0.004\nstep = 0.001\n");
+  ASSERT_EQ(place.limber("run s.toml --out o").status, 0);
+  for (const char* name : {"run 10:30", "a|b", " lead", "bad\xff"}) {
+    expect_refused(place, fmt::format("export o -o '{}.xdmf'", name),
+                   "its name");
+  }
+  for (const auto& entry : fs::directory_iterator(place.folder())) {
+    EXPECT_NE(entry.path().extension(), ".xdmf");
+    EXPECT_NE(entry.path().extension(), ".h5");
+  }
+  EXPECT_EQ(place.limber("export o -o 'a & b.xdmf'").status, 0);
+  EXPECT_EQ(place.limber("export o -o 'x:y.glb'").status, 0);
+}
+
 }  // namespace
 }  // namespace limber::test::foreign_results_test

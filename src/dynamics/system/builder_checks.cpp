@@ -10,6 +10,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/common/utf8.hpp"
 #include "limber/dynamics/system/inertia_check.hpp"
 #include "limber/dynamics/system/name_register.hpp"
 
@@ -44,6 +45,11 @@ std::string NameRegister::check(const std::string& kind,
                                 const std::string& name) const {
   if (name.empty()) {
     throw InputError(fmt::format("a {} has no name; give it one", kind));
+  }
+  if (!is_utf8(name)) {
+    throw InputError(fmt::format(
+        "the name '{}' of a {} is not UTF-8, which formats of results need",
+        echo(name), kind));
   }
   if (has_control(name) || name.size() > kMostNameBytes) {
     throw InputError(fmt::format(

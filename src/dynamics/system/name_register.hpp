@@ -11,8 +11,8 @@ namespace limber::dynamics {
 class NameRegister {
  public:
   /// "KIND 'NAME'", for errors.
-  /// @throws InputError for a name that is empty, already used or invalid: with
-  /// a control character, or longer than kMostNameBytes.
+  /// @throws InputError for a name that is empty, already used or invalid: not
+  /// UTF-8, with a control character, or longer than kMostNameBytes.
   [[nodiscard]] std::string check(const std::string& kind,
                                   const std::string& name) const;
   void add(const std::string& kind, const std::string& name) {

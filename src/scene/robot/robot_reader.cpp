@@ -11,6 +11,7 @@
 #include "limber/common/echo.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/files/input_file.hpp"
+#include "limber/common/utf8.hpp"
 #include "limber/scene/robot/collision_reader.hpp"
 #include "limber/scene/robot/extension_reader.hpp"
 #include "limber/scene/robot/held_mimics.hpp"
@@ -220,6 +221,10 @@ std::string find_problem(std::string_view attribute, std::string value) {
   if (is_name && value.size() > kMostNameBytes) {
     return fmt::format("is too long; a name has {} bytes at most",
                        kMostNameBytes);
+  }
+  if (is_name && !is_utf8(value)) {
+    return "is not UTF-8, which formats of results need; save the file as "
+           "UTF-8";
   }
   if (!is_name) {
     std::erase_if(value,

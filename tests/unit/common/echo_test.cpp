@@ -20,6 +20,10 @@ TEST(Echo, SpellsOutControlCharacters) {
             "a\\x00b\\x1b[2J\\n\\t\\x7f\\xc2\\x9b");
 }
 
+TEST(Echo, SpellsOutBytesThatAreNotUtf8) {
+  EXPECT_EQ(echo("b\xff Tr\xe4ger \xe2\x82"), "b\\xff Tr\\xe4ger \\xe2\\x82");
+}
+
 TEST(Echo, EndsAfterTwoHundredCharactersAndSaysSo) {
   EXPECT_EQ(echo(std::string(200, 'x')), std::string(200, 'x'));
   EXPECT_EQ(echo(std::string(1000, 'x')),

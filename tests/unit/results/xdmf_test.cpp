@@ -238,6 +238,29 @@ TEST(Xdmf, FileNameWithMarkupStaysWellFormed) {
   EXPECT_EQ(item.text, name + ".h5:/triangles");
 }
 
+TEST(Xdmf, RefusesFileNamesThatItCannotHoldBeforeItWrites) {
+  const SmallRun run = make_small_run();
+  for (const char* name :
+       {"run 10:30", "a|b", " lead", "bad\xff", "line\nbreak", ":"}) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file =
+        folder.path() / (std::string(name) + ".xdmf");
+    EXPECT_THROW((void)write_xdmf(file, run.model, run.history), InputError)
+        << name;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << name;
+  }
+}
+
+// Folders are not part of the name of the data beside the file.
+TEST(Xdmf, IsWrittenInAFolderOfAnyName) {
+  const SmallRun run = make_small_run();
+  const TemporaryFolder folder;
+  const std::filesystem::path inner = folder.path() / " 10:30 | \xff";
+  std::filesystem::create_directory(inner);
+  EXPECT_THAT(write_xdmf(inner / "a.xdmf", run.model, run.history), SizeIs(0));
+  EXPECT_TRUE(std::filesystem::exists(inner / "a.h5"));
+}
+
 TEST(Xdmf, SystemWithoutAMeshIsAnInputError) {
   dynamics::SystemBuilder builder;
   builder.add_rigid_body("ball", {2.0, Matrix3::Identity()});
