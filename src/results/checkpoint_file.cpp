@@ -27,7 +27,7 @@ constexpr auto fields_of(const History*) {
 namespace {
 
 constexpr std::string_view kKind = "limber checkpoint";
-constexpr Seal kSeal = {kKind, 3};
+constexpr Seal kSeal = {kKind, 4};
 
 // Content of the checkpoint file.
 struct Head {
@@ -101,17 +101,29 @@ std::vector<std::size_t> find_ends(const History& history) {
   return ends;
 }
 
-// The part after the ends.
-History cut(const History& history, const std::vector<std::size_t>& ends) {
+// Ends of the history's lists that a checkpoint after `outputs` has. Events are
+// told at the end of a run.
+std::vector<std::size_t> find_ends(const History& history,
+                                   std::size_t outputs) {
+  LIMBER_EXPECT(outputs <= history.times.size());
+  return {history.columns.size(), outputs, outputs, outputs, outputs,
+          history.events.size()};
+}
+
+// The part between the ends.
+History cut(const History& history, const std::vector<std::size_t>& from,
+            const std::vector<std::size_t>& to) {
   History part;
   std::apply(
       [&](const auto&... lists) {
         std::size_t i = 0;
-        const auto rest = [&](const auto& list) {
-          const auto first = static_cast<std::ptrdiff_t>(ends[i++]);
-          return std::decay_t<decltype(list)>(list.begin() + first, list.end());
+        const auto copy = [&](const auto& list) {
+          const auto first = static_cast<std::ptrdiff_t>(from[i]);
+          const auto last = static_cast<std::ptrdiff_t>(to[i++]);
+          return std::decay_t<decltype(list)>(list.begin() + first,
+                                              list.begin() + last);
         };
-        part = History{rest(lists)...};
+        part = History{copy(lists)...};
       },
       tie_fields(history));
   return part;
@@ -139,7 +151,7 @@ CheckpointRecord read_record(const std::filesystem::path& file) {
   record.log = file;
   record.log.replace_filename(std::filesystem::path(head.log).filename());
   record.part = {head.length, head.digest};
-  record.run = {head.time, std::move(head.numbers), {}};
+  record.run = {head.time, std::move(head.numbers)};
   const std::vector<std::string> blocks = read_blocks(record.log, record.part);
   if (blocks.empty()) throw InputError("its log is empty");
   record.manifest = Manifest(blocks.front());
@@ -148,6 +160,7 @@ CheckpointRecord read_record(const std::filesystem::path& file) {
     move_to_end(entry.run, record.run.log);
     move_to_end(entry.history, record.history);
   }
+  record.run.outputs = record.history.times.size();
   return record;
 }
 
@@ -184,9 +197,10 @@ void CheckpointWriter::write(const dynamics::Checkpoint& run,
   pending_.insert(pending_.end(), run.log.begin(), run.log.end());
   const bool is_first = !log_;
   if (is_first) begin_log();
-  log_->append(to_bytes(Entry{pending_, cut(history, ends_)}));
+  const std::vector<std::size_t> ends = find_ends(history, run.outputs);
+  log_->append(to_bytes(Entry{pending_, cut(history, ends_, ends)}));
   pending_.clear();
-  ends_ = find_ends(history);
+  ends_ = ends;
   const FilePart part = log_->part();
   write_sealed(file_, kSeal,
                to_bytes(Head{run.time, run.numbers, log_file_.filename(),

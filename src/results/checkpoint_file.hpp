@@ -34,6 +34,7 @@ class CheckpointWriter {
   /// @throws InputError if its log cannot be written.
   CheckpointWriter(std::filesystem::path file, const CheckpointRecord& record);
 
+  /// @param history at least the outputs before `run`; later ones are left out
   /// @throws InputError if it cannot be written. The next attempt includes the
   /// missing data.
   void write(const dynamics::Checkpoint& run, const History& history);

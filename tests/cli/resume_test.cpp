@@ -167,6 +167,19 @@ TEST(ResumedRun, HasTheSummaryOfOneThatWasNotKilled) {
   EXPECT_EQ(read_summary(place.folder() / "out"), whole);
 }
 
+// What the folder lacked is no property of the run.
+TEST(ResumedRun, WithoutACheckpointHasTheSummaryOfAWholeOne) {
+  const Workspace place;
+  place.write("robot.urdf", kRobot);
+  place.write("s.toml", make_scenario("duration = 0.1\nstep = 1e-3\n"));
+  ASSERT_EQ(place.limber("run s.toml --out whole").status, 0);
+  const CommandResult result = place.limber("run s.toml --out out --resume");
+  ASSERT_EQ(result.status, 0);
+  EXPECT_THAT(result.errors, HasSubstr("there is no checkpoint"));
+  EXPECT_EQ(read_summary(place.folder() / "out"),
+            read_summary(place.folder() / "whole"));
+}
+
 TEST(RunThatCannotLeaveCheckpoints, WarnsOnceAndGoesOn) {
   const Workspace place;
   place.write("robot.urdf", kRobot);

@@ -91,8 +91,11 @@ TEST(Signal, AndResumeGiveTheAnswerOfOneRun) {
   const int status = run.wait().status;
   ASSERT_TRUE(status == 130 || status == 0);
   ASSERT_EQ(place.limber("run s.toml --out o --resume").status, 0);
-  EXPECT_EQ(read_text(place.folder() / "o/probes.csv"),
-            read_text(place.folder() / "whole/probes.csv"));
+  for (const char* file : {"probes.csv", "results.h5"}) {
+    EXPECT_TRUE(read_text(place.folder() / "o" / file) ==
+                read_text(place.folder() / "whole" / file))
+        << file;
+  }
   EXPECT_FALSE(fs::exists(place.folder() / "o/checkpoint.bin"));
 }
 

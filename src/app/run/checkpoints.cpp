@@ -102,11 +102,11 @@ dynamics::Continuation make_continuation(
   };
   if (!plan.resumes) return continuation;
   if (!is_there(plan.file)) {
-    print_warning(
-        fmt::format("there is no checkpoint '{}' to resume from; the run "
-                    "starts from the beginning",
-                    plan.file.string()),
-        warnings);
+    // Not one of the summary, which is that of the run from the beginning.
+    print_warnings(
+        {fmt::format("there is no checkpoint '{}' to resume from; the run "
+                     "starts from the beginning",
+                     plan.file.string())});
     return continuation;
   }
   results::CheckpointRecord record = results::read_checkpoint(plan.file);

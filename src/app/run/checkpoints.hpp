@@ -24,8 +24,9 @@ struct CheckpointPlan {
 
 /// Applies the plan to a run. A checkpoint to continue from is read at once,
 /// with the history up to it; without one the run starts from the beginning,
-/// with a warning. Failure to write a checkpoint gives one warning, and the run
-/// continues. From then on `plan.signals` ends the run between two steps.
+/// and the terminal says so. Failure to write a checkpoint gives one warning,
+/// and the run continues. From then on `plan.signals` ends the run between two
+/// steps.
 /// @param describe makes the run's manifest, when it is needed
 /// @param history must outlive the result
 /// @param warnings likewise; warnings already printed are added

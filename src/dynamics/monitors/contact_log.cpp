@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/monitors/impact_spectrum.hpp"
@@ -208,7 +209,7 @@ void ContactLog::add_stable_step(std::vector<std::string>& warnings) const {
 }
 
 void ContactLog::exchange_memory(Archive& archive) {
-  archive(pairs_, finished_, time_);
+  archive(pairs_, finished_, time_, stiffest_, strongest_);
 }
 
 }  // namespace limber::dynamics

@@ -75,7 +75,7 @@ class ContactLog {
 
   const SystemModel& model_;
   IntegratorKind scheme_;
-  // For explicit schemes, the state with the largest force; not in checkpoints.
+  // For explicit schemes, the state with the largest force.
   SystemState stiffest_;
   ContactRecord strongest_;
   std::vector<OngoingContact> pairs_;  // in the order of TouchWatch

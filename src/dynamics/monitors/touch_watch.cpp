@@ -358,12 +358,16 @@ void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {
   }
 }
 
+void TouchWatch::refresh() {
+  for (Watched& watched : pairs_) watched.look_at = 0.0;
+}
+
 void TouchWatch::exchange_memory(Archive& archive) {
   for (Watched& watched : pairs_) {
     archive(watched.is_touching, watched.since, watched.impact_duration,
             watched.rate, watched.steps);
-    watched.look_at = 0.0;  // so that it is looked at
   }
+  refresh();
 }
 
 }  // namespace limber::dynamics

@@ -110,6 +110,9 @@ class TouchWatch {
   [[nodiscard]] joints::TouchReading read(std::size_t index,
                                           const SystemState& state);
 
+  /// Discards distances that exchange_memory does not save: all pairs are
+  /// looked at again.
+  void refresh();
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 

@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
 
 namespace limber::dynamics {
 
-/// A simulation between two steps, as numbers. With the same model, initial
-/// state and settings it continues from there identically to the bit.
+/// A simulation between two steps, or before the first, as numbers. With the
+/// same model, initial state and settings it continues from there identically
+/// to the bit.
 struct Checkpoint {
-  double time = 0.0;            ///< [s]
-  std::vector<double> numbers;  ///< of an Archive [mixed units]
+  double time = 0.0;  ///< [s]
+  /// Of an Archive; of a run before its first step none [mixed units].
+  std::vector<double> numbers = {};
   /// Data that grow with time [mixed units]: when saved, those since the last
   /// checkpoint; to resume, those of all checkpoints, concatenated.
   std::vector<double> log = {};
+  /// Number of outputs that were observed before it, since the start of the
+  /// run; a resumed run observes those after them.
+  std::size_t outputs = 0;
 };
 
-/// Saves checkpoints at intervals.
+/// Saves checkpoints at intervals, and the last one of a run that is
+/// interrupted. They are those of a refresh (TimeLoop), which may be steps
+/// before the present; the start is the first.
 struct CheckpointKeeper {
   double interval = 60.0;  ///< shortest, of wall time [s]
-  /// Called between two steps, after all outputs until then; empty: no
-  /// checkpoints.
+  /// Called between two steps; empty: no checkpoints. An interrupted run that
+  /// has made no new one since its start or the last call does not call it.
   std::function<void(const Checkpoint&)> keep;
+  /// Adds data of outer loops to every new checkpoint when it is made; may be
+  /// empty.
+  std::function<Checkpoint(Checkpoint)> complete = {};
 };
 
 /// Checkpoints to save, and one to resume from.

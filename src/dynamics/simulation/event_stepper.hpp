@@ -72,7 +72,10 @@ class EventStepper {
 
   /// Discards cached factors and predictions: later steps then depend only on
   /// the state and on `exchange_memory`.
-  void refresh() { integrator_->refresh(); }
+  void refresh() {
+    integrator_->refresh();
+    touches_.refresh();
+  }
   /// Saves or restores the history, without the data that refresh() discards.
   void exchange_memory(Archive& archive, const SystemState& state);
 

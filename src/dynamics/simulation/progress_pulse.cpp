@@ -7,10 +7,8 @@ namespace limber::dynamics {
 namespace {
 
 constexpr std::chrono::milliseconds kSilence(1);
-// After the request, until the next step ends the run and until a part of a
-// step does.
-constexpr std::chrono::seconds kLongestWait(1);
-constexpr std::chrono::seconds kLongestWaitInStep(3);
+// After the request, until a part of a step ends the run.
+constexpr std::chrono::seconds kLongestWait(3);
 
 }  // namespace
 
@@ -28,16 +26,8 @@ void ProgressPulse::report(double fraction, const Progress& progress) {
   }
 }
 
-bool ProgressPulse::ends_here(bool is_even) const {
-  return asked_ && (is_even || waits_longer_than(kLongestWait));
-}
-
 bool ProgressPulse::ends_within_step() const {
-  return asked_ && waits_longer_than(kLongestWaitInStep);
-}
-
-bool ProgressPulse::waits_longer_than(std::chrono::seconds time) const {
-  return Clock::now() - *asked_ > time;
+  return asked_ && Clock::now() - *asked_ > kLongestWait;
 }
 
 }  // namespace limber::dynamics

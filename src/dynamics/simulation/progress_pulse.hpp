@@ -18,19 +18,15 @@ class ProgressPulse {
   /// @param fraction of the run that is done [-]
   void report(double fraction, const Progress& progress);
 
-  /// Whether a requested end takes place now: at a step after which checkpoints
-  /// may be saved (`is_even`), or a second after the request.
-  [[nodiscard]] bool ends_here(bool is_even) const;
-  /// Whether it takes place within a step, of which there is no checkpoint:
-  /// three seconds after the request.
+  /// Whether an end is requested, which takes place between two steps.
+  [[nodiscard]] bool ends_here() const { return asked_.has_value(); }
+  /// Whether it takes place within a step: three seconds after the request.
   [[nodiscard]] bool ends_within_step() const;
   /// Message of the request to end.
   [[nodiscard]] const std::string& words() const { return words_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-
-  [[nodiscard]] bool waits_longer_than(std::chrono::seconds time) const;
 
   std::optional<Clock::time_point> last_;
   std::optional<Clock::time_point> asked_;

@@ -162,16 +162,14 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 // Adds the data outside of the TimeLoop to checkpoints.
 Continuation add_memory(LinearLimit& limit, const Continuation& inner) {
   Continuation outer = inner;
-  if (inner.keeper.keep) {
-    outer.keeper.keep = [&limit,
-                         keep = inner.keeper.keep](const Checkpoint& run) {
-      Archive archive;
-      limit.exchange_memory(archive);
-      std::vector<double> numbers = run.numbers;
-      archive(numbers);
-      keep({run.time, archive.numbers(), run.log});
-    };
-  }
+  LIMBER_EXPECT(!inner.keeper.complete);
+  outer.keeper.complete = [&limit](Checkpoint run) {
+    Archive archive;
+    limit.exchange_memory(archive);
+    archive(run.numbers);
+    run.numbers = archive.numbers();
+    return run;
+  };
   if (inner.from) {
     Archive archive(inner.from->numbers);
     limit.exchange_memory(archive);

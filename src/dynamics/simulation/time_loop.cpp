@@ -16,8 +16,13 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr long kStepsBetweenLooks = 32;         // checks of the energy
-constexpr long kStepsBetweenCheckpoints = 256;  // at least
+constexpr long kStepsBetweenLooks = 32;  // checks of the energy
+// Refreshes are at most this number of steps apart, which an interrupted run
+// repeats; fewer of large systems, but not so few that new factors would add
+// more than a few percent. A step and a solve each take about 1 us an unknown.
+constexpr long kMostSteps = 256;
+constexpr long kFewestSteps = 32;
+constexpr double kMostWork = 4e6;  // steps and solves, times unknowns
 
 ErrorBudget make_budget(const SimulationSettings& settings, double start) {
   if (settings.passes == TolerancePasses::one) {
@@ -59,7 +64,8 @@ Losses TimeLoop::losses() const {
 
 void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
   archive(state, has_started_, next_, part_, parts_, origin_, h_, at_jump_,
-          depth_, shares_, failure_, clash_, output_);
+          depth_, shares_, failure_, clash_, output_, visits_, refreshed_steps_,
+          refreshed_solves_);
   stepper_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
   watch_.exchange_memory(archive);
@@ -71,25 +77,49 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
 }
 
 void TimeLoop::resume(const Checkpoint& checkpoint, SystemState& state) {
+  if (checkpoint.numbers.empty()) return;  // of the start
   Archive archive(checkpoint.numbers);
   exchange_memory(archive, state);
   sound_ = state;
 }
 
-Checkpoint TimeLoop::save(SystemState& state) {
-  stepper_.refresh();
-  Archive archive;
-  exchange_memory(archive, state);
-  return {state.t, archive.numbers()};
+bool TimeLoop::is_refresh_due() const {
+  const long steps = statistics_.steps - refreshed_steps_;
+  if (steps >= kMostSteps) return true;
+  const long solves = statistics_.linear_solves - refreshed_solves_;
+  const auto unknowns =
+      static_cast<double>(6 * std::ssize(model_.bodies) + model_.modal_count) +
+      static_cast<double>(model_.nodal_count);
+  return steps >= kFewestSteps &&
+         static_cast<double>(solves + steps) * unknowns > kMostWork;
 }
 
-void TimeLoop::keep_checkpoint(SystemState& state,
-                               const CheckpointKeeper& keeper, bool is_last) {
+void TimeLoop::refresh() {
   stepper_.refresh();
-  if (!keeper.keep) return;
-  const std::chrono::duration<double> since = Clock::now() - kept_;
-  if (since.count() < keeper.interval && !is_last) return;
-  keeper.keep(save(state));
+  refreshed_steps_ = statistics_.steps;
+  refreshed_solves_ = statistics_.linear_solves;
+}
+
+Checkpoint TimeLoop::save(SystemState& state) {
+  refresh();
+  return make_checkpoint(state);
+}
+
+Checkpoint TimeLoop::make_checkpoint(SystemState& state) {
+  Archive archive;
+  exchange_memory(archive, state);
+  return {state.t, archive.numbers(), {}, visits_};
+}
+
+void TimeLoop::hold(Checkpoint checkpoint, const CheckpointKeeper& keeper) {
+  checkpoint_ = keeper.complete ? keeper.complete(std::move(checkpoint))
+                                : std::move(checkpoint);
+}
+
+void TimeLoop::keep_checkpoint(const CheckpointKeeper& keeper) {
+  if (!checkpoint_) return;
+  keeper.keep(*checkpoint_);
+  checkpoint_.reset();
   kept_ = Clock::now();
 }
 
@@ -207,7 +237,7 @@ void TimeLoop::visit_within(const SystemState& begin, const SystemState& state,
   for (; output_ < outputs_.size() && outputs_[output_] <= state.t; ++output_) {
     const double t = outputs_[output_];
     if (t == state.t) {
-      visit(state, losses());
+      visit_output(state, losses(), visit);
       continue;
     }
     const double s = (t - begin.t) / h;
@@ -215,11 +245,19 @@ void TimeLoop::visit_within(const SystemState& begin, const SystemState& state,
     within_.t = t;
     // Powers are assumed linear over a step.
     const double rise = 0.5 * s * s * h;
-    visit(within_, {before.work + s * h * step.begin.loads +
-                        rise * (step.end.loads - step.begin.loads),
-                    before.dissipated + s * h * step.begin.dissipated +
-                        rise * (step.end.dissipated - step.begin.dissipated)});
+    const Losses losses{
+        before.work + s * h * step.begin.loads +
+            rise * (step.end.loads - step.begin.loads),
+        before.dissipated + s * h * step.begin.dissipated +
+            rise * (step.end.dissipated - step.begin.dissipated)};
+    visit_output(within_, losses, visit);
   }
+}
+
+void TimeLoop::visit_output(const SystemState& state, const Losses& losses,
+                            const Visit& visit) {
+  visit(state, losses);
+  ++visits_;
 }
 
 // Samples at the start, before the first step.
@@ -241,17 +279,25 @@ void TimeLoop::leave_breakpoint(const SystemState& state, const Visit& visit) {
   at_jump_ = mark.is_jump || inputs_jump_;
   inputs_jump_ = false;
   if (at_jump_) peaks_.cross_jump(state);
-  if (mark.is_output) visit(state, losses());
+  if (mark.is_output) visit_output(state, losses(), visit);
   ++next_;
   part_ = parts_ = 0;
 }
 
 void TimeLoop::run(SystemState& state, const Visit& visit,
                    const Progress& progress, const CheckpointKeeper& keeper) {
-  if (!has_started_) begin(state);
-  if (!has_started_ && starts_with_output_) visit(state, losses());
-  while (next_ < breakpoints_.size()) {
-    take_step(state, visit, progress, keeper);
+  try {
+    if (!has_started_) {
+      if (keeper.keep) hold(Checkpoint{state.t}, keeper);
+      begin(state);
+      if (starts_with_output_) visit_output(state, losses(), visit);
+    }
+    while (next_ < breakpoints_.size()) {
+      take_step(state, visit, progress, keeper);
+    }
+  } catch (const Interrupted&) {
+    keep_checkpoint(keeper);
+    throw;
   }
 }
 
@@ -312,10 +358,13 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   }
   if (part_ == parts_) leave_breakpoint(state, visit);
   tell_progress(state, progress);
-  const bool is_even = steps % kStepsBetweenCheckpoints == 0;
-  const bool is_last = next_ < breakpoints_.size() && pulse_.ends_here(is_even);
-  if (is_even || is_last) keep_checkpoint(state, keeper, is_last);
-  if (is_last) end_here(state);
+  if (is_refresh_due()) {
+    refresh();
+    if (keeper.keep) hold(make_checkpoint(state), keeper);
+    const std::chrono::duration<double> since = Clock::now() - kept_;
+    if (since.count() >= keeper.interval) keep_checkpoint(keeper);
+  }
+  if (next_ < breakpoints_.size() && pulse_.ends_here()) end_here(state);
 }
 
 void TimeLoop::tell_progress(const SystemState& state,

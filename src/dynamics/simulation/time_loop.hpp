@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,10 @@ struct Losses {
 /// breakpoint, or, to a tolerance, by steps of varying length that end on jumps
 /// only. A step that fails is halved, up to ten times.
 ///
-/// A checkpoint may be saved after every 256th step. There the run discards
-/// cached factors, so that a resumed run is identical to the bit.
+/// After every 256th step, and sooner in a large system, a run is refreshed:
+/// it discards cached factors, and with a keeper makes a checkpoint. Which
+/// steps these are depends on counts of work only. So a resumed run, which has
+/// no factors either, is identical to the bit to one that was not interrupted.
 class TimeLoop {
  public:
   /// Called with every output.
@@ -61,8 +64,8 @@ class TimeLoop {
   /// @throws NumericalError as run() does.
   bool run_to(double t, SystemState& state, const std::function<bool()>& stops);
 
-  /// A checkpoint for resume(). Discards cached factors, so that both runs
-  /// continue identically to the bit.
+  /// A checkpoint of now for resume(). Discards cached factors, so that both
+  /// runs continue identically to the bit.
   [[nodiscard]] Checkpoint save(SystemState& state);
 
   [[nodiscard]] Losses losses() const;
@@ -88,6 +91,8 @@ class TimeLoop {
   void begin(SystemState& state);
   void take_samples(SystemState& state);
   void leave_breakpoint(const SystemState& state, const Visit& visit);
+  void visit_output(const SystemState& state, const Losses& losses,
+                    const Visit& visit);
   void take_planned_step(SystemState& state, const Progress& progress);
   void tell_progress(const SystemState& state, const Progress& progress);
   void heed_within_step(const SystemState& state, const Progress& progress);
@@ -103,8 +108,11 @@ class TimeLoop {
   void count_step(const StepResult& since);
   void watch_step(const SystemState& state, std::size_t events_before);
   void inspect(const SystemState& state);
-  void keep_checkpoint(SystemState& state, const CheckpointKeeper& keeper,
-                       bool is_last);
+  [[nodiscard]] bool is_refresh_due() const;
+  void refresh();
+  [[nodiscard]] Checkpoint make_checkpoint(SystemState& state);
+  void hold(Checkpoint checkpoint, const CheckpointKeeper& keeper);
+  void keep_checkpoint(const CheckpointKeeper& keeper);
   [[nodiscard]] double find_share(double t) const;
   void exchange_memory(Archive& archive, SystemState& state);
   [[nodiscard]] bool is_sound(const SystemState& state) const;
@@ -147,7 +155,11 @@ class TimeLoop {
   std::string failure_;       // cause of the last halving
   std::string clash_;         // message on initial velocities against dampers
   std::size_t output_ = 0;    // next of outputs_
-  Clock::time_point kept_;    // time of the last checkpoint
+  std::size_t visits_ = 0;    // number of outputs so far
+  long refreshed_steps_ = 0;  // counts at the last refresh
+  long refreshed_solves_ = 0;
+  std::optional<Checkpoint> checkpoint_;  // the last, until it is kept
+  Clock::time_point kept_;                // time of the last checkpoint
   ProgressPulse pulse_;
 };
 

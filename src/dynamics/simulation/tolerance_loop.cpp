@@ -39,12 +39,13 @@ constexpr auto fields_of(const Record*) {
   return list_fields("record", "pass", "states", "balances");
 }
 
-// Contents of a record from an output on.
-Record cut(const Record& record, std::size_t from) {
+// Contents of a record from an output on, until another.
+Record cut(const Record& record, std::size_t from, std::size_t to) {
   const auto first = static_cast<std::ptrdiff_t>(from);
+  const auto last = static_cast<std::ptrdiff_t>(to);
   return {record.pass,
-          {record.states.begin() + first, record.states.end()},
-          {record.balances.begin() + first, record.balances.end()}};
+          {record.states.begin() + first, record.states.begin() + last},
+          {record.balances.begin() + first, record.balances.begin() + last}};
 }
 
 void append(const Record& part, Record& record) {
@@ -193,17 +194,18 @@ class ToleranceLoop {
     std::vector<double> numbers = inner.numbers;
     archive(numbers, course_);
     exchange_costs(archive, statistics_);
-    return {inner.time, archive.numbers(), take_log()};
+    return {inner.time, archive.numbers(), take_log(inner.outputs)};
   }
 
-  // The contents of the two current records that are in no log yet.
-  std::vector<double> take_log() {
+  // The contents of the two current records that are in no log yet, of the
+  // current pass `outputs`.
+  std::vector<double> take_log(std::size_t outputs) {
     Archive log;
-    Record before = cut(before_, before_logged_);
-    Record now = cut(now_, now_logged_);
+    Record before = cut(before_, before_logged_, before_.states.size());
+    Record now = cut(now_, now_logged_, outputs);
     log(before, now);
     before_logged_ = before_.states.size();
-    now_logged_ = now_.states.size();
+    now_logged_ = outputs;
     return log.numbers();
   }
 

@@ -74,7 +74,7 @@ TEST_F(CheckpointFile, GivesBackTheRunAndAllThatItLeftInParts) {
   CheckpointWriter writer(file_, make_manifest());
   for (std::size_t n = 0; n <= history_.times.size(); ++n) {
     const double number = static_cast<double>(n);
-    writer.write({0.1 * number, {number, -0.0}, {number}}, cut(history_, n));
+    writer.write({0.1 * number, {number, -0.0}, {number}, n}, cut(history_, n));
     const CheckpointRecord record = read_checkpoint(file_);
     EXPECT_EQ(record.run.time, 0.1 * number);
     EXPECT_EQ(record.run.numbers, (std::vector<double>{number, -0.0}));
@@ -86,26 +86,40 @@ TEST_F(CheckpointFile, GivesBackTheRunAndAllThatItLeftInParts) {
 
 TEST_F(CheckpointFile, OfARunThatGoesOnGrowsFromWhatItWas) {
   CheckpointWriter(file_, make_manifest())
-      .write({0.1, {1.0}, {}}, cut(history_, 2));
+      .write({0.1, {1.0}, {}, 2}, cut(history_, 2));
   // What a kill leaves between the log and the file.
   std::ofstream(log_, std::ios::app) << "half of a block";
   CheckpointRecord record = read_checkpoint(file_);
   expect_same(record.history, cut(history_, 2));
-  CheckpointWriter(file_, record).write({0.2, {2.0}, {}}, history_);
+  CheckpointWriter(file_, record)
+      .write({0.2, {2.0}, {}, history_.times.size()}, history_);
   record = read_checkpoint(file_);
   EXPECT_THAT(record.run.numbers, ElementsAre(2.0));
   expect_same(record.history, history_);
   EXPECT_EQ(fs::file_size(log_), record.part.length);
 }
 
+// An interrupted run has results that are later than its last checkpoint.
+TEST_F(CheckpointFile, LeavesOutOutputsAfterIt) {
+  CheckpointWriter writer(file_, make_manifest());
+  writer.write({0.1, {1.0}, {}, 1}, history_);
+  CheckpointRecord record = read_checkpoint(file_);
+  EXPECT_EQ(record.run.outputs, 1U);
+  expect_same(record.history, cut(history_, 1));
+  writer.write({0.2, {2.0}, {}, 2}, history_);
+  record = read_checkpoint(file_);
+  EXPECT_EQ(record.run.outputs, 2U);
+  expect_same(record.history, cut(history_, 2));
+}
+
 // Each output is written once, however many checkpoints there are.
 TEST_F(CheckpointFile, AppendsWhatIsNewAndRewritesNothing) {
   CheckpointWriter writer(file_, make_manifest());
-  writer.write({0.0, {1.0}, {}}, cut(history_, 1));
+  writer.write({0.0, {1.0}, {}, 1}, cut(history_, 1));
   const auto one = fs::file_size(log_);
   const std::string before = read_bytes(log_);
   const auto head = fs::file_size(file_);
-  writer.write({0.0, {1.0}, {}}, cut(history_, 2));
+  writer.write({0.0, {1.0}, {}, 2}, cut(history_, 2));
   const auto each = fs::file_size(log_) - one;
   EXPECT_TRUE(read_bytes(log_).starts_with(before));
   History longer = cut(history_, 2);
@@ -114,7 +128,7 @@ TEST_F(CheckpointFile, AppendsWhatIsNewAndRewritesNothing) {
     longer.probe_rows.push_back(longer.probe_rows.back());
     longer.states.push_back(longer.states.back());
     longer.energies.push_back(longer.energies.back());
-    writer.write({0.0, {1.0}, {}}, longer);
+    writer.write({0.0, {1.0}, {}, longer.times.size()}, longer);
   }
   EXPECT_EQ(fs::file_size(log_), one + 51 * each);
   EXPECT_EQ(fs::file_size(file_), head);
@@ -122,7 +136,7 @@ TEST_F(CheckpointFile, AppendsWhatIsNewAndRewritesNothing) {
 
 TEST_F(CheckpointFile, RefusesEveryFlippedByteAndEveryCut) {
   CheckpointWriter(file_, make_manifest())
-      .write({0.1, {1.0, 2.0}, {3.0}}, cut(history_, 2));
+      .write({0.1, {1.0, 2.0}, {3.0}, 2}, cut(history_, 2));
   std::mt19937 random(2026);
   for (const fs::path& file : {file_, log_}) {
     const std::string bytes = read_bytes(file);
@@ -145,10 +159,10 @@ TEST_F(CheckpointFile, RefusesEveryFlippedByteAndEveryCut) {
 // A new run in the folder of one that was killed.
 TEST_F(CheckpointFile, OfAnotherRunStandsUntilThereIsANewOne) {
   CheckpointWriter(file_, make_manifest())
-      .write({0.1, {1.0}, {}}, cut(history_, 2));
+      .write({0.1, {1.0}, {}, 2}, cut(history_, 2));
   CheckpointWriter second(file_, make_manifest());
   EXPECT_THAT(read_checkpoint(file_).run.numbers, ElementsAre(1.0));
-  second.write({0.2, {2.0}, {}}, cut(history_, 1));
+  second.write({0.2, {2.0}, {}, 1}, cut(history_, 1));
   EXPECT_THAT(read_checkpoint(file_).run.numbers, ElementsAre(2.0));
   EXPECT_FALSE(fs::exists(log_));
   remove_checkpoint(file_);
@@ -157,12 +171,13 @@ TEST_F(CheckpointFile, OfAnotherRunStandsUntilThereIsANewOne) {
 
 TEST_F(CheckpointFile, ThatCannotBeWrittenIsMadeUpForByTheNext) {
   CheckpointWriter writer(file_, make_manifest());
-  writer.write({0.1, {1.0}, {1.0}}, cut(history_, 1));
+  writer.write({0.1, {1.0}, {1.0}, 1}, cut(history_, 1));
   fs::rename(file_, folder_.path() / "away");
   fs::create_directories(file_ / "in the way");
-  EXPECT_THROW(writer.write({0.2, {2.0}, {2.0}}, cut(history_, 2)), InputError);
+  EXPECT_THROW(writer.write({0.2, {2.0}, {2.0}, 2}, cut(history_, 2)),
+               InputError);
   fs::remove_all(file_);
-  writer.write({0.3, {3.0}, {3.0}}, history_);
+  writer.write({0.3, {3.0}, {3.0}, history_.times.size()}, history_);
   const CheckpointRecord record = read_checkpoint(file_);
   EXPECT_THAT(record.run.log, ElementsAre(1.0, 2.0, 3.0));
   expect_same(record.history, history_);
@@ -170,9 +185,9 @@ TEST_F(CheckpointFile, ThatCannotBeWrittenIsMadeUpForByTheNext) {
 
 TEST_F(CheckpointFile, OfTheSameRunIsTheSameToTheByte) {
   const TemporaryFolder other;
-  CheckpointWriter(file_, make_manifest()).write({0.1, {1.0}, {}}, history_);
+  CheckpointWriter(file_, make_manifest()).write({0.1, {1.0}, {}, 2}, history_);
   CheckpointWriter(other.path() / "checkpoint.bin", make_manifest())
-      .write({0.1, {1.0}, {}}, history_);
+      .write({0.1, {1.0}, {}, 2}, history_);
   EXPECT_EQ(read_bytes(file_), read_bytes(other.path() / "checkpoint.bin"));
   EXPECT_EQ(read_bytes(log_), read_bytes(other.path() / "checkpoint-1.log"));
 }

@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/displacement_measure.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
+#include "limber/dynamics/simulation/interrupted.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "support/chain.hpp"
 #include "support/elastic_kinds.hpp"
@@ -76,7 +78,8 @@ Trace run(const Scene& scene, const SimulationSettings& settings,
   if (kept != nullptr) {
     continuation.keeper.keep = [&](const Checkpoint& c) {
       log.insert(log.end(), c.log.begin(), c.log.end());
-      kept->push_back({{c.time, c.numbers, log}, trace.states.size()});
+      kept->push_back(
+          {{c.time, c.numbers, log, c.outputs}, trace.states.size()});
     };
   }
   if (from != nullptr) continuation.from = *from;
@@ -117,15 +120,63 @@ void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
   EXPECT_EQ(a.share, b.share);
 }
 
+/// The checkpoint of a run that ends at its n-th output, or with several passes
+/// the n-th time that it reports its progress.
+std::optional<Checkpoint> interrupt(const Scene& scene,
+                                    const SimulationSettings& settings, int n) {
+  std::optional<Checkpoint> kept;
+  Continuation continuation;
+  continuation.keeper.interval = 1e9;
+  continuation.keeper.keep = [&](const Checkpoint& c) { kept = c; };
+  int calls = 0;
+  const auto end = [&] {
+    if (calls++ == n) throw Interrupted("asked to end");
+  };
+  const bool has_passes =
+      settings.passes == TolerancePasses::verified && settings.tolerance > 0.0;
+  SystemState state = scene.state;
+  SimulationStatistics statistics;
+  RunRecord record;
+  try {
+    simulate(
+        scene.model, state, settings,
+        [&](const SystemState&, const EnergyBalance&) {
+          if (!has_passes) end();
+        },
+        [&](std::string_view, double) {
+          if (has_passes) end();
+        },
+        statistics, continuation, follow_first(scene.model), record);
+  } catch (const Interrupted&) {
+    EXPECT_TRUE(kept.has_value());
+  }
+  return kept;
+}
+
+/// Outputs are at any steps, not at those that checkpoints are of.
+void expect_interrupted_runs_go_on(const Scene& scene,
+                                   const SimulationSettings& settings,
+                                   const Trace& whole) {
+  int interrupted = 0;
+  for (const int n : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    const std::optional<Checkpoint> kept = interrupt(scene, settings, n);
+    if (!kept) continue;
+    ++interrupted;
+    expect_same(whole, run(scene, settings, nullptr, &*kept), kept->outputs);
+  }
+  EXPECT_GE(interrupted, 2);
+}
+
 void expect_runs_go_on(const Scene& scene, const SimulationSettings& settings) {
   std::vector<Kept> kept;
   const Trace whole = run(scene, settings, &kept, nullptr);
   ASSERT_GE(kept.size(), 2U);
   for (const Kept& k : kept) {
+    EXPECT_LE(k.checkpoint.outputs, k.outputs);
     const Trace rest = run(scene, settings, nullptr, &k.checkpoint);
-    const bool tells_all_at_the_end = settings.tolerance > 0.0;
-    expect_same(whole, rest, tells_all_at_the_end ? 0 : k.outputs);
+    expect_same(whole, rest, k.checkpoint.outputs);
   }
+  expect_interrupted_runs_go_on(scene, settings, whole);
 }
 
 std::vector<double> sample(double end, int count) {

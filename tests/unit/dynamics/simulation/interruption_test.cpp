@@ -89,7 +89,7 @@ void expect_same_end(const Scene& scene, const SimulationSettings& settings) {
     const End stopped = run(scene, settings, keep_in(kept), ask_after(share));
     EXPECT_THAT(stopped.words, HasSubstr("asked to end at t = "));
     ASSERT_TRUE(kept.has_value());
-    EXPECT_EQ(kept->time, stopped.state.t);
+    EXPECT_LE(kept->time, stopped.state.t);
     Continuation rest;
     rest.from = kept;
     const End resumed = run(scene, settings, rest);
@@ -128,19 +128,17 @@ TEST(Interruption, KeepsWhatWasComputed) {
   EXPECT_LT(stopped.state.t, 0.2);
 }
 
-// An interruption takes effect before 256 steps of a whole mesh.
-TEST(Interruption, WaitsNoLongerThanASecondForABetterMoment) {
+TEST(Interruption, EndsAfterTheCurrentStep) {
   std::optional<Checkpoint> kept;
-  const Progress slow = [](std::string_view, double) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const Progress at_once = [](std::string_view, double) {
     throw Interrupted("asked to end");
   };
-  const auto begin = std::chrono::steady_clock::now();
-  const End stopped = run(make_scene(), make_settings(), keep_in(kept), slow);
-  EXPECT_NE(stopped.words, "");
-  EXPECT_TRUE(kept.has_value());
-  EXPECT_LT(stopped.statistics.steps, 64);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  const End stopped =
+      run(make_scene(), make_settings(), keep_in(kept), at_once);
+  EXPECT_EQ(stopped.statistics.steps, 1);
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_EQ(kept->time, 0.0);
+  EXPECT_EQ(kept->outputs, 0U);
 }
 
 // Masses that reach soft stops one after the other, 20 in one step.
