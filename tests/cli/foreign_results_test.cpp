@@ -70,7 +70,9 @@ TEST(ForeignResults, ThatKeepATextInAnotherFileAreRefused) {
   run_scene(place);
   ForeignHdf5(place.folder() / "o/results.h5")
       .store_outside("scene/name", place.folder() / "secret.txt");
-  expect_not_shown(place, "'scene/name' keeps its values in another file");
+  const std::string why = "'scene/name' keeps its values in another file";
+  expect_not_shown(place, why);
+  expect_refused(place, "info o/results.h5", why);
 }
 
 TEST(ForeignResults, ThatKeepNumbersInAnotherFileAreRefused) {
@@ -89,7 +91,7 @@ TEST(ForeignResults, ThatLinkToAnotherFileAreRefused) {
   fs::copy(place.folder() / "o/results.h5", place.folder() / "other.h5");
   ForeignHdf5(place.folder() / "o/results.h5")
       .link_outside("time", place.folder() / "other.h5", "/time");
-  const std::string why = "'time' is reached by a link to another file";
+  const std::string why = "'time' is a link to another file";
   expect_not_shown(place, why);
   expect_refused(place, "info o/results.h5", why);
 }
@@ -101,7 +103,7 @@ TEST(ForeignResults, OfWhichAGroupIsInAnotherFileAreRefused) {
     fs::copy(place.folder() / "o/results.h5", place.folder() / "other.h5");
     ForeignHdf5(place.folder() / "o/results.h5")
         .link_outside(group, place.folder() / "other.h5", group);
-    expect_not_shown(place, "by a link to another file");
+    expect_not_shown(place, "is a link to another file");
   }
 }
 

@@ -36,6 +36,11 @@ class ForeignHdf5 {
     checked(H5Lcreate_soft(target.c_str(), file_, name.c_str(), H5P_DEFAULT,
                            H5P_DEFAULT));
   }
+  /// A second, hard link to an object.
+  void link_again(const std::string& name, const std::string& also) const {
+    checked(H5Lcreate_hard(file_, name.c_str(), file_, also.c_str(),
+                           H5P_DEFAULT, H5P_DEFAULT));
+  }
   void move(const std::string& name, const std::string& to) const {
     checked(H5Lmove(file_, name.c_str(), file_, to.c_str(), H5P_DEFAULT,
                     H5P_DEFAULT));

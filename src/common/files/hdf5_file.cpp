@@ -24,10 +24,7 @@ namespace {
 using hdf5::checked;
 using hdf5::Failure;
 using hdf5::Handle;
-using hdf5::has_inside;
 using hdf5::leave_out_times;
-using hdf5::open_dataset_inside;
-using hdf5::open_group_inside;
 using hdf5::Quiet;
 using hdf5::with_path;
 
@@ -113,6 +110,12 @@ void write_dataset(hid_t file, const Dataset& values) {
   }
 }
 
+Handle open_dataset(hid_t file, const std::string& name) {
+  const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+  if (set < 0) throw Failure(fmt::format("it has no '{}'", name));
+  return {set, H5Dclose};
+}
+
 void check_class(hid_t set, H5T_class_t expected, const std::string& name,
                  const char* kind) {
   const Handle type(H5Dget_type(set), H5Tclose);
@@ -180,7 +183,7 @@ void read_dataset(hid_t set, hid_t type, void* out, const std::string& name) {
 }
 
 MatrixX read_matrix_of(hid_t file, const std::string& name) {
-  const Handle set = open_dataset_inside(file, name);
+  const Handle set = open_dataset(file, name);
   check_class(set.get(), H5T_FLOAT, name, "a matrix of numbers");
   const std::vector<hsize_t> shape = shape_of(set.get(), name);
   if (shape.size() != 2) {
@@ -197,7 +200,7 @@ MatrixX read_matrix_of(hid_t file, const std::string& name) {
 
 std::vector<std::int64_t> read_integers_of(hid_t file,
                                            const std::string& name) {
-  const Handle set = open_dataset_inside(file, name);
+  const Handle set = open_dataset(file, name);
   check_class(set.get(), H5T_INTEGER, name, "a list of integers");
   const std::vector<hsize_t> shape = shape_of(set.get(), name);
   if (shape.size() != 1) {
@@ -212,7 +215,7 @@ std::vector<std::int64_t> read_integers_of(hid_t file,
 }
 
 std::string read_text_of(hid_t file, const std::string& name) {
-  const Handle set = open_dataset_inside(file, name);
+  const Handle set = open_dataset(file, name);
   check_class(set.get(), H5T_STRING, name, "a text");
   const Handle type(H5Dget_type(set.get()), H5Tclose);
   const std::vector<hsize_t> shape = shape_of(set.get(), name);
@@ -228,7 +231,7 @@ std::string read_text_of(hid_t file, const std::string& name) {
 }
 
 std::string read_unit_of(hid_t file, const std::string& name) {
-  const Handle set = open_dataset_inside(file, name);
+  const Handle set = open_dataset(file, name);
   if (H5Aexists(set.get(), "unit") <= 0) {
     throw Failure(fmt::format("'{}' has no unit", name));
   }
@@ -252,7 +255,7 @@ std::vector<std::string> list_of(hid_t file, const std::string& group) {
     static_cast<std::vector<std::string>*>(out)->emplace_back(name);
     return 0;
   };
-  const Handle id = open_group_inside(file, group);
+  const Handle id(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
   checked(
       H5Literate(id.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names));
   return names;
@@ -310,7 +313,9 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file) {
     throw InputError(fmt::format("'{}' is not an HDF5 file, or it is truncated",
                                  file.string()));
   }
-  return {id, file};
+  Hdf5File opened(id, file);
+  with_path(file, [&] { hdf5::check_inside(id); });
+  return opened;
 }
 
 void Hdf5File::write(const std::string& name, const MatrixX& values,
@@ -384,7 +389,9 @@ void Hdf5File::write_array(const std::string& name,
 }
 
 bool Hdf5File::has(const std::string& name) const {
-  return with_path(file_, [&] { return has_inside(handle_, name); });
+  // An error here means that a parent group does not exist.
+  const Quiet quiet;
+  return H5Lexists(handle_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
 MatrixX Hdf5File::read_matrix(const std::string& name) const {

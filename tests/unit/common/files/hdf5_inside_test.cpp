@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,12 +46,11 @@ class Hdf5InsideTest : public ::testing::Test {
   [[nodiscard]] std::filesystem::path secret() const {
     return folder_.path() / "secret.txt";
   }
-  void expect_refused(const std::string& name, const std::string& reason,
-                      const std::function<void(const Hdf5File&)>& read) const {
+  void expect_refused(const std::string& name,
+                      const std::string& reason) const {
     try {
-      const Hdf5File in = Hdf5File::open(own());
-      read(in);
-      ADD_FAILURE() << name << " was read";
+      (void)Hdf5File::open(own());
+      ADD_FAILURE() << name << " is accepted";
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), AllOf(HasSubstr(own().string()),
                                       HasSubstr("'" + name + "' " + reason)));
@@ -63,25 +61,17 @@ class Hdf5InsideTest : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-constexpr const char* kLink = "is reached by a link to another file";
+constexpr const char* kLink = "is a link to another file";
 constexpr const char* kOutside = "keeps its values in another file";
 constexpr const char* kView = "is a virtual data set";
+const std::vector<std::string> kSets = {"a/b/matrix", "a/b/list", "a/b/text"};
 
-TEST_F(Hdf5InsideTest, RefusesALinkToAnotherFileHoweverItIsRead) {
-  for (const char* name : {"a/b/matrix", "a/b/list", "a/b/text"}) {
-    ForeignHdf5(own()).link_outside(name, other().string(),
-                                    std::string("/") + name);
+TEST_F(Hdf5InsideTest, RefusesALinkToAnotherFile) {
+  for (const std::string& name : kSets) {
+    write_file(own(), 1.0);
+    ForeignHdf5(own()).link_outside(name, other().string(), "/" + name);
+    expect_refused(name, kLink);
   }
-  expect_refused("a/b/matrix", kLink, [](const Hdf5File& in) {
-    (void)in.read_matrix("a/b/matrix");
-  });
-  expect_refused("a/b/matrix", kLink,
-                 [](const Hdf5File& in) { (void)in.read_unit("a/b/matrix"); });
-  expect_refused("a/b/list", kLink, [](const Hdf5File& in) {
-    (void)in.read_integers("a/b/list");
-  });
-  expect_refused("a/b/text", kLink,
-                 [](const Hdf5File& in) { (void)in.read_text("a/b/text"); });
 }
 
 // A link that leads nowhere is refused alike: the other file is not looked for.
@@ -89,58 +79,50 @@ TEST_F(Hdf5InsideTest, RefusesAGroupThatIsALinkToAnyFile) {
   for (const std::string& to : {other().string(), std::string("none.h5")}) {
     write_file(own(), 1.0);
     ForeignHdf5(own()).link_outside("a/b", to, "/a/b");
-    expect_refused("a/b/matrix", kLink, [](const Hdf5File& in) {
-      (void)in.read_matrix("a/b/matrix");
-    });
-    expect_refused("a/b/matrix", kLink,
-                   [](const Hdf5File& in) { (void)in.has("a/b/matrix"); });
-    expect_refused("a/b", kLink,
-                   [](const Hdf5File& in) { (void)in.list("a/b"); });
+    expect_refused("a/b", kLink);
   }
 }
 
 TEST_F(Hdf5InsideTest, RefusesALinkToAnotherFileBehindALinkInside) {
   ForeignHdf5(own()).link_outside("a/b/list", other().string(), "/a/b");
   ForeignHdf5(own()).link_inside("a/b/matrix", "/a/b/list/matrix");
-  expect_refused("a/b/matrix", kLink, [](const Hdf5File& in) {
-    (void)in.read_matrix("a/b/matrix");
-  });
+  expect_refused("a/b/list", kLink);
 }
 
 TEST_F(Hdf5InsideTest, RefusesAnExternalLinkBackToItself) {
-  const ForeignHdf5 file(own());
-  file.move("a/b/matrix", "a/moved");
-  file.move("a/b/list", "a/b/matrix");
-  file.link_outside("a/b/matrix", own().string(), "/a/moved");
-  expect_refused("a/b/matrix", kLink, [](const Hdf5File& in) {
-    (void)in.read_matrix("a/b/matrix");
-  });
+  {
+    const ForeignHdf5 file(own());
+    file.move("a/b/matrix", "a/moved");
+    file.move("a/b/list", "a/b/matrix");
+    file.link_outside("a/b/matrix", own().string(), "/a/moved");
+  }
+  expect_refused("a/b/matrix", kLink);
 }
 
 TEST_F(Hdf5InsideTest, RefusesValuesInBytesOfAnotherFile) {
-  for (const char* name : {"a/b/matrix", "a/b/list", "a/b/text"}) {
+  for (const std::string& name : kSets) {
+    write_file(own(), 1.0);
     ForeignHdf5(own()).store_outside(name, secret().string());
+    expect_refused(name, kOutside);
   }
-  expect_refused("a/b/matrix", kOutside, [](const Hdf5File& in) {
-    (void)in.read_matrix("a/b/matrix");
-  });
-  expect_refused("a/b/list", kOutside, [](const Hdf5File& in) {
-    (void)in.read_integers("a/b/list");
-  });
-  expect_refused("a/b/text", kOutside,
-                 [](const Hdf5File& in) { (void)in.read_text("a/b/text"); });
 }
 
 TEST_F(Hdf5InsideTest, RefusesAViewOfOtherDataSets) {
   for (const std::string& source : {other().string(), std::string(".")}) {
     write_file(own(), 1.0);
-    const ForeignHdf5 file(own());
-    file.move("a/b/list", "a/list");
-    file.map_virtually("a/b/matrix", source, "/a/b/matrix");
-    expect_refused("a/b/matrix", kView, [](const Hdf5File& in) {
-      (void)in.read_matrix("a/b/matrix");
-    });
+    ForeignHdf5(own()).map_virtually("a/b/matrix", source, "/a/b/matrix");
+    expect_refused("a/b/matrix", kView);
   }
+}
+
+// Groups may hold each other; each is visited once.
+TEST_F(Hdf5InsideTest, LooksThroughGroupsThatHoldEachOther) {
+  {
+    const ForeignHdf5 file(own());
+    file.link_again("/a", "a/b/up");
+    file.store_outside("a/b/text", secret().string());
+  }
+  expect_refused("a/b/text", kOutside);
 }
 
 TEST_F(Hdf5InsideTest, FollowsLinksWithinTheFile) {

@@ -182,7 +182,7 @@ TEST_F(BodyFile, ThatKeepsValuesInAnotherFileIsRefused) {
     write_body(make_small_body(1), file());
     limber::test::ForeignHdf5(file()).link_outside(name, other, name);
     seal_body_file(file());
-    EXPECT_THAT(reading_error(), HasSubstr("by a link to another file"));
+    EXPECT_THAT(reading_error(), HasSubstr("is a link to another file"));
   }
   write_body(make_small_body(1), file());
   limber::test::ForeignHdf5(file()).store_outside("lambda", other);
