@@ -50,7 +50,9 @@ void SuppliedWork::list_loads() {
     const BodyIndex b = model_.attachments[at].body;
     if (b == kWorld || !load.in_world || load.force.isZero(0.0)) continue;
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
-    if (body.fidelity < Fidelity::coupled || body.full >= 0) continue;
+    const bool is_undeformed =
+        body.modes > 0 && body.fidelity < Fidelity::coupled;
+    if (is_undeformed || body.full >= 0) continue;
     loads_.push_back(i);
   }
 }

@@ -22,7 +22,9 @@ namespace limber::dynamics {
 /// Limits     moments, loads in body axes, on uncoupled or unreduced bodies,
 /// and
 ///            velocity drives that follow an input keep the trapezoidal rule;
-///            so does a difference within the round-off of the places.
+///            so does a difference within the round-off of the places. Powers
+///            are those of the last iterate, so that the work of loads and
+///            weight has the error of Newton's method.
 class SuppliedWork {
  public:
   explicit SuppliedWork(const SystemModel& model);

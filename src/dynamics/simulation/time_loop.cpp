@@ -24,9 +24,13 @@ constexpr long kMostSteps = 256;
 constexpr long kFewestSteps = 32;
 constexpr double kMostWork = 4e6;  // steps and solves, times unknowns
 
+// Errors of an oscillation's steps add up to twice their sum, or a little more.
+constexpr double kBudgetShare = 0.5;  // of the tolerance
+
 ErrorBudget make_budget(const SimulationSettings& settings, double start) {
   if (settings.passes == TolerancePasses::one) {
-    return ErrorBudget::in_all(settings.tolerance, settings.end_time - start);
+    return ErrorBudget::in_all(kBudgetShare * settings.tolerance,
+                               settings.end_time - start);
   }
   return ErrorBudget::each(settings.tolerance);
 }
