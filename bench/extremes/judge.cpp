@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
 
 namespace limber::bench {
 namespace {

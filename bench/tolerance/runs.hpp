@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/scene/build/build_system.hpp"
 
 /// Steps to a tolerance held against fixed steps.

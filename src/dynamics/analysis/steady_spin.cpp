@@ -12,8 +12,8 @@
 #include "limber/dynamics/analysis/group_lengths.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/equations/residual.hpp"
-#include "limber/dynamics/integrators/motion_scale.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 

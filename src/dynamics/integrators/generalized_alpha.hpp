@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/integrators/alpha_parameters.hpp"
 #include "limber/dynamics/integrators/integrator.hpp"
 #include "limber/dynamics/integrators/maxwell_motion.hpp"
-#include "limber/dynamics/integrators/motion_scale.hpp"
 #include "limber/dynamics/integrators/step_work.hpp"
 #include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/exact_correction.hpp"

@@ -8,7 +8,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
-#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/simulation/single_run.hpp"
 
 namespace limber::dynamics {

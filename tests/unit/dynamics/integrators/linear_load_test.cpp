@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
-#include "limber/dynamics/integrators/motion_scale.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 
 namespace limber::dynamics::linear_load_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/integrators/motion_scale.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
 
 #include <gtest/gtest.h>
 
