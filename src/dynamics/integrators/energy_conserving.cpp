@@ -28,6 +28,8 @@ constexpr double kNoise = 100.0;
 // reach round-off; the second one applies to fresh factors [-].
 constexpr double kPoorStepContraction = 0.05;
 constexpr double kPoorFreshContraction = 0.1;
+// Share of a correction that undoes the last one [-].
+constexpr double kDamped = 0.5;
 
 Eigen::Map<const VectorX> modes_of(const BodyModel& body, const VectorX& all) {
   return {all.data() + body.offset, body.modes};
@@ -62,7 +64,8 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       next_(make_state(model)),
       turns_(model.bodies.size(), Vector3::Zero()),
       residual_(VectorX::Zero(count_unknowns(model))),
-      x_(VectorX::Zero(count_unknowns(model))) {
+      x_(VectorX::Zero(count_unknowns(model))),
+      last_x_(x_) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
@@ -207,8 +210,33 @@ Vector3 EnergyConserving::change_turn(std::size_t b, const Vector3& x) const {
   return cayley_jacobian_inverse(turns_[b]) * x;
 }
 
-void EnergyConserving::apply_increments(double h) {
-  add_to_applied(matrix_.wrench_increments(), mean_);
+// Whether the increments undo most of the last ones: between the two slopes of
+// a friction law Newton's method can alternate for ever.
+bool EnergyConserving::reverses_last() const {
+  constexpr double kReversed = -0.5;
+  double both = 0.0;
+  double now = 0.0;
+  double before = 0.0;
+  const auto add = [&](double weight, const auto& a, const auto& b) {
+    both += weight * a.dot(b);
+    now += weight * a.squaredNorm();
+    before += weight * b.squaredNorm();
+  };
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const Eigen::Index row = first_row(body, b);
+    add(body.mass, x_.segment<3>(row), last_x_.segment<3>(row));
+    add(body.mass * radius_of_gyration_squared(body), x_.segment<3>(row + 3),
+        last_x_.segment<3>(row + 3));
+    add(1.0, x_.segment(row + 6, body.modes),
+        last_x_.segment(row + 6, body.modes));
+  }
+  return both < kReversed * std::sqrt(now * before);
+}
+
+void EnergyConserving::apply_increments(double h, double share) {
+  x_ *= share;
+  add_to_applied(matrix_.wrench_increments(), mean_, share);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     const Eigen::Index row = first_row(body, b);
@@ -301,13 +329,16 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
       factored_step_ = h;
       needs_factors = false;
     }
+    last_x_.swap(x_);
     matrix_.solve(model_, mean_, residual_, x_);
     correction = measure_increments();
     ++result.iterations;
+    const bool is_damped =
+        result.iterations > 1 && correction.value > roundoff && reverses_last();
     if (!std::isfinite(correction.value)) {
       fail(correction, "the motion is no longer finite");
     }
-    apply_increments(h);
+    apply_increments(h, is_damped ? kDamped : 1.0);
     advance(state, h, end);
     const double motion = measure_motion(h);
     const double contraction =
@@ -319,6 +350,10 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
                           : correction.value;
     const double noise =
         std::max(kNoise * roundoff, settings_.tolerance * motion);
+    if (is_damped) {
+      needs_factors = true;
+      if (result.iterations < settings_.max_iterations) continue;
+    }
     if (left <= 0.25 * kEpsilon * motion) break;
     // Corrections that no longer shrink are round-off.
     if (contraction > 0.5 && correction.value <= noise) break;

@@ -69,7 +69,8 @@ class EnergyConserving final : public Integrator {
   void calc_body_residual(const SystemState& from, double h, std::size_t b);
   void factor(const SystemState& from);
   [[nodiscard]] Vector3 change_turn(std::size_t b, const Vector3& x) const;
-  void apply_increments(double h);
+  [[nodiscard]] bool reverses_last() const;
+  void apply_increments(double h, double share);
   [[nodiscard]] Size measure_increments() const;
   [[nodiscard]] double measure_motion(double h) const;
   [[nodiscard]] double measure_roundoff() const;
@@ -94,6 +95,7 @@ class EnergyConserving final : public Integrator {
   std::vector<Vector3> turns_;  // of bodies over the step
   VectorX residual_;
   VectorX x_;
+  VectorX last_x_;  // of the iteration before
 };
 
 }  // namespace limber::dynamics
