@@ -36,15 +36,6 @@ void check_step_count(const SimulationSettings& settings, double start) {
                   shortest, count, settings.end_time, kMostSteps));
 }
 
-bool has_longer_steps(const SimulationSettings& settings, double from,
-                      double until, double length) {
-  if (find_longest_step(settings, from) > length) return true;
-  return std::any_of(settings.step_changes.begin(), settings.step_changes.end(),
-                     [&](const StepChange& change) {
-                       return change.from < until && change.step > length;
-                     });
-}
-
 // Breakpoints within pulses that steps would not resolve. Steps to a tolerance
 // always get them: an impulse that all passes miss is in no estimate.
 std::vector<double> find_inner_times(const TimeFunction& function,
@@ -53,8 +44,8 @@ std::vector<double> find_inner_times(const TimeFunction& function,
   if (pulse == nullptr || pulse->shape != PulseShape::half_sine) return {};
   const double part = pulse->duration / kLeastSteps;
   if (settings.tolerance == 0.0 &&
-      !has_longer_steps(settings, pulse->start, pulse->start + pulse->duration,
-                        part)) {
+      find_longest_step(settings, pulse->start,
+                        pulse->start + pulse->duration) <= part) {
     return {};
   }
   std::vector<double> times;
@@ -192,6 +183,16 @@ double find_longest_step(const SimulationSettings& settings, double t) {
     if (change.from <= t + same) step = change.step;
   }
   return step;
+}
+
+double find_longest_step(const SimulationSettings& settings, double from,
+                         double until) {
+  double longest = find_longest_step(settings, from);
+  for (const StepChange& change : settings.step_changes) {
+    const bool is_within = change.from > from && change.from < until;
+    if (is_within) longest = std::max(longest, change.step);
+  }
+  return longest;
 }
 
 double find_longest_step(const SimulationSettings& settings) {

@@ -42,6 +42,9 @@ struct Breakpoint {
 /// The longest step that the settings allow at time t [s].
 [[nodiscard]] double find_longest_step(const SimulationSettings& settings,
                                        double t);
+/// The longest step that they allow between two times [s].
+[[nodiscard]] double find_longest_step(const SimulationSettings& settings,
+                                       double from, double until);
 /// The longest step that they allow at any time [s].
 [[nodiscard]] double find_longest_step(const SimulationSettings& settings);
 

@@ -25,7 +25,10 @@ SimulationSettings check(const SystemModel& model, const SystemState& state,
                          SimulationStatistics& statistics) {
   check_settings(model, state, settings);
   add_start_warnings(model, state, statistics);
-  return limit_step(model, state, settings, statistics);
+  const SimulationSettings limited =
+      limit_step(model, state, settings, statistics);
+  add_period_warning(model, limited, state.t, statistics);
+  return limited;
 }
 
 }  // namespace

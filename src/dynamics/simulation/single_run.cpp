@@ -35,6 +35,7 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
                const TimeLoop::Visit& visit) {
   const SimulationSettings settings =
       limit_step(model, state, job.settings, job.statistics);
+  add_period_warning(model, settings, state.t, job.statistics);
   TimeLoop loop(model, settings, state, job.statistics, job.refinement,
                 job.followed);
   if (job.continuation.from) loop.resume(*job.continuation.from, state);

@@ -10,12 +10,18 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
+#include "limber/dynamics/system/oscillation.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 // Excess relative to the coordinate's size that counts as none [-].
 constexpr double kOnStop = 1e-9;
+// Fixed steps in a period: with 8 the mean force in a step errs by up to 5 % of
+// the amplitude, with 16 by 1.3 %.
+constexpr double kFewestSteps = 8.0;
+constexpr double kGoodSteps = 16.0;
 
 struct Start {
   double time = 0.0;  // [s]
@@ -73,6 +79,31 @@ void add_start_warnings(const SystemModel& model, const SystemState& state,
       check_bounds({state.t, transmission.name, *motion}, law, statistics);
     }
   }
+}
+
+void add_period_warning(const SystemModel& model,
+                        const SimulationSettings& settings, double start,
+                        SimulationStatistics& statistics) {
+  if (settings.tolerance > 0.0) return;
+  const auto oscillations = find_oscillations(model);
+  const Oscillation* worst = nullptr;
+  double fewest = kFewestSteps;
+  double longest = 0.0;
+  for (const Oscillation& oscillation : oscillations) {
+    const double from = std::max(oscillation.from, start);
+    const double until = std::min(oscillation.until, settings.end_time);
+    if (!(from < until)) continue;
+    const double step = find_longest_step(settings, from, until);
+    if (!(oscillation.period < fewest * step * (1.0 - 1e-9))) continue;
+    fewest = oscillation.period / step;
+    longest = step;
+    worst = &oscillation;
+  }
+  if (worst == nullptr) return;
+  statistics.warnings.push_back(fmt::format(
+      "{} has a period of {:.3g} s, which steps of {:.3g} s do not follow; "
+      "take steps of at most {:.2g} s, or a tolerance",
+      worst->name, worst->period, longest, worst->period / kGoodSteps));
 }
 
 }  // namespace limber::dynamics

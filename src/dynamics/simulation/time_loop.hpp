@@ -19,6 +19,7 @@
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/step_control.hpp"
 #include "limber/dynamics/simulation/work_budget.hpp"
+#include "limber/dynamics/system/oscillation.hpp"
 
 namespace limber::dynamics {
 
@@ -97,6 +98,7 @@ class TimeLoop {
   void tell_progress(const SystemState& state, const Progress& progress);
   void heed_within_step(const SystemState& state, const Progress& progress);
   [[noreturn]] void end_here(const SystemState& state) const;
+  [[nodiscard]] double limit_free_step(const SystemState& state);
   bool take_free_step(SystemState& state, const Visit& visit);
   template <typename Work>
   bool goes_through(const SystemState& state, double h, const Work& work);
@@ -129,6 +131,7 @@ class TimeLoop {
   std::vector<Breakpoint> breakpoints_;
   std::vector<double> outputs_;  // of steps to a tolerance
   double refinement_;            // see StepControl [-]
+  std::vector<Oscillation> oscillations_;
   EventStepper stepper_;
   ControllerSampling sampling_;
   StepControl control_;

@@ -17,6 +17,9 @@ constexpr int kMostHalvings = 10;
 constexpr double kSameTime =
     1e-9;  // fraction of a step that counts as its end [-]
 constexpr double kFewestStepsToAMark = 4.0;  // with a tolerance
+// With a tolerance: the mean force in a step is then right to 1.3 % of the
+// amplitude, and the estimate of a step's error sees the force change.
+constexpr double kFewestStepsToAPeriod = 16.0;
 
 }  // namespace
 
@@ -104,6 +107,18 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
   ++part_;
 }
 
+// The longest step that shows what does not appear in its error: loads that are
+// zero at both ends, or the same after a whole period, and touches [s].
+double TimeLoop::limit_free_step(const SystemState& state) {
+  const double mark = breakpoints_[next_].time;
+  const double period =
+      find_shortest_period(oscillations_, 0.5 * (state.t + mark));
+  return refinement_ *
+         std::min({(mark - origin_) / kFewestStepsToAMark,
+                   period / kFewestStepsToAPeriod,
+                   stepper_.touches().find_longest_step(state.t)});
+}
+
 // A step as long as the tolerance allows. @returns whether it is accepted
 bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   if (statistics_.steps + statistics_.rejected_steps >= settings_.most_steps) {
@@ -118,10 +133,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   const StepResult before = stepper_.totals();
   const Losses losses_before = losses();
   const double left = mark - state.t;
-  // Loads that are zero at both ends of a step are not missed.
-  const double most = refinement_ * (mark - origin_) / kFewestStepsToAMark;
-  h_ = std::min({control_.propose(state, left), std::max(most, 0.0),
-                 refinement_ * stepper_.touches().find_longest_step(state.t)});
+  h_ = std::min(control_.propose(state, left), limit_free_step(state));
   if (left - h_ < kSameTime * h_) h_ = left;
   if (!(h_ > find_same_time(start_, settings_))) {
     fail(state, h_,
