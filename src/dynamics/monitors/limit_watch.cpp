@@ -14,45 +14,20 @@ constexpr long kMostEvents = 1000;
 }  // namespace
 
 LimitWatch::LimitWatch(const SystemModel& model) : model_(model) {
-  const auto add = [&](bool is_transmission, std::size_t index,
-                       std::size_t coordinate, const joints::ScalarLaw& law) {
-    if (!std::isfinite(joints::max_effort(law))) return;
-    Limited limited;
-    limited.is_transmission = is_transmission;
-    limited.index = index;
-    limited.coordinate = coordinate;
-    limited.law = &law;
-    drives_.push_back(limited);
-  };
-  for (std::size_t c = 0; c < model.couplers.size(); ++c) {
-    for (const joints::JointElement& element :
-         joints::elements_of(model.couplers[c].law)) {
-      add(false, c, static_cast<std::size_t>(element.coordinate), element.law);
-    }
-  }
-  for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
-    for (const joints::ScalarLaw& law : model.transmissions[i].laws) {
-      add(true, i, 0, law);
-    }
+  for (const LimitedDrive& drive : find_limited_drives(model)) {
+    drives_.push_back({.drive = drive});
   }
 }
 
-const std::string& LimitWatch::name_of(const Limited& limited) const {
-  return limited.is_transmission ? model_.transmissions[limited.index].name
-                                 : model_.couplers[limited.index].name;
-}
-
-joints::ScalarMotion LimitWatch::find_motion(const Limited& limited,
+joints::ScalarMotion LimitWatch::find_motion(const LimitedDrive& drive,
                                              const SystemState& state,
                                              const SystemTerms& terms) const {
-  if (limited.is_transmission) {
-    return terms.transmissions[limited.index].motion;
-  }
-  const auto& law = model_.couplers[limited.index].law;
+  if (drive.is_transmission) return terms.transmissions[drive.index].motion;
+  const auto& law = model_.couplers[drive.index].law;
   const joints::CoordinateValue value =
-      evaluate(joints::coordinates_of(law)[limited.coordinate],
-               terms.couplers[limited.index].motion,
-               state.memory[limited.index].near[limited.coordinate]);
+      evaluate(joints::coordinates_of(law)[drive.coordinate],
+               terms.couplers[drive.index].motion,
+               state.memory[drive.index].near[drive.coordinate]);
   return {value.z, value.rate};
 }
 
@@ -70,7 +45,7 @@ void LimitWatch::pass(Limited& limited, const joints::ScalarMotion& motion,
   }
   limited.time_at += is_reached ? t - when : when - limited.time;
   if (++limited.events > kMostEvents) return;
-  events.push_back({when, name_of(limited),
+  events.push_back({when, name_of(limited.drive, model_),
                     is_reached ? "effort limit reached" : "effort limit left",
                     motion.rate});
 }
@@ -78,9 +53,10 @@ void LimitWatch::pass(Limited& limited, const joints::ScalarMotion& motion,
 void LimitWatch::include(const SystemState& state, const SystemTerms& terms,
                          std::vector<Event>& events) {
   for (Limited& limited : drives_) {
-    const joints::ScalarMotion motion = find_motion(limited, state, terms);
-    const double load =
-        joints::find_load(*limited.law, motion, now_of(state, Side::left));
+    const joints::ScalarMotion motion =
+        find_motion(limited.drive, state, terms);
+    const double load = joints::find_load(*limited.drive.law, motion,
+                                          now_of(state, Side::left));
     const bool was_at = limited.has_begun && limited.load >= 1.0;
     const bool is_at = load >= 1.0;
     if (was_at != is_at) {
@@ -102,8 +78,8 @@ std::vector<std::string> LimitWatch::find_warnings() const {
         "the drive of '{}' reaches its largest effort of {:g} at t = {:.6g} s, "
         "where its coordinate is {:.6g}; it is at this limit for {:.3g} s in "
         "total and does not follow its signal",
-        name_of(limited), joints::max_effort(*limited.law), limited.first_time,
-        limited.first_z, limited.time_at));
+        name_of(limited.drive, model_), joints::max_effort(*limited.drive.law),
+        limited.first_time, limited.first_z, limited.time_at));
   }
   return warnings;
 }

@@ -8,15 +8,16 @@
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
 #include "limber/dynamics/monitors/event.hpp"
+#include "limber/dynamics/monitors/limited_drive.hpp"
 #include "limber/dynamics/system/system_state.hpp"
-#include "limber/joints/scalar/scalar_law.hpp"
 
 namespace limber::dynamics {
 
 /// Monitors when drives request more effort than their limit.
 ///
 /// Limits     evaluated at the ends of steps; in between the ratio is assumed
-///            to vary linearly.
+///            to vary linearly. Steps to a tolerance end there
+///            (limit_crossing.hpp).
 class LimitWatch {
  public:
   explicit LimitWatch(const SystemModel& model);
@@ -33,10 +34,7 @@ class LimitWatch {
 
  private:
   struct Limited {
-    bool is_transmission = false;
-    std::size_t index = 0;       // of the coupler or the transmission
-    std::size_t coordinate = 0;  // of a joint
-    const joints::ScalarLaw* law = nullptr;
+    LimitedDrive drive;
     bool has_begun = false;
     double load = 0.0;        // last requested effort over the limit [-]
     double time = 0.0;        // [s]
@@ -46,11 +44,10 @@ class LimitWatch {
     long events = 0;
   };
   [[nodiscard]] joints::ScalarMotion find_motion(
-      const Limited& limited, const SystemState& state,
+      const LimitedDrive& drive, const SystemState& state,
       const SystemTerms& terms) const;
   void pass(Limited& limited, const joints::ScalarMotion& motion, double load,
             double t, std::vector<Event>& events);
-  [[nodiscard]] const std::string& name_of(const Limited& limited) const;
 
   const SystemModel& model_;
   std::vector<Limited> drives_;

@@ -36,6 +36,8 @@ EventStepper::EventStepper(const SystemModel& model,
       terms_(make_terms(model)),
       watch_(model),
       touches_(model),
+      limits_(model),
+      heeds_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
       commit_pairs_(model),
       events_(events) {
   using Kind = joints::AxisCoordinate::Kind;
@@ -163,14 +165,16 @@ bool EventStepper::advance_to(double share, SystemState& state) {
 }
 
 void EventStepper::settle(SystemState& state, double nominal_h) {
-  if (watch_.is_empty() && touches_.is_empty()) {
+  if (watch_.is_empty() && touches_.is_empty() && !heeds_limits_) {
     add_last();
     return;
   }
   const auto crossing = watch_.find_first(state, h_);
   const auto touch = touches_.find_first(before_, state);
-  const double share =
-      std::min(crossing ? crossing->share : 1.0, touch ? touch->share : 1.0);
+  const double limit =
+      heeds_limits_ ? limits_.find_first(before_, state).value_or(1.0) : 1.0;
+  const double share = std::min(
+      {crossing ? crossing->share : 1.0, touch ? touch->share : 1.0, limit});
   if (cut_ == kMostCut && touch) check_missed_touch(touch->index, state);
   if (share > 1.0 - kSameEvent || cut_ == kMostCut) {
     cut_ = 0;
@@ -186,7 +190,11 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
   }
   advance_to(share, state);
   add_last();
-  pass(*crossing, state, nominal_h);
+  if (crossing && crossing->share == share) {
+    pass(*crossing, state, nominal_h);
+  } else {
+    watch_.accept(state);
+  }
   touches_.accept(before_, state);
 }
 

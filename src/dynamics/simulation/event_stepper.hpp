@@ -8,14 +8,15 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/make_integrator.hpp"
 #include "limber/dynamics/monitors/event_watch.hpp"
+#include "limber/dynamics/monitors/limit_crossing.hpp"
 #include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/damper_impulse.hpp"
 
 namespace limber::dynamics {
 
 /// Takes steps, ends them at events of couplers and where pairs touch or part,
-/// and updates their memory. Without switches and angles it adds no cost to a
-/// step.
+/// with a tolerance also where drives reach or leave their effort limit, and
+/// updates their memory. Without switches and angles it adds no cost to a step.
 ///
 /// Equation   a switch's effect on a law is constant within a step, so that the
 ///            motion is smooth, and changes where the step is cut.
@@ -103,6 +104,8 @@ class EventStepper {
   SystemTerms terms_;  // of energies
   EventWatch watch_;
   TouchWatch touches_;
+  LimitCrossing limits_;
+  bool heeds_limits_ = false;  // with a tolerance
   std::vector<Angle> angles_;
   PairCommit commit_pairs_;
   std::vector<Event>& events_;
