@@ -13,6 +13,7 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -190,7 +191,7 @@ int relax(const SystemModel& model, StaticNewton& newton,
                                 newton.calc_forces_left(state)));
   const double t = state.t;
   // The scheme evaluates loads before their edges.
-  state.t += 1e-9 * (std::abs(t) + time);
+  state.t = find_time_after(t);
   Fall fall(model, kSteps * time);
   const int steps =
       fall.run(state, settings.relaxation_steps, [&](SystemState& at) {

@@ -13,6 +13,7 @@
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 #include "limber/dynamics/newton/residual_derivative.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -24,7 +25,7 @@ using Index = Eigen::Index;
 // Just after loads that jump at the state's time.
 SystemState just_after(const SystemState& state) {
   SystemState after = state;
-  after.t += 1e-12 * (1.0 + std::abs(state.t));
+  after.t = find_time_after(state.t);
   return after;
 }
 

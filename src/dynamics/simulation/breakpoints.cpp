@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "limber/common/errors.hpp"
 
 namespace limber::dynamics {
 namespace {
+
+// Of a time that is a sum of some others [-].
+constexpr double kSame = 8.0 * std::numeric_limits<double>::epsilon();
 
 // Steps per half sine. Forces sampled at the ends of steps miss part of its
 // impulse: all of it with one step, 1.3 % with 8 and 0.3 % with 16.
@@ -60,7 +64,7 @@ void add_samples(const ControllerModel& controller, double start,
                  const SimulationSettings& settings,
                  std::vector<Breakpoint>& marks) {
   const double end = settings.end_time;
-  const double same = find_same_time(start, settings);
+  const double same = find_same_time(end, start);
   const double count =
       (end - std::max(start, controller.offset)) / controller.period;
   if (count > kMostSamples || controller.period < kFewestSame * same) {
@@ -70,8 +74,10 @@ void add_samples(const ControllerModel& controller, double start,
         controller.name, controller.period, count, start, end, kMostSamples,
         kFewestSame * same));
   }
-  for (long k = controller.find_first(start + 2.0 * same, same);; ++k) {
+  const double same_as_start = find_same_time(start, start);
+  for (long k = controller.find_first(start, same_as_start);; ++k) {
     const double t = controller.find_time(k);
+    if (t <= start + same_as_start) continue;
     if (t > end + same) return;
     marks.push_back({.time = std::min(t, end), .is_sample = true});
   }
@@ -123,10 +129,10 @@ std::vector<Breakpoint> find_breakpoints(const SystemModel& model, double start,
       marks.begin(), marks.end(),
       [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
   // The jump's time is kept, so that the load's comparison with it is exact.
-  const double same = find_same_time(start, settings);
   std::vector<Breakpoint> merged;
   for (const Breakpoint& mark : marks) {
-    if (merged.empty() || mark.time - merged.back().time > same) {
+    if (merged.empty() ||
+        mark.time - merged.back().time > find_same_time(mark.time, start)) {
       merged.push_back(mark);
       continue;
     }
@@ -139,8 +145,13 @@ std::vector<Breakpoint> find_breakpoints(const SystemModel& model, double start,
   return merged;
 }
 
-double find_same_time(double start, const SimulationSettings& settings) {
-  return 1e-12 * std::max(std::abs(start), settings.end_time);
+double find_same_time(double t, double start) {
+  return kSame * std::max(std::abs(t), std::abs(start));
+}
+
+double find_time_after(double t) {
+  return t + std::max(2.0 * find_same_time(t, t),
+                      std::numeric_limits<double>::min());
 }
 
 std::vector<Breakpoint> find_step_breakpoints(
@@ -177,10 +188,9 @@ double count_steps(const SimulationSettings& settings, double from,
 }
 
 double find_longest_step(const SimulationSettings& settings, double t) {
-  const double same = 1e-12 * settings.end_time;
   double step = settings.step;
   for (const StepChange& change : settings.step_changes) {
-    if (change.from <= t + same) step = change.step;
+    if (change.from <= t + find_same_time(t, change.from)) step = change.step;
   }
   return step;
 }

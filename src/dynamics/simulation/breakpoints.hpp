@@ -16,9 +16,12 @@ struct Breakpoint {
   bool is_sample = false;  ///< a controller is sampled
 };
 
-/// Times that differ by less are one breakpoint [s].
-[[nodiscard]] double find_same_time(double start,
-                                    const SimulationSettings& settings);
+/// Largest difference of times near t that are the same, but for the round-off
+/// of sums of times like t and `start`: eight units in the last place [s].
+[[nodiscard]] double find_same_time(double t, double start);
+
+/// The first time that is not the same as t: just after what jumps there [s].
+[[nodiscard]] double find_time_after(double t);
 
 /// All breakpoints after `start` [s], increasing; the last is the end. Times
 /// that differ by round-off only are merged.

@@ -13,6 +13,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
+#include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
 
 namespace limber::dynamics {
@@ -41,8 +42,8 @@ void call(const ControllerModel& controller, double t, const std::string& what,
 
 }  // namespace
 
-ControllerSampling::ControllerSampling(const SystemModel& model, double same)
-    : model_(model), same_(same) {
+ControllerSampling::ControllerSampling(const SystemModel& model, double start)
+    : model_(model), start_(start) {
   if (!model.controllers.empty()) find_links();
 }
 
@@ -63,9 +64,10 @@ void ControllerSampling::find_links() {
 }
 
 void ControllerSampling::skip_until(SystemState& state) const {
+  const double same = find_same_time(state.t, start_);
   for (std::size_t i = 0; i < model_.controllers.size(); ++i) {
     long& next = state.controllers[i].next;
-    next = std::max(next, model_.controllers[i].find_first(state.t, same_));
+    next = std::max(next, model_.controllers[i].find_first(state.t, same));
   }
 }
 
@@ -142,10 +144,11 @@ void ControllerSampling::sample(std::size_t i, const SystemState& seen,
 
 ControllerSampling::Change ControllerSampling::take(SystemState& state) {
   due_.clear();
+  const double same = find_same_time(state.t, start_);
   for (std::size_t i = 0; i < model_.controllers.size(); ++i) {
     const double next =
         model_.controllers[i].find_time(state.controllers[i].next);
-    if (next <= state.t + same_) due_.push_back(i);
+    if (next <= state.t + same) due_.push_back(i);
   }
   if (due_.empty()) return {};
   seen_ = state;

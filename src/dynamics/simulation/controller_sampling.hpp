@@ -12,8 +12,9 @@ namespace limber::dynamics {
 /// only.
 class ControllerSampling {
  public:
-  /// @param same tolerance in time: samples later by at most this are due [s]
-  ControllerSampling(const SystemModel& model, double same);
+  /// @param start of the run [s]: samples later than the present only by the
+  /// round-off of times are due
+  ControllerSampling(const SystemModel& model, double start);
 
   /// Skips samples before a run that starts at `state`.
   void skip_until(SystemState& state) const;
@@ -42,7 +43,7 @@ class ControllerSampling {
   [[nodiscard]] double calc_energy(const SystemState& state) const;
 
   const SystemModel& model_;
-  double same_;
+  double start_;  // [s]
   std::vector<Link> links_;
   std::vector<std::size_t> due_;
   SystemState seen_;

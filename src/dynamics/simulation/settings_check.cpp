@@ -19,11 +19,10 @@ namespace {
 // duration, the number of steps limits it.
 constexpr double kShortest = 1e-11;
 
-void check_controllers(const SystemModel& model, const SystemState& state,
-                       const SimulationSettings& settings) {
+void check_controllers(const SystemModel& model, const SystemState& state) {
   LIMBER_EXPECT(state.inputs.size() == model.inputs.size());
   LIMBER_EXPECT(state.controllers.size() == model.controllers.size());
-  const double same = find_same_time(state.t, settings);
+  const double same = find_same_time(state.t, state.t);
   for (std::size_t i = 0; i < model.controllers.size(); ++i) {
     const ControllerModel& controller = model.controllers[i];
     const ControllerState& own = state.controllers[i];
@@ -86,7 +85,7 @@ void check_settings(const SystemModel& model, const SystemState& state,
   LIMBER_EXPECT(state.udot_H.size() == model.nodal_count);
   LIMBER_EXPECT(state.memory.size() ==
                 model.couplers.size() + model.transmissions.size());
-  check_controllers(model, state, settings);
+  check_controllers(model, state);
   check_rounding(model, state);
   LIMBER_EXPECT(state.pair_memory.size() == model.pair_memory_size);
   const auto refuse = [](const std::string& text) { throw InputError(text); };

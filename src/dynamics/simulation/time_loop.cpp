@@ -51,7 +51,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       refinement_(refinement),
       oscillations_(find_oscillations(model)),
       stepper_(model, settings, statistics.events),
-      sampling_(model, find_same_time(state.t, settings)),
+      sampling_(model, state.t),
       control_(make_budget(settings, state.t), settings.end_time - state.t,
                settings.step, refinement),
       peaks_(model, followed),
@@ -325,7 +325,7 @@ bool TimeLoop::run_to(double t, SystemState& state,
 }
 
 TimeLoop::AddedBreakpoint TimeLoop::add_breakpoint(double t) {
-  const double same = 1e-12 * settings_.end_time;
+  const double same = find_same_time(t, start_);
   std::size_t i = next_;
   while (i + 1 < breakpoints_.size() && breakpoints_[i].time < t - same) ++i;
   if (std::abs(breakpoints_[i].time - t) <= same) return {i, false};

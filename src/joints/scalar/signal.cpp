@@ -16,15 +16,17 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Whether two times, computed by different sums, are the same break.
-bool is_same(double t, double time) {
-  constexpr double kRoundoff = 1e-14;
-  return std::abs(t - time) <= kRoundoff * (1.0 + std::abs(time));
+// Round-off of a time that is the sum of another and a delay [s].
+double find_roundoff(double time, double delay) {
+  constexpr double kRoundoff = 8.0 * std::numeric_limits<double>::epsilon();
+  return kRoundoff * std::max(std::abs(time), delay);
 }
 
-// Whether `now` is after `time`; at `time`, its side decides.
-bool is_past(const Instant& now, double time) {
-  return is_same(now.t, time) ? now.side == Side::right : now.t > time;
+// Whether `now` is after `time`, delayed; at that time, its side decides.
+bool is_past(const Instant& now, double time, double delay) {
+  const double late = now.t - (time + delay);
+  const bool is_there = std::abs(late) <= find_roundoff(time, delay);
+  return is_there ? now.side == Side::right : late > 0.0;
 }
 
 // Progress from 0 to 1 and its rate, at the fraction `s` of the duration.
@@ -55,8 +57,8 @@ SignalValue evaluate_base(const ConstantSignal& signal, const Instant& /*now*/,
 
 SignalValue evaluate_base(const RampSignal& ramp, const Instant& now,
                           double delay) {
-  if (!is_past(now, ramp.start + delay)) return {ramp.from, 0.0};
-  if (is_past(now, ramp.start + ramp.duration + delay)) return {ramp.to, 0.0};
+  if (!is_past(now, ramp.start, delay)) return {ramp.from, 0.0};
+  if (is_past(now, ramp.start + ramp.duration, delay)) return {ramp.to, 0.0};
   const double height = ramp.to - ramp.from;
   const double share = (now.t - delay - ramp.start) / ramp.duration;
   const SignalValue progress = find_progress(ramp, std::clamp(share, 0.0, 1.0));
@@ -69,7 +71,7 @@ SignalValue evaluate_base(const TableSignal& table, const Instant& now,
   const auto& times = table.times;
   const auto next = std::partition_point(
       times.begin(), times.end(),
-      [&](double time) { return is_past(now, time + delay); });
+      [&](double time) { return is_past(now, time, delay); });
   if (next == times.begin()) return {table.values.front(), 0.0};
   if (next == times.end()) return {table.values.back(), 0.0};
   const auto i = static_cast<std::size_t>(next - times.begin());
@@ -81,7 +83,7 @@ SignalValue evaluate_base(const TableSignal& table, const Instant& now,
 SignalValue evaluate_base(const SineSignal& sine, const Instant& now,
                           double delay) {
   const double omega = 2.0 * kPi * sine.frequency;
-  const bool runs = is_past(now, sine.start + delay);
+  const bool runs = is_past(now, sine.start, delay);
   const double angle =
       (runs ? omega * (now.t - delay - sine.start) : 0.0) + sine.phase;
   return {sine.mean + sine.amplitude * std::sin(angle),
@@ -301,6 +303,13 @@ std::vector<double> break_times(const Signal& signal) {
     }
   }
   std::sort(times.begin(), times.end());
+  double latest = 0.0;
+  for (const Impulse& impulse : signal.shaper) {
+    latest = std::max(latest, impulse.delay);
+  }
+  const auto is_same = [&](double a, double b) {
+    return b - a <= find_roundoff(b, latest);
+  };
   times.erase(std::unique(times.begin(), times.end(), is_same), times.end());
   return times;
 }

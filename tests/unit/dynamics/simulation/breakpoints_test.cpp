@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "limber/joints/scalar/drive.hpp"
 #include "support/sliding_masses.hpp"
 
 namespace limber::dynamics::breakpoints_test {
@@ -49,7 +50,7 @@ TEST(VisitedTimes, AreThoseOfJumpsThatOutputsMissByRoundOff) {
   SimulationSettings settings;
   settings.end_time = 1.0;
   settings.step = 0.1;
-  const double beside = 0.5 + 1e-13;
+  const double beside = 0.5 + 3e-16;
   settings.output_times = {0.0, beside, 1.0};
   EXPECT_EQ(find_visited_times(model, 0.0, settings),
             (std::vector<double>{0.0, 0.5, 1.0}));
@@ -79,6 +80,85 @@ TEST(Breakpoints, DivideAPulseThatStepsWouldMiss) {
   settings.step_changes = {};
   settings.step = 1e-3;
   EXPECT_GE(count_within(), 4);
+}
+
+// By different sums one time has different last digits; others do not.
+TEST(Breakpoints, AreOneOnlyIfTheyDifferByTheRoundOffOfTheirTimes) {
+  SimulationSettings settings;
+  settings.end_time = 1e6;
+  settings.step = 1e6;
+  const auto count_after = [&](double gap) {
+    const SystemModel model =
+        make_pushed_mass(Table{{0.1 + 0.2, 0.3 + gap, 1.0}, {1.0, 1.0, 1.0}});
+    return find_breakpoints(model, 0.0, settings).size();
+  };
+  ASSERT_NE(0.1 + 0.2, 0.3);
+  EXPECT_EQ(count_after(2e-16), 3U);
+  EXPECT_EQ(count_after(1e-14), 4U);
+  EXPECT_EQ(count_after(1e-7), 4U);
+}
+
+// 1 N during a millionth of a second, whatever comes after it.
+TEST(Breakpoints, KeepTheImpulseOfAPulseInARunOfAnyDuration) {
+  const SystemModel model =
+      make_pushed_mass(Pulse{PulseShape::rectangular, 1e-6, 5e-7});
+  for (const double end : {1.0, 1e3, 1e6}) {
+    SimulationSettings settings;
+    settings.end_time = settings.step = end;
+    for (const double tolerance : {0.0, 1e-3}) {
+      settings.tolerance = tolerance;
+      const auto run = testing::run_from(model, make_state(model), settings);
+      // To the round-off of 0.5 m/s^2 that stop when the force does.
+      EXPECT_NEAR(run.state.bodies[0].v_WB_W.x(), 5e-7 / 2.0, 1e-16 * end)
+          << end << ' ' << tolerance;
+    }
+  }
+}
+
+// A mass between springs, pushed and driven, from `start` on.
+SystemState run_shifted(double start, double tolerance) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "mass", 2.0);
+  const joints::Drive drive(
+      {.mode = joints::DriveMode::position,
+       .signal = {joints::RampSignal{.to = 0.3,
+                                     .start = start + 0.125,
+                                     .duration = 0.5,
+                                     .shape = joints::RampShape::trapezoid},
+                  {{0.5, 0.0}, {0.5, 0.0625}}},
+       .stiffness = 300.0});
+  testing::add_rail(builder, mass, "rail", {{.coordinate = 0, .law = drive}});
+  builder.add_load("push", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world,
+                   Sinusoid{.frequency = 3.0, .from = start + 0.25});
+  builder.add_load("hit", mass.frame, {10.0, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world,
+                   Pulse{PulseShape::half_sine, start + 0.5, 0.0078125});
+  builder.add_load("blow", mass.frame, {1e7, 0.0, 0.0}, Vector3::Zero(),
+                   LoadFrame::world,
+                   Pulse{PulseShape::rectangular, start + 0.75, 0x1p-28});
+  const SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  state.t = start;
+  SimulationSettings settings;
+  settings.end_time = start + 1.0;
+  settings.step = 0.001;
+  settings.tolerance = tolerance;
+  simulate(model, state, settings, {});
+  return state;
+}
+
+// Round-off of times is 2e-12 s there, at up to 1 m/s and 100 m/s^2. Lengths of
+// steps to a tolerance go by errors, which have more of it.
+TEST(Motion, IsTheSameAtALaterTime) {
+  for (const double tolerance : {0.0, 1e-6}) {
+    const SystemState now = run_shifted(0.0, tolerance);
+    const SystemState late = run_shifted(1e4, tolerance);
+    EXPECT_GT(now.bodies[0].p_WB.x(), 0.1);
+    EXPECT_NEAR(late.bodies[0].p_WB.x(), now.bodies[0].p_WB.x(),
+                1e-11 + 1e-3 * tolerance);
+    EXPECT_NEAR(late.bodies[0].v_WB_W.x(), now.bodies[0].v_WB_W.x(), 1e-9);
+  }
 }
 
 }  // namespace
