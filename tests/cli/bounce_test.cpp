@@ -89,8 +89,8 @@ TEST(StepsWithoutAChoice, TakeATenThousandthOfTheLargestBodysSize) {
   const CommandResult text = place.limber("run s.toml --out o");
   // Twice the radius of gyration, 2 sqrt(1.5 4e-5 / 0.26) = 0.0304 m.
   EXPECT_THAT(text.out, ::testing::HasSubstr(
-                            "tolerance 3.04e-06 m, 1e-4 of the largest body's "
-                            "size, as no step is given"));
+                            "tolerance 3.04e-06 m, 1e-4 of the smallest "
+                            "group's largest body, as no step is given"));
   const json report = run(place, "");
   EXPECT_NEAR(report["tolerance"].get<double>(), 3.04e-6, 1e-8);
   EXPECT_EQ(report["passes"], 1);

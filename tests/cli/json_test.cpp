@@ -79,7 +79,7 @@ TEST(Json, OfInfoHasTheToleranceOrTheStepOfAScenario) {
   EXPECT_FALSE(fixed.contains("tolerance"));
   const json chosen = info("");
   EXPECT_FALSE(chosen.contains("step"));
-  EXPECT_EQ(chosen["tolerance"], "1e-4 of the largest body's size");
+  EXPECT_EQ(chosen["tolerance"], "1e-4 of the smallest group's largest body");
   const json given = info("tolerance = 1e-5\n");
   EXPECT_FALSE(given.contains("step"));
   EXPECT_EQ(given["tolerance"], 1e-5);

@@ -154,7 +154,7 @@ void add_choices(const flexbody::ReducedBody& body, Json& json) {
 void add_step_settings(const dynamics::SimulationSettings& settings,
                        Json& json) {
   if (settings.tolerance == scene::kToleranceToChoose) {
-    json["tolerance"] = "1e-4 of the largest body's size";
+    json["tolerance"] = "1e-4 of the smallest group's largest body";
   } else if (settings.tolerance > 0.0) {
     json["tolerance"] = settings.tolerance;
   }

@@ -45,7 +45,9 @@ void print_tolerance(const Run& run) {
   const bool is_chosen =
       run.scene.scenario.settings.tolerance == scene::kToleranceToChoose;
   const std::string chosen =
-      is_chosen ? ", 1e-4 of the largest body's size, as no step is given" : "";
+      is_chosen ? ", 1e-4 of the smallest group's largest body, as no step is "
+                  "given"
+                : "";
   if (run.statistics.passes > 1) {
     fmt::print(
         "error   {:.2g} m at most, estimated from {} passes; tolerance {:.3g} "

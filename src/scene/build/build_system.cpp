@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/elastic_band.hpp"
 #include "limber/dynamics/analysis/equilibrium.hpp"
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"
@@ -22,17 +24,28 @@ namespace limber::scene {
 
 namespace {
 
-/// Of the size of the largest body, which does not depend on how far apart
-/// bodies are: its bounding box' diagonal, or twice its radius of gyration [m].
+/// Its bounding box' diagonal, or twice its radius of gyration; 0 of a body
+/// that cannot move [m].
+double find_size(const dynamics::BodyModel& body) {
+  if (body.clamped && body.modes == 0 && body.full < 0) return 0.0;
+  return body.reduced ? body.reduced->size.norm()
+                      : std::sqrt(2.0 * body.J0.trace() / body.mass);
+}
+
+/// Of the size of the largest body of a linked group, which does not depend on
+/// how far apart bodies are; the smallest of all groups, so that no group
+/// coarsens another [m].
 double choose_tolerance(const dynamics::SystemModel& model) {
   constexpr double kShare = 1e-4;
-  double largest = 0.0;
-  for (const dynamics::BodyModel& body : model.bodies) {
-    largest = std::max(
-        largest, body.reduced ? body.reduced->size.norm()
-                              : std::sqrt(2.0 * body.J0.trace() / body.mass));
+  double smallest = kInfinity;
+  for (const auto& group : dynamics::find_linked_groups(model)) {
+    double largest = 0.0;
+    for (const dynamics::BodyIndex b : group) {
+      largest = std::max(largest, find_size(model.bodies[index(b)]));
+    }
+    if (largest > 0.0) smallest = std::min(smallest, largest);
   }
-  return largest > 0.0 ? kShare * largest : kShare;
+  return smallest < kInfinity ? kShare * smallest : kShare;
 }
 
 void spin(const Scene& scene, BuiltScene& built) {
