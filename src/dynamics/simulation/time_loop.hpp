@@ -98,6 +98,9 @@ class TimeLoop {
   void tell_progress(const SystemState& state, const Progress& progress);
   void heed_within_step(const SystemState& state, const Progress& progress);
   [[noreturn]] void end_here(const SystemState& state) const;
+  [[nodiscard]] const Oscillation* find_oscillation(double t) const;
+  [[nodiscard]] std::string describe_short_steps(
+      const SystemState& state) const;
   [[nodiscard]] double limit_free_step(const SystemState& state);
   bool take_free_step(SystemState& state, const Visit& visit);
   template <typename Work>

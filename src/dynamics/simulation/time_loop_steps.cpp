@@ -107,27 +107,42 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
   ++part_;
 }
 
+// The fastest one from t to the next breakpoint.
+const Oscillation* TimeLoop::find_oscillation(double t) const {
+  return find_fastest(oscillations_, 0.5 * (t + breakpoints_[next_].time));
+}
+
 // The longest step that shows what does not appear in its error: loads that are
 // zero at both ends, or the same after a whole period, and touches [s].
 double TimeLoop::limit_free_step(const SystemState& state) {
-  const double mark = breakpoints_[next_].time;
-  const double period =
-      find_shortest_period(oscillations_, 0.5 * (state.t + mark));
+  const double span = breakpoints_[next_].time - origin_;
+  const Oscillation* fastest = find_oscillation(state.t);
+  const double period = fastest ? fastest->period : kNever;
   return refinement_ *
-         std::min({(mark - origin_) / kFewestStepsToAMark,
-                   period / kFewestStepsToAPeriod,
+         std::min({span / kFewestStepsToAMark, period / kFewestStepsToAPeriod,
                    stepper_.touches().find_longest_step(state.t)});
+}
+
+// Why steps to a tolerance are short.
+std::string TimeLoop::describe_short_steps(const SystemState& state) const {
+  const Oscillation* fastest = find_oscillation(state.t);
+  if (!fastest ||
+      h_ < 0.5 * refinement_ * fastest->period / kFewestStepsToAPeriod) {
+    return describe_failure(state);
+  }
+  return fmt::format("{} has a period of {:.3g} s, which they follow",
+                     fastest->name, fastest->period);
 }
 
 // A step as long as the tolerance allows. @returns whether it is accepted
 bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   if (statistics_.steps + statistics_.rejected_steps >= settings_.most_steps) {
-    fail(
-        state, h_,
-        fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
-                    "steps than most_steps allows, {:.3g} s long by now; ask "
-                    "for a larger tolerance, a shorter time or more steps; {}",
-                    state.t, settings_.tolerance, h_, describe_failure(state)));
+    fail(state, h_,
+         fmt::format("at t = {:.9g} s: the tolerance of {:.3g} m takes more "
+                     "steps than most_steps allows, {:.3g} s long by now; ask "
+                     "for a larger tolerance, a shorter time or more steps; {}",
+                     state.t, settings_.tolerance, h_,
+                     describe_short_steps(state)));
   }
   const double mark = breakpoints_[next_].time;
   const StepResult before = stepper_.totals();

@@ -72,14 +72,16 @@ std::vector<Oscillation> find_oscillations(const SystemModel& model) {
   return list.take();
 }
 
-double find_shortest_period(const std::vector<Oscillation>& oscillations,
-                            double t) {
-  double shortest = kNever;
+const Oscillation* find_fastest(const std::vector<Oscillation>& oscillations,
+                                double t) {
+  const Oscillation* fastest = nullptr;
   for (const Oscillation& oscillation : oscillations) {
     if (t < oscillation.from || t >= oscillation.until) continue;
-    shortest = std::min(shortest, oscillation.period);
+    if (!fastest || oscillation.period < fastest->period) {
+      fastest = &oscillation;
+    }
   }
-  return shortest;
+  return fastest;
 }
 
 }  // namespace limber::dynamics

@@ -21,8 +21,9 @@ struct Oscillation {
 [[nodiscard]] std::vector<Oscillation> find_oscillations(
     const SystemModel& model);
 
-/// The shortest period of those that act at time t; kNever if none does [s].
-[[nodiscard]] double find_shortest_period(
+/// That with the shortest period of those that act at time t [s]; null if none
+/// does.
+[[nodiscard]] const Oscillation* find_fastest(
     const std::vector<Oscillation>& oscillations, double t);
 
 }  // namespace limber::dynamics

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "limber/common/errors.hpp"
 #include "limber/joints/scalar/drive.hpp"
 #include "support/sliding_masses.hpp"
 
@@ -96,6 +97,19 @@ TEST(OscillatingLoads, HaveSixteenStepsAPeriodWhateverTheTolerance) {
       model, make_state(model), make_settings(1e3, 1.0, TolerancePasses::one));
   EXPECT_GE(run.statistics.steps, 2 * 16 * 20);
   EXPECT_LT(run.statistics.steps, 2 * 16 * 20 + 60);
+}
+
+TEST(OscillatingLoads, AreNamedIfTheyTakeMoreStepsThanAllowed) {
+  const SystemModel model = make_pushed({1.0, 2000.0, 0.7});
+  SimulationSettings settings = make_settings(1.0, 1.0, TolerancePasses::one);
+  settings.most_steps = 1000;
+  try {
+    (void)run_from(model, make_state(model), settings);
+    FAIL() << "runs";
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("load 'push' has a period of 0.0005 s"));
+  }
 }
 
 // m x'' = -clip(k (x - s) + c (x' - s')) from rest, by the classical

@@ -43,9 +43,17 @@ TEST(Oscillations, AreThoseOfSinusoidsWhileTheyAct) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].name, "load 'push'");
   EXPECT_DOUBLE_EQ(found[0].period, 0.2);
-  EXPECT_EQ(find_shortest_period(found, 0.4), kNever);
-  EXPECT_DOUBLE_EQ(find_shortest_period(found, 0.6), 0.2);
-  EXPECT_EQ(find_shortest_period(found, 0.9), kNever);
+  EXPECT_EQ(find_fastest(found, 0.4), nullptr);
+  EXPECT_EQ(find_fastest(found, 0.6), &found[0]);
+  EXPECT_EQ(find_fastest(found, 0.9), nullptr);
+}
+
+TEST(Oscillations, AreFastestByTheShortestPeriodAtATime) {
+  const std::vector<Oscillation> all = {
+      {"a", 0.2, 0.0, 1.0}, {"b", 0.1, 0.5, 1.0}, {"c", 0.3, 0.0, kNever}};
+  EXPECT_EQ(find_fastest(all, 0.1), &all[0]);
+  EXPECT_EQ(find_fastest(all, 0.7), &all[1]);
+  EXPECT_EQ(find_fastest(all, 2.0), &all[2]);
 }
 
 TEST(Oscillations, OfASumHaveThePeriodOfItsFastestTermThatIsNotZero) {
