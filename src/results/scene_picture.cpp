@@ -10,6 +10,7 @@
 
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/results/gnuplot.hpp"
+#include "limber/results/offset.hpp"
 #include "limber/results/pictures.hpp"
 #include "limber/results/scene_view.hpp"
 #include "limber/results/solids.hpp"
@@ -25,15 +26,6 @@ using dynamics::SystemState;
 constexpr std::size_t kMostTriangles = 250000;
 constexpr std::array<const char*, 4> kShotColours = {"#9a9a9a", "#0072B2",
                                                      "#D55E00", "#009E73"};
-
-struct Bounds {
-  Vector3 lower = Vector3::Constant(1e300);
-  Vector3 upper = Vector3::Constant(-1e300);
-  void include(const Vector3& p) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
-};
 
 // A state drawn in one colour.
 struct Shot {
@@ -82,17 +74,22 @@ struct BodySolid {
   Solid solid;  // frame of the body
 };
 
-// The shapes of rigid bodies and of the world. A body without one is the
-// ellipsoid of its inertia; planes have no end and are left out.
+// The shapes of rigid bodies and of the world, the latter from `offset`. A body
+// without one is the ellipsoid of its inertia; planes have no end and are left
+// out.
 std::vector<BodySolid> find_solids(const SystemModel& model,
-                                   const Scenery& scenery) {
+                                   const Scenery& scenery,
+                                   const Vector3& offset) {
   std::vector<BodySolid> solids;
   std::vector<bool> has_shape(model.bodies.size(), false);
   for (const SceneryShape& shape : scenery.shapes) {
     if (shape.form.kind == "plane") continue;
     solids.push_back(
         {shape.body, place_solid(make_solid(shape.form, 1.0), shape.X_BS)});
-    if (shape.body == dynamics::kWorld) continue;
+    if (shape.body == dynamics::kWorld) {
+      solids.back().solid.x.colwise() -= offset;
+      continue;
+    }
     has_shape[static_cast<std::size_t>(shape.body)] = true;
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -260,31 +257,41 @@ double find_scale(const Vector3& eye) {
   return kFits / (eye.z() * wide + level);
 }
 
+// "x [m]", or "x - 300000 [m]".
+std::string label_axis(char axis, double offset) {
+  if (offset == 0.0) return fmt::format("{} [m]", axis);
+  return fmt::format("{} {} {:.15g} [m]", axis, offset > 0.0 ? '-' : '+',
+                     std::abs(offset));
+}
+
 void set_view(GnuplotScript& script, const Bounds& bounds,
-              const ViewAngles& view, const Vector3& eye) {
+              const Vector3& offset, const ViewAngles& view,
+              const Vector3& eye) {
   const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
   const double half =
       std::max(0.55 * (bounds.upper - bounds.lower).maxCoeff(), 1e-6);
   const char axes[] = "xyz";
   for (int a = 0; a < 3; ++a) {
-    script.add(fmt::format("set {}range [{:g}:{:g}]", axes[a], center[a] - half,
-                           center[a] + half));
-    script.add(fmt::format("set {}label '{} [m]'", axes[a], axes[a]));
+    script.add(fmt::format("set {}range [{:.9g}:{:.9g}]", axes[a],
+                           center[a] - half, center[a] + half));
+    script.add(fmt::format("set {}label '{}'", axes[a],
+                           label_axis(axes[a], offset[a])));
   }
   script.add("set pm3d border lc rgb '#404040' lw 0.05");
   script.add("set pm3d depthorder");
   script.add("set view equal xyz");
   script.add(fmt::format("set view {:.4g}, {:.4g}, {:.3g}", view.rot_x,
                          view.rot_z, find_scale(eye)));
-  script.add("set xyplane at " + fmt::format("{:g}", center[2] - half));
+  script.add("set xyplane at " + fmt::format("{:.9g}", center[2] - half));
   script.add("set border 4095 lc rgb '#cccccc' lw 0.6");
   script.add("set ticslevel 0");
   script.add("set tics textcolor rgb '#333333'");
   script.add("set key at screen 0.97,0.93 right");
 }
 
+// @param shots from `offset`
 std::string draw(const std::filesystem::path& file, const std::string& heading,
-                 const std::vector<Shot>& shots) {
+                 const std::vector<Shot>& shots, const Vector3& offset) {
   std::vector<Matrix3X> samples;
   for (const Shot& shot : shots) samples.push_back(sample(shot));
   if (shots.empty() || samples.front().cols() == 0) {
@@ -308,7 +315,7 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
         quote(shots[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
-  set_view(script, find_bounds(shots), view, eye);
+  set_view(script, find_bounds(shots), offset, view, eye);
   script.add(plot);
   return script.run();
 }
@@ -324,7 +331,7 @@ double find_size(const std::vector<Shot>& shots) {
     const Matrix3X points = sample(shot);
     for (const auto& p : points.colwise()) bounds.include(p);
   }
-  return (bounds.upper - bounds.lower).norm();
+  return bounds.size();
 }
 
 // Flexible bodies whose surface was not kept.
@@ -344,12 +351,14 @@ std::string draw_scene(const std::filesystem::path& file,
                        const History& history, const Scenery& scenery) {
   if (history.states.empty()) return "no picture: there is no state to draw";
   const DeformationPeak peak = find_largest_deformation(model, history);
-  const std::vector<BodySolid> solids = find_solids(model, scenery);
+  const Vector3 offset = find_offset(model, history.states);
+  const std::vector<BodySolid> solids = find_solids(model, scenery, offset);
   const std::size_t end = history.states.size() - 1;
-  std::vector<std::pair<std::string, const SystemState*>> moments;
+  std::vector<std::pair<std::string, SystemState>> moments;
   const auto add = [&](const char* what, std::size_t output) {
     const SystemState& state = history.states[output];
-    moments.emplace_back(fmt::format("{}, t = {:g} s", what, state.t), &state);
+    moments.emplace_back(fmt::format("{}, t = {:.9g} s", what, state.t),
+                         shift_bodies(state, offset));
   };
   add("start", 0);
   if (peak.output != 0 && peak.output != end) {
@@ -365,7 +374,7 @@ std::string draw_scene(const std::filesystem::path& file,
     std::vector<Shot> shots;
     for (const auto& [name, state] : moments) {
       shots.push_back(
-          take_magnified(name, model, solids, *state, magnification));
+          take_magnified(name, model, solids, state, magnification));
     }
     return shots;
   };
@@ -375,7 +384,7 @@ std::string draw_scene(const std::filesystem::path& file,
   if (magnification != 1.0) shots = take(magnification);
   return draw(file,
               head(title, "deformation", magnification) + name_missing(model),
-              shots);
+              shots, offset);
 }
 
 std::string draw_displacement(const std::filesystem::path& file,
@@ -384,20 +393,29 @@ std::string draw_displacement(const std::filesystem::path& file,
                               const SystemState& start,
                               const SystemState& state, double exaggeration,
                               const Scenery& scenery) {
-  const std::vector<BodySolid> solids = find_solids(model, scenery);
-  return draw(file,
-              head(title, "displacement", exaggeration) + name_missing(model),
-              {take_displaced("start", model, solids, {start, start}),
-               take_displaced("equilibrium", model, solids,
-                              {start, state, exaggeration})});
+  const Vector3 offset = find_offset(model, {&start, 1});
+  const std::vector<BodySolid> solids = find_solids(model, scenery, offset);
+  const SystemState from = shift_bodies(start, offset);
+  const SystemState to = shift_bodies(state, offset);
+  return draw(
+      file, head(title, "displacement", exaggeration) + name_missing(model),
+      {take_displaced("start", model, solids, {from, from}),
+       take_displaced("equilibrium", model, solids, {from, to, exaggeration})},
+      offset);
 }
 
 std::string draw_deformation(const std::filesystem::path& file,
                              const std::string& title, const Surface& surface,
                              const Matrix3X& u, double exaggeration) {
-  const Surface deformed{surface.points + exaggeration * u, surface.triangles};
+  Bounds bounds;
+  for (const auto& p : surface.points.colwise()) bounds.include(p);
+  const Vector3 offset = choose_offset(bounds);
+  const Surface undeformed{surface.points.colwise() - offset,
+                           surface.triangles};
+  const Surface deformed{undeformed.points + exaggeration * u,
+                         surface.triangles};
   return draw(file, head(title, "displacement", exaggeration),
-              {{"undeformed", {surface}}, {"deformed", {deformed}}});
+              {{"undeformed", {undeformed}}, {"deformed", {deformed}}}, offset);
 }
 
 }  // namespace limber::results

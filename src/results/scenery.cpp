@@ -12,6 +12,7 @@
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/dynamics/system/body_model.hpp"
 #include "limber/results/motion_shapes.hpp"
+#include "limber/results/offset.hpp"
 #include "limber/results/path_step.hpp"
 #include "limber/results/scenery_marks.hpp"
 #include "limber/results/stress_field.hpp"
@@ -236,10 +237,21 @@ void write_bodies(Hdf5File& out, const Scenery& scenery,
   }
 }
 
+// Takes into the place of its frame what a mesh is far from its own origin (of
+// a map, say), since corners are stored in single precision.
+SceneryShape centre_mesh(SceneryShape shape) {
+  Bounds box;
+  for (const auto& x : shape.form.x.colwise()) box.include(x);
+  const Vector3 offset = choose_offset(box);
+  shape.form.x.colwise() -= offset;
+  shape.X_BS.p += shape.X_BS.R * offset;
+  return shape;
+}
+
 void write_shapes(Hdf5File& out, const Scenery& scenery,
                   const SystemModel& model) {
   for (std::size_t i = 0; i < scenery.shapes.size(); ++i) {
-    const SceneryShape& shape = scenery.shapes[i];
+    const SceneryShape shape = centre_mesh(scenery.shapes[i]);
     const std::string at = fmt::format("scene/shapes/{:04}/", i);
     const Quaternion quat(shape.X_BS.R);
     MatrixX rotation(1, 4);

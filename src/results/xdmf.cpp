@@ -13,6 +13,7 @@
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/node_motion.hpp"
 #include "limber/flexbody/model/stress_modes.hpp"
+#include "limber/results/offset.hpp"
 #include "limber/results/stress_field.hpp"
 #include "limber/results/xdmf_file.hpp"
 
@@ -155,9 +156,12 @@ std::vector<std::string> write_xdmf(const std::filesystem::path& file,
     return missing;
   }
   MovingSurface all = surfaces.gather(history);
+  all.offset = find_offset(model, history.states);
+  const auto at = [&](std::size_t i) {
+    return shift_bodies(history.states[i], all.offset);
+  };
   all.find_frame = [&](std::size_t i) {
-    return surfaces.find_frame(history.states.front(), history.states[i],
-                               all.nodes);
+    return surfaces.find_frame(at(0), at(i), all.nodes);
   };
   write_xdmf_file(file, all);
   return missing;

@@ -71,7 +71,7 @@ class DataWriter {
   void write(std::size_t i) {
     const SurfaceFrame frame = surface_.find_frame(i);
     const std::string at = name_step(i);
-    add(at + "points", frame.points, "m", "positions, world frame");
+    add(at + "points", frame.points, "m", "positions less offset, world axes");
     add(at + "deformation", frame.deformation.colwise().norm(), "m",
         "|Phi eta|");
     add(at + "deformation_vector", frame.deformation, "m",
@@ -114,6 +114,10 @@ void write_data(const std::filesystem::path& file,
   Hdf5File out = Hdf5File::create(file);
   out.write_array("triangles", surface.corners, {surface.corners.size() / 3, 3},
                   "1", "node indices");
+  const std::vector<double> offset(surface.offset.begin(),
+                                   surface.offset.end());
+  out.write_array("offset", offset, {3}, "m",
+                  "place of the points' origin, world frame");
   DataWriter writer(out, surface);
   for (std::size_t i = 0; i < surface.times.size(); ++i) writer.write(i);
   out.close();
@@ -149,9 +153,13 @@ void write_step(std::ostream& out, const MovingSurface& surface, double time,
 
 void write_index(std::ostream& out, const MovingSurface& surface,
                  const std::string& data) {
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
-         "<Grid Name=\"bodies\" GridType=\"Collection\" "
-         "CollectionType=\"Temporal\">\n";
+  fmt::print(
+      out,
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
+      "<Information Name=\"offset\" Value=\"{:.17g} {:.17g} {:.17g}\"/>\n"
+      "<Grid Name=\"bodies\" GridType=\"Collection\" "
+      "CollectionType=\"Temporal\">\n",
+      surface.offset[0], surface.offset[1], surface.offset[2]);
   for (std::size_t i = 0; i < surface.times.size(); ++i) {
     write_step(out, surface, surface.times[i], data, name_step(i));
   }

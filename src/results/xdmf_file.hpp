@@ -11,9 +11,9 @@
 
 namespace limber::results {
 
-/// Nodes of a moving surface at one time, world frame.
+/// Nodes of a moving surface at one time, in axes of the world.
 struct SurfaceFrame {
-  Matrix3X points;        ///< 3 x n [m]
+  Matrix3X points;        ///< 3 x n, from the surface's offset [m]
   Matrix3X deformation;   ///< 3 x n, R Phi eta [m]
   Matrix3X displacement;  ///< 3 x n, from the first output [m]
   /// 6 x n (xx, yy, zz, xy, yz, xz), NaN where there is none [Pa].
@@ -28,7 +28,8 @@ struct SurfaceFrame {
 struct MovingSurface {
   std::vector<std::int64_t> corners;  ///< three a triangle: nodes
   Eigen::Index nodes = 0;
-  std::vector<double> times;  ///< [s]
+  std::vector<double> times;         ///< [s]
+  Vector3 offset = Vector3::Zero();  ///< of points, world [m]
   bool has_stress = false;
   std::function<SurfaceFrame(std::size_t output)> find_frame;
 };
@@ -36,7 +37,8 @@ struct MovingSurface {
 /// Writes a time series for ParaView: `file` (XDMF) and its data beside it (the
 /// same name with .h5). Point fields: "deformation" (size [m]),
 /// "deformation_vector" and "displacement" [m], and with stress "von_mises" and
-/// the symmetric tensor "stress" [Pa].
+/// the symmetric tensor "stress" [Pa]. The offset of points, zero but for
+/// scenes far from the origin, is the data set "offset" and an Information.
 /// @throws InputError if it cannot be written.
 void write_xdmf_file(const std::filesystem::path& file,
                      const MovingSurface& surface);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "limber/common/errors.hpp"
+#include "limber/view/home.hpp"
 
 namespace limber::view {
 namespace {
@@ -42,8 +43,8 @@ Matrix6X find_stress(const Body& body, const Surface& surface, Eigen::Index i) {
 }
 
 // @param nodes of all surfaces
-SurfaceFrame find_frame(const Recording& recording, Eigen::Index nodes,
-                        Eigen::Index i) {
+SurfaceFrame find_frame(const Recording& recording, const Vector3& offset,
+                        Eigen::Index nodes, Eigen::Index i) {
   SurfaceFrame frame{Matrix3X(3, nodes), Matrix3X(3, nodes), Matrix3X(3, nodes),
                      Matrix6X(6, nodes)};
   Eigen::Index first = 0;
@@ -53,10 +54,10 @@ SurfaceFrame find_frame(const Recording& recording, Eigen::Index nodes,
     const Surface& surface = surface_of(recording, b);
     const Eigen::Index n = surface.x_B.cols();
     const int index = static_cast<int>(b);
-    const Matrix3X now = calc_positions(recording, index, i);
+    const Matrix3X now = calc_positions(recording, index, i, offset);
     frame.points.middleCols(first, n) = now;
     frame.displacement.middleCols(first, n) =
-        now - calc_positions(recording, index, 0);
+        now - calc_positions(recording, index, 0, offset);
     const VectorX u_B = surface.Phi_B * body.eta.row(i).transpose();
     frame.deformation.middleCols(first, n) =
         find_rotation(body, i) * u_B.reshaped(3, n);
@@ -85,8 +86,11 @@ MovingSurface gather_surfaces(const Recording& recording) {
         "'{}': it has no flexible link, whose surface could be written",
         recording.folder));
   }
-  all.find_frame = [&recording, nodes = all.nodes](std::size_t output) {
-    return find_frame(recording, nodes, static_cast<Eigen::Index>(output));
+  all.offset = find_home(recording).offset;
+  all.find_frame = [&recording, offset = all.offset,
+                    nodes = all.nodes](std::size_t output) {
+    return find_frame(recording, offset, nodes,
+                      static_cast<Eigen::Index>(output));
   };
   return all;
 }

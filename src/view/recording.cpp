@@ -420,7 +420,8 @@ Recording read_recording(const fs::path& results) {
   return recording;
 }
 
-Matrix3X calc_positions(const Recording& recording, int body, Eigen::Index i) {
+Matrix3X calc_positions(const Recording& recording, int body, Eigen::Index i,
+                        const Vector3& offset) {
   const Body& b = recording.bodies.at(static_cast<std::size_t>(body));
   const Surface& surface =
       recording.surfaces.at(static_cast<std::size_t>(b.surface));
@@ -429,7 +430,7 @@ Matrix3X calc_positions(const Recording& recording, int body, Eigen::Index i) {
   const Quaternion q(b.quat_WB(i, 0), b.quat_WB(i, 1), b.quat_WB(i, 2),
                      b.quat_WB(i, 3));
   return (q.toRotationMatrix() * y).colwise() +
-         Vector3(b.p_WB.row(i).transpose());
+         Vector3(b.p_WB.row(i).transpose() - offset);
 }
 
 }  // namespace limber::view

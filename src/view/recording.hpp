@@ -121,10 +121,11 @@ struct Recording {
 /// how to keep it.
 [[nodiscard]] Recording read_recording(const std::filesystem::path& results);
 
-/// Positions of a body's surface nodes at output `i` [m], 3 x n, world.
+/// Positions of a body's surface nodes at output `i`, from `offset` in axes of
+/// the world [m], 3 x n.
 ///
-/// Equation   p_WP = p_WB + R_WB (x_B + Phi_B eta)
+/// Equation   p_WP - o = (p_WB - o) + R_WB (x_B + Phi_B eta)
 [[nodiscard]] Matrix3X calc_positions(const Recording& recording, int body,
-                                      Eigen::Index i);
+                                      Eigen::Index i, const Vector3& offset);
 
 }  // namespace limber::view

@@ -48,7 +48,7 @@ def list_points(folder):
         outputs = sorted(rng.sample(range(len(times)), min(20, len(times))))
         list_ = []
         for i in outputs:
-            at = motion[f"steps/{i:06d}/points"][:]
+            at = motion[f"steps/{i:06d}/points"][:] + motion["offset"][:]
             for name, node, row in points:
                 list_.append({"time": times[i], "output": i, "body": name, "node": node,
                               "position": at[row].tolist()})

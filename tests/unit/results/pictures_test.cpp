@@ -14,6 +14,8 @@
 
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/results/gnuplot.hpp"
+#include "limber/results/offset.hpp"
+#include "png_pixels.hpp"
 #include "small_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -137,6 +139,71 @@ TEST_F(Pictures, EnergyAndSceneOfARunArePngs) {
     return draw_displacement(file, "run", run.model, run.history.states.front(),
                              run.history.states.back(), 20.0, {});
   }));
+}
+
+SmallRun make_run_at(const Vector3& place) {
+  SmallRun run = make_small_run();
+  for (auto& state : run.history.states) state = shift_bodies(state, -place);
+  return run;
+}
+
+template <typename Draw>
+test::Pixels draw_pixels(const Draw& draw) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(draw(folder.path() / "picture.png"), "");
+  return test::read_png(folder.path() / "picture.png");
+}
+
+// Apart from labels of axes and the smoothed edges of triangles.
+void expect_same(const test::Pixels& near, const test::Pixels& far) {
+  EXPECT_GT(test::find_inked_share(near), 0.05);
+  EXPECT_LT(test::find_different_share(near, far), 0.01);
+}
+
+TEST_F(Pictures, ScenesFarAwayAreThoseNearTheOriginButForLabels) {
+  const SmallRun near = make_small_run();
+  const auto draw = [](const SmallRun& run) {
+    return draw_pixels([&](const auto& file) {
+      return draw_scene(file, "run", run.model, run.history, {});
+    });
+  };
+  const test::Pixels expected = draw(near);
+  for (const Vector3& place :
+       {Vector3(3e5, -2e5, 5e5), Vector3(1e7, 0.0, 0.0)}) {
+    SCOPED_TRACE(place.transpose());
+    expect_same(expected, draw(make_run_at(place)));
+  }
+  // That the comparison can fail: another moment.
+  SmallRun other = near;
+  other.history.states.resize(1);
+  EXPECT_GT(test::find_different_share(expected, draw(other)), 0.01);
+}
+
+TEST_F(Pictures, DisplacementsFarAwayAreThoseNearTheOriginButForLabels) {
+  const auto draw = [](const SmallRun& run) {
+    return draw_pixels([&](const auto& file) {
+      return draw_displacement(file, "run", run.model,
+                               run.history.states.front(),
+                               run.history.states.back(), 20.0, {});
+    });
+  };
+  expect_same(draw(make_small_run()), draw(make_run_at({1e7, 0.0, -2e6})));
+}
+
+TEST_F(Pictures, ShapesOfMeshesFarFromTheirOriginAreThoseNearIt) {
+  const auto draw = [](double x) {
+    Surface surface;
+    surface.points.resize(3, 4);
+    surface.points << 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0,
+        1.0;
+    surface.points.row(0).array() += x;
+    surface.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    const Matrix3X u = 0.1 * Matrix3X::Ones(3, 4);
+    return draw_pixels([&](const auto& file) {
+      return draw_deformation(file, "run", surface, u, 2.0);
+    });
+  };
+  expect_same(draw(0.0), draw(1e7));
 }
 
 // Without a shape it is an ellipsoid of its inertia.

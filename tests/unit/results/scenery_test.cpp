@@ -163,6 +163,29 @@ TEST(Scenery, LoadsHaveTheShapeOfTheirPulses) {
   EXPECT_NEAR(area / (0.004 / std::numbers::pi), 1.0, 0.005);
 }
 
+// Corners are stored in single precision, places in double.
+TEST(Scenery, MeshesFarFromTheirOriginKeepTheirCorners) {
+  SceneryShape shape;
+  shape.name = "terrain";
+  shape.form.kind = "mesh";
+  shape.form.x.resize(3, 3);
+  shape.form.x << 5e6, 5e6 + 0.3, 5e6, 3e5, 3e5, 3e5 + 0.2, 0.1, 0.0, 0.0;
+  shape.form.corners = {0, 1, 2};
+  shape.X_BS.p = {1.0, 2.0, 3.0};
+  shape.X_BS.R =
+      Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitZ()).matrix();
+  Scenery scenery;
+  scenery.shapes = {shape};
+  const Written in(make_small_run(), scenery);
+  const Vector3 p = in->read_matrix("scene/shapes/0000/p_BS").row(0);
+  const Matrix3X x = in->read_matrix("scene/shapes/0000/x");
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 expected = shape.X_BS * Vector3(shape.form.x.col(i));
+    const Vector3 found = p + shape.X_BS.R * x.col(i);
+    EXPECT_LT((found - expected).norm(), 1e-7) << i;
+  }
+}
+
 TEST(Scenery, ShapesKeepKindSizeAndPlace) {
   SceneryShape shape;
   shape.name = "hull";

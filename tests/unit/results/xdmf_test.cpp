@@ -12,6 +12,7 @@
 #include <set>
 
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/results/offset.hpp"
 #include "raw_hdf5.hpp"
 #include "small_run.hpp"
 #include "temporary_folder.hpp"
@@ -100,6 +101,34 @@ TEST(Xdmf, HasOneGridAnOutputTime) {
     ASSERT_THAT(times, SizeIs(1));
     EXPECT_EQ(std::strtod(times[0].attributes.at("Value").c_str(), nullptr),
               run.history.times[i]);
+  }
+}
+
+// Far away: relative to an offset, so that readers in single precision see the
+// motion.
+TEST(Xdmf, PointsFarAwayAreThoseNearTheOriginFromAnOffset) {
+  const SmallRun near = make_small_run();
+  SmallRun far = make_small_run();
+  const Vector3 place(1e7, 0.0, -2e6);
+  for (auto& state : far.history.states) state = shift_bodies(state, -place);
+  const Written here = write_and_read(near);
+  const Written there = write_and_read(far);
+  EXPECT_THAT(here.data.at("offset").numbers, ElementsAre(0.0, 0.0, 0.0));
+  EXPECT_THAT(there.data.at("offset").numbers, ElementsAre(1e7, 0.0, -2e6));
+  const auto notes =
+      find_children(find_children(there.root, "Domain").at(0), "Information");
+  ASSERT_THAT(notes, SizeIs(1));
+  EXPECT_EQ(notes[0].attributes.at("Name"), "offset");
+  EXPECT_EQ(notes[0].attributes.at("Value"), "10000000 0 -2000000");
+  const double rounding = 0x1p-52 * 1e7;  // of the states themselves [m]
+  for (const char* name : {"points", "displacement"}) {
+    const std::string at = std::string("steps/000004/") + name;
+    const auto& expected = here.data.at(at).numbers;
+    const auto& found = there.data.at(at).numbers;
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i], expected[i], rounding) << at << ' ' << i;
+    }
   }
 }
 
@@ -214,7 +243,7 @@ TEST(Xdmf, PointsAreTheDeformedBodiesInTheWorld) {
 
 TEST(Xdmf, DataCarryTheirUnitsAndMeaning) {
   const Written written = write_and_read(make_small_run());
-  ASSERT_THAT(written.data, SizeIs(1 + 4 * kOutputs));
+  ASSERT_THAT(written.data, SizeIs(2 + 4 * kOutputs));
   for (const auto& [name, data] : written.data) {
     EXPECT_EQ(data.attributes.at("unit"), name == "triangles" ? "1" : "m");
     EXPECT_NE(data.attributes.at("meaning"), "") << name;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/results/offset.hpp"
+
+#include <gtest/gtest.h>
+
+#include "small_run.hpp"
+
+namespace limber::results::offset_test {
+namespace {
+
+// A cube of the same edges at a place.
+Bounds make_box(const Vector3& centre, double edge) {
+  Bounds box;
+  box.include(centre, 0.5 * edge);
+  return box;
+}
+
+TEST(Offset, IsZeroNearTheOrigin) {
+  EXPECT_EQ(choose_offset(make_box({0.0, 0.0, 0.0}, 1.0)), Vector3::Zero());
+  EXPECT_EQ(choose_offset(make_box({9.0, 9.0, 9.0}, 1.0)), Vector3::Zero());
+  EXPECT_EQ(choose_offset(make_box({9e6, 0.0, 0.0}, 1e6)), Vector3::Zero());
+}
+
+TEST(Offset, IsZeroWithoutPointsAndOfOnePoint) {
+  EXPECT_EQ(choose_offset({}), Vector3::Zero());
+  EXPECT_EQ(choose_offset(make_box({1e7, 0.0, 0.0}, 0.0)), Vector3::Zero());
+}
+
+TEST(Offset, IsTheCentreToThePowerOfTenOfTheSize) {
+  EXPECT_EQ(choose_offset(make_box({12345.678, -0.2, 3.0}, 1.0)),
+            Vector3(12346.0, 0.0, 3.0));
+  EXPECT_EQ(choose_offset(make_box({12345.678, -0.2, 3.0}, 0.1)),
+            Vector3(12345.7, -0.2, 3.0));
+  EXPECT_EQ(choose_offset(make_box({-12345.678, 777.0, 3.0}, 200.0)),
+            Vector3(-12300.0, 800.0, 0.0));
+}
+
+TEST(Offset, OfARunMovesWithItsBodies) {
+  test::SmallRun run = test::make_small_run();
+  EXPECT_EQ(find_offset(run.model, run.history.states), Vector3::Zero());
+  const Vector3 place(1e7, 0.0, -2e6);
+  for (auto& state : run.history.states) state = shift_bodies(state, -place);
+  EXPECT_EQ(find_offset(run.model, run.history.states), place);
+}
+
+}  // namespace
+}  // namespace limber::results::offset_test
