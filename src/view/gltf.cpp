@@ -3,18 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/files/whole_file.hpp"
+#include "limber/results/offset.hpp"
 #include "limber/results/solids.hpp"
 #include "limber/version.hpp"
+#include "limber/view/home.hpp"
 
 namespace limber::view {
 namespace {
@@ -42,13 +46,12 @@ using Singles = Eigen::MatrixXf;  // a column an element
 class GltfWriter {
  public:
   GltfWriter(const Recording& recording, double magnification)
-      : recording_(recording), magnification_(magnification) {
-    for (Eigen::Index i = 0; i < recording.times.size(); ++i) {
-      const auto t = static_cast<float>(recording.times[i]);
-      if (!times_.empty() && !(t > times_.back())) continue;
-      times_.push_back(t);
-      outputs_.push_back(i);
-    }
+      : recording_(recording),
+        magnification_(magnification),
+        home_(find_home(recording)),
+        times_(find_times(recording.times)) {
+    // What its rounding leaves out, the bodies' own translations hold.
+    home_.path = home_.path.cast<float>().cast<double>().eval();
     surfaces_.resize(recording.surfaces.size());
   }
 
@@ -59,8 +62,9 @@ class GltfWriter {
     root_["scene"] = 0;
     root_["scenes"] = {{{"nodes", {0}}}};
     // From z up to y up.
-    root_["nodes"] = {
-        {{"name", recording_.name}, {"rotation", {-root2, 0.0, 0.0, root2}}}};
+    root_["nodes"] = {{{"name", recording_.name},
+                       {"rotation", {-root2, 0.0, 0.0, root2}},
+                       {"extras", {{"start", recording_.times[0]}}}}};
     root_["animations"] = {{{"name", "motion"},
                             {"channels", json::array()},
                             {"samplers", json::array()}}};
@@ -68,6 +72,7 @@ class GltfWriter {
       const Eigen::Map<const Singles> row(times_.data(), 1, std::ssize(times_));
       input_ = add_floats(row, "SCALAR", 0, true);
     }
+    add_home();
     for (std::size_t b = 0; b < recording_.bodies.size(); ++b) add_body(b);
     add_fixed();
     if (root_["animations"][0]["channels"].empty()) root_.erase("animations");
@@ -75,6 +80,45 @@ class GltfWriter {
   }
 
  private:
+  /// From the first; each later than the one before it.
+  /// @throws InputError if they are too close together for single precision.
+  static std::vector<float> find_times(const VectorX& times) {
+    constexpr double kVisible = 1e-6;  // of the duration
+    const VectorX since = times.array() - times[0];
+    std::vector<float> singles;
+    for (Eigen::Index i = 0; i < since.size(); ++i) {
+      auto t = static_cast<float>(since[i]);
+      if (i > 0) {
+        t = std::max(t, std::nextafter(singles.back(),
+                                       std::numeric_limits<float>::max()));
+      }
+      if (i > 0 && !(std::abs(t - since[i]) <= kVisible * since.tail<1>()[0])) {
+        throw InputError(fmt::format(
+            "output {} is at {:.9g} s: too many outputs lie closer together "
+            "than single precision, in which glTF stores times; run the "
+            "scenario with a larger output_interval",
+            i + 1, times[i]));
+      }
+      singles.push_back(t);
+    }
+    return singles;
+  }
+
+  /// Nodes that hold what positions are relative to, where they do.
+  void add_home() {
+    if (!home_.offset.isZero(0.0)) {
+      fixed_ = bodies_ = add_node(
+          {{"name", "offset"}, {"translation", to_json(home_.offset)}}, fixed_);
+    }
+    if (!home_.travels) return;
+    bodies_ = add_node({{"name", "common motion"},
+                        {"translation", to_json(home_.path.row(0))}},
+                       fixed_);
+    add_translation(bodies_, home_.path);
+  }
+
+  static json to_json(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
   int add_view(const void* data, std::size_t bytes, int target) {
     json view = {
         {"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes}};
@@ -191,13 +235,13 @@ class GltfWriter {
 
   void add_body(std::size_t b) {
     const Body& body = recording_.bodies[b];
-    const MatrixX eta = magnification_ * body.eta(outputs_, Eigen::all);
-    const MatrixX p = body.p_WB(outputs_, Eigen::all);
+    const MatrixX eta = magnification_ * body.eta;
     const MatrixX q = find_rotations(body);
     json mesh = {{"name", body.name}, {"primitives", make_primitives(b)}};
     const bool has_modes = eta.cols() > 0;
+    const auto [parent, p] = place_body(body);
     json node = {{"name", body.name},
-                 {"translation", {p(0, 0), p(0, 1), p(0, 2)}},
+                 {"translation", to_json(p.row(0))},
                  {"rotation", {q(0, 0), q(0, 1), q(0, 2), q(0, 3)}}};
     if (has_modes) {
       for (Eigen::Index k = 0; k < eta.cols(); ++k) {
@@ -205,9 +249,9 @@ class GltfWriter {
       }
     }
     node["mesh"] = append("meshes", std::move(mesh));
-    const int index = add_node(std::move(node));
+    const int index = add_node(std::move(node), parent);
     if (times_.size() < 2) return;
-    add_channel(index, "translation", p.transpose().cast<float>(), "VEC3");
+    add_translation(index, p);
     add_channel(index, "rotation", q.transpose().cast<float>(), "VEC4");
     if (!has_modes) return;
     // All weights of an output, one after the other.
@@ -216,34 +260,76 @@ class GltfWriter {
                 "SCALAR");
   }
 
+  void add_translation(int node, const MatrixX& p) {
+    if (times_.size() < 2 || find_motion(p) == 0.0) return;
+    add_channel(node, "translation", p.transpose().cast<float>(), "VEC3");
+  }
+
+  struct Placed {
+    int parent;
+    MatrixX p;  // T x 3, relative to it [m]
+  };
+
+  /// A body that single precision would move by more than a millionth of its
+  /// own motion gets a parent that holds those places to single precision, and
+  /// what they lack itself.
+  Placed place_body(const Body& body) {
+    constexpr double kVisible = 1e-6;
+    const MatrixX p =
+        (body.p_WB.rowwise() - home_.offset.transpose()) - home_.path;
+    const MatrixX coarse = p.cast<float>().cast<double>();
+    const MatrixX fine = p - coarse;
+    const double motion = std::min(
+        find_motion(p), results::estimate_radius(body.mass, body.inertia));
+    const bool is_right = fine.cwiseAbs().maxCoeff() <= kVisible * motion;
+    if (is_right || motion == 0.0) return {bodies_, p};
+    const int parent = add_node({{"name", body.name + " (coarse)"},
+                                 {"translation", to_json(coarse.row(0))}},
+                                bodies_);
+    add_translation(parent, coarse);
+    return {parent, fine};
+  }
+
+  /// Largest distance from the start [m].
+  static double find_motion(const MatrixX& p) {
+    return (p.rowwise() - p.row(0)).rowwise().norm().maxCoeff();
+  }
+
   /// x y z w, each in the hemisphere of the one before it.
-  MatrixX find_rotations(const Body& body) const {
-    MatrixX q(std::ssize(outputs_), 4);
+  static MatrixX find_rotations(const Body& body) {
+    MatrixX q(body.quat_WB.rows(), 4);
     for (Eigen::Index i = 0; i < q.rows(); ++i) {
-      const Eigen::RowVector4d wxyz =
-          body.quat_WB.row(outputs_[static_cast<std::size_t>(i)]).normalized();
+      const Eigen::RowVector4d wxyz = body.quat_WB.row(i).normalized();
       q.row(i) << wxyz[1], wxyz[2], wxyz[3], wxyz[0];
       if (i > 0 && q.row(i).dot(q.row(i - 1)) < 0.0) q.row(i) *= -1.0;
     }
     return q;
   }
 
-  int add_node(json node) {
+  int add_node(json node, int parent) {
     const int index = append("nodes", std::move(node));
-    root_["nodes"][0]["children"].push_back(index);
+    root_["nodes"][std::size_t(parent)]["children"].push_back(index);
     return index;
   }
 
   void add_fixed() {
     for (const Shape& shape : recording_.shapes) {
       if (shape.body >= 0) continue;
-      json primitive = make_primitive(make_shape(shape));
+      // About its own place, which the node holds.
+      json primitive =
+          make_primitive(make_shape({shape.name,
+                                     shape.body,
+                                     shape.form,
+                                     {shape.X_BS.R, Vector3::Zero()}}));
       primitive["material"] = add_material(kColours.size() - 1);
       json primitives = json::array();
       primitives.push_back(std::move(primitive));
       const int mesh =
           append("meshes", {{"name", shape.name}, {"primitives", primitives}});
-      add_node({{"name", shape.name}, {"mesh", mesh}});
+      add_node({{"name", shape.name},
+                {"mesh", mesh},
+                {"translation", to_json(shape.X_BS.p - home_.offset)}},
+               fixed_);
     }
   }
 
@@ -284,8 +370,10 @@ class GltfWriter {
 
   const Recording& recording_;
   double magnification_;
+  Home home_;
   std::vector<float> times_;
-  std::vector<Eigen::Index> outputs_;
+  int fixed_ = 0;   // node of what does not move
+  int bodies_ = 0;  // node of all bodies
   std::vector<json> surfaces_;
   json root_;
   std::string bytes_;
