@@ -81,13 +81,14 @@ void add_von_mises(const MatrixX& Sigma_B, const MatrixX& coordinates,
 
 /// Points of one body at output i.
 struct Snapshot {
-  Matrix3X u_B;   ///< deformation [m]
-  Matrix3X v_B;   ///< velocity [m/s]
-  Matrix3X p_WP;  ///< [m]
+  Matrix3X u_B;  ///< deformation [m]
+  Matrix3X v_B;  ///< velocity [m/s]
+  Matrix3X p;    ///< from the offset, axes of the world [m]
 };
 
-Snapshot find_snapshot(const Body& body, Eigen::Index i, const Matrix3X& x,
-                       const VectorX& u, const VectorX& udot) {
+Snapshot find_snapshot(const Body& body, const Vector3& offset, Eigen::Index i,
+                       const Matrix3X& x, const VectorX& u,
+                       const VectorX& udot) {
   const Eigen::Index n = x.cols();
   const Matrix3 R = Quaternion(body.quat_WB(i, 0), body.quat_WB(i, 1),
                                body.quat_WB(i, 2), body.quat_WB(i, 3))
@@ -100,11 +101,12 @@ Snapshot find_snapshot(const Body& body, Eigen::Index i, const Matrix3X& x,
   now.v_B = skew(Vector3(body.w_WB_B.row(i).transpose())) * y;
   now.v_B += udot.reshaped(3, n);
   now.v_B.colwise() += v_B;
-  now.p_WP = (R * y).colwise() + Vector3(body.p_WB.row(i).transpose());
+  now.p = (R * y).colwise() + Vector3(body.p_WB.row(i).transpose() - offset);
   return now;
 }
 
-void add_motion(const Recording& recording, int b, Extremes& extremes) {
+void add_motion(const Recording& recording, const Home& home, int b,
+                Extremes& extremes) {
   const Body& body = recording.bodies[std::size_t(b)];
   const Matrix3X x = gather_points(recording, b);
   const MatrixX Phi = body.surface < 0
@@ -119,26 +121,30 @@ void add_motion(const Recording& recording, int b, Extremes& extremes) {
     const MatrixX udot = Phi * rates.middleRows(first, count).transpose();
     for (Eigen::Index j = 0; j < count; ++j) {
       const Eigen::Index i = first + j;
-      const Snapshot now = find_snapshot(body, i, x, u.col(j), udot.col(j));
-      if (i == 0) start = now.p_WP;
+      const Snapshot now =
+          find_snapshot(body, home.offset, i, x, u.col(j), udot.col(j));
+      if (i == 0) start = now.p;
       take_larger(extremes.fields(i, 0), find_longest(now.u_B));
-      take_larger(extremes.fields(i, 1), find_longest(now.p_WP - start));
+      take_larger(extremes.fields(i, 1), find_longest(now.p - start));
       take_larger(extremes.fields(i, 2), find_longest(now.v_B));
-      extremes.lower = extremes.lower.cwiseMin(now.p_WP.rowwise().minCoeff());
-      extremes.upper = extremes.upper.cwiseMax(now.p_WP.rowwise().maxCoeff());
+      const Vector3 path = home.path.row(i);
+      extremes.lower =
+          extremes.lower.cwiseMin(now.p.rowwise().minCoeff() - path);
+      extremes.upper =
+          extremes.upper.cwiseMax(now.p.rowwise().maxCoeff() - path);
     }
   }
 }
 
 }  // namespace
 
-Extremes calc_extremes(const Recording& recording) {
+Extremes calc_extremes(const Recording& recording, const Home& home) {
   constexpr double kFar = std::numeric_limits<double>::max();
   Extremes extremes{MatrixX::Zero(recording.times.size(), 4),
                     Vector3::Constant(kFar), Vector3::Constant(-kFar)};
   for (std::size_t b = 0; b < recording.bodies.size(); ++b) {
     const Body& body = recording.bodies[b];
-    add_motion(recording, static_cast<int>(b), extremes);
+    add_motion(recording, home, static_cast<int>(b), extremes);
     if (body.surface < 0) continue;
     const MatrixX& Sigma_B =
         recording.surfaces[static_cast<std::size_t>(body.surface)].Sigma_B;

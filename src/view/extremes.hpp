@@ -2,6 +2,7 @@
 #pragma once
 
 #include "limber/common/types.hpp"
+#include "limber/view/home.hpp"
 #include "limber/view/recording.hpp"
 
 namespace limber::view {
@@ -12,11 +13,12 @@ struct Extremes {
   /// T x 4, an output a row: deformation [m], displacement from the first
   /// output [m], speed [m/s], von Mises stress (zero without stress) [Pa].
   MatrixX fields;
-  /// Box of the points at all outputs, world [m].
+  /// Box of the points at all outputs, from the home, axes of the world [m].
   Vector3 lower, upper;
 };
 
 /// Modal rates that were not recorded are differences of outputs.
-[[nodiscard]] Extremes calc_extremes(const Recording& recording);
+[[nodiscard]] Extremes calc_extremes(const Recording& recording,
+                                     const Home& home);
 
 }  // namespace limber::view

@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "limber/version.hpp"
 #include "limber/view/extremes.hpp"
+#include "limber/view/home.hpp"
 #include "limber/view/page_arrays.hpp"
 
 namespace limber::view {
@@ -26,6 +26,7 @@ struct PackedSurface {
 class PageWriter {
  public:
   json write(const Recording& recording) {
+    const Home home = find_home(recording);
     std::vector<PackedSurface> surfaces;
     json all = json::array();
     for (const Surface& surface : recording.surfaces) {
@@ -36,6 +37,8 @@ class PageWriter {
                    {"folder", recording.folder},
                    {"limber", recording.limber},
                    {"times", arrays_.add_doubles(recording.times)},
+                   {"offset", to_json(home.offset)},
+                   {"travels", home.travels},
                    {"surfaces", all}};
     for (const Body& body : recording.bodies) {
       result["bodies"].push_back(
@@ -43,11 +46,11 @@ class PageWriter {
                                       : &surfaces[std::size_t(body.surface)]));
     }
     if (!recording.bodies.empty()) {
-      const Extremes most = calc_extremes(recording);
+      const Extremes most = calc_extremes(recording, home);
       result["most"] = arrays_.add(most.fields);
       result["box"] = {to_json(most.lower), to_json(most.upper)};
     }
-    add_marks(recording, result);
+    add_marks(recording, home, result);
     return result;
   }
 
@@ -110,10 +113,7 @@ class PageWriter {
     if (body.eta.cols() > 0) {
       shapes = (body.eta.cwiseAbs() * surface.scales).maxCoeff();
     }
-    // Positions are stored in single precision.
-    const double single = body.p_WB.cwiseAbs().maxCoeff() *
-                          double(std::numeric_limits<float>::epsilon());
-    return std::sqrt(3.0) / 2.0 * (surface.scale + shapes) + single;
+    return std::sqrt(3.0) / 2.0 * (surface.scale + shapes);
   }
 
   json pack(const Body& body, const PackedSurface* surface) {
@@ -123,7 +123,7 @@ class PageWriter {
         {"mass", body.mass},
         {"inertia", arrays_.add_doubles(VectorX(body.inertia.reshaped()))},
         {"surface", body.surface},
-        {"p", arrays_.add(body.p_WB)},
+        {"p", arrays_.add_doubles(body.p_WB.transpose().reshaped())},
         {"q", arrays_.add(body.quat_WB)},
         {"v", arrays_.add(body.v_WB_W)},
         {"w", arrays_.add(body.w_WB_B)}};
@@ -147,7 +147,15 @@ class PageWriter {
             {"shapes", arrays_.add(anchor.Phi_B)}};
   }
 
-  void add_marks(const Recording& recording, json& result) {
+  /// Places from the home, forces as they are.
+  static MatrixX find_touch(const Contact& contact, const Home& home) {
+    MatrixX touch = contact.touch;
+    touch.leftCols<3>().rowwise() -= home.offset.transpose();
+    touch.leftCols<3>() -= home.path;
+    return touch;
+  }
+
+  void add_marks(const Recording& recording, const Home& home, json& result) {
     for (const Shape& shape : recording.shapes) {
       const Quaternion q(shape.X_BS.R);
       json packed = {
@@ -179,7 +187,8 @@ class PageWriter {
     }
     for (const Contact& contact : recording.contacts) {
       result["contacts"].push_back(
-          {{"name", contact.name}, {"touch", arrays_.add(contact.touch)}});
+          {{"name", contact.name},
+           {"touch", arrays_.add(find_touch(contact, home))}});
     }
     for (const Event& event : recording.events) {
       result["events"].push_back({{"time", event.time},
@@ -201,7 +210,7 @@ class PageWriter {
 
 std::string make_page_data(std::span<const Recording> recordings) {
   PageWriter writer;
-  json header = {{"layout", 1}, {"limber", LIMBER_VERSION}};
+  json header = {{"layout", 2}, {"limber", LIMBER_VERSION}};
   for (const Recording& recording : recordings) {
     header["results"].push_back(writer.write(recording));
   }

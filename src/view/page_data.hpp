@@ -18,7 +18,9 @@ namespace limber::view {
 ///            |error| <= sqrt(3) / 2 (scale + sum_k scale_k |eta_k|), which the
 ///            header states of each body as `error` [m]
 ///
-/// `most` and `box` of a result are its Extremes.
+/// `most` and `box` of a result are its Extremes. Places of bodies `p` are
+/// those of the world in double precision; touches and the box count from the
+/// Home: `offset` and, if it `travels`, the mean of all `p`.
 /// @param recordings the first is shown, others are its ghosts
 [[nodiscard]] std::string make_page_data(std::span<const Recording> recordings);
 

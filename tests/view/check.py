@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The page of `limber view` in headless Chromium, or the glTF scene of `limber
-export` in readers that are not ours: check.py page|gltf|stress|full_stress LIMBER
+export` in readers that are not ours: check.py page|gltf|stress|full_stress|far LIMBER
 SCENARIO NODE NODE_MODULES FOLDER. Ends with 77, and says why, where packages of node, Chromium
 or h5py are missing.
 
@@ -107,6 +107,36 @@ def check_script(folder, points):
             assert False, f"no point of {given}"
 
 
+# Place [m] and velocity [m/s] of an arm that begins at (0, 0, 0.3) with (0.2, 0.1, -0.3).
+FLIGHTS = {
+    "near": ([0, 0, 0.3], [0.2, 0.1, -0.3]),
+    "map": ([3e5, -2e5, 5e5 + 0.3], [0.2, 0.1, -0.3]),
+    "far": ([1e7, 0, 0.3], [0.2, 0.1, -0.3]),
+    "beside": ([1e7, 0.05, 0.3], [0.2, 0.1, -0.3]),
+    "fast": ([0, 0, 0.3], [7500.2, 0.1, -0.3]),
+}
+
+
+def check_far(run, scenario, folder):
+    """Pages of one arm at several places, for drive_far.mjs."""
+    data = os.path.dirname(scenario)
+    for name in os.listdir(data):
+        shutil.copy(f"{data}/{name}", folder)
+    with open(scenario) as file:
+        text = file.read()
+    for name, (place, velocity) in FLIGHTS.items():
+        moved = text.replace("[0.0, 0.0, 0.3]", str(place)).replace("[0.2, 0.1, -0.3]", str(velocity))
+        assert name == "near" or moved != text
+        with open(f"{folder}/{name}.toml", "w") as out:
+            out.write(moved)
+        run("run", f"{folder}/{name}.toml", "--out", f"{folder}/{name}", "--xdmf",
+            "--cache", f"{folder}/cache")
+        with open(f"{folder}/{name}.json", "w") as out:
+            json.dump(list_points(f"{folder}/{name}"), out)
+        run("view", f"{folder}/{name}", "-o", f"{folder}/{name}.html")
+    run("view", f"{folder}/far", "--with", f"{folder}/beside", "-o", f"{folder}/ghost.html")
+
+
 def find_chromium():
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     if not chromium:
@@ -138,6 +168,10 @@ def main():
         page = f"{folder}/page.html"
         run("view", f"{folder}/run", "-o", page)
         sys.exit(subprocess.run([node, f"{here}/drive_stress.mjs", modules, page, chromium,
+                                 folder]).returncode)
+    if what == "far":
+        check_far(run, os.path.abspath(scenario), folder)
+        sys.exit(subprocess.run([node, f"{here}/drive_far.mjs", modules, chromium,
                                  folder]).returncode)
     run("run", scenario, "--out", f"{folder}/run", "--xdmf", *cache)
     points = f"{folder}/points.json"

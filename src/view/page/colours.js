@@ -53,6 +53,18 @@ export function format(value, unit) {
   return `${text} ${prefix}${unit}`.trim();
 }
 
+/// Texts of an axis; of ticks that differ by less than four digits show, the
+/// first, and the others from it.
+export function labelTicks(ticks, unit) {
+  const [first] = ticks;
+  const most = Math.max(...ticks.map(Math.abs));
+  if (ticks.at(-1) - first > 1e-3 * most) {
+    return ticks.map((value) => (value === 0 ? '0' : format(value, unit)));
+  }
+  return ticks.map((value, i) =>
+    i === 0 ? `${Number(first.toPrecision(15))} ${unit}` : `+${format(value - first, unit)}`);
+}
+
 const kGradient = Array.from({ length: 13 }, (_, i) => `rgb(${turbo(i / 12).map(Math.round)})`);
 
 /// @param most at its upper end; its lower one is zero

@@ -37,12 +37,17 @@ function shapePoints(shape) {
 }
 
 /// Box of all bodies over the whole motion, and of what is fixed but planes:
-/// { lower, upper, size }.
-export function findBox({ result }) {
-  const points = [
-    ...(result.box ?? []),
-    ...result.shapes.filter((shape) => shape.body < 0 && shape.kind !== 'plane').flatMap(shapePoints),
-  ];
+/// { lower, upper, size }, from `home`. Of a result that travels from its own,
+/// which moves, and of its bodies alone.
+export function findBox({ result }, home) {
+  const fixed = result.shapes.filter((shape) => shape.body < 0 && shape.kind !== 'plane');
+  const from = (origin) => (point) => point.map((value, c) => value + origin[c] - home[c]);
+  const points = result.travels
+    ? result.box
+    : [
+      ...(result.box ?? []).map(from(result.offset)),
+      ...fixed.flatMap(shapePoints).map(from([0, 0, 0])),
+    ];
   const lower = [Infinity, Infinity, Infinity];
   const upper = [-Infinity, -Infinity, -Infinity];
   for (const point of points) {

@@ -2,7 +2,7 @@
 import { kPresets } from './camera.js';
 import { format } from './colours.js';
 import { readResults } from './data.js';
-import { fillPanel } from './panel.js';
+import { describeOffset, fillPanel } from './panel.js';
 import { describeNode, pickAt, traceNode, traceStress, watchPicks } from './pick.js';
 import { Player } from './player.js';
 import { save, takeFilm, takePicture } from './record.js';
@@ -157,7 +157,8 @@ function showPick(view, player, pick) {
     }
     const now = describeNode(view.motion, view.pick.body, node, player.time);
     box.querySelector('p').innerHTML =
-      `node <b>${now.tag}</b> of <b></b><br>at ${now.position.map((c) => format(c, 'm')).join(', ')}` +
+      `node <b>${now.tag}</b> of <b></b><br>at ${now.position.map((value, c) => format(value - result.offset[c], 'm')).join(', ')}` +
+      describeOffset(result, ' from ') +
       `<br>displaced ${format(now.displacement, 'm')}, deformed ${format(now.deformation, 'm')}` +
       (now.stress === null ? '' : `<br>von Mises stress ${format(now.stress, 'Pa')}`);
     box.querySelectorAll('b')[1].textContent = body.name;

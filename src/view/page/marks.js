@@ -122,14 +122,18 @@ export class Marks {
       if (item.dot) item.dot.position.set(...points[0]);
       if (!item.line) continue;
       const array = item.line.geometry.attributes.position;
-      points.forEach((p, i) => array.setXYZ(i, ...p));
+      // Single precision holds the line, not its place.
+      item.line.position.set(...points[0]);
+      points.forEach((p, i) => array.setXYZ(i, ...p.map((value, c) => value - points[0][c])));
       array.needsUpdate = true;
     }
     for (const item of this.forces) this.updateLoad(item, t, at, magnification);
+    const home = this.motion.home(at);
     for (const { touch, arrow, scale } of this.touches) {
       const row = touch.subarray(6 * at.i, 6 * at.i + 6);
       const force = row.subarray(3);
-      aim(arrow, row.subarray(0, 3), force, this.length(scale * Math.hypot(...force)), false);
+      const place = home.map((value, c) => value + row[c]);
+      aim(arrow, place, force, this.length(scale * Math.hypot(...force)), false);
     }
   }
 

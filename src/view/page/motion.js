@@ -85,6 +85,17 @@ export class Motion {
     this.smooth = result.bodies.map((body) => findSmooth(result.times, body));
   }
 
+  /// Where the picture counts from at a time, world [m]: the offset of the
+  /// result, or, where it travels far, the mean of its bodies' places. It is
+  /// that of src/view/home.hpp at outputs.
+  home(at) {
+    const { offset, travels, bodies } = this.result;
+    if (!travels) return offset;
+    const sum = [0, 0, 0];
+    bodies.forEach((_, b) => this.pose(b, at).p.forEach((value, c) => (sum[c] += value)));
+    return sum.map((value) => value / bodies.length);
+  }
+
   /// Position [m] and quaternion of a body's frame.
   pose(b, at) {
     const { p, v, q } = this.result.bodies[b];

@@ -108,18 +108,26 @@ function probeSection(view) {
   return [section('Probes', rows)];
 }
 
+/// Where the page's positions count from, after `before`; nothing where that is
+/// the origin of the world.
+export function describeOffset({ offset }, before) {
+  return offset.some((value) => value !== 0) ? `${before}(${offset.join(', ')}) m` : '';
+}
+
 function aboutSection(view) {
   const { result } = view.motion;
   const bodies = result.bodies.filter((body) => body.error !== undefined);
   const error = Math.max(0, ...bodies.map((body) => body.error));
   const lines = [
-    `${result.times.length} outputs, ${format(result.times[0], 's')} to ${format(result.times.at(-1), 's')}`,
+    `${result.times.length} outputs in ${format(result.times.at(-1) - result.times[0], 's')}, from ${result.times[0]} s on`,
     `positions within ${format(error, 'm')} of the results at magnification 1 (16-bit shapes)`,
     ...bodies.filter((b) => b.truncation).map((b) => `${b.name}: motion of all nodes by ${b.modes} shapes, within ${format(b.truncation, 'm')}`),
     ...bodies.filter((b) => b.stress).map((b) => `${b.name}: its stress by ${b.stress.length} shapes, within ${format(b.stress_truncation, 'Pa')}`),
+    describeOffset(result, 'far from the origin of the world: positions count from '),
+    result.travels ? 'the picture moves with the mean of the bodies, which travel far' : '',
     `Limber ${result.limber}`,
   ];
-  return section('About', lines.map((line) => make('p', { className: 'hint', textContent: line })), false);
+  return section('About', lines.filter(Boolean).map((line) => make('p', { className: 'hint', textContent: line })), false);
 }
 
 export function fillPanel(element, view) {

@@ -1,6 +1,6 @@
 // Plots of probes and picked points over time, with a cursor at the page's time.
 import uPlot from 'uplot';
-import { format } from './colours.js';
+import { labelTicks } from './colours.js';
 
 const kDashes = [[6, 4], [2, 3], [10, 3, 2, 3]]; // of ghosts
 const kColours = ['#4e79a7', '#e15759', '#59a14f', '#f28e2b', '#b07aa1', '#76b7b2', '#9c755f'];
@@ -86,8 +86,8 @@ export class Plots {
         cursor: { drag: { x: true, y: false }, points: { show: false } },
         legend: { live: false },
         axes: [
-          { ...axis, size: 28, values: (_, ticks) => ticks.map((t) => format(t, 's')), space: 70 },
-          { ...axis, size: 64, values: (_, ticks) => ticks.map((v) => (v === 0 ? '0' : format(v, group.unit))) },
+          { ...axis, size: 28, values: (_, ticks) => labelTicks(ticks, 's'), space: 70 },
+          { ...axis, size: 64, values: (_, ticks) => labelTicks(ticks, group.unit) },
         ],
         series: [
           { label: 'time' },

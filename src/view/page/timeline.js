@@ -47,6 +47,11 @@ export class Timeline {
     return end > start ? (t - start) / (end - start) : 0;
   }
 
+  // A time since the start.
+  tell(t) {
+    return format(t - this.player.start, 's');
+  }
+
   // Events at one place on the bar share a mark.
   addEvents(events) {
     const groups = new Map();
@@ -61,7 +66,7 @@ export class Timeline {
       tick.style.left = `${100 * this.share(group[0].time)}%`;
       tick.title = group
         .slice(0, 12)
-        .map((e) => `${format(e.time, 's')}  ${e.source}: ${e.what}`)
+        .map((e) => `${this.tell(e.time)}  ${e.source}: ${e.what}`)
         .join('\n') + (group.length > 12 ? `\nand ${group.length - 12} more` : '');
       tick.onclick = () => {
         this.player.pause();
@@ -74,7 +79,8 @@ export class Timeline {
   update() {
     const { player } = this;
     this.find('play').textContent = player.isPlaying ? '\u23f8' : '\u25b6';
-    this.find('clock').textContent = `${format(player.time, 's')} of ${format(player.end, 's')}`;
+    this.find('clock').textContent = `${this.tell(player.time)} of ${this.tell(player.end)}` +
+      (player.start === 0 ? '' : ` from ${player.start} s on`);
     this.find('slider').value = 1e5 * this.share(player.time);
     this.find('speed').value = player.speed;
     const loop = this.find('loop');

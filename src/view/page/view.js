@@ -7,7 +7,7 @@ import { findBox, findRanges, findRangesAt } from './extents.js';
 import { hasStress } from './stress.js';
 import { Marks } from './marks.js';
 import { kFields, kStressField, makeSharedUniforms } from './material.js';
-import { Motion } from './motion.js';
+import { locate, Motion } from './motion.js';
 import { Names } from './names.js';
 import { groupProbes, Plots } from './plots.js';
 
@@ -37,7 +37,8 @@ export class View {
     this.elements = elements;
     this.motions = results.map((result) => new Motion(result));
     [this.motion] = this.motions;
-    const box = joinBoxes(this.motions.map(findBox));
+    this.home = this.motion.result.offset;
+    const box = joinBoxes(this.motions.map((motion) => findBox(motion, this.home)));
     this.ranges = findRanges(this.motion);
     this.magnification = 1;
     this.fields = kFields.filter(
@@ -68,22 +69,25 @@ export class View {
     scene.add(new THREE.HemisphereLight(0xffffff, 0x9a9aa8, 2.6));
     this.sun = new THREE.DirectionalLight(0xffffff, 1.5);
     scene.add(this.sun, this.sun.target);
+    // Everything in it has its place in the world; what is drawn is from `home`.
+    this.world = new THREE.Group();
+    scene.add(this.world);
     this.bodies = new Bodies(results[0], this.motion, this.shared, null, box.size);
-    scene.add(this.bodies.group);
+    this.world.add(this.bodies.group);
     this.ghosts = results.slice(1).map((result, g) => {
       const ghost = new Bodies(result, this.motions[g + 1], null, colourOfGhost(g), box.size);
       ghost.label = nameGhost(result);
-      scene.add(ghost.group);
+      this.world.add(ghost.group);
       return ghost;
     });
     this.marks = new Marks(results[0], this.motion, box.size);
-    scene.add(this.marks.group);
+    this.world.add(this.marks.group);
     this.picked = new THREE.Mesh(
       new THREE.SphereGeometry(0.006 * box.size, 16, 8),
       new THREE.MeshBasicMaterial({ color: 0xd62728, depthTest: false, transparent: true }));
     this.picked.visible = false;
     this.picked.renderOrder = 3;
-    scene.add(this.picked);
+    this.world.add(this.picked);
     this.scene = scene;
   }
 
@@ -182,12 +186,22 @@ export class View {
 
   follow(link) {
     this.followed = link;
-    this.camera.follow(link ? () => link.group.position.toArray() : null);
+    this.camera.follow(link ? () => this.toPicture(link.group.position).toArray() : null);
     this.tell('links');
   }
 
   redraw() {
     this.isStale = true;
+  }
+
+  /// From the world to what the camera sees.
+  toPicture(place) {
+    return place.clone().add(this.world.position);
+  }
+
+  moveHome(time) {
+    this.home = this.motion.home(locate(this.motion.times, time));
+    this.world.position.set(...this.home.map((value) => -value));
   }
 
   /// Largest value of the field, of the run or of this moment.
@@ -208,12 +222,14 @@ export class View {
   draw() {
     const { time } = this.player;
     this.isStale = false;
+    this.moveHome(time);
     this.bodies.update(time, this.magnification, this.field);
     for (const ghost of this.ghosts) ghost.update(time, this.magnification);
     this.marks.update(time, this.magnification);
     this.camera.update();
     for (const one of [this.bodies, ...this.ghosts]) {
-      one.chooseDetail((place) => this.camera.findScale(place, this.elements.stage.clientHeight));
+      one.chooseDetail((place) =>
+        this.camera.findScale(this.toPicture(place), this.elements.stage.clientHeight));
     }
     this.updateColours();
     this.movePicked(time);
