@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "limber/results/gnuplot.hpp"
@@ -95,10 +96,12 @@ void set_range(GnuplotScript& script, const Panel& panel, double reference) {
 }
 
 void add_panel(GnuplotScript& script, std::size_t p, const Panel& panel,
-               double reference, const std::string& key_height, bool is_last) {
+               double reference, const std::string& key_height,
+               const std::string& time_label) {
   set_range(script, panel, reference);
   script.add("set ylabel " + quote(panel.label) + " offset 1,0");
-  script.add(is_last ? "set xlabel 'time [s]'" : "unset xlabel");
+  const bool is_last = !time_label.empty();
+  script.add(is_last ? "set xlabel " + quote(time_label) : "unset xlabel");
   script.add(is_last ? "set format x '%g'" : "set format x ''");
   if (p == 0) {
     script.add("set key at screen 0.97, screen " + key_height +
@@ -144,6 +147,67 @@ TimeRange find_range(const std::vector<Panel>& panels) {
   const double middle = last == first ? first : 0.0;
   const double half = std::max(0.5, 1e-3 * std::abs(middle));
   return {middle - half, middle + half};
+}
+
+// Of finite numbers that differ by little, such as positions far from the
+// origin: one near them, rounded to the power of ten of their range, from which
+// nine digits show how they differ. Zero if they differ much, or by round-off.
+double choose_origin(double least, double most) {
+  constexpr double kLittle = 1e-2;
+  constexpr double kRoundoff = 1e-12;
+  const double range = most - least;
+  const double size = std::max(std::abs(least), std::abs(most));
+  if (!(range < kLittle * size && range > kRoundoff * size)) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(range)));
+  const double steps = std::round(0.5 * (least + most) / unit);
+  return unit < 1.0 ? steps / std::round(1.0 / unit) : steps * unit;
+}
+
+// "x [m]", or "x - 1000 [m]".
+std::string label_from(const std::string& label, double offset) {
+  if (offset == 0.0) return label;
+  const std::size_t unit = std::min(label.find(" ["), label.size());
+  return fmt::format("{} {} {:.15g}{}", label.substr(0, unit),
+                     offset > 0.0 ? '-' : '+', std::abs(offset),
+                     label.substr(unit));
+}
+
+// With values from an offset, which the label states.
+Panel count_from_offset(Panel panel) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const Series& series : panel.series) {
+    for (const double value : series.values) {
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  const double offset = choose_origin(least, most);
+  if (offset == 0.0) return panel;
+  panel.label = label_from(panel.label, offset);
+  for (Series& series : panel.series) {
+    for (double& value : series.values) value -= offset;
+    if (series.peak) series.peak->value -= offset;
+  }
+  return panel;
+}
+
+// What times count from: the first, where they differ by little.
+double find_start(const std::vector<Panel>& panels) {
+  const TimeRange whole = find_range(panels);
+  return choose_origin(whole.first, whole.last) == 0.0 ? 0.0 : whole.first;
+}
+
+void subtract_time(std::vector<Panel>& panels, std::vector<Mark>& marks,
+                   double start) {
+  for (Panel& panel : panels) {
+    for (Series& series : panel.series) {
+      for (double& t : series.times) t -= start;
+      if (series.peak) series.peak->time -= start;
+    }
+  }
+  for (Mark& mark : marks) mark.time -= start;
 }
 
 constexpr double kLeft = 0.11;  // margins [of the width]
@@ -216,8 +280,14 @@ void add_marks(GnuplotScript& script, std::vector<Mark> marks,
 
 std::string draw_overlay(const std::filesystem::path& file,
                          const std::string& title,
-                         const std::vector<Panel>& panels,
-                         const std::vector<Mark>& marks) {
+                         const std::vector<Panel>& absolute,
+                         const std::vector<Mark>& absolute_marks) {
+  std::vector<Panel> panels;
+  std::transform(absolute.begin(), absolute.end(), std::back_inserter(panels),
+                 count_from_offset);
+  std::vector<Mark> marks = absolute_marks;
+  const double start = find_start(panels);
+  subtract_time(panels, marks, start);
   const int count = static_cast<int>(panels.size());
   const double strip = find_strip(marks);
   const double height = kHeaderHeight + strip + kPanelHeight * count;
@@ -256,7 +326,7 @@ std::string draw_overlay(const std::filesystem::path& file,
       }
     }
     add_panel(script, p, panels[p], reference, key_height,
-              p + 1 == panels.size());
+              p + 1 == panels.size() ? label_from("time [s]", start) : "");
   }
   script.add("unset multiplot");
   return script.run();
@@ -291,10 +361,13 @@ std::string draw_energy(const std::filesystem::path& file,
        series("dissipated", [](const Balance& e) { return e.dissipated; })}};
   // The panels have different curves, so each has its own key.
   GnuplotScript script(file, kWidth, 900);
-  const std::array<const Panel*, 2> panels = {&stored, &audit};
+  std::vector<Panel> panels = {stored, audit};
+  const double start = find_start(panels);
+  std::vector<Mark> none;
+  subtract_time(panels, none, start);
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    for (std::size_t s = 0; s < panels[p]->series.size(); ++s) {
-      add_data(script, fmt::format("d{}_{}", p, s), panels[p]->series[s]);
+    for (std::size_t s = 0; s < panels[p].series.size(); ++s) {
+      add_data(script, fmt::format("d{}_{}", p, s), panels[p].series[s]);
     }
   }
   script.add("set multiplot layout 2,1 title " + quote(title + ": energy") +
@@ -305,15 +378,15 @@ std::string draw_energy(const std::filesystem::path& file,
   for (std::size_t p = 0; p < panels.size(); ++p) {
     script.add("set key outside top center horizontal samplen 3");
     // Without values gnuplot finds no range by itself.
-    const bool has_values = largest(*panels[p]) > 0.0;
+    const bool has_values = largest(panels[p]) > 0.0;
     script.add(has_values ? "set yrange [*:*]" : "set yrange [-1:1]");
-    script.add("set ylabel " + quote(panels[p]->label));
-    script.add("set xlabel 'time [s]'");
+    script.add("set ylabel " + quote(panels[p].label));
+    script.add("set xlabel " + quote(label_from("time [s]", start)));
     std::string plot = "plot ";
-    for (std::size_t s = 0; s < panels[p]->series.size(); ++s) {
+    for (std::size_t s = 0; s < panels[p].series.size(); ++s) {
       plot += fmt::format("{}$d{}_{} using 1:2 with lines {} title {}",
                           s == 0 ? "" : ", ", p, s, style(s),
-                          quote(panels[p]->series[s].name));
+                          quote(panels[p].series[s].name));
     }
     script.add(plot);
   }

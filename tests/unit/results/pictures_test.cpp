@@ -190,6 +190,34 @@ TEST_F(Pictures, DisplacementsFarAwayAreThoseNearTheOriginButForLabels) {
   expect_same(draw(make_small_run()), draw(make_run_at({1e7, 0.0, -2e6})));
 }
 
+// Values of nine digits would be stairs of 0.01 m, all with the same label; a
+// curve beside them, of deformations, would count as round-off.
+TEST_F(Pictures, CurvesOfPlacesFarAwayAreThoseNearTheOriginButForLabels) {
+  const auto draw = [](double x, double start) {
+    Series place = make_series("x", wave(200));
+    for (double& value : place.values) value = x + 1e-3 * value;
+    for (double& t : place.times) t = start + 1e-3 * t;
+    Series small = make_series("u", wave(200));
+    for (double& value : small.values) value *= 1e-4;
+    small.times = place.times;
+    const std::vector<Mark> marks = {{place.times[60], "touch"}};
+    return draw_pixels([&](const auto& file) {
+      return draw_overlay(file, "p", {{"x [m]", {place}}, {"u [m]", {small}}},
+                          marks);
+    });
+  };
+  const test::Pixels near = draw(0.0, 0.0);
+  EXPECT_GT(test::find_inked_share(near), 0.01);
+  for (const double x : {1e3, 6e5, -1e7}) {
+    for (const double start : {0.0, 1e5}) {
+      const double bound = start == 0.0 ? 0.002 : 0.01;
+      EXPECT_LT(test::find_different_share(near, draw(x, start)), bound)
+          << x << ' ' << start;
+    }
+  }
+  EXPECT_LT(test::find_different_share(near, draw(0.0, 1e5)), 0.01);
+}
+
 TEST_F(Pictures, ShapesOfMeshesFarFromTheirOriginAreThoseNearIt) {
   const auto draw = [](double x) {
     Surface surface;
