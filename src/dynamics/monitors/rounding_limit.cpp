@@ -5,7 +5,8 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
@@ -16,9 +17,14 @@ namespace {
 constexpr double kVisible = 1e-7;         // of a body's size: gives a warning
 constexpr double kAbsurdRounding = 1e-4;  // of it: gives an error
 
-double find_radius_of_gyration(const BodyModel& body) {
-  const Vector3 moments = dense::find_eigenvalues(body.J0);
-  return std::sqrt(moments.maxCoeff() / body.mass);
+// Largest of each body [m].
+std::vector<double> find_radii_of_gyration(const SystemModel& model) {
+  std::vector<double> radii;
+  for (const BodyModel& body : model.bodies) {
+    const Vector3 moments = dense::find_eigenvalues(body.J0);
+    radii.push_back(std::sqrt(moments.maxCoeff() / body.mass));
+  }
+  return radii;
 }
 
 // The body whose position is rounded most, relative to its size.
@@ -29,15 +35,14 @@ struct Rounding {
   double share = 0.0;     // of the radius that is rounded away [-]
 };
 
-Rounding find_largest_rounding(const SystemModel& model,
+Rounding find_largest_rounding(const std::vector<double>& radii,
                                const SystemState& state) {
   Rounding largest;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double radius = find_radius_of_gyration(model.bodies[b]);
+  for (std::size_t b = 0; b < radii.size(); ++b) {
     const double distance = state.bodies[b].p_WB.stableNorm();
     const double share =
-        std::numeric_limits<double>::epsilon() * distance / radius;
-    if (share > largest.share) largest = {b, distance, radius, share};
+        std::numeric_limits<double>::epsilon() * distance / radii[b];
+    if (share > largest.share) largest = {b, distance, radii[b], share};
   }
   return largest;
 }
@@ -55,25 +60,26 @@ std::string describe_rounding(const SystemModel& model,
 
 }  // namespace
 
-std::optional<std::string> describe_rounding(const SystemModel& model,
-                                             const SystemState& state) {
-  const Rounding rounding = find_largest_rounding(model, state);
-  if (rounding.share <= kVisible) return std::nullopt;
-  return fmt::format(
+RoundingLimit::RoundingLimit(const SystemModel& model)
+    : model_(model), radii_(find_radii_of_gyration(model)) {}
+
+void RoundingLimit::check(const SystemState& state,
+                          std::vector<std::string>& warnings) {
+  if (was_told_) return;
+  const Rounding rounding = find_largest_rounding(radii_, state);
+  if (rounding.share <= kVisible) return;
+  was_told_ = true;
+  warnings.push_back(fmt::format(
       "{}: deformations are off by as much, and forces of joints by that times "
       "their stiffness; an origin near the bodies would help",
-      describe_rounding(model, state, rounding));
+      describe_rounding(model_, state, rounding)));
 }
 
-bool add_rounding_warning(const SystemModel& model, const SystemState& state,
-                          std::vector<std::string>& warnings) {
-  auto warning = describe_rounding(model, state);
-  if (warning) warnings.push_back(std::move(*warning));
-  return warning.has_value();
-}
+void RoundingLimit::exchange_memory(Archive& archive) { archive(was_told_); }
 
 void check_rounding(const SystemModel& model, const SystemState& state) {
-  const Rounding rounding = find_largest_rounding(model, state);
+  const Rounding rounding =
+      find_largest_rounding(find_radii_of_gyration(model), state);
   if (rounding.share <= kAbsurdRounding) return;
   throw InputError(fmt::format("{}; expected at most {:.2g} of it",
                                describe_rounding(model, state, rounding),

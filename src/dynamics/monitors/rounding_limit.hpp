@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "limber/common/records/archive.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -17,14 +17,22 @@ namespace limber::dynamics {
 ///            Small deformations are a thousandth of k: r = 1e-7 k is a
 ///            ten-thousandth of them.
 
-/// Warning if a body's position is rounded to more than 1e-7 of its size;
-/// nothing if none is.
-[[nodiscard]] std::optional<std::string> describe_rounding(
-    const SystemModel& model, const SystemState& state);
+class RoundingLimit {
+ public:
+  explicit RoundingLimit(const SystemModel& model);
 
-/// Adds that warning, if there is one. @returns whether there is
-bool add_rounding_warning(const SystemModel& model, const SystemState& state,
-                          std::vector<std::string>& warnings);
+  /// Adds a warning, once, if a body's position is rounded to more than 1e-7 of
+  /// its size. @param state with frames of unreduced bodies at their nodes
+  void check(const SystemState& state, std::vector<std::string>& warnings);
+
+  /// Saves or restores whether it was told, for checkpoints.
+  void exchange_memory(Archive& archive);
+
+ private:
+  const SystemModel& model_;
+  std::vector<double> radii_;  // of gyration [m]
+  bool was_told_ = false;
+};
 
 /// @throws InputError naming the body if its position is rounded to more than
 /// 1e-4 of its size

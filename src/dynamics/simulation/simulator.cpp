@@ -41,8 +41,13 @@ struct Simulator::Parts {
         settings(check(model, state, asked, statistics)),
         loop(model, settings, state, statistics, 1.0),
         limit(model),
-        began_far(add_rounding_warning(model, state, statistics.warnings)) {
+        rounding(model) {
     show();
+    rounding.check(shown(), statistics.warnings);
+  }
+
+  [[nodiscard]] const SystemState& shown() const {
+    return model.full_bodies.empty() ? state : framed;
   }
 
   // The caller's state: frames of unreduced bodies follow their nodes.
@@ -57,7 +62,6 @@ struct Simulator::Parts {
     RunRecord record;
     loop.tell(record);
     warn_of_energy(settings.integrator, record.energy, statistics.warnings);
-    if (!began_far) add_rounding_warning(model, state, statistics.warnings);
     check_energy(settings.integrator, record.energy);
   }
 
@@ -68,7 +72,7 @@ struct Simulator::Parts {
   SimulationSettings settings;
   TimeLoop loop;
   LinearLimit limit;
-  bool began_far;  // from the world's origin
+  RoundingLimit rounding;
 };
 
 Simulator::Simulator(const SystemModel& model, const SystemState& start,
@@ -100,13 +104,12 @@ bool Simulator::advance_to(double t, const std::function<bool()>& stops) {
   }
   parts_->show();
   parts_->limit.check(parts_->state, parts_->statistics.warnings);
+  parts_->rounding.check(parts_->shown(), parts_->statistics.warnings);
   if (parts_->state.t == end) parts_->judge();
   return is_there;
 }
 
-const SystemState& Simulator::state() const {
-  return parts_->model.full_bodies.empty() ? parts_->state : parts_->framed;
-}
+const SystemState& Simulator::state() const { return parts_->shown(); }
 
 EnergyBalance Simulator::calc_energy() const {
   EnergyBalance balance = dynamics::calc_energy(parts_->model, state());

@@ -161,12 +161,14 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
 }
 
 // Adds the data outside of the TimeLoop to checkpoints.
-Continuation add_memory(LinearLimit& limit, const Continuation& inner) {
+Continuation add_memory(LinearLimit& limit, RoundingLimit& rounding,
+                        const Continuation& inner) {
   Continuation outer = inner;
   LIMBER_EXPECT(!inner.keeper.complete);
-  outer.keeper.complete = [&limit](Checkpoint run) {
+  outer.keeper.complete = [&limit, &rounding](Checkpoint run) {
     Archive archive;
     limit.exchange_memory(archive);
+    rounding.exchange_memory(archive);
     archive(run.numbers);
     run.numbers = archive.numbers();
     return run;
@@ -174,6 +176,7 @@ Continuation add_memory(LinearLimit& limit, const Continuation& inner) {
   if (inner.from) {
     Archive archive(inner.from->numbers);
     limit.exchange_memory(archive);
+    rounding.exchange_memory(archive);
     archive(outer.from->numbers);
   }
   return outer;
@@ -189,30 +192,31 @@ void run_once(const SystemModel& model, SystemState& state,
   SystemTerms terms = make_terms(model);
   SystemState framed;
   LinearLimit limit(model);
+  RoundingLimit rounding(model);
   const TimeLoop::Visit visit = [&](const SystemState& at,
                                     const Losses& losses) {
     limit.check(at, statistics.warnings);
-    if (!observer) return;
     if (!model.full_bodies.empty()) {
       framed = at;
       update_mean_frames(model, framed);
     }
     const SystemState& now = model.full_bodies.empty() ? at : framed;
+    rounding.check(now, statistics.warnings);
+    if (!observer) return;
     EnergyBalance balance = calc_energy(model, now, terms);
     balance.dissipated = losses.dissipated;
     balance.work = losses.work;
     observer(now, balance);
   };
-  const Continuation whole = add_memory(limit, continuation);
+  const Continuation whole = add_memory(limit, rounding, continuation);
   const Job job{settings, progress, statistics, whole,
                 followed, record,   refinement};
-  const bool began_far =
-      add_rounding_warning(model, state, statistics.warnings);
+  rounding.check(state, statistics.warnings);
   add_start_warnings(model, state, statistics);
   const double start = state.t;
   const auto finish = [&] {
     update_mean_frames(model, state);
-    if (!began_far) add_rounding_warning(model, state, statistics.warnings);
+    rounding.check(state, statistics.warnings);
     add_load_edges(model, start, state.t, statistics.events);
   };
   try {
