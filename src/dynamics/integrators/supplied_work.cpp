@@ -11,8 +11,8 @@ constexpr double kRoundoff = 16.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-SuppliedWork::SuppliedWork(const SystemModel& model) : model_(model) {
-  list_drives();
+SuppliedWork::SuppliedWork(const SystemModel& model)
+    : model_(model), drives_(find_drives(model)) {
   list_loads();
   if (!model.gravity_W.isZero(0.0)) {
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -21,26 +21,6 @@ SuppliedWork::SuppliedWork(const SystemModel& model) : model_(model) {
   }
   now_.resize(drives_.size() + loads_.size() + bodies_.size());
   before_ = now_;
-}
-
-void SuppliedWork::list_drives() {
-  const auto add = [&](const Driven& driven) {
-    if (std::holds_alternative<joints::Drive>(*driven.law)) {
-      drives_.push_back(driven);
-    }
-  };
-  for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
-    for (const joints::JointElement& element :
-         joints::elements_of(model_.couplers[c].law)) {
-      add({false, c, static_cast<std::size_t>(element.coordinate),
-           &element.law});
-    }
-  }
-  for (std::size_t i = 0; i < model_.transmissions.size(); ++i) {
-    for (const joints::ScalarLaw& law : model_.transmissions[i].laws) {
-      add({true, i, 0, &law});
-    }
-  }
 }
 
 void SuppliedWork::list_loads() {
@@ -57,25 +37,13 @@ void SuppliedWork::list_loads() {
   }
 }
 
-joints::ScalarMotion SuppliedWork::find_motion(const Driven& driven,
-                                               const SystemState& state,
-                                               const SystemTerms& terms) const {
-  if (driven.is_transmission) return terms.transmissions[driven.index].motion;
-  const joints::CoordinateValue value =
-      evaluate(joints::coordinates_of(
-                   model_.couplers[driven.index].law)[driven.coordinate],
-               terms.couplers[driven.index].motion,
-               state.memory[driven.index].near[driven.coordinate]);
-  return {value.z, value.rate};
-}
-
 void SuppliedWork::read(const SystemState& state, const SystemTerms& terms,
                         Side side) {
   const Instant now = now_of(state, side);
   std::size_t n = 0;
-  for (const Driven& driven : drives_) {
+  for (const PlacedDrive& drive : drives_) {
     const auto supply = joints::find_supply(
-        *driven.law, find_motion(driven, state, terms), now);
+        *drive.law, find_motion(model_, state, terms, drive), now);
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     now_[n++] = supply ? Path{supply->force, supply->place, supply->rate,
                               std::abs(supply->place)}

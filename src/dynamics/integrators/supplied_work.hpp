@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/equations/placed_drive.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -52,23 +52,12 @@ class SuppliedWork {
   friend void exchange(Archive& archive, Path& path) {
     archive(path.force, path.place, path.rate, path.size);
   }
-  // A drive: an element of a coupler, or a law of a transmission.
-  struct Driven {
-    bool is_transmission = false;
-    std::size_t index = 0;
-    std::size_t coordinate = 0;
-    const joints::ScalarLaw* law = nullptr;
-  };
-  void list_drives();
   void list_loads();
-  [[nodiscard]] joints::ScalarMotion find_motion(
-      const Driven& driven, const SystemState& state,
-      const SystemTerms& terms) const;
   void read(const SystemState& state, const SystemTerms& terms, Side side);
   static double find_correction(const Path& first, const Path& last, double h);
 
   const SystemModel& model_;
-  std::vector<Driven> drives_;
+  std::vector<PlacedDrive> drives_;
   std::vector<std::size_t> loads_;   // indices
   std::vector<std::size_t> bodies_;  // with weight
   std::vector<Path> now_;            // drives, loads, bodies

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/monitors/limit_crossing.hpp"
 
-#include "limber/dynamics/equations/transmission.hpp"
-
 namespace limber::dynamics {
 namespace {
 
@@ -18,7 +16,7 @@ enum class Grip { slack, free, limited };
 
 // A drive within one step of h [s] from `start`.
 struct DriveStep {
-  const LimitedDrive& drive;
+  const PlacedDrive& drive;
   Instant start;
   double h;
   ScalarMotion a, b;  // at its ends
@@ -67,26 +65,13 @@ struct DriveStep {
 LimitCrossing::LimitCrossing(const SystemModel& model)
     : model_(model), drives_(find_limited_drives(model)) {}
 
-ScalarMotion LimitCrossing::find_motion(const LimitedDrive& drive,
-                                        const SystemState& state) const {
-  if (drive.is_transmission) {
-    return dynamics::find_motion(model_, state,
-                                 model_.transmissions[drive.index]);
-  }
-  const joints::CoordinateValue value =
-      evaluate(joints::coordinates_of(
-                   model_.couplers[drive.index].law)[drive.coordinate],
-               find_relative_motion(model_, state, CouplerIndex(drive.index)),
-               state.memory[drive.index].near[drive.coordinate]);
-  return {value.z, value.rate};
-}
-
 std::optional<double> LimitCrossing::find_first(
     const SystemState& before, const SystemState& after) const {
   std::optional<double> first;
-  for (const LimitedDrive& drive : drives_) {
+  for (const PlacedDrive& drive : drives_) {
     const DriveStep step{drive, now_of(before), after.t - before.t,
-                         find_motion(drive, before), find_motion(drive, after)};
+                         find_motion(model_, before, drive),
+                         find_motion(model_, after, drive)};
     const auto change = step.find_change(first.value_or(1.0));
     if (change && (!first || *change < *first)) first = change;
   }

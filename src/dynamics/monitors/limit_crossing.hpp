@@ -4,9 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "limber/dynamics/monitors/limited_drive.hpp"
+#include "limber/dynamics/equations/placed_drive.hpp"
 #include "limber/dynamics/system/system_state.hpp"
-#include "limber/joints/coordinates/scalar_motion.hpp"
 
 namespace limber::dynamics {
 
@@ -32,11 +31,8 @@ class LimitCrossing {
       const SystemState& before, const SystemState& after) const;
 
  private:
-  [[nodiscard]] joints::ScalarMotion find_motion(
-      const LimitedDrive& drive, const SystemState& state) const;
-
   const SystemModel& model_;
-  std::vector<LimitedDrive> drives_;
+  std::vector<PlacedDrive> drives_;
 };
 
 }  // namespace limber::dynamics

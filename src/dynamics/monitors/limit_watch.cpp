@@ -14,21 +14,9 @@ constexpr long kMostEvents = 1000;
 }  // namespace
 
 LimitWatch::LimitWatch(const SystemModel& model) : model_(model) {
-  for (const LimitedDrive& drive : find_limited_drives(model)) {
+  for (const PlacedDrive& drive : find_limited_drives(model)) {
     drives_.push_back({.drive = drive});
   }
-}
-
-joints::ScalarMotion LimitWatch::find_motion(const LimitedDrive& drive,
-                                             const SystemState& state,
-                                             const SystemTerms& terms) const {
-  if (drive.is_transmission) return terms.transmissions[drive.index].motion;
-  const auto& law = model_.couplers[drive.index].law;
-  const joints::CoordinateValue value =
-      evaluate(joints::coordinates_of(law)[drive.coordinate],
-               terms.couplers[drive.index].motion,
-               state.memory[drive.index].near[drive.coordinate]);
-  return {value.z, value.rate};
 }
 
 void LimitWatch::pass(Limited& limited, const joints::ScalarMotion& motion,
@@ -54,7 +42,7 @@ void LimitWatch::include(const SystemState& state, const SystemTerms& terms,
                          std::vector<Event>& events) {
   for (Limited& limited : drives_) {
     const joints::ScalarMotion motion =
-        find_motion(limited.drive, state, terms);
+        find_motion(model_, state, terms, limited.drive);
     const double load = joints::find_load(*limited.drive.law, motion,
                                           now_of(state, Side::left));
     const bool was_at = limited.has_begun && limited.load >= 1.0;

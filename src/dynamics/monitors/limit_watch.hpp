@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
-#include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/equations/placed_drive.hpp"
 #include "limber/dynamics/monitors/event.hpp"
-#include "limber/dynamics/monitors/limited_drive.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
@@ -34,7 +33,7 @@ class LimitWatch {
 
  private:
   struct Limited {
-    LimitedDrive drive;
+    PlacedDrive drive;
     bool has_begun = false;
     double load = 0.0;        // last requested effort over the limit [-]
     double time = 0.0;        // [s]
@@ -43,9 +42,6 @@ class LimitWatch {
     double time_at = 0.0;     // total time at the limit [s]
     long events = 0;
   };
-  [[nodiscard]] joints::ScalarMotion find_motion(
-      const LimitedDrive& drive, const SystemState& state,
-      const SystemTerms& terms) const;
   void pass(Limited& limited, const joints::ScalarMotion& motion, double load,
             double t, std::vector<Event>& events);
 
