@@ -12,7 +12,7 @@ constexpr double kNearEnd = 0.02;
 constexpr int kLooks = 8;
 constexpr int kBisections = 30;
 
-enum class Grip { slack, free, limited };
+enum class Grip { slack, free, at_upper, at_lower };
 
 // A drive within one step of h [s] from `start`.
 struct DriveStep {
@@ -35,8 +35,12 @@ struct DriveStep {
   [[nodiscard]] Grip find_grip(double s) const {
     Instant now = start;
     now.t += s * h;
-    const double load = joints::find_load(*drive.law, interpolate(s), now);
-    if (load >= 1.0) return Grip::limited;
+    const ScalarMotion motion = interpolate(s);
+    const double load = joints::find_load(*drive.law, motion, now);
+    if (load >= 1.0) {
+      const double force = joints::evaluate(*drive.law, motion, now).force;
+      return force > 0.0 ? Grip::at_upper : Grip::at_lower;
+    }
     return drive.pulls_only && load <= 0.0 ? Grip::slack : Grip::free;
   }
 

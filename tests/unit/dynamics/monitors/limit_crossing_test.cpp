@@ -75,6 +75,15 @@ TEST(LimitCrossing, IsNoneWithinTheLimitsBeyondThemAndAtTheEndsOfAStep) {
   EXPECT_FALSE(find_over_step(make_holding(kZero), 0.0, 0.2));
 }
 
+// Of a stiff drive, for a thousandth of the step.
+TEST(LimitCrossing, IsWhereTheEffortGoesFromOneLimitToTheOther) {
+  Drive::Parameters stiff = make_holding(kZero);
+  stiff.stiffness = 4e3;
+  const auto left = find_over_step(stiff, 0.3, -0.7);
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(*left, 0.3, 2.0 / 4e3 + 1e-8);
+}
+
 TEST(LimitCrossing, OfADriveThatOnlyPullsIsAlsoWhereItGoesSlack) {
   Drive::Parameters tendon = make_holding(kZero);
   tendon.pulls_only = true;
