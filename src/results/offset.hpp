@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "limber/common/types.hpp"
 #include "limber/dynamics/system/system_model.hpp"
@@ -22,7 +23,13 @@ struct Bounds {
     lower = lower.cwiseMin((p.array() - radius).matrix());
     upper = upper.cwiseMax((p.array() + radius).matrix());
   }
-  [[nodiscard]] double size() const { return (upper - lower).norm(); }
+  [[nodiscard]] bool is_empty() const {
+    return (lower.array() > upper.array()).any();
+  }
+  /// Its diagonal [m].
+  [[nodiscard]] double size() const {
+    return is_empty() ? 0.0 : (upper - lower).norm();
+  }
 };
 
 /// Zero where the centre of the box is nearer to the origin than ten times its
@@ -33,10 +40,23 @@ struct Bounds {
 /// A length of a rigid body: sqrt(tr J / m) [m].
 [[nodiscard]] double estimate_radius(double mass, const Matrix3& J);
 
-/// Offset of all bodies at these states [m].
-[[nodiscard]] Vector3 find_offset(
-    const dynamics::SystemModel& model,
-    std::span<const dynamics::SystemState> states);
+/// Where a body of some size is at T outputs.
+struct Course {
+  double radius = 0.0;  ///< [m]
+  MatrixX p_WB;         ///< T x 3 [m]
+};
+
+/// Equation   p_WP(i) = offset + path(i) + what is drawn or stored
+struct Home {
+  Vector3 offset = Vector3::Zero();  ///< of choose_offset, for all outputs [m]
+  /// T x 3: motion that all bodies have in common, the mean of their places
+  /// less the offset; zero unless it goes 1000 times the size of the scene [m].
+  MatrixX path;
+  bool travels = false;  ///< whether the path is not zero
+};
+[[nodiscard]] Home find_home(const std::vector<Course>& courses);
+[[nodiscard]] Home find_home(const dynamics::SystemModel& model,
+                             std::span<const dynamics::SystemState> states);
 
 /// The state with its bodies moved by -offset.
 [[nodiscard]] dynamics::SystemState shift_bodies(dynamics::SystemState state,

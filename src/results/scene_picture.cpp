@@ -74,20 +74,20 @@ struct BodySolid {
   Solid solid;  // frame of the body
 };
 
-// The shapes of rigid bodies and of the world, the latter from `offset`. A body
-// without one is the ellipsoid of its inertia; planes have no end and are left
-// out.
+// The shapes of rigid bodies and of the world, the latter from the offset, and
+// left out of a scene that travels. A body without one is the ellipsoid of its
+// inertia; planes have no end and are left out.
 std::vector<BodySolid> find_solids(const SystemModel& model,
-                                   const Scenery& scenery,
-                                   const Vector3& offset) {
+                                   const Scenery& scenery, const Home& home) {
   std::vector<BodySolid> solids;
   std::vector<bool> has_shape(model.bodies.size(), false);
   for (const SceneryShape& shape : scenery.shapes) {
-    if (shape.form.kind == "plane") continue;
+    const bool is_fixed = shape.body == dynamics::kWorld;
+    if (shape.form.kind == "plane" || (is_fixed && home.travels)) continue;
     solids.push_back(
         {shape.body, place_solid(make_solid(shape.form, 1.0), shape.X_BS)});
-    if (shape.body == dynamics::kWorld) {
-      solids.back().solid.x.colwise() -= offset;
+    if (is_fixed) {
+      solids.back().solid.x.colwise() -= home.offset;
       continue;
     }
     has_shape[static_cast<std::size_t>(shape.body)] = true;
@@ -257,16 +257,19 @@ double find_scale(const Vector3& eye) {
   return kFits / (eye.z() * wide + level);
 }
 
-// "x [m]", or "x - 300000 [m]".
-std::string label_axis(char axis, double offset) {
-  if (offset == 0.0) return fmt::format("{} [m]", axis);
-  return fmt::format("{} {} {:.15g} [m]", axis, offset > 0.0 ? '-' : '+',
-                     std::abs(offset));
+// What axes count from; empty: the origin of the world.
+std::string describe_origin(const Home& home) {
+  if (home.travels) {
+    return "axes from the mean of the bodies, which travel, at each moment";
+  }
+  const Vector3& o = home.offset;
+  if (o.isZero(0.0)) return {};
+  return fmt::format("axes from ({:.15g}, {:.15g}, {:.15g}) m", o[0], o[1],
+                     o[2]);
 }
 
-void set_view(GnuplotScript& script, const Bounds& bounds,
-              const Vector3& offset, const ViewAngles& view,
-              const Vector3& eye) {
+void set_view(GnuplotScript& script, const Bounds& bounds, const Home& home,
+              const ViewAngles& view, const Vector3& eye) {
   const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
   const double half =
       std::max(0.55 * (bounds.upper - bounds.lower).maxCoeff(), 1e-6);
@@ -274,9 +277,10 @@ void set_view(GnuplotScript& script, const Bounds& bounds,
   for (int a = 0; a < 3; ++a) {
     script.add(fmt::format("set {}range [{:.9g}:{:.9g}]", axes[a],
                            center[a] - half, center[a] + half));
-    script.add(fmt::format("set {}label '{}'", axes[a],
-                           label_axis(axes[a], offset[a])));
+    script.add(fmt::format("set {}label '{} [m]'", axes[a], axes[a]));
   }
+  script.add("set label " + quote(describe_origin(home)) +
+             " at screen 0.03, screen 0.03");
   script.add("set pm3d border lc rgb '#404040' lw 0.05");
   script.add("set pm3d depthorder");
   script.add("set view equal xyz");
@@ -289,9 +293,9 @@ void set_view(GnuplotScript& script, const Bounds& bounds,
   script.add("set key at screen 0.97,0.93 right");
 }
 
-// @param shots from `offset`
+// @param shots from `home`
 std::string draw(const std::filesystem::path& file, const std::string& heading,
-                 const std::vector<Shot>& shots, const Vector3& offset) {
+                 const std::vector<Shot>& shots, const Home& home) {
   std::vector<Matrix3X> samples;
   for (const Shot& shot : shots) samples.push_back(sample(shot));
   if (shots.empty() || samples.front().cols() == 0) {
@@ -315,7 +319,7 @@ std::string draw(const std::filesystem::path& file, const std::string& heading,
         quote(shots[s].name));
   }
   script.add("set title " + quote(heading) + " font 'sans,18'");
-  set_view(script, find_bounds(shots), offset, view, eye);
+  set_view(script, find_bounds(shots), home, view, eye);
   script.add(plot);
   return script.run();
 }
@@ -351,14 +355,17 @@ std::string draw_scene(const std::filesystem::path& file,
                        const History& history, const Scenery& scenery) {
   if (history.states.empty()) return "no picture: there is no state to draw";
   const DeformationPeak peak = find_largest_deformation(model, history);
-  const Vector3 offset = find_offset(model, history.states);
-  const std::vector<BodySolid> solids = find_solids(model, scenery, offset);
+  const Home home = find_home(model, history.states);
+  const std::vector<BodySolid> solids = find_solids(model, scenery, home);
   const std::size_t end = history.states.size() - 1;
   std::vector<std::pair<std::string, SystemState>> moments;
   const auto add = [&](const char* what, std::size_t output) {
     const SystemState& state = history.states[output];
-    moments.emplace_back(fmt::format("{}, t = {:.9g} s", what, state.t),
-                         shift_bodies(state, offset));
+    moments.emplace_back(
+        fmt::format("{}, t = {:.9g} s", what, state.t),
+        shift_bodies(
+            state,
+            home.offset + home.path.row(Eigen::Index(output)).transpose()));
   };
   add("start", 0);
   if (peak.output != 0 && peak.output != end) {
@@ -384,7 +391,7 @@ std::string draw_scene(const std::filesystem::path& file,
   if (magnification != 1.0) shots = take(magnification);
   return draw(file,
               head(title, "deformation", magnification) + name_missing(model),
-              shots, offset);
+              shots, home);
 }
 
 std::string draw_displacement(const std::filesystem::path& file,
@@ -393,15 +400,15 @@ std::string draw_displacement(const std::filesystem::path& file,
                               const SystemState& start,
                               const SystemState& state, double exaggeration,
                               const Scenery& scenery) {
-  const Vector3 offset = find_offset(model, {&start, 1});
-  const std::vector<BodySolid> solids = find_solids(model, scenery, offset);
-  const SystemState from = shift_bodies(start, offset);
-  const SystemState to = shift_bodies(state, offset);
+  const Home home = find_home(model, {&start, 1});
+  const std::vector<BodySolid> solids = find_solids(model, scenery, home);
+  const SystemState from = shift_bodies(start, home.offset);
+  const SystemState to = shift_bodies(state, home.offset);
   return draw(
       file, head(title, "displacement", exaggeration) + name_missing(model),
       {take_displaced("start", model, solids, {from, from}),
        take_displaced("equilibrium", model, solids, {from, to, exaggeration})},
-      offset);
+      home);
 }
 
 std::string draw_deformation(const std::filesystem::path& file,
@@ -409,13 +416,13 @@ std::string draw_deformation(const std::filesystem::path& file,
                              const Matrix3X& u, double exaggeration) {
   Bounds bounds;
   for (const auto& p : surface.points.colwise()) bounds.include(p);
-  const Vector3 offset = choose_offset(bounds);
-  const Surface undeformed{surface.points.colwise() - offset,
+  const Home home{choose_offset(bounds), {}, false};
+  const Surface undeformed{surface.points.colwise() - home.offset,
                            surface.triangles};
   const Surface deformed{undeformed.points + exaggeration * u,
                          surface.triangles};
   return draw(file, head(title, "displacement", exaggeration),
-              {{"undeformed", {undeformed}}, {"deformed", {deformed}}}, offset);
+              {{"undeformed", {undeformed}}, {"deformed", {deformed}}}, home);
 }
 
 }  // namespace limber::results

@@ -156,7 +156,7 @@ std::vector<std::string> write_xdmf(const std::filesystem::path& file,
     return missing;
   }
   MovingSurface all = surfaces.gather(history);
-  all.offset = find_offset(model, history.states);
+  all.offset = find_home(model, history.states).offset;
   const auto at = [&](std::size_t i) {
     return shift_bodies(history.states[i], all.offset);
   };

@@ -105,7 +105,7 @@ Snapshot find_snapshot(const Body& body, const Vector3& offset, Eigen::Index i,
   return now;
 }
 
-void add_motion(const Recording& recording, const Home& home, int b,
+void add_motion(const Recording& recording, const results::Home& home, int b,
                 Extremes& extremes) {
   const Body& body = recording.bodies[std::size_t(b)];
   const Matrix3X x = gather_points(recording, b);
@@ -138,7 +138,7 @@ void add_motion(const Recording& recording, const Home& home, int b,
 
 }  // namespace
 
-Extremes calc_extremes(const Recording& recording, const Home& home) {
+Extremes calc_extremes(const Recording& recording, const results::Home& home) {
   constexpr double kFar = std::numeric_limits<double>::max();
   Extremes extremes{MatrixX::Zero(recording.times.size(), 4),
                     Vector3::Constant(kFar), Vector3::Constant(-kFar)};

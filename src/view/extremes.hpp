@@ -19,6 +19,6 @@ struct Extremes {
 
 /// Modal rates that were not recorded are differences of outputs.
 [[nodiscard]] Extremes calc_extremes(const Recording& recording,
-                                     const Home& home);
+                                     const results::Home& home);
 
 }  // namespace limber::view

@@ -370,7 +370,7 @@ class GltfWriter {
 
   const Recording& recording_;
   double magnification_;
-  Home home_;
+  results::Home home_;
   std::vector<float> times_;
   int fixed_ = 0;   // node of what does not move
   int bodies_ = 0;  // node of all bodies

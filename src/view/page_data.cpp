@@ -26,7 +26,7 @@ struct PackedSurface {
 class PageWriter {
  public:
   json write(const Recording& recording) {
-    const Home home = find_home(recording);
+    const results::Home home = find_home(recording);
     std::vector<PackedSurface> surfaces;
     json all = json::array();
     for (const Surface& surface : recording.surfaces) {
@@ -148,14 +148,15 @@ class PageWriter {
   }
 
   /// Places from the home, forces as they are.
-  static MatrixX find_touch(const Contact& contact, const Home& home) {
+  static MatrixX find_touch(const Contact& contact, const results::Home& home) {
     MatrixX touch = contact.touch;
     touch.leftCols<3>().rowwise() -= home.offset.transpose();
     touch.leftCols<3>() -= home.path;
     return touch;
   }
 
-  void add_marks(const Recording& recording, const Home& home, json& result) {
+  void add_marks(const Recording& recording, const results::Home& home,
+                 json& result) {
     for (const Shape& shape : recording.shapes) {
       const Quaternion q(shape.X_BS.R);
       json packed = {

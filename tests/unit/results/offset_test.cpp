@@ -37,10 +37,33 @@ TEST(Offset, IsTheCentreToThePowerOfTenOfTheSize) {
 
 TEST(Offset, OfARunMovesWithItsBodies) {
   test::SmallRun run = test::make_small_run();
-  EXPECT_EQ(find_offset(run.model, run.history.states), Vector3::Zero());
+  EXPECT_EQ(find_home(run.model, run.history.states).offset, Vector3::Zero());
   const Vector3 place(1e7, 0.0, -2e6);
   for (auto& state : run.history.states) state = shift_bodies(state, -place);
-  EXPECT_EQ(find_offset(run.model, run.history.states), place);
+  EXPECT_EQ(find_home(run.model, run.history.states).offset, place);
+}
+
+TEST(Offset, OfARunWithoutOutputsIsZero) {
+  const Home home = find_home(test::make_empty_run().model, {});
+  EXPECT_EQ(home.offset, Vector3::Zero());
+  EXPECT_FALSE(home.travels);
+}
+
+// Balls of radius 0.5 m, 2 m apart, are a scene of 3.3 m.
+TEST(Offset, ALongCommonMotionIsAPathOfItsOwn) {
+  MatrixX p(3, 3);
+  p << 0.0, 0.0, 0.0, 1500.0, 0.0, 0.0, 6000.0, 0.0, 0.0;
+  const MatrixX beside = p.rowwise() + Eigen::RowVector3d(0.0, 2.0, 0.0);
+  const Home home = find_home({{0.5, p}, {0.5, beside}});
+  EXPECT_TRUE(home.travels);
+  EXPECT_EQ(home.path, MatrixX(p.rowwise() + Eigen::RowVector3d(0, 1, 0)));
+  const MatrixX shorter = 0.5 * p;
+  const MatrixX beside_it =
+      shorter.rowwise() + Eigen::RowVector3d(0.0, 2.0, 0.0);
+  EXPECT_FALSE(find_home({{0.5, shorter}, {0.5, beside_it}}).travels);
+  const Home company = find_home({{0.5, p}, {0.5, MatrixX::Zero(3, 3)}});
+  EXPECT_FALSE(company.travels);
+  EXPECT_EQ(company.path, MatrixX::Zero(3, 3));
 }
 
 }  // namespace

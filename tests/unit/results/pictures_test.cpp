@@ -22,6 +22,7 @@
 namespace limber::results::pictures_test {
 namespace {
 
+using dynamics::SystemState;
 using test::make_empty_run;
 using test::make_small_run;
 using test::read_bytes;
@@ -177,6 +178,27 @@ TEST_F(Pictures, ScenesFarAwayAreThoseNearTheOriginButForLabels) {
   SmallRun other = near;
   other.history.states.resize(1);
   EXPECT_GT(test::find_different_share(expected, draw(other)), 0.01);
+}
+
+TEST_F(Pictures, ScenesThatTravelAreDrawnFromTheMeanOfTheirBodies) {
+  SmallRun still = make_small_run();
+  SmallRun fast = still;
+  const Home home = find_home(still.model, still.history.states);
+  ASSERT_FALSE(home.travels);
+  for (std::size_t i = 0; i < still.history.states.size(); ++i) {
+    SystemState& state = still.history.states[i];
+    fast.history.states[i] =
+        shift_bodies(state, -double(i) * Vector3(1e5, 0.0, 2e5));
+    Vector3 mean = Vector3::Zero();
+    for (const auto& body : state.bodies) mean += body.p_WB;
+    state = shift_bodies(state, mean / double(state.bodies.size()));
+  }
+  const auto draw = [](const SmallRun& run) {
+    return draw_pixels([&](const auto& file) {
+      return draw_scene(file, "run", run.model, run.history, {});
+    });
+  };
+  expect_same(draw(still), draw(fast));
 }
 
 TEST_F(Pictures, DisplacementsFarAwayAreThoseNearTheOriginButForLabels) {
