@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
@@ -15,6 +16,15 @@
 
 namespace limber::dynamics {
 namespace {
+
+// Number of steps of at most `longest`, but for the rounding of times.
+long count_parts(double from, double to, double longest) {
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double span =
+      to - from - kRounding * std::max(std::abs(from), std::abs(to));
+  return std::max(static_cast<long>(std::ceil(span / longest * (1.0 - 1e-12))),
+                  1L);
+}
 
 constexpr long kStepsBetweenLooks = 32;  // checks of the energy
 // Refreshes are at most this number of steps apart, which an interrupted run
@@ -203,8 +213,7 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
   origin_ = state.t;
   const double span = breakpoints_[next_].time - origin_;
   const double longest = find_longest_step(settings_, origin_);
-  parts_ = std::max(
-      static_cast<long>(std::ceil(span / longest * (1.0 - 1e-12))), 1L);
+  parts_ = count_parts(origin_, breakpoints_[next_].time, longest);
   part_ = 0;
   h_ = is_adaptive() ? control_.propose(state, span)
                      : span / static_cast<double>(parts_);

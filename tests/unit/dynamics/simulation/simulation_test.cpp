@@ -37,6 +37,22 @@ TEST(Simulation, OutputTimesAreMetExactly) {
   EXPECT_EQ(r.state.t, 0.04);
 }
 
+// A time of 1e6 s rounds to 1e-10 s, 1e-7 of the step.
+TEST(Simulation, StepsBetweenOutputsAreAsManyLateAsEarly) {
+  Chain chain = make_chain({.bodies = 1});
+  const SystemModel model = chain.builder.build();
+  for (const double start : {0.0, 1e3, 1e6}) {
+    SystemState state = chain.state;
+    state.t = start;
+    const std::vector<double> times = {start + 0.012, start + 0.024,
+                                       start + 0.036};
+    const SimulationStatistics statistics = simulate(
+        model, state,
+        {.end_time = times.back(), .step = 1e-3, .output_times = times}, {});
+    EXPECT_EQ(statistics.steps, 36) << "from " << start << " s";
+  }
+}
+
 TEST(Simulation, AHalfSineShorterThanAStepGivesItsImpulse) {
   constexpr double kMass = 2.0;        // [kg]
   constexpr double kForce = 30.0;      // [N]
