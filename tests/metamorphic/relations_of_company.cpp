@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "limber/joints/joint_kind.hpp"
+#include "metamorphic/relation.hpp"
+
+namespace limber::metamorphic {
+namespace {
+
+template <typename T>
+void shuffle(std::vector<T>& list, RandomDraw& draw) {
+  for (std::size_t i = list.size(); i > 1; --i) {
+    std::swap(list[i - 1], list[static_cast<std::size_t>(
+                               draw.integer(0, static_cast<int>(i) - 1))]);
+  }
+}
+
+std::optional<Changed> reorder(const ScenePlan& plan, RandomDraw& draw) {
+  Changed changed{.plan = plan};
+  ScenePlan& p = changed.plan;
+  std::vector<int> order(p.bodies.size());  // old indices
+  std::iota(order.begin(), order.end(), 0);
+  shuffle(order, draw);
+  std::vector<int> to(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto from = static_cast<std::size_t>(order[i]);
+    p.bodies[i] = plan.bodies[from];
+    to[from] = static_cast<int>(i);
+  }
+  for_each_frame(p, [&](FramePlan& f) {
+    if (f.body >= 0) f.body = to[static_cast<std::size_t>(f.body)];
+  });
+  shuffle(p.couplers, draw);
+  shuffle(p.loads, draw);
+  return changed;
+}
+
+// Of couplers whose law is the same from both sides, and tendons.
+std::optional<Changed> swap_frames(const ScenePlan& plan, RandomDraw&) {
+  Changed changed{.plan = plan};
+  // Implicit schemes take a wrench's mean over a step in the axes of F.
+  changed.steps = Changed::Steps::others;
+  bool has_any = false;
+  for (CouplerPlan& c : changed.plan.couplers) {
+    if (!c.is_symmetric) continue;
+    std::swap(c.F, c.M);
+    has_any = true;
+  }
+  for (PathPlan& p : changed.plan.paths) {
+    std::reverse(p.points.begin(), p.points.end());
+    has_any = true;
+  }
+  if (!has_any) return {};
+  return changed;
+}
+
+std::optional<Changed> add_twin(const ScenePlan& plan, RandomDraw&) {
+  Changed changed{.plan = plan, .energies = Changed::Energies::none};
+  changed.steps = Changed::Steps::same_without_events;
+  ScenePlan twin = plan;
+  const auto count = static_cast<int>(plan.bodies.size());
+  const Vector3 aside(0.0, 10.0 * plan.bodies[0].length, 0.0);
+  for (BodyPlan& b : twin.bodies) {
+    b.name += "_twin";
+    b.X_WB.p += aside;
+  }
+  for_each_frame(twin, [&](FramePlan& f) {
+    if (f.body < 0) {
+      f.X.p += aside;
+    } else {
+      f.body += count;
+    }
+  });
+  const auto append = [](auto& list, const auto& more) {
+    for (auto item : more) {
+      item.name += "_twin";
+      list.push_back(std::move(item));
+    }
+  };
+  for (GearPlan& g : twin.gears) {
+    for (std::string& joint : g.joints) joint += "_twin";
+  }
+  ScenePlan& p = changed.plan;
+  p.bodies.insert(p.bodies.end(), twin.bodies.begin(), twin.bodies.end());
+  append(p.couplers, twin.couplers);
+  append(p.paths, twin.paths);
+  append(p.gears, twin.gears);
+  append(p.loads, twin.loads);
+  return changed;
+}
+
+// A body of 1000 t on a spring, 1 km away. With explicit schemes only: Newton's
+// method ends for all bodies at once, at an error relative to the farthest and
+// the fastest one (newton/newton_measures.cpp, measure_roundoff and
+// measure_motion), so that a stranger changes the last digits of implicit ones.
+auto add_stranger(double speed) {
+  return
+      [=](const ScenePlan& plan, RandomDraw& draw) -> std::optional<Changed> {
+        if (dynamics::traits_of(plan.settings.integrator).is_implicit)
+          return {};
+        Changed changed{.plan = plan, .energies = Changed::Energies::none};
+        changed.steps = Changed::Steps::same_if_fixed;
+        BodyPlan body;
+        body.name = "stranger";
+        body.mass = 1e6;
+        body.length = 10.0;
+        body.X_WB.p = 1e3 * draw.direction();
+        body.v_WB_W = speed * draw.direction();
+        const auto index = static_cast<int>(plan.bodies.size());
+        CouplerPlan hold;
+        hold.name = "stranger_hold";
+        hold.F = {-1, "", body.X_WB};
+        hold.M = {index, "", {}};
+        hold.law = [](const Manner&) -> joints::CouplerLaw {
+          return joints::make_joint(
+              joints::JointKind::fixed, Vector3::UnitZ(), Vector3::UnitX(),
+              {.translational_stiffness = 1e6, .rotational_stiffness = 1e7});
+        };
+        changed.plan.bodies.push_back(std::move(body));
+        changed.plan.couplers.push_back(std::move(hold));
+        return changed;
+      };
+}
+
+std::optional<Changed> add_probes(const ScenePlan& plan, RandomDraw& draw) {
+  Changed changed{.plan = plan};
+  // Tolerances are of all attachments.
+  changed.steps = Changed::Steps::same_if_fixed;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const Vector3 place = plan.bodies[b].length * draw.direction();
+    changed.plan.probes.push_back(
+        {static_cast<int>(b), "", {draw.rotation(), place}});
+    if (plan.bodies[b].modes > 0) {
+      changed.plan.probes.push_back({static_cast<int>(b), "far", {}});
+    }
+  }
+  return changed;
+}
+
+std::optional<Changed> halve_outputs(const ScenePlan& plan, RandomDraw&) {
+  Changed changed{.plan = plan};
+  changed.steps = Changed::Steps::same_without_marks;
+  std::vector<double>& times = changed.plan.settings.output_times;
+  for (std::size_t i = 0; 2 * i < times.size(); ++i) times[i] = times[2 * i];
+  times.resize((times.size() + 1) / 2);
+  return changed;
+}
+
+}  // namespace
+
+std::vector<Relation> relations_of_company() {
+  return {{"Reordered", reorder},
+          {"SwappedFrames", swap_frames},
+          {"Twin", add_twin},
+          {"Stranger", add_stranger(10.0)},
+          {"FastStranger", add_stranger(5000.0)},
+          {"Probed", add_probes},
+          {"HalfTheOutputs", halve_outputs}};
+}
+
+}  // namespace limber::metamorphic
