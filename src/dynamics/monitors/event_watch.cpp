@@ -139,6 +139,9 @@ EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
   joints::update_memory(coupler.law, s.index, motion, memory);
   change.energy_lost -=
       joints::evaluate(coupler.law, motion, memory, now).energy;
+  // The next event of a latch, for example, uses the same switch. That of
+  // another latch, at the same time, is still to come.
+  if (is_trigger(s)) s.is_up = evaluate(s, state).value >= 0.0;
   return change;
 }
 
@@ -153,11 +156,7 @@ void EventWatch::accept() {
 }
 
 void EventWatch::accept(const SystemState& state) {
-  for (Switch& s : switches_) {
-    s.last = evaluate(s, state);
-    // The next event of a latch, for example, uses the same switch.
-    if (is_trigger(s)) s.is_up = s.last.value >= 0.0;
-  }
+  for (Switch& s : switches_) s.last = evaluate(s, state);
 }
 
 }  // namespace limber::dynamics

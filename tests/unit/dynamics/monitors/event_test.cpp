@@ -165,6 +165,32 @@ TEST_P(EventIn, ALatchIsReleasedAtItsTimeAndNeverClosesAgain) {
   EXPECT_NEAR(r.state.bodies[0].v_WB_W.x(), std::cos(0.3217), 1e-6);
 }
 
+// Of equal masses that move alike, on latches with the same limits.
+TEST_P(EventIn, LatchesThatLetGoAtOneTimeAllDo) {
+  for (const bool by_force : {true, false}) {
+    SystemBuilder builder;
+    joints::Latch::Parameters latch{.reach = 0.1, .bushing = {}};
+    latch.bushing.translational_stiffness = 200.0 * Matrix3::Identity();
+    (by_force ? latch.release_force : latch.release_time) =
+        by_force ? 12.0 : 0.03217;
+    const auto wall = builder.attach_world("wall", {});
+    for (const std::string name : {"first", "second", "third"}) {
+      builder.add_coupler(name + "_latch", joints::Latch(latch), wall,
+                          add_mass(builder, name, 2.0).frame);
+    }
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    for (BodyState& body : state.bodies) body.v_WB_W.x() = 1.0;
+    const RunOutcome r = run_from(model, state, settings(0.1, 1e-4));
+    EXPECT_EQ(r.statistics.events.size(), 6U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(r.state.memory[i].latch, joints::LatchStatus::released);
+      EXPECT_NEAR(r.state.bodies[i].v_WB_W.x(),
+                  by_force ? 0.8 : std::cos(0.3217), 1e-6);
+    }
+  }
+}
+
 TEST_P(EventIn, ASlackLineGoesTautWhereTheFallHasUsedItUp) {
   SystemBuilder builder;
   const Mass mass = add_mass(builder, "ball", 2.0);
