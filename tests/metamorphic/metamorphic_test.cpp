@@ -98,6 +98,10 @@ void add_step_error(ScenePlan plan, const Motion& first, Difference& bound) {
   bound.strain += kStepErrors * d.strain;
 }
 
+/// Scenes that found a defect: latches that open at one time (106, 124, 539),
+/// steps to a tolerance that left 1e-13 s before a mark (the others).
+constexpr unsigned kFound[] = {106, 124, 211, 514, 539, 574, 600};
+
 struct Counts {
   int compared = 0;
   int refused = 0;
@@ -152,6 +156,9 @@ class Metamorphic : public ::testing::TestWithParam<Relation> {
 TEST_P(Metamorphic, SceneMovesAsBefore) {
   const unsigned scenes = count_scenes();
   for (unsigned seed = 0; seed < scenes; ++seed) check(seed);
+  for (const unsigned seed : kFound) {
+    if (seed >= scenes) check(seed);
+  }
   RecordProperty("compared", counts_.compared);
   fmt::print("{}: {} scenes compared, {} refused, {} too sensitive\n",
              GetParam().name, counts_.compared, counts_.refused,

@@ -149,8 +149,9 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   const Losses losses_before = losses();
   const double left = mark - state.t;
   h_ = std::min(control_.propose(state, left), limit_free_step(state));
-  if (left - h_ < kSameTime * h_) h_ = left;
-  if (!(h_ > find_same_time(state.t, start_))) {
+  const double least = find_same_time(state.t, start_);
+  if (left - h_ < std::max(kSameTime * h_, least)) h_ = left;
+  if (!(h_ > least)) {
     fail(state, h_,
          fmt::format("body '{}' at t = {:.9g} s: the error of {:.3g} m that a "
                      "step may have asks for steps below {:.3g} s",
