@@ -81,10 +81,13 @@ bool has_bound(const ScenePlan& plan, const Changed& changed) {
          changed.steps == Changed::Steps::same;
 }
 
-bool has_other_steps(const Changed& changed, const Motion& first) {
+// Whether Newton's method ends within its iterations may depend on round-off.
+bool has_other_steps(const Changed& changed, const Motion& first,
+                     const Motion& other) {
   using Steps = Changed::Steps;
   const bool has_marks = first.has_events || first.has_jumps;
-  return changed.steps == Steps::others ||
+  return changed.steps == Steps::others || first.has_halved_steps ||
+         other.has_halved_steps ||
          (changed.steps == Steps::same_without_events && first.has_events) ||
          (changed.steps == Steps::same_without_marks && has_marks);
 }
@@ -127,7 +130,9 @@ class Metamorphic : public ::testing::TestWithParam<Relation> {
     for (Output& output : other.outputs) changed->undo(output);
     const Magnitude size = measure(plan, first);
     Difference bound = find_bound(plan, first, size, *changed, draw);
-    if (has_other_steps(*changed, first)) add_step_error(plan, first, bound);
+    if (has_other_steps(*changed, first, other)) {
+      add_step_error(plan, first, bound);
+    }
     if (bound.position > kMeaningful * size.length) {
       ++counts_.sensitive;
       return;

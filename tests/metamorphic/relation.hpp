@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,11 @@ struct Relation {
   /// Nothing for a scene to which the relation does not apply.
   std::function<std::optional<Changed>(const ScenePlan&, RandomDraw&)> change;
 };
+
+/// For messages of tests.
+inline void PrintTo(const Relation& relation, std::ostream* out) {
+  *out << relation.name;
+}
 
 /// Those of place, velocity, time and units.
 [[nodiscard]] std::vector<Relation> relations_of_frame();

@@ -112,6 +112,7 @@ Motion run(const ScenePlan& plan) {
           motion.outputs.push_back(observe(scene.model, state, energy));
         });
     motion.steps = statistics.steps;
+    motion.has_halved_steps = statistics.halved_steps > 0;
     motion.has_events = !statistics.events.empty();
     motion.has_jumps = has_break(scene);
   } catch (const InputError& error) {

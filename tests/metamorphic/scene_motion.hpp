@@ -30,8 +30,9 @@ struct Motion {
   std::vector<Output> outputs;
   long steps = 0;  ///< count
   bool has_events = false;
-  bool has_jumps = false;  ///< of a load or command, within the run
-  std::string refusal;     ///< the message, if the run did not finish
+  bool has_halved_steps = false;  ///< which Newton's method did not end
+  bool has_jumps = false;         ///< of a load or command, within the run
+  std::string refusal;            ///< the message, if the run did not finish
 };
 
 [[nodiscard]] Motion run(const ScenePlan& plan);
