@@ -56,7 +56,7 @@ void print_tolerance(const Run& run) {
         chosen);
     return;
   }
-  fmt::print("error   aimed at by each step: tolerance {:.3g} m{}\n", tolerance,
+  fmt::print("error   shared by all steps: tolerance {:.3g} m{}\n", tolerance,
              chosen);
 }
 
