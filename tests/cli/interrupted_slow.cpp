@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/run_summary.hpp"
 #include "cli/shell.hpp"
 #include "places.hpp"
 
@@ -27,16 +28,6 @@ using std::chrono::steady_clock;
 // kind, and a mesh of 24 mm bars (tests/data/zoo).
 const std::string kZoo =
     "run '" LIMBER_SOURCE_DIR "/tests/data/zoo/s.toml' --out ";
-
-nlohmann::json read_summary(const fs::path& folder) {
-  nlohmann::json summary =
-      nlohmann::json::parse(read_text(folder / "summary.json"));
-  for (const char* cost : {"seconds_offline", "seconds_online",
-                           "bodies_reduced", "bodies_cached"}) {
-    EXPECT_EQ(summary.erase(cost), 1U) << cost;
-  }
-  return summary;
-}
 
 struct Whole {
   duration<double> time = {};

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/run_summary.hpp"
 #include "cli/shell.hpp"
 #include "places.hpp"
 
@@ -137,17 +138,6 @@ TEST_F(KilledRunOfASled, IsReportedByInfo) {
   const CommandResult result = place_.limber("info out/checkpoint.bin");
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("checkpoint"));
-}
-
-/// What a run's summary says, but for how long it took.
-nlohmann::json read_summary(const fs::path& folder) {
-  nlohmann::json summary =
-      nlohmann::json::parse(read_text(folder / "summary.json"));
-  for (const char* cost : {"seconds_offline", "seconds_online",
-                           "bodies_reduced", "bodies_cached"}) {
-    EXPECT_EQ(summary.erase(cost), 1U) << cost;
-  }
-  return summary;
 }
 
 // It starts far beyond linear elasticity, and swings.
