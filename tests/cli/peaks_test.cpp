@@ -102,7 +102,7 @@ TEST(Peaks, StandInTheTextWithTheirTime) {
 /// One rigid link on a hinge, released horizontally; 0.09 s are long for its
 /// swing.
 void write_pendulum(const Workspace& place, const std::string& integrator,
-                    double step) {
+                    double step, const std::string& more = "") {
   place.write(
       "pendulum.urdf",
       "<robot name='p'><link name='world'/><link name='arm'><inertial>"
@@ -114,8 +114,8 @@ void write_pendulum(const Workspace& place, const std::string& integrator,
               fmt::format("robot = 'pendulum.urdf'\n[time]\nduration = 20\n"
                           "step = {}\nintegrator = '{}'\noutput_interval = 5\n"
                           "[gravity]\nacceleration = [0, 0, -9.81]\n"
-                          "[output]\npictures = false\n",
-                          step, integrator));
+                          "[output]\npictures = false\n{}",
+                          step, integrator, more));
 }
 
 TEST(EnergyWarning, TellsWhatImplicitEulerTakesFromAPendulum) {
@@ -131,6 +131,25 @@ TEST(EnergyWarning, TellsWhatImplicitEulerTakesFromAPendulum) {
   EXPECT_GT(summary["energy"]["open_share"], 0.99);
   EXPECT_EQ(summary["energy"]["place"], "body 'arm'");
   EXPECT_THAT(summary["warnings"].dump(), HasSubstr("nothing accounts for"));
+}
+
+// A ton that falls for 20 s 1 km away has 1.9e7 J, the pendulum 5.
+TEST(EnergyWarning, IsNotSilencedByABodyThatFallsFarAway) {
+  const Workspace place;
+  write_pendulum(place, "implicit-euler", 0.09,
+                 "[[projectile]]\nname = 'stone'\nradius = 1.0\n"
+                 "mass = 1000.0\nposition = [1000.0, 0.0, 0.0]\n");
+  const CommandResult result = place.limber("run p.toml --out o --json");
+  EXPECT_THAT(result.errors, HasSubstr("body 'arm'"));
+  const json energy = json::parse(result.out, nullptr, false)["energy"];
+  EXPECT_GT(energy["throughput"], 1e7);
+  EXPECT_GT(energy["open_share"], 0.99);
+  double errors = 0.0;
+  for (const json& row : energy["rows"]) {
+    if (row["name"] != "body 'stone'") errors += row["error"].get<double>();
+  }
+  // It hangs at rest, 0.5 m lower.
+  EXPECT_NEAR(errors, -0.5 * 9.81, 0.05);
 }
 
 TEST(EnergyWarning, IsNotGivenWhereStepsAreShort) {

@@ -78,7 +78,7 @@ Audit audit(const scene::Scene& scene) {
   const dynamics::EnergyRecord& energy = run.record.energy;
   return {
       results::audit_energy(run.history).relative_largest().value_or(1.0),
-      std::abs(energy.drift.value) / energy.throughput,
+      std::abs(energy.worst.drift.value) / energy.worst.throughput,
       std::any_of(events.begin(), events.end(), [](const dynamics::Event& e) {
         return e.what == "latched";
       })};

@@ -20,7 +20,7 @@ namespace {
 
 /// Addition to a picture's title if energy was gained or lost.
 std::string describe_open(const Run& run) {
-  const dynamics::EnergyRecord& energy = run.record.energy;
+  const dynamics::EnergyDrift& energy = run.record.energy.worst;
   const double share = dynamics::find_open_share(energy);
   if (!(share > dynamics::kToldDrift)) return "";
   return fmt::format(" ({:.2g} % open at {:.4g} s, most in {})", 100.0 * share,

@@ -23,11 +23,13 @@ std::string describe_drift(const Run& run) {
   const results::EnergyAudit audit = results::audit_energy(run.history);
   const std::optional<double> relative = audit.relative();
   if (!relative) return "";
-  const dynamics::Extreme& largest = run.record.energy.drift;
-  return fmt::format(
-      "; drift {:.2g} J, {:.1e} of the throughput, at most {:.1e} at {:.4g} s",
-      audit.drift, *relative, std::abs(largest.value) / audit.throughput,
-      largest.time);
+  const dynamics::EnergyDrift& worst = run.record.energy.worst;
+  std::string text = fmt::format("; drift {:.2g} J, {:.1e} of the throughput",
+                                 audit.drift, *relative);
+  if (!(worst.throughput > 0.0)) return text;
+  return text + fmt::format(", at most {:.1e} at {:.4g} s",
+                            std::abs(worst.drift.value) / worst.throughput,
+                            worst.drift.time);
 }
 
 void print_probes(const results::History& history,

@@ -62,6 +62,19 @@ Json describe_extreme(const dynamics::Extreme& extreme) {
   return Json{{"value", extreme.value}, {"time", extreme.time}};
 }
 
+Json describe_rows(const std::vector<dynamics::EnergyRow>& rows) {
+  Json json = Json::array();
+  for (const dynamics::EnergyRow& row : rows) {
+    json.push_back({{"name", row.name},
+                    {"stored", row.stored},
+                    {"in", row.in},
+                    {"out", row.out},
+                    {"lost", row.dissipated},
+                    {"error", row.error}});
+  }
+  return json;
+}
+
 Json summarize_energy(const results::History& history,
                       const dynamics::EnergyRecord& record) {
   Json json = Json::object();
@@ -76,9 +89,10 @@ Json summarize_energy(const results::History& history,
   const std::optional<double> relative = audit.relative();
   json["relative_drift"] = relative ? Json(*relative) : Json(nullptr);
   json["largest_drift"] = describe_extreme(record.drift);
-  json["open_share"] = dynamics::find_open_share(record);
-  json["place"] = record.place;
-  json["place_share"] = record.share;
+  json["open_share"] = dynamics::find_open_share(record.worst);
+  json["place"] = record.worst.place;
+  json["place_share"] = record.worst.share;
+  json["rows"] = describe_rows(record.rows);
   json["peaks"] = {{"stored", describe_extreme(record.stored)},
                    {"kinetic", describe_extreme(record.kinetic)},
                    {"elastic", describe_extreme(record.elastic)},

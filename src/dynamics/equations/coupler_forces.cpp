@@ -54,8 +54,6 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
   out.motion = relate(frame_motion(terms.attachments[index(coupler.frame_F)]),
                       frame_motion(terms.attachments[index(coupler.frame_M)]));
   out.response = joints::evaluate(coupler.law, out.motion, memory, now);
-  terms.dissipated_power += out.response.dissipation;
-  terms.load_power += out.response.supplied;
   if (source == WrenchSource::law) out.applied = out.response.wrench;
   add_pair(model, coupler, out.applied, out.motion.p_FM_F, terms);
 }
@@ -67,8 +65,6 @@ void apply_transmission(const SystemModel& model, const SystemState& state,
                         TransmissionTerms& out) {
   calc_coordinate(model, state, transmission, terms, out);
   out.response = evaluate_laws(transmission, out.motion, memory, now);
-  terms.dissipated_power += out.response.dissipation;
-  terms.load_power += out.response.supplied;
   if (source == WrenchSource::law) out.applied = out.response.force;
   if (const auto* path =
           std::get_if<PathCoordinate>(&transmission.coordinate)) {

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/equations/energy.hpp"
 
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/full_energy.hpp"
 #include "limber/dynamics/equations/maxwell.hpp"
 
 namespace limber::dynamics {
 
-double find_elastic_energy(const SystemModel& model, const SystemState& state,
-                           const SystemTerms& terms) {
-  double elastic = 0.0;
-  for (const BodyModel& body : model.bodies) {
-    elastic +=
-        flexbody::calc_elastic_energy(
-            body.elasticity, state.eta.segment(body.offset, body.modes)) +
-        find_maxwell_energy(body, state.maxwell);
-  }
-  for (const FullTerms& full : terms.full) elastic += full.strain_energy;
-  return elastic;
+double find_elastic_energy(const SystemModel& model, std::size_t body,
+                           const SystemState& state, const SystemTerms& terms) {
+  const BodyModel& b = model.bodies[body];
+  if (b.full >= 0) return terms.full[index(b.full)].strain_energy;
+  return flexbody::calc_elastic_energy(b.elasticity,
+                                       state.eta.segment(b.offset, b.modes)) +
+         find_maxwell_energy(b, state.maxwell);
 }
 
 EnergyBalance calc_energy(const SystemModel& model, const SystemState& state) {
@@ -29,8 +26,8 @@ EnergyBalance calc_energy(const SystemModel& model, const SystemState& state,
                           SystemTerms& terms) {
   calc_terms(model, state, Side::right, terms);
   EnergyBalance balance;
-  balance.elastic = find_elastic_energy(model, state, terms);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    balance.elastic += find_elastic_energy(model, b, state, terms);
     const BodyModel& body = model.bodies[b];
     const BodyState& rigid = state.bodies[b];
     const BodyTerms& t = terms.bodies[b];

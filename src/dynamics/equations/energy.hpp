@@ -7,9 +7,10 @@
 
 namespace limber::dynamics {
 
-/// Elastic energy of all bodies: of their modes, of the Maxwell elements on
-/// these, and of unreduced ones [J]. @param terms at `state`
+/// Elastic energy of a body: of its modes and the Maxwell elements on these, or
+/// of an unreduced one [J]. @param terms at `state`
 [[nodiscard]] double find_elastic_energy(const SystemModel& model,
+                                         std::size_t body,
                                          const SystemState& state,
                                          const SystemTerms& terms);
 

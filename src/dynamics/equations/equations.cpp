@@ -74,20 +74,19 @@ void set_coupled_terms(const BodyModel& body, const SystemState& state,
 void apply_to_undeformed(const BodyModel& body, const Attachment& attachment,
                          const SystemState& state, const BodyState& rigid,
                          const Vector3& force_B, const Vector3& moment_B,
-                         BodyTerms& t, SystemTerms& terms) {
+                         BodyTerms& t) {
   for (int k = 0; k < body.modes; ++k) {
     const double force = attachment.Phi_B.col(k).dot(force_B) +
                          attachment.Psi_B.col(k).dot(moment_B);
     t.modal_force[k] += force;
-    terms.load_power += force * state.etadot[body.offset + k];
+    t.supplied += force * state.etadot[body.offset + k];
   }
   if (body.clamped) return;
   const Vector3 force_W = t.R_WB * force_B;
   const Vector3 about_center = attachment.p_BF.cross(force_B) + moment_B;
   t.force_W += force_W;
   t.moment_B += about_center;
-  terms.load_power +=
-      force_W.dot(rigid.v_WB_W) + about_center.dot(rigid.w_WB_B);
+  t.supplied += force_W.dot(rigid.v_WB_W) + about_center.dot(rigid.w_WB_B);
 }
 
 void apply_load(const SystemModel& model, const SystemState& state,
@@ -107,14 +106,14 @@ void apply_load(const SystemModel& model, const SystemState& state,
     const Matrix3 R = load.in_world ? Matrix3(t.R_WB.transpose())
                                     : Matrix3(Matrix3::Identity());
     apply_to_undeformed(body, attachment, state, state.bodies[b], R * force,
-                        R * moment, t, terms);
+                        R * moment, t);
     return;
   }
   const AttachmentMotion& motion = terms.attachments[i];
   const Vector3 force_W = load.in_world ? force : t.R_WB * force;
   const Vector3 moment_W = load.in_world ? moment : t.R_WB * moment;
   add_wrench(model, load.where, force_W, moment_W, terms);
-  terms.load_power += force_W.dot(motion.v_WF_W) + moment_W.dot(motion.w_WF_W);
+  t.supplied += force_W.dot(motion.v_WF_W) + moment_W.dot(motion.w_WF_W);
 }
 
 void apply_body_load(const SystemModel& model, const SystemState& state,
@@ -139,72 +138,68 @@ void apply_body_load(const SystemModel& model, const SystemState& state,
           history.moment_by_mode.col(first + k) * state.eta[body.offset + k];
     }
     t.modal_force[k] += history.modal(k, i);
-    terms.load_power += history.modal(k, i) * state.etadot[body.offset + k];
+    t.supplied += history.modal(k, i) * state.etadot[body.offset + k];
   }
   const double* eta = state.eta.data() + body.offset;
   const double* etadot = state.etadot.data() + body.offset;
-  flexbody::for_each_product(
-      paired_of(body), [&](Eigen::Index pair, int k, int l, bool is_square) {
-        const double force = history.modal(body.modes + pair, i);
-        terms.products[b].force[pair] += force;
-        moment_B += history.moment_by_mode.col(first + body.modes + pair) *
-                    ((is_square ? 0.5 : 1.0) * eta[k] * eta[l]);
-        terms.load_power +=
-            force * (is_square ? eta[k] * etadot[k]
-                               : eta[k] * etadot[l] + eta[l] * etadot[k]);
-      });
+  flexbody::for_each_product(paired_of(body), [&](Eigen::Index pair, int k,
+                                                  int l, bool is_square) {
+    const double force = history.modal(body.modes + pair, i);
+    terms.products[b].force[pair] += force;
+    moment_B += history.moment_by_mode.col(first + body.modes + pair) *
+                ((is_square ? 0.5 : 1.0) * eta[k] * eta[l]);
+    t.supplied += force * (is_square ? eta[k] * etadot[k]
+                                     : eta[k] * etadot[l] + eta[l] * etadot[k]);
+  });
   if (body.clamped) return;
   t.force_W += force_W;
   t.moment_B += moment_B;
-  terms.load_power += force_W.dot(rigid.v_WB_W) + moment_B.dot(rigid.w_WB_B);
+  t.supplied += force_W.dot(rigid.v_WB_W) + moment_B.dot(rigid.w_WB_B);
 }
 
 // Gravity deforms a clamped body; it only accelerates a free one.
 void add_gravity_on_modes(const SystemModel& model, const BodyModel& body,
                           const SystemState& state, BodyTerms& t,
-                          ProductTerms& products, SystemTerms& terms) {
+                          ProductTerms& products) {
   if (model.gravity_W.isZero(0.0)) return;
   const Vector3 gravity_B = t.R_WB.transpose() * model.gravity_W;
   for (int k = 0; k < body.modes; ++k) {
     const double force = body.P.col(k).dot(gravity_B);
     t.modal_force[k] += force;
-    terms.load_power += force * state.etadot[body.offset + k];
+    t.supplied += force * state.etadot[body.offset + k];
   }
   const double* eta = state.eta.data() + body.offset;
   const double* etadot = state.etadot.data() + body.offset;
-  flexbody::for_each_product(
-      paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
-        const double force = body.P.col(body.modes + pair).dot(gravity_B);
-        products.force[pair] += force;
-        terms.load_power +=
-            force * (is_square ? eta[i] * etadot[i]
-                               : eta[i] * etadot[j] + eta[j] * etadot[i]);
-      });
+  flexbody::for_each_product(paired_of(body), [&](Eigen::Index pair, int i,
+                                                  int j, bool is_square) {
+    const double force = body.P.col(body.modes + pair).dot(gravity_B);
+    products.force[pair] += force;
+    t.supplied += force * (is_square ? eta[i] * etadot[i]
+                                     : eta[i] * etadot[j] + eta[j] * etadot[i]);
+  });
 }
 
 void reset_forces(const SystemModel& model, const SystemState& state,
                   SystemTerms& terms) {
-  terms.load_power = 0.0;
-  terms.dissipated_power = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     BodyTerms& t = terms.bodies[b];
+    t.supplied = t.dissipated = 0.0;
     t.force_W.setZero();
     if (body.has_rigid_motion()) {
       t.force_W = body.mass * model.gravity_W;
-      terms.load_power += t.force_W.dot(state.bodies[b].v_WB_W);
+      t.supplied += t.force_W.dot(state.bodies[b].v_WB_W);
     }
     t.moment_B.setZero();
     t.modal_force.setZero();
     terms.products[b].force.setZero();
     if (body.clamped && body.modes > 0) {
-      add_gravity_on_modes(model, body, state, t, terms.products[b], terms);
+      add_gravity_on_modes(model, body, state, t, terms.products[b]);
     }
     if (body.modes > 0) {
       const ConstModes etadot = modes_of(body, state.etadot);
-      terms.dissipated_power +=
-          (body.damping.array() * etadot.array().square()).sum() +
-          find_maxwell_loss(body, state.maxwell);
+      t.dissipated += (body.damping.array() * etadot.array().square()).sum() +
+                      find_maxwell_loss(body, state.maxwell);
     }
   }
   reset_full_forces(model, state, terms);

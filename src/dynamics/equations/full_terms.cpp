@@ -21,7 +21,7 @@ void add_damping(const SystemModel& model, const FullModel& full,
     t.scratch.col(i) = R_BH * relative;
   }
   t.modal_rate.noalias() = full.damped_modes.transpose() * t.scratch.reshaped();
-  terms.dissipated_power +=
+  terms.bodies[index(full.body)].dissipated +=
       (full.damping.array() * t.modal_rate.array().square()).sum();
   t.modal_rate.array() *= full.damping.array();
   t.scratch.reshaped().noalias() = full.damped_modes * t.modal_rate;
@@ -65,7 +65,7 @@ void reset_full_forces(const SystemModel& model, const SystemState& state,
     if (model.gravity_W.isZero(0.0)) continue;
     const Vector3 gravity_H = state.X_WH[f].R.transpose() * model.gravity_W;
     t.force.noalias() += gravity_H * full.mesh->node_mass.transpose();
-    terms.load_power +=
+    terms.bodies[index(full.body)].supplied +=
         gravity_H.dot(nodes_of(full, state.udot_H) * full.mesh->node_mass);
   }
 }
@@ -90,7 +90,7 @@ void add_full_nodal_load(const SystemModel& model, const BodyLoad& load,
   for (Eigen::Index n = 0; n < udot.cols(); ++n) {
     const Vector3 force = t.frame.R_HB * pattern.col(n);
     t.force.col(n) += force;
-    terms.load_power += force.dot(udot.col(n));
+    terms.bodies[index(load.body)].supplied += force.dot(udot.col(n));
   }
 }
 

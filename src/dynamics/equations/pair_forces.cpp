@@ -300,7 +300,6 @@ void apply_pairs(const SystemModel& model, const SystemState& state,
       pair.law->evaluate(bodies, now, memory_of(pair, state), response);
       check_finite(response);
     });
-    terms.dissipated_power += response.dissipation;
     for (joints::PairPoint& point : response.points()) {
       point.acting = {find_arm(bodies.A, point.on_A),
                       find_arm(bodies.B, point.on_B)};

@@ -18,14 +18,16 @@ namespace limber::dynamics {
 ///            J w' + H eta''         = t_B - bias_r
 ///            H' w' + eta''          = q - bias_e
 struct BodyTerms {
-  Matrix3 R_WB;         ///< [-]
-  Matrix3 J;            ///< inertia at the level's fidelity [kg m^2]
-  Matrix3X H;           ///< 3 x m, sum_k eta_k beta_kl [kg^1/2 m]
-  Vector3 bias_r;       ///< Jdot w + w x (J w + H etadot) [N m]
-  VectorX bias_e;       ///< inertial, damping and elastic terms [kg^-1/2 N]
-  Vector3 force_W;      ///< resultant of loads and couplers [N]
-  Vector3 moment_B;     ///< about Bo [N m]
-  VectorX modal_force;  ///< m [kg^-1/2 N]
+  Matrix3 R_WB;             ///< [-]
+  Matrix3 J;                ///< inertia at the level's fidelity [kg m^2]
+  Matrix3X H;               ///< 3 x m, sum_k eta_k beta_kl [kg^1/2 m]
+  Vector3 bias_r;           ///< Jdot w + w x (J w + H etadot) [N m]
+  VectorX bias_e;           ///< inertial, damping and elastic terms [kg^-1/2 N]
+  Vector3 force_W;          ///< resultant of loads and couplers [N]
+  Vector3 moment_B;         ///< about Bo [N m]
+  VectorX modal_force;      ///< m [kg^-1/2 N]
+  double supplied = 0.0;    ///< power of loads and gravity on it [W]
+  double dissipated = 0.0;  ///< by its damping [W]
   /// m x m derivative of the elastic force by the modes, for NewtonMatrix,
   /// which fills it but over a step; empty if elasticity is diagonal
   /// [rad^2/s^2].
@@ -104,9 +106,7 @@ struct SystemTerms {
   std::vector<CouplerTerms> couplers;            ///< by calc_forces
   std::vector<TransmissionTerms> transmissions;  ///< by calc_forces
   PairTerms pairs;                               ///< by calc_forces
-  double load_power = 0.0;  ///< of loads, gravity, drives [W], calc_forces
-  double dissipated_power = 0.0;  ///< couplers, pairs, modes [W], calc_forces
-  std::vector<ProductTerms> products;  ///< one a body, by calc_forces
+  std::vector<ProductTerms> products;            ///< one a body, by calc_forces
 };
 
 /// Accelerations of all bodies.

@@ -14,6 +14,8 @@ CentralDifferences::CentralDifferences(const SystemModel& model)
       terms_(make_terms(model)),
       a_(make_accelerations(model)),
       a_next_(make_accelerations(model)),
+      power_(make_flows(model)),
+      flows_(power_),
       next_(make_state(model)),
       maxwell_(model, flexbody::set_linear_step) {}
 
@@ -21,13 +23,13 @@ void CentralDifferences::start(const SystemState& state, double /*h*/) {
   next_ = state;
   calc_terms(model_, state, Side::right, terms_);
   solve_accelerations(model_, terms_, a_);
-  power_load_ = terms_.load_power;
-  power_loss_ = terms_.dissipated_power;
+  power_.clear();
+  add_powers(terms_, 1.0, power_);
 }
 
 void CentralDifferences::exchange_memory(Archive& archive,
                                          const SystemState& state) {
-  archive(a_, power_load_, power_loss_);
+  archive(a_, power_.supplied, power_.dissipated);
   if (archive.reads()) next_ = state;
 }
 
@@ -70,10 +72,12 @@ StepResult CentralDifferences::step(SystemState& state, double h, double end) {
   next_.etadot += 0.5 * h * (a_next_.etaddot - a_.etaddot);
   next_.udot_H += 0.5 * h * (a_next_.uddot_H - a_.uddot_H);
   StepResult result;
-  result.load_work = 0.5 * h * (power_load_ + terms_.load_power);
-  result.dissipated = 0.5 * h * (power_loss_ + terms_.dissipated_power);
-  power_load_ = terms_.load_power;
-  power_loss_ = terms_.dissipated_power;
+  flows_.supplied = 0.5 * h * power_.supplied;
+  flows_.dissipated = 0.5 * h * power_.dissipated;
+  add_powers(terms_, 0.5 * h, flows_);
+  set_work(flows_, result);
+  power_.clear();
+  add_powers(terms_, 1.0, power_);
   std::swap(a_, a_next_);
   std::swap(state, next_);
   return result;

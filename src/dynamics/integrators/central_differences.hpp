@@ -31,6 +31,7 @@ class CentralDifferences final : public Integrator {
   StepResult step(SystemState& state, double h, double end) override;
   void exchange_memory(Archive& archive, const SystemState& state) override;
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
+  [[nodiscard]] const EnergyFlows& flows() const override { return flows_; }
 
  private:
   void displace(const SystemState& from, double h, double end);
@@ -39,8 +40,8 @@ class CentralDifferences final : public Integrator {
   SystemTerms terms_;
   Accelerations a_;
   Accelerations a_next_;
-  double power_load_ = 0.0;
-  double power_loss_ = 0.0;
+  EnergyFlows power_;  // at the end of the last step [W]
+  EnergyFlows flows_;
   SystemState next_;
   MaxwellMotion maxwell_;
 };

@@ -91,15 +91,13 @@ double DamperWork::find_correction(const Link& first, const Link& last,
   return std::max(by_path - by_power, -0.5 * h * (first.power + last.power));
 }
 
-double DamperWork::advance(const SystemState& from, const SystemState& to,
-                           const SystemTerms& terms, double h) {
+void DamperWork::advance(const SystemState& from, const SystemState& to,
+                         const SystemTerms& terms, double h, VectorX& losses) {
   now_.swap(before_);
   start(terms);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    sum += find_correction(before_[i], now_[i], h);
-  }
+  Eigen::Index row = 0;
   for (const BodyModel& body : model_.bodies) {
+    double& sum = losses[row++];
     for (Eigen::Index k = 0; k < body.modes; ++k) {
       const Eigen::Index i = body.offset + k;
       const double v0 = from.etadot[i];
@@ -110,7 +108,9 @@ double DamperWork::advance(const SystemState& from, const SystemState& to,
     }
     sum += find_maxwell_correction(body, from, to, h);
   }
-  return sum;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    losses[row++] += find_correction(before_[i], now_[i], h);
+  }
 }
 
 }  // namespace limber::dynamics

@@ -37,10 +37,11 @@ class DamperWork {
   /// Sets the terms at the beginning of the next step.
   void start(const SystemTerms& terms);
   /// Accounts for a step of `h` [s] from `from` to `to`, where `terms` apply;
-  /// the next step begins there. @returns the correction to add to the
-  /// trapezoidal rule [J]
-  double advance(const SystemState& from, const SystemState& to,
-                 const SystemTerms& terms, double h);
+  /// the next step begins there.
+  /// @param losses by the trapezoidal rule, in the rows of EnergyRows, to which
+  /// corrections are added [J]
+  void advance(const SystemState& from, const SystemState& to,
+               const SystemTerms& terms, double h, VectorX& losses);
   /// Reverts the last advance().
   void undo() { now_.swap(before_); }
 

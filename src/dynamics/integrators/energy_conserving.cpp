@@ -58,6 +58,7 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       end_(make_terms(model)),
       mean_(make_terms(model)),
       motion_(make_step_motion(model)),
+      flows_(make_flows(model)),
       maxwell_(model, flexbody::set_middle_step),
       elastic_(VectorX::Zero(model.modal_count)),
       middle_(make_state(model)),
@@ -366,8 +367,9 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
         contraction > (result.factorizations > 0 ? kPoorFreshContraction
                                                  : kPoorStepContraction);
   }
-  result.load_work = h * mean_.load_power;
-  result.dissipated = h * mean_.dissipated_power;
+  flows_.clear();
+  add_powers(mean_, h, flows_);
+  set_work(flows_, result);
   std::swap(state, next_);
   return result;
 }

@@ -57,6 +57,7 @@ class EnergyConserving final : public Integrator {
   }
   [[nodiscard]] long take_solves() override { return matrix_.take_solves(); }
   [[nodiscard]] const SystemTerms& terms() const override { return end_; }
+  [[nodiscard]] const EnergyFlows& flows() const override { return flows_; }
 
  private:
   struct Size {
@@ -88,6 +89,7 @@ class EnergyConserving final : public Integrator {
   SystemTerms mean_;
   bool has_wrenches_ = false;
   StepMotion motion_;
+  EnergyFlows flows_;
   MaxwellMotion maxwell_;
   VectorX elastic_;     // of modes that elasticity couples: at the begin, e_k
   SystemState middle_;  // velocities and eta; its positions are not used

@@ -12,6 +12,7 @@ ExplicitEuler::ExplicitEuler(const SystemModel& model)
       terms_(make_terms(model)),
       accelerations_(make_accelerations(model)),
       next_(make_state(model)),
+      flows_(make_flows(model)),
       modes_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
@@ -21,8 +22,9 @@ StepResult ExplicitEuler::step(SystemState& state, double h, double end) {
   calc_terms(model_, state, Side::right, terms_);
   solve_accelerations(model_, terms_, accelerations_);
   StepResult result;
-  result.load_work = h * terms_.load_power;
-  result.dissipated = h * terms_.dissipated_power;
+  flows_.clear();
+  add_powers(terms_, h, flows_);
+  set_work(flows_, result);
   next_ = state;
   next_.t = end;
   modes_.add_own_forces(state, accelerations_.etaddot);

@@ -26,12 +26,14 @@ class ExplicitEuler final : public Integrator {
                        const SystemState& /*state*/) override {}
 
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
+  [[nodiscard]] const EnergyFlows& flows() const override { return flows_; }
 
  private:
   const SystemModel& model_;
   SystemTerms terms_;
   Accelerations accelerations_;  // of modes: the loads on them
   SystemState next_;
+  EnergyFlows flows_;
   FreeVibration modes_;  // over a step
 };
 

@@ -8,14 +8,13 @@
 namespace limber::dynamics {
 namespace {
 
-/// sum_j g_j d_j^2 / tau_j^power of a mode.
+/// sum_j g_j d_j^2 of a mode.
 template <typename Mode>
-double sum_elements(const Mode& mode, const SystemState& state, int power) {
+double sum_elements(const Mode& mode, const SystemState& state) {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < mode.elements->size(); ++j) {
     const double d = state.maxwell[mode.first + j * mode.stride];
-    const double weight = power == 0 ? 1.0 : 1.0 / mode.elements->times[j];
-    sum += mode.elements->strengths[j] * weight * d * d;
+    sum += mode.elements->strengths[j] * d * d;
   }
   return sum;
 }
@@ -25,8 +24,8 @@ template <typename Mode>
 double find_energy(const Mode& mode, const SystemState& state) {
   const double q = state.eta[mode.index];
   const double v = state.etadot[mode.index];
-  return 0.5 * (v * v + mode.oscillator.lambda() *
-                            (q * q + sum_elements(mode, state, 0)));
+  return 0.5 * (v * v +
+                mode.oscillator.lambda() * (q * q + sum_elements(mode, state)));
 }
 
 }  // namespace
@@ -38,16 +37,18 @@ FreeVibration::Workspace::Workspace(Eigen::Index elements)
       exponential(elements + 3) {}
 
 FreeVibration::FreeVibration(const SystemModel& model) {
-  for (const BodyModel& body : model.bodies) add_body(body);
+  for (Eigen::Index b = 0; b < std::ssize(model.bodies); ++b) {
+    add_body(model.bodies[index(b)], b);
+  }
 }
 
-void FreeVibration::add_body(const BodyModel& body) {
+void FreeVibration::add_body(const BodyModel& body, Eigen::Index index) {
   const VectorX& lambda = flexbody::rest_stiffness(body.elasticity);
   const Eigen::Index elements = body.maxwell.size();
   for (int k = 0; k < body.modes; ++k) {
     modes_.push_back({flexbody::ModalOscillator(lambda[k], body.damping[k]),
-                      &body.maxwell, body.offset + k, body.maxwell_offset + k,
-                      body.modes});
+                      &body.maxwell, index, body.offset + k,
+                      body.maxwell_offset + k, body.modes});
     if (elements > 0) modes_.back().flow.resize(elements + 2, elements + 3);
   }
   while (std::ssize(workspaces_) <= elements) {
@@ -123,16 +124,14 @@ void FreeVibration::move(Mode& mode, double load, SystemState& state) {
                              r.keep * etadot + r.impulse * load;
 }
 
-double FreeVibration::move(SystemState& state) {
-  double lost = 0.0;
+void FreeVibration::move(SystemState& state, VectorX& losses) {
   for (Mode& mode : modes_) {
     const bool is_damped =
         mode.oscillator.damping() > 0.0 || mode.elements->size() > 0;
     const double before = is_damped ? find_energy(mode, state) : 0.0;
     move(mode, 0.0, state);
-    if (is_damped) lost += before - find_energy(mode, state);
+    if (is_damped) losses[mode.body] += before - find_energy(mode, state);
   }
-  return lost;
 }
 
 void FreeVibration::move(const VectorX& loads, SystemState& state) {
@@ -150,16 +149,6 @@ void FreeVibration::add_own_forces(const SystemState& state,
     etaddot[mode.index] += mode.oscillator.lambda() * stretch +
                            mode.oscillator.damping() * state.etadot[mode.index];
   }
-}
-
-double FreeVibration::find_loss(const SystemState& state) const {
-  double loss = 0.0;
-  for (const Mode& mode : modes_) {
-    const double rate = state.etadot[mode.index];
-    loss += mode.oscillator.damping() * rate * rate +
-            mode.oscillator.lambda() * sum_elements(mode, state, 1);
-  }
-  return loss;
 }
 
 }  // namespace limber::dynamics

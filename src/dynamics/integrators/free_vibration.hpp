@@ -26,21 +26,21 @@ class FreeVibration {
   void set_time(double time);
   [[nodiscard]] double time() const { return time_; }  ///< [s]
 
-  /// Moves modes and elements without a load. @returns the energy lost [J]
-  double move(SystemState& state);
+  /// Moves modes and elements without a load, and adds the energy that each
+  /// body loses. @param losses of at least all bodies [J]
+  void move(SystemState& state, VectorX& losses);
   /// The same with constant loads. @param loads f of all modes [kg^-1/2 N]
   void move(const VectorX& loads, SystemState& state);
 
   /// Adds c q' + lambda (q + sum_j g_j d_j), which makes the acceleration of a
   /// mode the load on it.
   void add_own_forces(const SystemState& state, VectorX& etaddot) const;
-  /// Power lost in dampers and elements [W].
-  [[nodiscard]] double find_loss(const SystemState& state) const;
 
  private:
   struct Mode {
     flexbody::ModalOscillator oscillator;
     const flexbody::MaxwellElements* elements;
+    Eigen::Index body;
     Eigen::Index index;   // in SystemState::eta
     Eigen::Index first;   // in SystemState::maxwell, of its first element
     Eigen::Index stride;  // there, to its next element
@@ -56,7 +56,7 @@ class FreeVibration {
     VectorX end;    // q, q', d
     dense::Exponential exponential;
   };
-  void add_body(const BodyModel& body);
+  void add_body(const BodyModel& body, Eigen::Index index);
   Workspace& workspace_of(const Mode& mode);
   void set_flow(Mode& mode);
   void move(Mode& mode, double load, SystemState& state);

@@ -70,6 +70,9 @@ class GeneralizedAlpha final : public Integrator {
   void exchange_memory(Archive& archive, const SystemState& state) override;
   [[nodiscard]] long take_solves() override { return matrix_.take_solves(); }
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
+  [[nodiscard]] const EnergyFlows& flows() const override {
+    return work_.flows();
+  }
 
  private:
   void set_coefficients(double h);

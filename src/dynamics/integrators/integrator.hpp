@@ -27,6 +27,10 @@ class Integrator {
   /// Forces and motion at the last evaluation of the last step.
   [[nodiscard]] virtual const SystemTerms& terms() const = 0;
 
+  /// Energy supplied and dissipated over the last step, which sum up to those
+  /// of its StepResult.
+  [[nodiscard]] virtual const EnergyFlows& flows() const = 0;
+
   /// Saves or restores its history, which with `state`, the end of the last
   /// step, determines all later steps to the bit.
   virtual void exchange_memory(Archive& archive, const SystemState& state) = 0;

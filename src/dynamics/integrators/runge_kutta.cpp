@@ -53,6 +53,7 @@ RungeKutta4::RungeKutta4(const SystemModel& model)
     : model_(model),
       terms_(make_terms(model)),
       accelerations_(make_accelerations(model)),
+      flows_(make_flows(model)),
       theta_(model.bodies.size(), Vector3::Zero()),
       stage_(make_state(model)),
       left_(make_state(model)),
@@ -146,9 +147,8 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   for (Vector3& theta : theta_) theta.setZero();
   copy_step_constants(state, stage_);
   calc_slope(state, theta_, Side::right, slopes_[0]);
-  StepResult result;
-  double work = terms_.load_power;
-  double loss = terms_.dissipated_power;
+  flows_.clear();
+  add_powers(terms_, h / 6.0, flows_);
   const std::array<double, 3> shares = {0.5, 0.5, 1.0};
   for (std::size_t s = 0; s < 3; ++s) {
     const bool at_end = s == 2;
@@ -156,8 +156,7 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
              at_end ? end : state.t + shares[s] * h);
     calc_slope(stage_, theta_, at_end ? Side::left : Side::right,
                slopes_[s + 1]);
-    work += (at_end ? 1.0 : 2.0) * terms_.load_power;
-    loss += (at_end ? 1.0 : 2.0) * terms_.dissipated_power;
+    add_powers(terms_, (at_end ? 1.0 : 2.0) * h / 6.0, flows_);
   }
   // The weighted mean of the slopes, gathered in the first.
   auto& k = slopes_;
@@ -188,8 +187,8 @@ StepResult RungeKutta4::step(SystemState& state, double h, double end) {
   }
   left_ = stage_;
   std::swap(state, stage_);
-  result.load_work = h * work / 6.0;
-  result.dissipated = h * loss / 6.0;
+  StepResult result;
+  set_work(flows_, result);
   return result;
 }
 

@@ -24,6 +24,7 @@ class RungeKutta4 final : public Integrator {
   StepResult step(SystemState& state, double h, double end) override;
   void exchange_memory(Archive& archive, const SystemState& state) override;
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
+  [[nodiscard]] const EnergyFlows& flows() const override { return flows_; }
 
  private:
   struct Slope {
@@ -40,6 +41,7 @@ class RungeKutta4 final : public Integrator {
   const SystemModel& model_;
   SystemTerms terms_;
   Accelerations accelerations_;
+  EnergyFlows flows_;
   std::array<Slope, 4> slopes_;
   std::vector<Vector3> theta_;  // rotation since the step's start
   SystemState stage_;

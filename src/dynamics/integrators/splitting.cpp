@@ -13,18 +13,19 @@ Splitting::Splitting(const SystemModel& model)
       kick_(make_accelerations(model)),
       next_(make_state(model)),
       middle_(make_state(model)),
+      flows_(make_flows(model)),
       modes_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
-void Splitting::drift(SystemState& state, double& dissipated) {
+void Splitting::drift(SystemState& state) {
   const double half = modes_.time();
   for (BodyState& body : state.bodies) {
     body.p_WB += half * body.v_WB_W;
     body.quat_WB = body.quat_WB * exp_quaternion(half * body.w_WB_B);
     body.quat_WB.normalize();
   }
-  dissipated += modes_.move(state);
+  modes_.move(state, flows_.dissipated);
 }
 
 // At middle_.
@@ -45,21 +46,22 @@ void Splitting::kick(const SystemState& from, double h, SystemState& to) const {
 StepResult Splitting::step(SystemState& state, double h, double end) {
   const double half = 0.5 * h;
   modes_.set_time(half);
-  StepResult result;
   next_ = state;
   next_.t = end;
-  drift(next_, result.dissipated);
+  flows_.clear();
+  drift(next_);
   middle_ = next_;
   middle_.t = state.t + half;
   calc_kick();
   kick(next_, half, middle_);
   calc_kick();
   kick(next_, h, next_);
-  result.load_work = h * terms_.load_power;
-  result.dissipated +=
-      h * (terms_.dissipated_power - modes_.find_loss(middle_));
-  drift(next_, result.dissipated);
+  for (BodyTerms& body : terms_.bodies) body.dissipated = 0.0;  // by drifts
+  add_powers(terms_, h, flows_);
+  drift(next_);
   require_finite(model_, next_, h);
+  StepResult result;
+  set_work(flows_, result);
   std::swap(state, next_);
   return result;
 }

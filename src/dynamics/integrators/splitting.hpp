@@ -35,10 +35,10 @@ class Splitting final : public Integrator {
 
   /// Terms at the middle of the last step; motion of couplers at its end.
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
+  [[nodiscard]] const EnergyFlows& flows() const override { return flows_; }
 
  private:
-  // Adds the energy dissipated by the modes' damping to `dissipated` [J].
-  void drift(SystemState& state, double& dissipated);
+  void drift(SystemState& state);
   void calc_kick();
   void kick(const SystemState& from, double h, SystemState& to) const;
 
@@ -47,6 +47,7 @@ class Splitting final : public Integrator {
   Accelerations kick_;  // without the modes' own springs and dampers
   SystemState next_;
   SystemState middle_;
+  EnergyFlows flows_;
   FreeVibration modes_;  // over half a step
 };
 

@@ -71,19 +71,12 @@ MotionStep motion_of(const Step& step, std::size_t coupler) {
           step.motion.couplers[coupler].mean};
 }
 
-template <typename Response>
-void add_powers(const Response& response, SystemTerms& terms) {
-  terms.dissipated_power += response.dissipation;
-  terms.load_power += response.supplied;
-}
-
 void apply_coupler(const Step& step, std::size_t c, SystemTerms& terms) {
   CouplerTerms& out = terms.couplers[c];
   const MotionStep motion = motion_of(step, c);
   out.motion = motion.mean;
   out.response = joints::evaluate_over_step(step.model.couplers[c].law, motion,
                                             step.begin.memory[c], step.times);
-  add_powers(out.response, terms);
   out.response.wrench *= 2.0;
   add_pair(step, static_cast<CouplerIndex>(c), 0.5 * out.applied, terms);
 }
@@ -151,7 +144,6 @@ void apply_transmission(const Step& step, std::size_t i, SystemTerms& terms) {
         {memory.switches[first], memory.switches[first + 1]});
     first += index(joints::switch_count(law));
   }
-  add_powers(out.response, terms);
   out.response.force *= 2.0;
   const double force = 0.5 * out.applied;
   for (std::size_t k = 0; k < out.gradients.size(); ++k) {
@@ -170,14 +162,14 @@ void add_to_body(const Step& step, std::size_t b, const Vector3& force_W,
   if (!step.model.bodies[b].has_rigid_motion()) return;
   terms.bodies[b].force_W += force_W;
   terms.bodies[b].moment_B += moment_W;
-  terms.load_power += force_W.dot(step.motion.bodies[b].v_W) +
-                      moment_W.dot(step.motion.bodies[b].w_W);
+  terms.bodies[b].supplied += force_W.dot(step.motion.bodies[b].v_W) +
+                              moment_W.dot(step.motion.bodies[b].w_W);
 }
 
 void add_to_mode(const Step& step, std::size_t b, int k, double force,
                  SystemTerms& terms) {
   terms.bodies[b].modal_force[k] += force;
-  terms.load_power +=
+  terms.bodies[b].supplied +=
       force * step.middle.etadot[step.model.bodies[b].offset + k];
 }
 
@@ -203,7 +195,8 @@ void apply_load(const Step& step, const Load& load, SystemTerms& terms) {
   if (is_coupled(body.fidelity)) {
     const FrameStep& frame = step.motion.frames[index(load.where)];
     add_wrench(step, load.where, force_W, moment_W, terms);
-    terms.load_power += force_W.dot(frame.v_W) + moment_W.dot(frame.w_W);
+    terms.bodies[b].supplied +=
+        force_W.dot(frame.v_W) + moment_W.dot(frame.w_W);
     return;
   }
   // Levels without feedback use the undeformed body.
@@ -239,7 +232,8 @@ void apply_body_load(const Step& step, const BodyLoad& load,
       paired_of(body), [&](Eigen::Index pair, int k, int l, bool is_square) {
         const double force = history.modal(body.modes + pair, i);
         terms.products[b].force[pair] += force;
-        terms.load_power += force * find_product_rate(step, b, k, l, is_square);
+        terms.bodies[b].supplied +=
+            force * find_product_rate(step, b, k, l, is_square);
         moment_B += history.moment_by_mode.col(first + body.modes + pair) *
                     ((is_square ? 0.5 : 1.0) * eta[k] * eta[l]);
       });
@@ -254,26 +248,28 @@ void reset_body(const Step& step, std::size_t b, SystemTerms& terms) {
   t.R_WB = step.motion.bodies[b].middle_R_WB;
   t.J = step.end_terms.bodies[b].J;
   t.H = step.end_terms.bodies[b].H;
+  t.supplied = t.dissipated = 0.0;
   t.force_W.setZero();
   t.moment_B.setZero();
   t.modal_force.setZero();
   terms.products[b].force.setZero();
-  terms.dissipated_power += find_maxwell_loss(body, step.middle.maxwell);
+  t.dissipated += find_maxwell_loss(body, step.middle.maxwell);
   for (int k = 0; k < body.modes; ++k) {
     const double rate = step.middle.etadot[body.offset + k];
-    terms.dissipated_power += body.damping[k] * rate * rate;
+    t.dissipated += body.damping[k] * rate * rate;
     if (!body.clamped) continue;
     const Vector3 P_W = t.R_WB * body.P.col(k);
     add_to_mode(step, b, k, P_W.dot(gravity_W), terms);
   }
   if (body.clamped) {
     const Vector3 gravity_B = t.R_WB.transpose() * gravity_W;
-    flexbody::for_each_product(paired_of(body), [&](Eigen::Index pair, int i,
-                                                    int j, bool is_square) {
-      const double force = body.P.col(body.modes + pair).dot(gravity_B);
-      terms.products[b].force[pair] += force;
-      terms.load_power += force * find_product_rate(step, b, i, j, is_square);
-    });
+    flexbody::for_each_product(
+        paired_of(body), [&](Eigen::Index pair, int i, int j, bool is_square) {
+          const double force = body.P.col(body.modes + pair).dot(gravity_B);
+          terms.products[b].force[pair] += force;
+          terms.bodies[b].supplied +=
+              force * find_product_rate(step, b, i, j, is_square);
+        });
   }
   add_to_body(step, b, body.mass * gravity_W, Vector3::Zero(), terms);
 }
@@ -306,8 +302,6 @@ void calc_step_forces(const SystemModel& model, const SystemState& begin,
                       const joints::StepTimes& times, const StepMotion& motion,
                       SystemTerms& terms) {
   const Step step{model, begin, middle, begin_terms, end_terms, times, motion};
-  terms.load_power = 0.0;
-  terms.dissipated_power = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     reset_body(step, b, terms);
   }

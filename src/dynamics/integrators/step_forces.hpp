@@ -7,7 +7,7 @@
 namespace limber::dynamics {
 
 /// Forces of couplers, pairs, loads and gravity at the middle of a step, and
-/// their mean powers: load_power - dissipated_power is exactly the power that
+/// their mean powers: supplied less dissipated power is exactly the power that
 /// they supply to bodies and couplers together.
 ///
 /// Fills those parts of `terms` that NewtonMatrix and the residuals of a step

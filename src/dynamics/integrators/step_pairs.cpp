@@ -93,7 +93,6 @@ void apply_pairs_over_step(const SystemModel& model, const SystemState& begin,
           memory_of(pair, begin), response);
       check_finite(response);
     });
-    terms.dissipated_power += response.dissipation;
     for (joints::PairPoint& point : response.points()) {
       const PlaceStep A = find_place_step(first.A, last.A, point.on_A, times.h);
       const PlaceStep B = find_place_step(first.B, last.B, point.on_B, times.h);

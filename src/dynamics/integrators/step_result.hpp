@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "limber/dynamics/equations/energy_flows.hpp"
+
 namespace limber::dynamics {
 
 /// Powers at one end of a step.
@@ -10,6 +12,11 @@ struct StepPower {
   double loads = 0.0;       ///< of loads, gravity and drives [W]
   double dissipated = 0.0;  ///< by couplers and modes [W]
 };
+
+/// Of all rows together.
+[[nodiscard]] inline StepPower sum(const EnergyFlows& power) {
+  return {power.supplied.sum(), power.dissipated.sum()};
+}
 
 /// Cost, work and error of one step.
 struct StepResult {
@@ -24,5 +31,11 @@ struct StepResult {
   StepPower begin;             ///< of the same schemes
   StepPower end;               ///< of the same schemes
 };
+
+/// Sets the work and dissipation of a step to sums of its flows.
+inline void set_work(const EnergyFlows& flows, StepResult& result) {
+  result.load_work = flows.supplied.sum();
+  result.dissipated = flows.dissipated.sum();
+}
 
 }  // namespace limber::dynamics

@@ -3,33 +3,50 @@
 
 namespace limber::dynamics {
 
+StepWork::StepWork(const SystemModel& model)
+    : dampers_(model),
+      supplies_(model),
+      power_(make_flows(model)),
+      last_power_(power_),
+      flows_(power_) {}
+
+void StepWork::set_powers(const SystemTerms& terms) {
+  power_.clear();
+  add_powers(terms, 1.0, power_);
+}
+
 void StepWork::start(const SystemState& state, const SystemTerms& terms) {
-  power_ = {terms.load_power, terms.dissipated_power};
+  set_powers(terms);
   dampers_.start(terms);
   supplies_.start(state, terms);
 }
 
 void StepWork::advance(const SystemState& from, const SystemState& to,
                        const SystemTerms& terms, double h, StepResult& result) {
-  const double loads = supplies_.advance(to, terms, h) / h;
-  const double losses = dampers_.advance(from, to, terms, h) / h;
-  last_power_ = power_;
-  power_ = {terms.load_power, terms.dissipated_power};
-  result.begin = {last_power_.loads + loads, last_power_.dissipated + losses};
-  result.end = {power_.loads + loads, power_.dissipated + losses};
-  result.load_work = 0.5 * h * (result.begin.loads + result.end.loads);
-  result.dissipated =
-      0.5 * h * (result.begin.dissipated + result.end.dissipated);
+  std::swap(power_, last_power_);
+  set_powers(terms);
+  const StepPower begin = sum(last_power_);
+  const StepPower end = sum(power_);
+  flows_.supplied = 0.5 * h * (last_power_.supplied + power_.supplied);
+  flows_.dissipated = 0.5 * h * (last_power_.dissipated + power_.dissipated);
+  supplies_.advance(to, terms, h, flows_.supplied);
+  dampers_.advance(from, to, terms, h, flows_.dissipated);
+  set_work(flows_, result);
+  const double loads = result.load_work / h - 0.5 * (begin.loads + end.loads);
+  const double losses =
+      result.dissipated / h - 0.5 * (begin.dissipated + end.dissipated);
+  result.begin = {begin.loads + loads, begin.dissipated + losses};
+  result.end = {end.loads + loads, end.dissipated + losses};
 }
 
 void StepWork::undo() {
   dampers_.undo();
   supplies_.undo();
-  power_ = last_power_;
+  std::swap(power_, last_power_);
 }
 
 void StepWork::exchange_memory(Archive& archive) {
-  archive(power_.loads, power_.dissipated);
+  archive(power_.supplied, power_.dissipated);
   dampers_.exchange_memory(archive);
   supplies_.exchange_memory(archive);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/integrators/damper_work.hpp"
 #include "limber/dynamics/integrators/step_result.hpp"
 #include "limber/dynamics/integrators/supplied_work.hpp"
@@ -12,15 +13,17 @@ namespace limber::dynamics {
 /// by paths.
 class StepWork {
  public:
-  explicit StepWork(const SystemModel& model)
-      : dampers_(model), supplies_(model) {}
+  explicit StepWork(const SystemModel& model);
 
   /// Sets the beginning of the next step. @param terms at `state`
   void start(const SystemState& state, const SystemTerms& terms);
   /// Accounts for a step of `h` [s] from `from` to `to`, where `terms` apply;
-  /// the next step begins there. Sets the work and powers of `result`.
+  /// the next step begins there. Sets flows(), and the work and powers of
+  /// `result`.
   void advance(const SystemState& from, const SystemState& to,
                const SystemTerms& terms, double h, StepResult& result);
+  /// Of the last step.
+  [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
   /// Reverts the last advance().
   void undo();
 
@@ -28,10 +31,13 @@ class StepWork {
   void exchange_memory(Archive& archive);
 
  private:
+  void set_powers(const SystemTerms& terms);
+
   DamperWork dampers_;
   SuppliedWork supplies_;
-  StepPower power_;       // at the last state
-  StepPower last_power_;  // at the one before
+  EnergyFlows power_;       // at the last state [W]
+  EnergyFlows last_power_;  // at the one before [W]
+  EnergyFlows flows_;
 };
 
 }  // namespace limber::dynamics

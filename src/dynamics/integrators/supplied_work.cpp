@@ -19,7 +19,8 @@ SuppliedWork::SuppliedWork(const SystemModel& model)
       if (model.bodies[b].has_rigid_motion()) bodies_.push_back(b);
     }
   }
-  now_.resize(drives_.size() + loads_.size() + bodies_.size());
+  list_rows();
+  now_.resize(row_of_.size());
   before_ = now_;
 }
 
@@ -34,6 +35,22 @@ void SuppliedWork::list_loads() {
         body.modes > 0 && body.fidelity < Fidelity::coupled;
     if (is_undeformed || body.full >= 0) continue;
     loads_.push_back(i);
+  }
+}
+
+void SuppliedWork::list_rows() {
+  const EnergyRows rows(model_);
+  for (const PlacedDrive& drive : drives_) {
+    row_of_.push_back(
+        (drive.is_transmission ? rows.transmissions : rows.couplers) +
+        static_cast<Eigen::Index>(drive.index));
+  }
+  for (const std::size_t i : loads_) {
+    const auto at = static_cast<std::size_t>(model_.loads[i].where);
+    row_of_.push_back(model_.attachments[at].body);
+  }
+  for (const std::size_t b : bodies_) {
+    row_of_.push_back(static_cast<Eigen::Index>(b));
   }
 }
 
@@ -81,15 +98,13 @@ double SuppliedWork::find_correction(const Path& first, const Path& last,
   return std::abs(correction) > noise ? correction : 0.0;  // 0 if unknown
 }
 
-double SuppliedWork::advance(const SystemState& to, const SystemTerms& terms,
-                             double h) {
+void SuppliedWork::advance(const SystemState& to, const SystemTerms& terms,
+                           double h, VectorX& work) {
   now_.swap(before_);
   read(to, terms, Side::left);
-  double sum = 0.0;
   for (std::size_t i = 0; i < now_.size(); ++i) {
-    sum += find_correction(before_[i], now_[i], h);
+    work[row_of_[i]] += find_correction(before_[i], now_[i], h);
   }
-  return sum;
 }
 
 }  // namespace limber::dynamics

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/placed_drive.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
@@ -33,9 +34,11 @@ class SuppliedWork {
   /// @param terms at `state`
   void start(const SystemState& state, const SystemTerms& terms);
   /// Accounts for a step of `h` [s] that ends at `to`, where `terms` apply; the
-  /// next step begins there. @returns the correction to add to the trapezoidal
-  /// rule [J]
-  double advance(const SystemState& to, const SystemTerms& terms, double h);
+  /// next step begins there.
+  /// @param work by the trapezoidal rule, in the rows of EnergyRows, to which
+  /// corrections are added [J]
+  void advance(const SystemState& to, const SystemTerms& terms, double h,
+               VectorX& work);
   /// Reverts the last advance().
   void undo() { now_.swap(before_); }
 
@@ -53,14 +56,16 @@ class SuppliedWork {
     archive(path.force, path.place, path.rate, path.size);
   }
   void list_loads();
+  void list_rows();
   void read(const SystemState& state, const SystemTerms& terms, Side side);
   static double find_correction(const Path& first, const Path& last, double h);
 
   const SystemModel& model_;
   std::vector<PlacedDrive> drives_;
-  std::vector<std::size_t> loads_;   // indices
-  std::vector<std::size_t> bodies_;  // with weight
-  std::vector<Path> now_;            // drives, loads, bodies
+  std::vector<std::size_t> loads_;    // indices
+  std::vector<std::size_t> bodies_;   // with weight
+  std::vector<Eigen::Index> row_of_;  // of drives, loads, bodies
+  std::vector<Path> now_;             // likewise
   std::vector<Path> before_;
 };
 

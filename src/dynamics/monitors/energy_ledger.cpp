@@ -1,32 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/monitors/energy_ledger.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
-#include "limber/dynamics/equations/maxwell.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
-#include "limber/dynamics/monitors/peak_watch.hpp"
 
 namespace limber::dynamics {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Error relative to the energy through parts: round-off, and the tolerance of
-// Newton's method.
-constexpr double kPassedError = 1e-11;
-// Factor on the noise of couplers at one state, which accumulates as a random
-// walk.
-constexpr double kNoiseFactor = 10.0;
-
-// Least relative growth of an extreme before it is evaluated exactly; a drift
-// is relative to the throughput.
-constexpr double kGrowth = 1.01;
-constexpr double kNoteworthy = 1e-3;
+// Least relative growth of an extreme before it is evaluated exactly.
+constexpr double kLeastGrowth = 1.01;
 
 // Wrench and stiffness times the round-off of a frame's motion.
 double find_noise(const CouplerTerms& coupler, double reach) {
@@ -50,119 +38,152 @@ double find_power(const joints::PairResponse& pair) {
 
 }  // namespace
 
-void exchange(Archive& archive, EnergyLedger::Part& part) {
-  archive(part.energy, part.power, part.open);
-}
-
-EnergyLedger::EnergyLedger(const SystemModel& model)
+EnergyLedger::EnergyLedger(const SystemModel& model, bool lags)
     : model_(model),
-      parts_(model.bodies.size() + model.couplers.size() +
-             model.transmissions.size() + model.pairs.size()),
-      now_(parts_) {
+      rows_(model),
+      groups_(model, lags),
+      accounts_(static_cast<std::size_t>(rows_.count)),
+      next_(accounts_) {
   for (const FullModel& full : model.full_bodies) {
     scratch_.emplace_back(Matrix3X::Zero(3, full.mesh->node_count()));
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const bool is_free = body.has_rigid_motion() || body.full >= 0;
+    accounts_[b].mass = next_[b].mass = is_free ? body.mass : 0.0;
   }
 }
 
 void EnergyLedger::evaluate_full(std::size_t b, const SystemState& state,
-                                 const SystemTerms& terms, Sums& sums) {
+                                 const SystemTerms& terms) {
   const auto f = static_cast<std::size_t>(model_.bodies[b].full);
   const FullTerms& t = terms.full[f];
   const ConstNodes udot = nodes_of(model_.full_bodies[f], state.udot_H);
   t.solver->multiply_mass(udot, scratch_[f]);
-  const double kinetic = 0.5 * scratch_[f].cwiseProduct(udot).sum();
-  sums.kinetic += kinetic;
-  sums.elastic += t.strain_energy;
-  now_[b].energy = kinetic + t.strain_energy;
-  now_[b].power = t.force.cwiseProduct(udot).sum();
+  EnergyAccount& row = next_[b];
+  row.kinetic = 0.5 * scratch_[f].cwiseProduct(udot).sum();
+  row.power = t.force.cwiseProduct(udot).sum() + terms.bodies[b].dissipated -
+              terms.bodies[b].supplied;
+  const Matrix3& R_WH = state.X_WH[f].R;
+  row.momentum = R_WH * scratch_[f].rowwise().sum();
+  row.force = R_WH * t.force.rowwise().sum();
 }
 
 void EnergyLedger::evaluate_body(std::size_t b, const SystemState& state,
-                                 const SystemTerms& terms, Sums& sums) {
+                                 const SystemTerms& terms) {
   const BodyModel& body = model_.bodies[b];
-  if (body.full >= 0) {
-    evaluate_full(b, state, terms, sums);
-    return;
-  }
+  if (body.full >= 0) return evaluate_full(b, state, terms);
   const BodyState& rigid = state.bodies[b];
   const BodyTerms& t = terms.bodies[b];
-  double kinetic = 0.0;
-  double elastic = 0.0;
-  double power = 0.0;
-  const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);
-  if (lambda == nullptr) {
-    elastic = flexbody::calc_elastic_energy(
-        body.elasticity, state.eta.segment(body.offset, body.modes));
-  }
-  Vector3 h = Vector3::Zero();
-  for (int k = 0; k < body.modes; ++k) {
-    const double eta = state.eta[body.offset + k];
-    const double etadot = state.etadot[body.offset + k];
-    kinetic += 0.5 * etadot * etadot;
-    if (lambda != nullptr) elastic += 0.5 * (*lambda)[k] * eta * eta;
-    power += (t.modal_force[k] - body.damping[k] * etadot) * etadot;
-    h += t.H.col(k) * etadot;
-  }
-  elastic += find_maxwell_energy(body, state.maxwell);
-  power -= find_maxwell_loss(body, state.maxwell);
+  const auto etadot = state.etadot.segment(body.offset, body.modes);
+  EnergyAccount& row = next_[b];
+  row.kinetic = 0.5 * etadot.squaredNorm();
+  row.power = t.modal_force.dot(etadot) - t.supplied;
   if (body.has_rigid_motion()) {
     const Vector3& w = rigid.w_WB_B;
-    kinetic += 0.5 * body.mass * rigid.v_WB_W.squaredNorm() +
-               w.dot(0.5 * (t.J * w) + h);
-    power += t.force_W.dot(rigid.v_WB_W) + t.moment_B.dot(w);
+    row.momentum = body.mass * rigid.v_WB_W;
+    row.force = t.force_W;
+    row.kinetic += 0.5 * row.momentum.dot(rigid.v_WB_W) +
+                   w.dot(0.5 * (t.J * w) + t.H * etadot);
+    row.power += t.force_W.dot(rigid.v_WB_W) + t.moment_B.dot(w);
   }
-  sums.kinetic += kinetic;
-  sums.elastic += elastic;
-  now_[b].energy = kinetic + elastic;
-  now_[b].power = power;
 }
 
 EnergyLedger::Sums EnergyLedger::evaluate(const SystemState& state,
                                           const SystemTerms& terms) {
+  next_ = accounts_;
   Sums sums;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    evaluate_body(b, state, terms, sums);
+  std::size_t row = 0;
+  for (; row < model_.bodies.size(); ++row) {
+    evaluate_body(row, state, terms);
+    const double elastic = find_elastic_energy(model_, row, state, terms);
+    next_[row].stored = next_[row].kinetic + elastic;
+    sums.kinetic += next_[row].kinetic;
+    sums.elastic += elastic;
   }
-  std::size_t part = model_.bodies.size();
+  const auto set = [&](double energy, double power) {
+    next_[row].stored = energy;
+    next_[row++].power = power;
+    sums.coupler += energy;
+  };
   for (const CouplerTerms& coupler : terms.couplers) {
     const auto& response = coupler.response;
-    now_[part].energy = response.energy;
-    now_[part].power = response.supplied - response.dissipation -
-                       response.wrench.head<3>().dot(coupler.motion.v_FM_F) -
-                       response.wrench.tail<3>().dot(coupler.motion.w_FM_F);
-    sums.coupler += now_[part++].energy;
+    set(response.energy,
+        -response.wrench.head<3>().dot(coupler.motion.v_FM_F) -
+            response.wrench.tail<3>().dot(coupler.motion.w_FM_F));
   }
   for (const TransmissionTerms& transmission : terms.transmissions) {
-    const auto& response = transmission.response;
-    now_[part].energy = response.energy;
-    now_[part].power = response.supplied - response.dissipation -
-                       transmission.applied * transmission.motion.rate;
-    sums.coupler += now_[part++].energy;
+    set(transmission.response.energy,
+        -transmission.applied * transmission.motion.rate);
   }
   for (const joints::PairResponse& response : terms.pairs.responses) {
-    now_[part].energy = response.energy;
-    now_[part].power = -response.dissipation - find_power(response);
-    sums.coupler += now_[part++].energy;
+    set(response.energy, -find_power(response));
   }
+  set_noise(terms);
   return sums;
 }
 
-double EnergyLedger::find_noise(const SystemTerms& terms) const {
-  double noise = 0.0;
+// Of places as far from the origin as either frame's, and of its arm.
+void EnergyLedger::set_noise(const SystemTerms& terms) {
+  const auto include = [this](Eigen::Index row, double noise) {
+    double& most = next_[static_cast<std::size_t>(row)].noise;
+    most = std::max(most, noise);
+  };
+  const auto reach = [&](AttachmentIndex frame) {
+    const auto i = static_cast<std::size_t>(frame);
+    return terms.attachments[i].p_WF.norm() + model_.attachments[i].p_BF.norm();
+  };
   for (std::size_t c = 0; c < terms.couplers.size(); ++c) {
-    const auto frame = static_cast<std::size_t>(model_.couplers[c].frame_M);
-    noise += dynamics::find_noise(terms.couplers[c],
-                                  terms.attachments[frame].p_WF.norm());
+    const Coupler& coupler = model_.couplers[c];
+    include(rows_.couplers + static_cast<Eigen::Index>(c),
+            find_noise(terms.couplers[c], std::max(reach(coupler.frame_F),
+                                                   reach(coupler.frame_M))));
   }
   for (std::size_t i = 0; i < terms.pairs.responses.size(); ++i) {
     if (terms.pairs.responses[i].points().empty()) continue;
     const joints::PairBodies bodies = find_bodies(model_.pairs[i], terms.pairs);
     const double d = kEpsilon * (bodies.A.p_WB.norm() + bodies.B.p_WB.norm());
+    double noise = 0.0;
     for (const auto& point : terms.pairs.responses[i].points()) {
       noise += (point.force_W.norm() + point.stiffness.norm() * d) * d;
     }
+    include(rows_.pairs + static_cast<Eigen::Index>(i), noise);
   }
-  return noise;
+}
+
+// Rounding of a place in each step of `h` [s] by up to eps L.
+void EnergyLedger::set_jitter(const SystemState& state, double h) {
+  if (!(h > 0.0)) return;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const BodyModel& body = model_.bodies[b];
+    const double reach =
+        state.bodies[b].p_WB.norm() + std::sqrt(body.J0.trace() / body.mass);
+    const double speed = kEpsilon * reach / h;
+    double& most = next_[b].jitter;
+    most = std::max(most, 0.5 * body.mass * speed * speed);
+  }
+}
+
+void EnergyLedger::advance(double t, const EnergyFlows& flows) {
+  const double half = 0.5 * (t - time_);
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    const EnergyAccount& last = accounts_[i];
+    EnergyAccount& row = next_[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const double received = half * (last.power + row.power);
+    const Vector3 impulse = half * (last.force + row.force);
+    const double supplied = flows.supplied[k] - last.supplied;
+    const double lost = flows.dissipated[k] - last.dissipated;
+    const double net =
+        received + supplied - impulse.dot(groups_.find_velocity(k));
+    row.received += received;
+    row.impulse += impulse;
+    row.supplied = flows.supplied[k];
+    row.dissipated = flows.dissipated[k];
+    (net > 0.0 ? row.in : row.out) += std::abs(net);
+    row.passed += half * (std::abs(last.power) + std::abs(row.power)) +
+                  std::abs(supplied) + std::abs(lost);
+  }
 }
 
 void EnergyLedger::include_energies(const Sums& sums, double t) {
@@ -170,121 +191,102 @@ void EnergyLedger::include_energies(const Sums& sums, double t) {
   record_.kinetic.include(sums.kinetic, t);
   record_.elastic.include(sums.elastic, t);
   record_.coupler.include(sums.coupler, t);
-  record_.throughput = std::max(
-      {record_.throughput, std::abs(sums.total()), std::abs(sums.kinetic)});
 }
 
-void EnergyLedger::start(const SystemState& state, const SystemTerms& terms,
-                         const StepResult& totals) {
+void EnergyLedger::start(const SystemState& state, const SystemTerms& terms) {
   const Sums sums = evaluate(state, terms);
-  parts_ = now_;
+  for (EnergyAccount& row : next_) {
+    row.initial = row.stored;
+    row.first_momentum = row.momentum;
+  }
+  accounts_ = next_;
   time_ = state.t;
-  initial_ = sums.total() + totals.dissipated - totals.load_work;
-  noise_ = find_noise(terms);
   record_ = {};
+  groups_.start(accounts_);
+  groups_.connect(terms.pairs, accounts_);
   include_energies(sums, state.t);
 }
 
-bool EnergyLedger::is_remarkable(const Sums& sums, double drift) const {
+bool EnergyLedger::is_remarkable(const Sums& sums) const {
   const auto grows = [](double now, const Extreme& before) {
-    return now > kGrowth * std::abs(before.value);
+    return now > kLeastGrowth * std::abs(before.value);
   };
   return grows(sums.total(), record_.stored) ||
-         grows(sums.coupler, record_.coupler) ||
-         (grows(std::abs(drift), record_.drift) &&
-          std::abs(drift) > kNoteworthy * record_.throughput);
+         grows(sums.coupler, record_.coupler);
 }
 
 void EnergyLedger::restart(const SystemState& state, const SystemTerms& terms) {
   evaluate(state, terms);
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    parts_[i].energy = now_[i].energy;
-    parts_[i].power = now_[i].power;
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    accounts_[i].power = next_[i].power;
+    accounts_[i].force = next_[i].force;
   }
-  time_ = state.t;
-}
-
-double EnergyLedger::find_drift(const Sums& sums,
-                                const StepResult& totals) const {
-  return sums.total() + totals.dissipated - totals.load_work - initial_;
 }
 
 void EnergyLedger::add(const SystemState& state, const SystemTerms& terms,
-                       const StepResult& totals) {
+                       const EnergyFlows& flows) {
   const Sums sums = evaluate(state, terms);
-  include(sums, find_drift(sums, totals), state, terms, totals);
+  set_jitter(state, state.t - time_);
+  advance(state.t, flows);
+  accept(sums, terms, state.t);
 }
 
 bool EnergyLedger::try_add(const SystemState& state, const SystemTerms& terms,
-                           const StepResult& totals) {
+                           const EnergyFlows& flows) {
   const Sums sums = evaluate(state, terms);
-  const double drift = find_drift(sums, totals);
-  if (is_remarkable(sums, drift)) return false;
-  include(sums, drift, state, terms, totals);
+  set_jitter(state, state.t - time_);
+  advance(state.t, flows);
+  if (is_remarkable(sums) || groups_.has_new_drift(next_)) return false;
+  accept(sums, terms, state.t);
   return true;
 }
 
-void EnergyLedger::include(const Sums& sums, double drift,
-                           const SystemState& state, const SystemTerms& terms,
-                           const StepResult& totals) {
-  const double half = 0.5 * (state.t - time_);
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    Part& part = parts_[i];
-    const Part& now = now_[i];
-    const double given = half * (part.power + now.power);
-    passed_ += half * (std::abs(part.power) + std::abs(now.power));
-    part.open += now.energy - part.energy - given;
-    part.energy = now.energy;
-    part.power = now.power;
-  }
-  time_ = state.t;
+void EnergyLedger::accept(const Sums& sums, const SystemTerms& terms,
+                          double t) {
+  groups_.connect(terms.pairs, accounts_);
+  accounts_.swap(next_);
+  time_ = t;
   ++steps_;
-  noise_ = std::max(noise_, find_noise(terms));
-  include_energies(sums, state.t);
-  record_.throughput = std::max({record_.throughput, std::abs(totals.load_work),
-                                 std::abs(totals.dissipated)});
-  note_drift(drift, state.t);
+  include_energies(sums, t);
+  groups_.include(accounts_, t);
 }
 
-void EnergyLedger::note_drift(double drift, double t) {
-  if (!(std::abs(drift) > std::abs(record_.drift.value))) return;
-  record_.drift = {drift, t};
-  const double sign = drift < 0.0 ? -1.0 : 1.0;
-  record_.share = 0.0;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (!(sign * parts_[i].open > sign * record_.share)) continue;
-    record_.share = parts_[i].open;
-    worst_ = i;
-  }
+bool EnergyLedger::has_too_much(const SystemState& state,
+                                const SystemTerms& terms) {
+  evaluate(state, terms);
+  return groups_.has_too_much(next_);
 }
 
-EnergyRecord EnergyLedger::find_record() const {
+EnergyRecord EnergyLedger::find_record(const VectorX& negligible) const {
   EnergyRecord record = record_;
-  record.roundoff = kPassedError * passed_ +
-                    kNoiseFactor * std::sqrt(std::max(steps_, 1.0)) * noise_;
-  if (record.share == 0.0) return record;
-  const std::size_t bodies = model_.bodies.size();
-  const std::size_t couplers = model_.couplers.size();
-  if (worst_ < bodies) {
-    record.place = fmt::format("body '{}'", model_.bodies[worst_].name);
-    record.is_one_way = model_.bodies[worst_].fidelity == Fidelity::one_way;
-  } else if (worst_ < bodies + couplers) {
-    record.place =
-        fmt::format("coupler '{}'", model_.couplers[worst_ - bodies].name);
-  } else if (worst_ < bodies + couplers + model_.transmissions.size()) {
-    record.place = fmt::format(
-        "coupler '{}'", model_.transmissions[worst_ - bodies - couplers].name);
-  } else {
-    const std::size_t pairs = parts_.size() - model_.pairs.size();
-    record.place = fmt::format("pair '{}'", model_.pairs[worst_ - pairs].name);
+  record.drift = groups_.drift();
+  const auto is_worse = [](const EnergyDrift& a, const EnergyDrift& b) {
+    const double shares[] = {find_open_share(a), find_open_share(b)};
+    if (shares[0] != shares[1]) return shares[0] > shares[1];
+    return std::abs(a.drift.value) > std::abs(b.drift.value);
+  };
+  for (EnergyDrift& drift :
+       groups_.find_drifts(accounts_, negligible, steps_)) {
+    record.throughput += drift.throughput;
+    record.roundoff += drift.roundoff;
+    if (is_worse(drift, record.worst)) record.worst = std::move(drift);
+  }
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    const EnergyAccount& row = accounts_[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const Vector3& v = groups_.find_velocity(k);
+    const double stored = row.stored_in(v);
+    if (row.in + row.out + row.dissipated == 0.0 && stored == 0.0) continue;
+    record.rows.push_back({name_energy_row(model_, k), stored, row.in, row.out,
+                           row.dissipated, row.error_in(v)});
   }
   return record;
 }
 
 void EnergyLedger::exchange_memory(Archive& archive) {
-  archive(parts_, time_, initial_, passed_, noise_, steps_, worst_,
-          record_.drift, record_.stored, record_.kinetic, record_.elastic,
-          record_.coupler, record_.throughput, record_.share);
+  archive(accounts_, time_, steps_, record_.stored, record_.kinetic,
+          record_.elastic, record_.coupler);
+  groups_.exchange_memory(archive);
 }
 
 }  // namespace limber::dynamics

@@ -2,91 +2,95 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "limber/common/records/archive.hpp"
+#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
-#include "limber/dynamics/integrators/step_result.hpp"
+#include "limber/dynamics/monitors/energy_account.hpp"
+#include "limber/dynamics/monitors/energy_groups.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 
 namespace limber::dynamics {
 
 /// Energy of every body, coupler, transmission and pair over all steps, and the
-/// unexplained part of its changes.
+/// unexplained part of its changes: a row each (EnergyRow), judged by groups of
+/// connected bodies (EnergyGroups).
 ///
-/// Equation   of a part: open = sum over steps of (E_1 - E_0 - h (P_0 + P_1) /
-///            2), P the power supplied: to a body by all forces but inertial
-///            ones, less its damping; to a coupler -wrench . v - dissipation +
-///            supplied. Of all together: EnergyRecord. Round-off: that of the
-///            energy that passes through parts, and of positions through stiff
+/// Equation   of a row: error = E - E at the start - sum over steps of
+///            h (P_0 + P_1) / 2 - supplied + dissipated, P the power received
+///            from other rows: by a body from all forces but inertial ones,
+///            less its loads; by a coupler -wrench . v. Round-off: that of the
+///            energy that passes through rows, and of positions through stiff
 ///            couplers: (|f| + k d) d, d = eps L
-/// Limits     a part's share has the error of the trapezoidal rule, which
-///            cancels in the sum.
+/// Limits     an error of a row has that of the trapezoidal rule, which cancels
+///            in the sum of a group.
 class EnergyLedger {
  public:
+  /// @param lags whether work lags by a step (EnergyWatch)
   /// @param model stored by reference
-  explicit EnergyLedger(const SystemModel& model);
+  explicit EnergyLedger(const SystemModel& model, bool lags = false);
 
   /// @param terms at `state`, here and below
-  /// @param totals of an impulse before the first step
-  void start(const SystemState& state, const SystemTerms& terms,
-             const StepResult& totals);
-  /// The end of a step. @param totals work and dissipation since the start
+  void start(const SystemState& state, const SystemTerms& terms);
+  /// The end of a step. @param flows sums since the start
   void add(const SystemState& state, const SystemTerms& terms,
-           const StepResult& totals);
+           const EnergyFlows& flows);
   /// The same with approximate terms, which contain the remaining error of
   /// Newton's method in stiff couplers and contacts. @returns false, without
   /// effect, if they would give a new extreme, which needs exact terms
   [[nodiscard]] bool try_add(const SystemState& state, const SystemTerms& terms,
-                             const StepResult& totals);
+                             const EnergyFlows& flows);
   /// Forces jump at `state`: the next step begins with new ones.
   void restart(const SystemState& state, const SystemTerms& terms);
 
-  [[nodiscard]] EnergyRecord find_record() const;
+  /// A group that blows up, at the last state added.
+  [[nodiscard]] std::optional<EnergyGroups::Excess> find_blow_up(bool is_end) {
+    return groups_.find_blow_up(accounts_, is_end);
+  }
+  /// Whether a group has more than ten times the energy that is accounted for
+  /// (EnergyWatch) at the last state added, or at `state`, which is not added.
+  [[nodiscard]] bool has_too_much() { return groups_.has_too_much(accounts_); }
+  [[nodiscard]] bool has_too_much(const SystemState& state,
+                                  const SystemTerms& terms);
+
+  /// @param negligible losses of rows that nothing accounts for [J]
+  [[nodiscard]] EnergyRecord find_record(const VectorX& negligible) const;
 
   /// Saves or restores its state for checkpoints.
   void exchange_memory(Archive& archive);
 
  private:
-  struct Part {
-    double energy = 0.0;  // [J]
-    double power = 0.0;   // [W]
-    double open = 0.0;    // [J]
-  };
   struct Sums {
     double kinetic = 0.0;
     double elastic = 0.0;
     double coupler = 0.0;
     [[nodiscard]] double total() const { return kinetic + elastic + coupler; }
   };
-  friend void exchange(Archive& archive, Part& part);
 
   Sums evaluate(const SystemState& state, const SystemTerms& terms);
   void evaluate_body(std::size_t b, const SystemState& state,
-                     const SystemTerms& terms, Sums& sums);
+                     const SystemTerms& terms);
   void evaluate_full(std::size_t b, const SystemState& state,
-                     const SystemTerms& terms, Sums& sums);
-  [[nodiscard]] double find_drift(const Sums& sums,
-                                  const StepResult& totals) const;
-  [[nodiscard]] bool is_remarkable(const Sums& sums, double drift) const;
-  // Includes evaluated sums and parts.
-  void include(const Sums& sums, double drift, const SystemState& state,
-               const SystemTerms& terms, const StepResult& totals);
+                     const SystemTerms& terms);
+  void set_noise(const SystemTerms& terms);
+  void set_jitter(const SystemState& state, double h);
+  // Sets next_ to the accounts after a step with what was evaluated.
+  void advance(double t, const EnergyFlows& flows);
+  [[nodiscard]] bool is_remarkable(const Sums& sums) const;
+  void accept(const Sums& sums, const SystemTerms& terms, double t);
   void include_energies(const Sums& sums, double t);
-  void note_drift(double drift, double t);
-  [[nodiscard]] double find_noise(const SystemTerms& terms) const;
 
   const SystemModel& model_;
-  std::vector<Part> parts_;  // bodies, couplers, transmissions, pairs
-  std::vector<Part> now_;
+  EnergyRows rows_;
+  EnergyGroups groups_;
+  std::vector<EnergyAccount> accounts_;
+  std::vector<EnergyAccount> next_;
   std::vector<Matrix3X> scratch_;  // of unreduced bodies
-  double time_ = 0.0;              // of parts_ [s]
-  double initial_ = 0.0;           // stored [J]
-  double passed_ = 0.0;            // through parts [J]
-  double noise_ = 0.0;             // of couplers at a state, at most [J]
+  double time_ = 0.0;              // of accounts_ [s]
   double steps_ = 0.0;
-  std::size_t worst_ = 0;  // part, at the drift's extreme
   EnergyRecord record_;
 };
 

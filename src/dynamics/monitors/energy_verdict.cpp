@@ -14,7 +14,7 @@ namespace {
 constexpr double kNamedShare = 0.1;
 
 // "12 % of the energy ... are lost by t = ...".
-std::string describe_energy(const EnergyRecord& energy) {
+std::string describe_energy(const EnergyDrift& energy) {
   const double drift = energy.drift.value;
   std::string text = fmt::format(
       "{:.3g} J are {} by t = {:.6g} s that nothing accounts for, {:.3g} % of "
@@ -29,11 +29,11 @@ std::string describe_energy(const EnergyRecord& energy) {
   return text;
 }
 
-bool is_forgiven(IntegratorKind integrator, const EnergyRecord& energy) {
+bool is_forgiven(IntegratorKind integrator, const EnergyDrift& energy) {
   return traits_of(integrator).order == 1 || energy.is_one_way;
 }
 
-std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
+std::string advise(IntegratorKind integrator, const EnergyDrift& energy) {
   if (energy.is_one_way) {
     return "level one-way drives modes by rotation and takes nothing back from "
            "it; level coupled does";
@@ -54,20 +54,22 @@ std::string advise(IntegratorKind integrator, const EnergyRecord& energy) {
 
 }  // namespace
 
-double find_open_share(const EnergyRecord& energy) {
+double find_open_share(const EnergyDrift& energy) {
   const double drift = std::abs(energy.drift.value);
   if (!(drift > energy.roundoff) || energy.throughput == 0.0) return 0.0;
   return drift / energy.throughput;
 }
 
-void warn_of_energy(IntegratorKind integrator, const EnergyRecord& energy,
+void warn_of_energy(IntegratorKind integrator, const EnergyRecord& record,
                     std::vector<std::string>& warnings) {
+  const EnergyDrift& energy = record.worst;
   if (!(find_open_share(energy) > kToldDrift)) return;
   warnings.push_back(fmt::format("energy: {}; {}", describe_energy(energy),
                                  advise(integrator, energy)));
 }
 
-void check_energy(IntegratorKind integrator, const EnergyRecord& energy) {
+void check_energy(IntegratorKind integrator, const EnergyRecord& record) {
+  const EnergyDrift& energy = record.worst;
   if (!(find_open_share(energy) > kMostDrift)) return;
   if (is_forgiven(integrator, energy)) return;
   throw NumericalError(fmt::format("the energy does not balance: {}; {}",

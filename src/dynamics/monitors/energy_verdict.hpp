@@ -10,17 +10,14 @@
 /// Warnings and errors for energy that a run gained or lost.
 namespace limber::dynamics {
 
-/// Drifts relative to the throughput above which a run gets a warning, and is
-/// rejected. Exempt from rejection are integrators that damp (implicit Euler)
-/// or have no consistent work (explicit Euler), and level one-way, which has no
-/// feedback.
+/// Drifts of a group relative to its throughput above which a run gets a
+/// warning, and is rejected. Exempt from rejection are integrators that damp
+/// (implicit Euler) or have no consistent work (explicit Euler), and level
+/// one-way, which has no feedback.
 inline constexpr double kToldDrift = 0.01;  ///< gives a warning [-]
 inline constexpr double kMostDrift = 0.5;   ///< is rejected [-]
 
-/// Drift over throughput [-]; 0 if it may be round-off.
-[[nodiscard]] double find_open_share(const EnergyRecord& energy);
-
-/// Adds a warning if energy was gained or lost: size, time, place.
+/// Adds a warning if a group gained or lost energy: size, time, place.
 void warn_of_energy(IntegratorKind integrator, const EnergyRecord& energy,
                     std::vector<std::string>& warnings);
 

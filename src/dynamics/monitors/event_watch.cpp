@@ -131,6 +131,7 @@ EventWatch::Change EventWatch::pass(std::size_t i, SystemState& state,
   events.push_back(
       {state.t, coupler.name, std::string(joints::to_string(*kind)), rate});
   change.has_jump = joints::may_jump(*kind);
+  change.coupler = s.coupler;
   const joints::RelativeMotion motion =
       find_relative_motion(model_, state, s.coupler);
   const Instant now = now_of(state);

@@ -36,6 +36,7 @@ class EventWatch {
   struct Change {
     bool has_jump = false;     ///< forces may jump
     double energy_lost = 0.0;  ///< stored in a latch that opened [J]
+    CouplerIndex coupler{-1};  ///< of that latch
   };
   Change pass(std::size_t index, SystemState& state,
               std::vector<Event>& events);

@@ -26,6 +26,10 @@ struct Extreme {
   bool operator==(const Extreme&) const = default;
 };
 
+inline void exchange(Archive& archive, Extreme& extreme) {
+  archive(extreme.value, extreme.time);
+}
+
 /// How a recorded scalar is evaluated within steps.
 enum class Course {
   motion,  ///< from the integrator's interpolated state

@@ -10,6 +10,7 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -34,7 +35,14 @@ double find_size(const SystemModel& model, AttachmentIndex from) {
 
 }  // namespace
 
-HoldWatch::HoldWatch(const SystemModel& model) : model_(model) {
+HoldWatch::HoldWatch(const SystemModel& model)
+    : model_(model), groups_(find_linked_groups(model)) {
+  std::vector<std::size_t> group_of(model.bodies.size());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (const BodyIndex b : groups_[g]) {
+      group_of[static_cast<std::size_t>(b)] = g;
+    }
+  }
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const Coupler& coupler = model.couplers[c];
     const auto stiffness = joints::find_hold_stiffness(coupler.law);
@@ -51,6 +59,7 @@ HoldWatch::HoldWatch(const SystemModel& model) : model_(model) {
         model.attachments[static_cast<std::size_t>(frame)].body;
     if (body == kWorld || !(hold.size > 0.0)) continue;
     hold.body = static_cast<std::size_t>(body);
+    hold.group = group_of[hold.body];
     holds_.push_back(hold);
   }
 }
@@ -73,7 +82,11 @@ void HoldWatch::include(const SystemState& state, const SystemTerms& terms) {
         0.5 * hold.stiffness.rotational * give.turn * give.turn;
     if (energy > hold.energy) {
       hold.energy = energy;
-      hold.elastic = find_elastic_energy(model_, state, terms);
+      hold.elastic = 0.0;
+      for (const BodyIndex b : groups_[hold.group]) {
+        hold.elastic += find_elastic_energy(model_, static_cast<std::size_t>(b),
+                                            state, terms);
+      }
       hold.energy_time = state.t;
     }
   }
@@ -107,8 +120,9 @@ std::string HoldWatch::describe_share(const Hold& hold) const {
   return fmt::format(
       "joint '{}' is soft beside the bodies: at t = {:.6g} s it stores {:.3g} "
       "J "
-      "in its constrained directions, {:.3g} % of the elastic energy of all "
-      "bodies; {:.2g} times its stiffness would keep it at {:g} %",
+      "in its constrained directions, {:.3g} % of the elastic energy of the "
+      "bodies connected to it; {:.2g} times its stiffness would keep it at "
+      "{:g} %",
       model_.couplers[hold.coupler].name, hold.energy_time, hold.energy,
       100.0 * hold.share(), hold.share() / kLargestShare,
       100.0 * kLargestShare);
@@ -126,13 +140,12 @@ std::vector<std::string> HoldWatch::find_warnings() const {
   return warnings;
 }
 
-double HoldWatch::find_negligible_energy() const {
+void HoldWatch::add_negligible_energies(Eigen::Ref<VectorX> losses) const {
   constexpr double kTimes = 10.0;
-  double energy = 0.0;
   for (const Hold& hold : holds_) {
-    if (hold.largest() <= kNegligible) energy += kTimes * hold.energy;
+    if (hold.largest() > kNegligible) continue;
+    losses[static_cast<Eigen::Index>(hold.coupler)] += kTimes * hold.energy;
   }
-  return energy;
 }
 
 std::optional<std::string> HoldWatch::find_overpowered() const {

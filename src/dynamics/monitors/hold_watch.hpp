@@ -20,8 +20,9 @@ namespace limber::dynamics {
 ///            rotation alone; both against the size l of the smaller of the
 ///            joined bodies: the larger of d / l and theta. And the energy
 ///            kt d^2 / 2 + kr theta^2 / 2, when it is largest, against the
-///            elastic energy of all bodies.
-/// Limits     a body's size is the distance to the farthest of its other
+///            elastic energy of all bodies that are connected to it.
+/// Limits     pairs that touch do not connect bodies; a body's size is the
+/// distance to the farthest of its other
 ///            attachments, or its largest radius of gyration.
 class HoldWatch {
  public:
@@ -34,14 +35,15 @@ class HoldWatch {
   [[nodiscard]] std::vector<std::string> find_warnings() const;
   /// Of a body's size, and in rotation [-, rad].
   static constexpr double kLargest = 1e-3;
-  /// Of the elastic energy of all bodies [-].
+  /// Of the elastic energy of all bodies that are connected to it [-].
   static constexpr double kLargestShare = 0.01;
   /// Smaller displacements have no share, of a body's size [-].
   static constexpr double kNegligible = 1e-6;
 
-  /// Energy that joints may lose in vibration that no step resolves, by
-  /// displacements up to kNegligible: ten times the largest that they had [J].
-  [[nodiscard]] double find_negligible_energy() const;
+  /// Adds the energy that each joint may lose in vibration that no step
+  /// resolves, by displacements up to kNegligible: ten times the largest that
+  /// it had. @param losses of couplers [J]
+  void add_negligible_energies(Eigen::Ref<VectorX> losses) const;
 
   /// The joint that was displaced most, if by more than kOverpowered; nothing
   /// if none was.
@@ -56,15 +58,16 @@ class HoldWatch {
  private:
   struct Hold {
     std::size_t coupler = 0;
-    std::size_t body = 0;  // the smaller of those joined
-    double size = 0.0;     // [m]
+    std::size_t body = 0;   // the smaller of those joined
+    std::size_t group = 0;  // of the connected bodies, index of groups_
+    double size = 0.0;      // [m]
     joints::HoldStiffness stiffness;
     double give = 0.0;         // d at its largest [m]
     double turn = 0.0;         // theta at its largest [rad]
     double give_time = 0.0;    // [s]
     double turn_time = 0.0;    // [s]
     double energy = 0.0;       // of the joint at its largest [J]
-    double elastic = 0.0;      // of all bodies then [J]
+    double elastic = 0.0;      // of the connected bodies then [J]
     double energy_time = 0.0;  // [s]
     // The larger of both, relative to the body's size or in [rad].
     [[nodiscard]] double largest() const { return std::max(give / size, turn); }
@@ -77,6 +80,7 @@ class HoldWatch {
   [[nodiscard]] std::string describe_share(const Hold& hold) const;
 
   const SystemModel& model_;
+  std::vector<std::vector<BodyIndex>> groups_;
   std::vector<Hold> holds_;
 };
 

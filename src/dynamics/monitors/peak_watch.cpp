@@ -72,10 +72,6 @@ PeakPoints replace(const PeakPoints& points, const PeakPoint& next,
 
 }  // namespace
 
-void exchange(Archive& archive, Extreme& extreme) {
-  archive(extreme.value, extreme.time);
-}
-
 void exchange(Archive& archive, PeakWatch::Sample& sample) {
   archive(sample.state, sample.values, sample.places);
 }

@@ -18,9 +18,6 @@ struct PeakPoint {
 };
 using PeakPoints = std::array<PeakPoint, 3>;  ///< in order of time
 
-/// For checkpoints.
-void exchange(Archive& archive, Extreme& extreme);
-
 /// Extremes in time of a run's scalars, over all its steps; passes the states
 /// that it evaluates to their spectator.
 ///

@@ -21,7 +21,7 @@ bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
 
 StepAudit::StepAudit(const SystemModel& model, IntegratorKind integrator)
     : model_(model),
-      ledger_(model),
+      ledger_(model, integrator == IntegratorKind::explicit_euler),
       holds_(model),
       limits_(model),
       terms_(make_terms(model)),
@@ -33,8 +33,8 @@ const SystemTerms& StepAudit::evaluate(const SystemState& state) {
 }
 
 void StepAudit::start(const SystemState& state, const SystemTerms& terms,
-                      const StepResult& totals, std::vector<Event>& events) {
-  ledger_.start(state, terms, totals);
+                      std::vector<Event>& events) {
+  ledger_.start(state, terms);
   holds_.include(state, terms);
   limits_.include(state, terms, events);
 }
@@ -44,28 +44,27 @@ void StepAudit::cross_jump(const SystemState& state, const SystemTerms& terms) {
 }
 
 void StepAudit::include(const SystemState& state, const SystemTerms* terms,
-                        const StepResult& totals, bool is_last,
+                        const EnergyFlows& flows, bool is_exact,
                         std::vector<Event>& events) {
   ++steps_;
   const bool has_event = terms == nullptr;
-  if (!has_event && !is_last && steps_ % stride_ != 0) return;
+  if (!has_event && !is_exact && steps_ % stride_ != 0) return;
   const SystemTerms* now = terms;
-  if (has_event && !is_last) {
+  if (has_event || is_exact || stride_ > 1 ||
+      !ledger_.try_add(state, *terms, flows)) {
     now = &evaluate(state);
-    ledger_.restart(state, *now);
-  } else if (has_event || stride_ > 1 ||
-             !ledger_.try_add(state, *terms, totals)) {
-    now = &evaluate(state);
-    ledger_.add(state, *now, totals);
+    ledger_.add(state, *now, flows);
   }
   holds_.include(state, *now);
   limits_.include(state, *now, events);
 }
 
 EnergyRecord StepAudit::find_energy() const {
-  EnergyRecord record = ledger_.find_record();
-  record.roundoff += holds_.find_negligible_energy();
-  return record;
+  const EnergyRows rows(model_);
+  VectorX negligible = VectorX::Zero(rows.count);
+  holds_.add_negligible_energies(
+      negligible.segment(rows.couplers, std::ssize(model_.couplers)));
+  return ledger_.find_record(negligible);
 }
 
 void StepAudit::add_warnings(std::vector<std::string>& warnings) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,17 +23,29 @@ class StepAudit {
  public:
   StepAudit(const SystemModel& model, IntegratorKind integrator);
 
-  /// @param terms at `state` @param totals of events before it
+  /// @param terms at `state`
   void start(const SystemState& state, const SystemTerms& terms,
-             const StepResult& totals, std::vector<Event>& events);
+             std::vector<Event>& events);
   /// Accounts for a jump of forces at the end of the last step.
   /// @param terms of the integrator
   void cross_jump(const SystemState& state, const SystemTerms& terms);
   /// The end of a step. @param terms of the integrator there; null after an
-  /// event, which invalidates them
+  /// event, which invalidates them @param flows sums since the start
+  /// @param is_exact whether it is included whatever the stride, with terms
+  /// that are exact
   void include(const SystemState& state, const SystemTerms* terms,
-               const StepResult& totals, bool is_last,
+               const EnergyFlows& flows, bool is_exact,
                std::vector<Event>& events);
+
+  /// As of EnergyLedger, at the last state included.
+  [[nodiscard]] std::optional<EnergyGroups::Excess> find_blow_up(bool is_end) {
+    return ledger_.find_blow_up(is_end);
+  }
+  [[nodiscard]] bool has_too_much() { return ledger_.has_too_much(); }
+  /// As of EnergyLedger, at any state.
+  [[nodiscard]] bool has_too_much(const SystemState& state) {
+    return ledger_.has_too_much(state, evaluate(state));
+  }
 
   [[nodiscard]] EnergyRecord find_energy() const;
   void add_warnings(std::vector<std::string>& warnings) const;

@@ -238,13 +238,17 @@ void TouchWatch::mark_apart(SystemState& state) const {
   }
 }
 
-// T_c of the shortest touch that fulfils the predicate [s].
+// The touch that fulfils the predicate and has the shortest T_c, if any.
 template <typename Predicate>
-double TouchWatch::find_shortest(const Predicate& counts) const {
-  double shortest = std::numeric_limits<double>::infinity();
+const TouchWatch::Watched* TouchWatch::find_shortest(
+    const Predicate& counts) const {
+  const Watched* shortest = nullptr;
   for (const Watched& watched : pairs_) {
     if (!watched.is_touching || !counts(watched)) continue;
-    shortest = std::min(shortest, watched.impact_duration);
+    if (shortest == nullptr ||
+        watched.impact_duration < shortest->impact_duration) {
+      shortest = &watched;
+    }
   }
   return shortest;
 }
@@ -253,16 +257,21 @@ bool TouchWatch::has_rested(const Watched& watched, double t) {
   return t - watched.since > kRest * watched.impact_duration;
 }
 
-double TouchWatch::find_steps_of_impact(double h, double t) const {
-  return find_shortest([&](const Watched& watched) {
-           return !has_rested(watched, t) ||
-                  watched.steps < kStepsOfCoarseImpact;
-         }) /
-         h;
+TouchWatch::Impact TouchWatch::find_impact(double h, double t) const {
+  return describe(find_shortest([&](const Watched& watched) {
+                    return !has_rested(watched, t) ||
+                           watched.steps < kStepsOfCoarseImpact;
+                  }),
+                  h);
 }
 
 double TouchWatch::find_steps_of_touch(double h) const {
-  return find_shortest([](const Watched&) { return true; }) / h;
+  return describe(find_shortest([](const Watched&) { return true; }), h).steps;
+}
+
+TouchWatch::Impact TouchWatch::describe(const Watched* touch, double h) {
+  if (touch == nullptr) return {};
+  return {touch->impact_duration / h, touch->pair};
 }
 
 void TouchWatch::check_step(double h, double t) const {
@@ -342,9 +351,11 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
 }
 
 double TouchWatch::find_longest_step(double t) const {
-  return find_shortest(
-             [&](const Watched& watched) { return !has_rested(watched, t); }) /
-         kStepsOfImpact;
+  const Impact impact = describe(find_shortest([&](const Watched& watched) {
+                                   return !has_rested(watched, t);
+                                 }),
+                                 1.0);
+  return impact.steps / kStepsOfImpact;
 }
 
 void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {

@@ -99,10 +99,14 @@ class TouchWatch {
   /// Longest step that resolves ongoing impacts; infinite without any. A touch
   /// of more than eight times the expected duration is rest [s].
   [[nodiscard]] double find_longest_step(double t) const;
-  /// T_c / h of the shortest ongoing impact; infinite without any. An impact is
-  /// ongoing for three steps from a touch, or eight times T_c [-].
-  [[nodiscard]] double find_steps_of_impact(double h, double t) const;
-  /// The same for all touching pairs, impacts or not [-].
+  struct Impact {
+    double steps = std::numeric_limits<double>::infinity();  ///< T_c / h [-]
+    std::size_t pair = 0;                                    ///< if any
+  };
+  /// The shortest ongoing impact. An impact is ongoing for three steps from a
+  /// touch, or eight times T_c.
+  [[nodiscard]] Impact find_impact(double h, double t) const;
+  /// T_c / h of the shortest touch, an impact or not; infinite without any [-].
   [[nodiscard]] double find_steps_of_touch(double h) const;
   /// The touch at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
@@ -146,7 +150,8 @@ class TouchWatch {
       Watched& watched, const SystemState& before, const SystemState& after);
   [[nodiscard]] bool has_left(Watched& watched, const SystemState& after);
   template <typename Predicate>
-  [[nodiscard]] double find_shortest(const Predicate& counts) const;
+  [[nodiscard]] const Watched* find_shortest(const Predicate& counts) const;
+  [[nodiscard]] static Impact describe(const Watched* touch, double h);
   // Whether a touching pair is no longer in an impact.
   [[nodiscard]] static bool has_rested(const Watched& watched, double t);
   // @param is_early whether `within_` is before what is looked for

@@ -12,6 +12,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
+#include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -71,21 +72,16 @@ void ControllerSampling::skip_until(SystemState& state) const {
   }
 }
 
-double ControllerSampling::calc_energy(const SystemState& state) const {
-  double energy = 0.0;
-  for (const Link link : links_) {
-    if (link < model_.couplers.size()) {
-      energy += evaluate_coupler(model_, state, static_cast<CouplerIndex>(link))
-                    .response.energy;
-    } else {
-      energy +=
-          evaluate_transmission(
-              model_, state,
-              static_cast<TransmissionIndex>(link - model_.couplers.size()))
-              .response.energy;
-    }
+double ControllerSampling::calc_energy(Link link,
+                                       const SystemState& state) const {
+  if (link < model_.couplers.size()) {
+    return evaluate_coupler(model_, state, static_cast<CouplerIndex>(link))
+        .response.energy;
   }
-  return energy;
+  link -= model_.couplers.size();
+  return evaluate_transmission(model_, state,
+                               static_cast<TransmissionIndex>(link))
+      .response.energy;
 }
 
 void ControllerSampling::write(const ControllerModel& controller,
@@ -142,7 +138,7 @@ void ControllerSampling::sample(std::size_t i, const SystemState& seen,
   write(controller, state);
 }
 
-ControllerSampling::Change ControllerSampling::take(SystemState& state) {
+bool ControllerSampling::take(SystemState& state, VectorX& work) {
   due_.clear();
   const double same = find_same_time(state.t, start_);
   for (std::size_t i = 0; i < model_.controllers.size(); ++i) {
@@ -150,21 +146,26 @@ ControllerSampling::Change ControllerSampling::take(SystemState& state) {
         model_.controllers[i].find_time(state.controllers[i].next);
     if (next <= state.t + same) due_.push_back(i);
   }
-  if (due_.empty()) return {};
+  if (due_.empty()) return false;
   seen_ = state;
   if (!model_.full_bodies.empty()) update_mean_frames(model_, seen_);
   SystemState after = state;
   for (const std::size_t i : due_) sample(i, seen_, after);
-  Change change;
+  bool has_jump = false;
   for (std::size_t i = 0; i < state.inputs.size(); ++i) {
     const InputState& line = after.inputs[i];
-    change.has_jump |=
-        line.since == state.t &&
-        (line.value != line.value_before || line.rate != line.rate_before);
+    has_jump |= line.since == state.t && (line.value != line.value_before ||
+                                          line.rate != line.rate_before);
   }
-  if (change.has_jump) change.work = calc_energy(after) - calc_energy(state);
+  if (has_jump) {
+    const Eigen::Index first = EnergyRows(model_).couplers;
+    for (const Link link : links_) {
+      work[first + static_cast<Eigen::Index>(link)] +=
+          calc_energy(link, after) - calc_energy(link, state);
+    }
+  }
   state = after;
-  return change;
+  return has_jump;
 }
 
 }  // namespace limber::dynamics

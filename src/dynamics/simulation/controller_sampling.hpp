@@ -19,17 +19,15 @@ class ControllerSampling {
   /// Skips samples before a run that starts at `state`.
   void skip_until(SystemState& state) const;
 
-  struct Change {
-    bool has_jump = false;  ///< an input or its rate
-    /// By which the energy in the springs of position drives changed [J].
-    double work = 0.0;
-  };
   /// Takes all due samples. Controllers sampled at the same time see the same
   /// state.
+  /// @param work in the rows of EnergyRows, to which changes of the energy in
+  /// the springs of position drives are added [J]
+  /// @returns whether an input or its rate jumps
   /// @throws NumericalError naming the controller, the input and the time if it
   /// throws or writes a value that is not finite; `state` is then unchanged.
   /// Interrupted if it throws that.
-  Change take(SystemState& state);
+  bool take(SystemState& state, VectorX& work);
 
  private:
   // A coupler, or a transmission after all couplers, whose drives follow
@@ -40,7 +38,7 @@ class ControllerSampling {
   void sample(std::size_t controller, const SystemState& seen,
               SystemState& state);
   void write(const ControllerModel& controller, SystemState& state) const;
-  [[nodiscard]] double calc_energy(const SystemState& state) const;
+  [[nodiscard]] double calc_energy(Link link, const SystemState& state) const;
 
   const SystemModel& model_;
   double start_;  // [s]

@@ -39,7 +39,9 @@ EventStepper::EventStepper(const SystemModel& model,
       limits_(model),
       heeds_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
       commit_pairs_(model),
-      events_(events) {
+      events_(events),
+      last_flows_(make_flows(model)),
+      flows_(last_flows_) {
   using Kind = joints::AxisCoordinate::Kind;
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
@@ -76,6 +78,13 @@ void EventStepper::add_last() {
   totals_.factorizations += last_.factorizations;
   totals_.load_work += last_.load_work;
   totals_.dissipated += last_.dissipated;
+  flows_ += last_flows_;
+}
+
+void EventStepper::add_between_steps(const EnergyFlows& flows) {
+  totals_.load_work += flows.supplied.sum();
+  totals_.dissipated += flows.dissipated.sum();
+  flows_ += flows;
 }
 
 // An impact that the step does not resolve is damped, since it would gain
@@ -83,14 +92,17 @@ void EventStepper::add_last() {
 // resolved one does, the step fails; so does a step longer than an impact in an
 // ongoing touch.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
-  const double steps = touches_.find_steps_of_impact(h, state.t);
-  const bool damps = integrator_->damp(steps < TouchWatch::kFewestSteps);
-  const bool is_impact = steps < TouchWatch::kSureSteps;
+  const TouchWatch::Impact impact = touches_.find_impact(h, state.t);
+  const bool damps = integrator_->damp(impact.steps < TouchWatch::kFewestSteps);
+  const bool is_impact = impact.steps < TouchWatch::kSureSteps;
   if (!is_impact && !(touches_.find_steps_of_touch(h) < 1.0)) {
-    return integrator_->step(state, h, end);
+    const StepResult result = integrator_->step(state, h, end);
+    last_flows_ = integrator_->flows();
+    return result;
   }
   const double before = calc_energy(model_, state, terms_).total();
   StepResult result = integrator_->step(state, h, end);
+  last_flows_ = integrator_->flows();
   const double after = calc_energy(model_, state, terms_).total();
   const double gained = after + result.dissipated - result.load_work - before;
   const double most = is_impact ? kMostGain : kMostGainInTouch;
@@ -101,7 +113,11 @@ StepResult EventStepper::take_step(SystemState& state, double h, double end) {
         "gains {:.3g} J",
         h, state.t, gained));
   }
-  if (damps) result.dissipated += std::max(-gained, 0.0);
+  if (damps && gained < 0.0) {
+    result.dissipated -= gained;
+    last_flows_.dissipated[EnergyRows(model_).pairs +
+                           static_cast<Eigen::Index>(impact.pair)] -= gained;
+  }
   return result;
 }
 
@@ -138,7 +154,11 @@ void EventStepper::take_back(SystemState& state) {
 void EventStepper::pass(const EventWatch::Crossing& crossing,
                         SystemState& state, double h) {
   const EventWatch::Change change = watch_.pass(crossing.index, state, events_);
-  totals_.dissipated += change.energy_lost;
+  if (change.coupler >= 0) {
+    totals_.dissipated += change.energy_lost;
+    flows_.dissipated[EnergyRows(model_).couplers + change.coupler] +=
+        change.energy_lost;
+  }
   if (change.has_jump) integrator_->start(state, h);
   watch_.accept(state);
 }
@@ -157,6 +177,7 @@ bool EventStepper::advance_to(double share, SystemState& state) {
   take_back(state);
   if (!(share > kSameEvent)) {
     last_.load_work = last_.dissipated = 0.0;
+    last_flows_.clear();
     return false;
   }
   const double until = share * h_;
@@ -272,7 +293,7 @@ void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   watch_.exchange_memory(archive);
   touches_.exchange_memory(archive);
   archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
-          totals_.dissipated);
+          totals_.dissipated, flows_.supplied, flows_.dissipated);
   if (keeps_before_) before_ = state;
 }
 

@@ -50,8 +50,8 @@ class EventStepper {
   void settle(SystemState& state, double nominal_h);
   /// Reverts the attempted step.
   void take_back(SystemState& state);
-  /// Adds work of drives between two steps [J].
-  void add_work(double work) { totals_.load_work += work; }
+  /// Adds work and losses between two steps.
+  void add_between_steps(const EnergyFlows& flows);
 
   /// Result of the last attempted step.
   [[nodiscard]] const StepResult& last() const { return last_; }
@@ -60,6 +60,9 @@ class EventStepper {
   [[nodiscard]] const SystemState& before() const { return before_; }
   /// Sums over all steps so far.
   [[nodiscard]] const StepResult& totals() const { return totals_; }
+  /// Energies of totals() by what they belong to, without that of an impulse at
+  /// the start.
+  [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
   /// Which pairs touch.
   [[nodiscard]] TouchWatch& touches() { return touches_; }
 
@@ -116,6 +119,8 @@ class EventStepper {
   int cut_ = 0;     // number of successive steps cut by events
   StepResult last_;
   StepResult totals_;
+  EnergyFlows last_flows_;
+  EnergyFlows flows_;
 };
 
 }  // namespace limber::dynamics

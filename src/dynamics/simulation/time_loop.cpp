@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "limber/common/errors.hpp"
+#include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/interpolation.hpp"
 #include "limber/dynamics/monitors/event_fields.hpp"
@@ -69,6 +70,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       contacts_(model, settings.integrator),
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
+      jumps_(make_flows(model)),
       within_(state),
       sound_(state),
       kept_(Clock::now()) {}
@@ -83,7 +85,6 @@ void TimeLoop::exchange_memory(Archive& archive, SystemState& state) {
           refreshed_solves_);
   stepper_.exchange_memory(archive, state);
   control_.exchange_memory(archive);
-  watch_.exchange_memory(archive);
   peaks_.exchange_memory(archive);
   audit_.exchange_memory(archive);
   contacts_.exchange_memory(archive);
@@ -148,16 +149,16 @@ double TimeLoop::find_share(double t) const {
 }
 
 // A state after a blow-up does not show its cause.
-bool TimeLoop::is_sound(const SystemState& state) const {
+bool TimeLoop::is_sound(const SystemState& state) {
   try {
-    return !watch_.is_too_much(calc_energy(model_, state).total());
+    return !audit_.has_too_much(state);
   } catch (const NumericalError&) {
     return true;  // as of a joint whose axis is reversed, which is a cause
   }
 }
 
 void TimeLoop::fail(const SystemState& state, double h,
-                    const std::string& what) const {
+                    const std::string& what) {
   const bool is_cause_here = is_sound(state);
   const auto cause = find_cause(model_, is_cause_here ? state : sound_,
                                 settings_.integrator, is_cause_here ? h : h_);
@@ -165,9 +166,9 @@ void TimeLoop::fail(const SystemState& state, double h,
 }
 
 void TimeLoop::inspect(const SystemState& state) {
-  const double stored = calc_energy(model_, state, terms_).total();
-  if (!watch_.is_blown_up(stored, state.t == settings_.end_time)) {
-    if (!watch_.is_too_much(stored)) sound_ = state;
+  const auto excess = audit_.find_blow_up(state.t == settings_.end_time);
+  if (!excess) {
+    if (!audit_.has_too_much()) sound_ = state;
     return;
   }
   const bool is_early = statistics_.steps <= kStepsBetweenLooks;
@@ -179,8 +180,8 @@ void TimeLoop::inspect(const SystemState& state) {
        fmt::format("the motion blows up at t = {:.9g} s: {:.3g} J are stored, "
                    "most in {}, where the start and the loads account for "
                    "{:.3g} J; {}",
-                   state.t, stored, find_most_energy(model_, state),
-                   watch_.supplied(),
+                   state.t, excess->stored, find_most_energy(model_, state),
+                   excess->accounted,
                    is_early && !clash_.empty() ? clash_ : advice));
 }
 
@@ -188,7 +189,11 @@ void TimeLoop::count_step(const StepResult& since) {
   const StepResult& now = stepper_.totals();
   statistics_.newton_iterations += now.iterations - since.iterations;
   statistics_.factorizations += now.factorizations - since.factorizations;
-  watch_.add(now.load_work - since.load_work);
+}
+
+bool TimeLoop::is_look_due(const SystemState& state, long steps) const {
+  return steps <= kStepsBetweenLooks || steps % kStepsBetweenLooks == 0 ||
+         state.t == settings_.end_time;
 }
 
 void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
@@ -196,8 +201,8 @@ void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
   contacts_.include(state, stepper_.touches());
   const SystemTerms* smooth =
       statistics_.events.size() == events_before ? &stepper_.terms() : nullptr;
-  audit_.include(state, smooth, stepper_.totals(),
-                 state.t == settings_.end_time, statistics_.events);
+  audit_.include(state, smooth, stepper_.flows(),
+                 is_look_due(state, statistics_.steps + 1), statistics_.events);
 }
 
 void TimeLoop::tell(RunRecord& record) {
@@ -223,12 +228,10 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
         statistics_.warnings.push_back(describe(*impulse, state.t, h_));
       }
       const double stored = calc_energy(model_, state, terms_).total();
-      watch_ = EnergyWatch(
-          stored, settings_.integrator == IntegratorKind::explicit_euler);
       clash_ = find_start_clash(model_, terms_, stored, h_);
       peaks_.start(state);
       contacts_.include(state, stepper_.touches());
-      audit_.start(state, terms_, stepper_.totals(), statistics_.events);
+      audit_.start(state, terms_, statistics_.events);
     }
     if (at_jump_) {
       stepper_.cross_jump(state, h_);
@@ -282,10 +285,9 @@ void TimeLoop::begin(SystemState& state) {
 }
 
 void TimeLoop::take_samples(SystemState& state) {
-  const ControllerSampling::Change change = sampling_.take(state);
-  inputs_jump_ |= change.has_jump;
-  stepper_.add_work(change.work);
-  watch_.add(change.work);
+  jumps_.clear();
+  inputs_jump_ |= sampling_.take(state, jumps_.supplied);
+  stepper_.add_between_steps(jumps_);
 }
 
 void TimeLoop::leave_breakpoint(const SystemState& state, const Visit& visit) {
@@ -365,11 +367,7 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
   } else if (!take_free_step(state, visit)) {
     return heed_within_step(state, progress);
   }
-  const long steps = ++statistics_.steps;
-  if (steps <= kStepsBetweenLooks || steps % kStepsBetweenLooks == 0 ||
-      state.t == settings_.end_time) {
-    inspect(state);
-  }
+  if (is_look_due(state, ++statistics_.steps)) inspect(state);
   if (part_ == parts_) leave_breakpoint(state, visit);
   tell_progress(state, progress);
   if (is_refresh_due()) {

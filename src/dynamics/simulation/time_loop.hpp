@@ -107,10 +107,11 @@ class TimeLoop {
   bool goes_through(const SystemState& state, double h, const Work& work);
   void halve(const SystemState& state, double h, const std::string& why);
   void count_share(const SystemState& state);
-  void check_budget(const SystemState& state, double h) const;
+  void check_budget(const SystemState& state, double h);
   void visit_within(const SystemState& begin, const SystemState& state,
                     const Losses& before, const Visit& visit);
   void count_step(const StepResult& since);
+  [[nodiscard]] bool is_look_due(const SystemState& state, long steps) const;
   void watch_step(const SystemState& state, std::size_t events_before);
   void inspect(const SystemState& state);
   [[nodiscard]] bool is_refresh_due() const;
@@ -120,9 +121,9 @@ class TimeLoop {
   void keep_checkpoint(const CheckpointKeeper& keeper);
   [[nodiscard]] double find_share(double t) const;
   void exchange_memory(Archive& archive, SystemState& state);
-  [[nodiscard]] bool is_sound(const SystemState& state) const;
+  [[nodiscard]] bool is_sound(const SystemState& state);
   [[noreturn]] void fail(const SystemState& state, double h,
-                         const std::string& what) const;
+                         const std::string& what);
   [[nodiscard]] std::string describe_failure(const SystemState& state) const;
   [[nodiscard]] bool is_adaptive() const { return settings_.tolerance > 0.0; }
 
@@ -138,12 +139,12 @@ class TimeLoop {
   EventStepper stepper_;
   ControllerSampling sampling_;
   StepControl control_;
-  EnergyWatch watch_;
   PeakWatch peaks_;
   StepAudit audit_;
   ContactLog contacts_;
   WorkBudget budget_;
-  SystemTerms terms_;  // of the energy
+  SystemTerms terms_;  // at the start
+  EnergyFlows jumps_;  // between two steps
   SystemState within_;
   SystemState sound_;  // at the last look at an energy not too much
 

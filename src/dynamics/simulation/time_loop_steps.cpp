@@ -39,7 +39,7 @@ std::string TimeLoop::describe_failure(const SystemState& state) const {
   return "most energy is in " + find_most_energy(model_, state);
 }
 
-void TimeLoop::check_budget(const SystemState& state, double h) const {
+void TimeLoop::check_budget(const SystemState& state, double h) {
   const long steps = statistics_.steps + statistics_.rejected_steps;
   if (budget_.allows_solves(statistics_.linear_solves, steps)) return;
   fail(state, h,

@@ -117,9 +117,9 @@ TEST(FullDamping, NeitherPushesNorTurnsADeformedBodyAndTakesItsPower) {
   const double roundoff = 1e-13 * force.norm();
   EXPECT_LT(force.rowwise().sum().norm(), roundoff);
   EXPECT_LT(find_moment(model, state, force).norm(), 10.0 * roundoff);
-  EXPECT_NEAR(force.reshaped().dot(state.udot_H), -terms.dissipated_power,
-              1e-12 * terms.dissipated_power);
-  EXPECT_EQ(terms.load_power, 0.0);
+  EXPECT_NEAR(force.reshaped().dot(state.udot_H), -terms.bodies[0].dissipated,
+              1e-12 * terms.bodies[0].dissipated);
+  EXPECT_EQ(terms.bodies[0].supplied, 0.0);
 }
 
 TEST(FullDamping, LeavesRigidMotionAlone) {
@@ -160,7 +160,7 @@ TEST(FullLoad, TurnsWithTheBodyOrStaysInTheWorld) {
           << name;
       const double power =
           (R_W * force).dot(at.v_WF_W) + (R_W * moment).dot(at.w_WF_W);
-      EXPECT_NEAR(terms.load_power, power, 1e-13 * std::abs(power));
+      EXPECT_NEAR(terms.bodies[0].supplied, power, 1e-13 * std::abs(power));
       EXPECT_NEAR(nodal.reshaped().dot(state.udot_H), power, 1e-12);
     }
   }
@@ -179,7 +179,8 @@ TEST(FullLoad, OfNodesTurnsWithTheBodyAndDoesItsWork) {
       state.X_WH[0].R.transpose() * state.bodies[0].quat_WB.toRotationMatrix();
   const Matrix3X expected = R_HB * pattern.reshaped(3, lattice.network.size());
   EXPECT_LT((terms.full[0].force - expected).norm(), 1e-13);
-  EXPECT_NEAR(terms.load_power, expected.reshaped().dot(state.udot_H), 1e-12);
+  EXPECT_NEAR(terms.bodies[0].supplied, expected.reshaped().dot(state.udot_H),
+              1e-12);
 }
 
 // --- What pairs see ----------------------------------------------------------

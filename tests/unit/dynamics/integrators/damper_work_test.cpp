@@ -68,7 +68,9 @@ double find_addition(double change, double v0, double v1) {
   DamperWork work(model);
   work.start(terms);
   calc_terms(model, to, Side::left, terms);
-  return work.advance(from, to, terms, 0.1) / model.bodies[0].damping[0];
+  VectorX losses = VectorX::Zero(1);
+  work.advance(from, to, terms, 0.1, losses);
+  return losses[0] / model.bodies[0].damping[0];
 }
 
 // mean(v) dz - h mean(v^2)

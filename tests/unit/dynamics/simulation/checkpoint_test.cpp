@@ -116,8 +116,15 @@ void expect_same(const Trace& whole, const Trace& rest, std::size_t outputs) {
   EXPECT_EQ(a.kinetic, b.kinetic);
   EXPECT_EQ(a.throughput, b.throughput);
   EXPECT_EQ(a.roundoff, b.roundoff);
-  EXPECT_EQ(a.place, b.place);
-  EXPECT_EQ(a.share, b.share);
+  EXPECT_EQ(a.worst.place, b.worst.place);
+  EXPECT_EQ(a.worst.share, b.worst.share);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    EXPECT_EQ(a.rows[i].name, b.rows[i].name);
+    EXPECT_EQ(a.rows[i].in, b.rows[i].in);
+    EXPECT_EQ(a.rows[i].out, b.rows[i].out);
+    EXPECT_EQ(a.rows[i].error, b.rows[i].error);
+  }
 }
 
 /// The checkpoint of a run that ends at its n-th output, or with several passes

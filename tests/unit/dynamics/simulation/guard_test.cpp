@@ -346,15 +346,22 @@ TEST(EnergyWatch, SeesWhatIsNoNumberAndWhatIsFarOffAtOnce) {
   EXPECT_TRUE(EnergyWatch(1.0, false).is_blown_up(2000.0));
 }
 
+TEST(EnergyWatch, TakesNoiseForNothing) {
+  EnergyWatch watch(0.0, false);
+  EXPECT_FALSE(watch.is_blown_up(1e-15, false, 2e-15));
+  EXPECT_FALSE(watch.is_blown_up(1.5e-15, true, 2e-15));
+  EXPECT_FALSE(watch.is_blown_up(3e-15, false, 2e-15));
+  EXPECT_TRUE(watch.is_blown_up(4e-15, false, 2e-15));
+}
+
 TEST(EnergyWatch, WaitsForASecondLookWhereWorkLags) {
   EnergyWatch watch(1e-24, true);
   watch.add(0.0);
-  EXPECT_FALSE(watch.has_doubt());
   EXPECT_FALSE(watch.is_blown_up(1.0));
-  EXPECT_TRUE(watch.has_doubt());
+  EXPECT_TRUE(watch.is_too_much(1.0));
   watch.add(2.0);
   EXPECT_FALSE(watch.is_blown_up(4.0));
-  EXPECT_FALSE(watch.has_doubt());
+  EXPECT_FALSE(watch.is_too_much(4.0));
   EnergyWatch grows(1e-24, true);
   EXPECT_FALSE(grows.is_blown_up(1.0));
   EXPECT_TRUE(grows.is_blown_up(4.0));
