@@ -13,6 +13,8 @@ namespace limber::test::peaks_test {
 namespace {
 
 using nlohmann::json;
+using ::testing::AnyOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -126,10 +128,10 @@ TEST(EnergyWarning, TellsWhatImplicitEulerTakesFromAPendulum) {
   EXPECT_THAT(result.errors, HasSubstr("implicit-euler damps"));
   // A swing of 3.86 rad/s loses 11 % of its energy a step, 1 - 1 / (1 + w^2
   // h^2): after 222 steps nothing of it is left, and no damper took it.
-  EXPECT_THAT(result.errors, HasSubstr("body 'arm'"));
+  EXPECT_THAT(result.errors, ContainsRegex("in (body 'arm'|coupler 'pin')"));
   const json summary = json::parse(result.out, nullptr, false);
   EXPECT_GT(summary["energy"]["open_share"], 0.99);
-  EXPECT_EQ(summary["energy"]["place"], "body 'arm'");
+  EXPECT_THAT(summary["energy"]["place"], AnyOf("body 'arm'", "coupler 'pin'"));
   EXPECT_THAT(summary["warnings"].dump(), HasSubstr("nothing accounts for"));
 }
 
@@ -140,7 +142,8 @@ TEST(EnergyWarning, IsNotSilencedByABodyThatFallsFarAway) {
                  "[[projectile]]\nname = 'stone'\nradius = 1.0\n"
                  "mass = 1000.0\nposition = [1000.0, 0.0, 0.0]\n");
   const CommandResult result = place.limber("run p.toml --out o --json");
-  EXPECT_THAT(result.errors, HasSubstr("body 'arm'"));
+  EXPECT_THAT(result.errors, HasSubstr("nothing accounts for"));
+  EXPECT_THAT(result.errors, Not(HasSubstr("stone")));
   const json energy = json::parse(result.out, nullptr, false)["energy"];
   EXPECT_GT(energy["throughput"], 1e7);
   EXPECT_GT(energy["open_share"], 0.99);

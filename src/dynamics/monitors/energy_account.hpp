@@ -45,6 +45,10 @@ struct EnergyAccount {
   [[nodiscard]] double work_in(const Vector3& v) const {
     return supplied - impulse.dot(v);
   }
+  /// Energy whose digits a change to that frame may cost.
+  [[nodiscard]] double rounded_in(const Vector3& v) const {
+    return kinetic + 0.5 * mass * v.squaredNorm();
+  }
   /// What nothing accounts for.
   [[nodiscard]] double error_in(const Vector3& v) const {
     return stored - initial - received - supplied + dissipated -

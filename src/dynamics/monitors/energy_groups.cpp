@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace limber::dynamics {
@@ -14,6 +15,8 @@ constexpr double kPassedError = 1e-11;
 // Factor on the noise of couplers at one state, which accumulates as a random
 // walk.
 constexpr double kNoiseFactor = 10.0;
+// Round-off of an energy that a change of the frame subtracts from [-].
+constexpr double kFrameError = 32.0 * std::numeric_limits<double>::epsilon();
 // Factor on both that no run at rest exceeds; what blows up soon does.
 constexpr double kRestFactor = 1e6;
 // Least relative growth of an extreme before it is evaluated exactly; a drift
@@ -155,7 +158,7 @@ void EnergyGroups::start(const std::vector<EnergyAccount>& accounts) {
   }
   sum_up(accounts);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    groups_[i].watch = EnergyWatch(sums_[i].stored, lags_);
+    groups_[i].watch = EnergyWatch(std::abs(sums_[i].stored), lags_);
     include_extremes(i);
   }
 }
@@ -173,7 +176,8 @@ void EnergyGroups::sum_up(const std::vector<EnergyAccount>& accounts) {
     sums.dissipated += account.dissipated;
     sums.error += account.error_in(v);
     sums.rest += kRestFactor * (account.noise + account.jitter) +
-                 kPassedError * account.passed;
+                 kPassedError * account.passed +
+                 kFrameError * account.rounded_in(v);
   }
 }
 
@@ -260,8 +264,10 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
   std::vector<EnergyDrift> drifts(groups_.size());
   const double walk = kNoiseFactor * std::sqrt(std::max(steps, 1.0));
   for (std::size_t i = 0; i < accounts.size(); ++i) {
+    const Vector3& v = groups_[group_of(i)].velocity;
     drifts[group_of(i)].roundoff += negligible[static_cast<Eigen::Index>(i)] +
                                     kPassedError * accounts[i].passed +
+                                    kFrameError * accounts[i].rounded_in(v) +
                                     walk * accounts[i].noise;
   }
   for (std::size_t i = 0; i < groups_.size(); ++i) {

@@ -38,10 +38,12 @@ double find_power(const joints::PairResponse& pair) {
 
 }  // namespace
 
-EnergyLedger::EnergyLedger(const SystemModel& model, bool lags)
+EnergyLedger::EnergyLedger(const SystemModel& model, IntegratorKind integrator)
     : model_(model),
+      works_by_ends_(integrator == IntegratorKind::generalized_alpha ||
+                     integrator == IntegratorKind::implicit_euler),
       rows_(model),
-      groups_(model, lags),
+      groups_(model, integrator == IntegratorKind::explicit_euler),
       accounts_(static_cast<std::size_t>(rows_.count)),
       next_(accounts_) {
   for (const FullModel& full : model.full_bodies) {
@@ -171,7 +173,9 @@ void EnergyLedger::advance(double t, const EnergyFlows& flows) {
     EnergyAccount& row = next_[i];
     const auto k = static_cast<Eigen::Index>(i);
     const double received = half * (last.power + row.power);
-    const Vector3 impulse = half * (last.force + row.force);
+    const Vector3 impulse = works_by_ends_
+                                ? Vector3(half * (last.force + row.force))
+                                : Vector3(row.momentum - last.momentum);
     const double supplied = flows.supplied[k] - last.supplied;
     const double lost = flows.dissipated[k] - last.dissipated;
     const double net =

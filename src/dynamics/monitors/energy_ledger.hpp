@@ -8,6 +8,7 @@
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/energy_flows.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
+#include "limber/dynamics/integrators/integrator_kind.hpp"
 #include "limber/dynamics/monitors/energy_account.hpp"
 #include "limber/dynamics/monitors/energy_groups.hpp"
 #include "limber/dynamics/monitors/energy_record.hpp"
@@ -29,9 +30,8 @@ namespace limber::dynamics {
 ///            in the sum of a group.
 class EnergyLedger {
  public:
-  /// @param lags whether work lags by a step (EnergyWatch)
   /// @param model stored by reference
-  explicit EnergyLedger(const SystemModel& model, bool lags = false);
+  EnergyLedger(const SystemModel& model, IntegratorKind integrator);
 
   /// @param terms at `state`, here and below
   void start(const SystemState& state, const SystemTerms& terms);
@@ -84,6 +84,9 @@ class EnergyLedger {
   void include_energies(const Sums& sums, double t);
 
   const SystemModel& model_;
+  // Whether work is that of the forces at both ends of a step, from which the
+  // change of momentum then differs.
+  bool works_by_ends_;
   EnergyRows rows_;
   EnergyGroups groups_;
   std::vector<EnergyAccount> accounts_;

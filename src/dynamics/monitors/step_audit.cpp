@@ -21,14 +21,14 @@ bool leaves_terms(const SystemModel& model, IntegratorKind integrator) {
 
 StepAudit::StepAudit(const SystemModel& model, IntegratorKind integrator)
     : model_(model),
-      ledger_(model, integrator == IntegratorKind::explicit_euler),
+      ledger_(model, integrator),
       holds_(model),
       limits_(model),
       terms_(make_terms(model)),
       stride_(leaves_terms(model, integrator) ? 1 : kStride) {}
 
-const SystemTerms& StepAudit::evaluate(const SystemState& state) {
-  calc_terms(model_, state, Side::right, terms_);
+const SystemTerms& StepAudit::evaluate(const SystemState& state, Side side) {
+  calc_terms(model_, state, side, terms_);
   return terms_;
 }
 
@@ -39,8 +39,11 @@ void StepAudit::start(const SystemState& state, const SystemTerms& terms,
   limits_.include(state, terms, events);
 }
 
-void StepAudit::cross_jump(const SystemState& state, const SystemTerms& terms) {
-  if (stride_ == 1) ledger_.restart(state, terms);
+void StepAudit::cross_jump(const SystemState& state, const EnergyFlows& flows) {
+  if (stride_ > 1 && steps_ % stride_ != 0) {
+    ledger_.add(state, evaluate(state, Side::left), flows);
+  }
+  ledger_.restart(state, evaluate(state, Side::right));
 }
 
 void StepAudit::include(const SystemState& state, const SystemTerms* terms,
@@ -52,7 +55,7 @@ void StepAudit::include(const SystemState& state, const SystemTerms* terms,
   const SystemTerms* now = terms;
   if (has_event || is_exact || stride_ > 1 ||
       !ledger_.try_add(state, *terms, flows)) {
-    now = &evaluate(state);
+    now = &evaluate(state, Side::left);
     ledger_.add(state, *now, flows);
   }
   holds_.include(state, *now);

@@ -27,8 +27,8 @@ class StepAudit {
   void start(const SystemState& state, const SystemTerms& terms,
              std::vector<Event>& events);
   /// Accounts for a jump of forces at the end of the last step.
-  /// @param terms of the integrator
-  void cross_jump(const SystemState& state, const SystemTerms& terms);
+  /// @param flows sums since the start
+  void cross_jump(const SystemState& state, const EnergyFlows& flows);
   /// The end of a step. @param terms of the integrator there; null after an
   /// event, which invalidates them @param flows sums since the start
   /// @param is_exact whether it is included whatever the stride, with terms
@@ -44,7 +44,7 @@ class StepAudit {
   [[nodiscard]] bool has_too_much() { return ledger_.has_too_much(); }
   /// As of EnergyLedger, at any state.
   [[nodiscard]] bool has_too_much(const SystemState& state) {
-    return ledger_.has_too_much(state, evaluate(state));
+    return ledger_.has_too_much(state, evaluate(state, Side::right));
   }
 
   [[nodiscard]] EnergyRecord find_energy() const;
@@ -54,7 +54,8 @@ class StepAudit {
   void exchange_memory(Archive& archive);
 
  private:
-  [[nodiscard]] const SystemTerms& evaluate(const SystemState& state);
+  [[nodiscard]] const SystemTerms& evaluate(const SystemState& state,
+                                            Side side);
 
   const SystemModel& model_;
   EnergyLedger ledger_;

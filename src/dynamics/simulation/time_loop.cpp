@@ -235,7 +235,7 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
     }
     if (at_jump_) {
       stepper_.cross_jump(state, h_);
-      audit_.cross_jump(state, stepper_.terms());
+      audit_.cross_jump(state, stepper_.flows());
       at_jump_ = false;
     }
   } catch (const NumericalError& error) {
