@@ -45,7 +45,7 @@ struct EnergyAccount {
   [[nodiscard]] double work_in(const Vector3& v) const {
     return supplied - impulse.dot(v);
   }
-  /// Energy whose digits a change to that frame may cost.
+  /// Energy that a change to that frame subtracts from.
   [[nodiscard]] double rounded_in(const Vector3& v) const {
     return kinetic + 0.5 * mass * v.squaredNorm();
   }

@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace limber::dynamics {
 namespace {
 
-// Error relative to the energy that passed through rows: round-off, and the
-// tolerance of Newton's method.
+// Error relative to the energy that passed through rows, and to that which a
+// change of the frame subtracts: round-off, and the tolerance of Newton's
+// method.
 constexpr double kPassedError = 1e-11;
 // Factor on the noise of couplers at one state, which accumulates as a random
 // walk.
 constexpr double kNoiseFactor = 10.0;
-// Round-off of an energy that a change of the frame subtracts from [-].
-constexpr double kFrameError = 32.0 * std::numeric_limits<double>::epsilon();
 // Factor on both that no run at rest exceeds; what blows up soon does.
 constexpr double kRestFactor = 1e6;
 // Least relative growth of an extreme before it is evaluated exactly; a drift
@@ -177,7 +175,7 @@ void EnergyGroups::sum_up(const std::vector<EnergyAccount>& accounts) {
     sums.error += account.error_in(v);
     sums.rest += kRestFactor * (account.noise + account.jitter) +
                  kPassedError * account.passed +
-                 kFrameError * account.rounded_in(v);
+                 kPassedError * account.rounded_in(v);
   }
 }
 
@@ -267,7 +265,7 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
     const Vector3& v = groups_[group_of(i)].velocity;
     drifts[group_of(i)].roundoff += negligible[static_cast<Eigen::Index>(i)] +
                                     kPassedError * accounts[i].passed +
-                                    kFrameError * accounts[i].rounded_in(v) +
+                                    kPassedError * accounts[i].rounded_in(v) +
                                     walk * accounts[i].noise;
   }
   for (std::size_t i = 0; i < groups_.size(); ++i) {

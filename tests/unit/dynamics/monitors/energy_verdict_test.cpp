@@ -145,6 +145,30 @@ TEST(EnergyVerdict, DoesNotDependOnOtherBodiesOrOnACommonVelocity) {
   EXPECT_NEAR(find_share(true, 7500.0), alone, 1e-6);
 }
 
+// What is left to two bodies whose damper took their relative motion at the
+// start: 1e-16 J beside a common motion of 0.01 J.
+TEST(EnergyVerdict, TakesWhatNewtonsMethodLeavesForNothing) {
+  for (const double boost : {0.0, 0.1, 7500.0}) {
+    SystemBuilder builder;
+    const testing::Mass a = testing::add_mass(builder, "a", 1.0);
+    const testing::Mass b = testing::add_mass(builder, "b", 2.0);
+    joints::Bushing::Parameters p;
+    p.translational_stiffness = 1e3 * Matrix3::Identity();
+    p.translational_damping = 5e5 * Matrix3::Identity();
+    builder.add_coupler("j", joints::Bushing(p), a.frame, b.frame);
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    for (BodyState& body : state.bodies) body.v_WB_W.y() = boost;
+    state.bodies[1].v_WB_W.x() = 0.1;
+    const Monitored run =
+        run_from(model, state,
+                 settings_of(IntegratorKind::generalized_alpha, 0.01, 0.3));
+    EXPECT_THAT(run.statistics.warnings,
+                ElementsAre(HasSubstr("an impulse brought")))
+        << boost;
+  }
+}
+
 // Each group beside its own energy: the light mass loses all it has.
 TEST(EnergyVerdict, RefusesAGroupThatLosesItsEnergyBesideAnother) {
   const Pair scene = make_pair_of_oscillators(600.0);
