@@ -56,6 +56,8 @@ void apply_coupler(const SystemModel& model, const Coupler& coupler,
   out.response = joints::evaluate(coupler.law, out.motion, memory, now);
   if (source == WrenchSource::law) out.applied = out.response.wrench;
   add_pair(model, coupler, out.applied, out.motion.p_FM_F, terms);
+  out.received = -out.applied.head<3>().dot(out.motion.v_FM_F) -
+                 out.applied.tail<3>().dot(out.motion.w_FM_F);
 }
 
 void apply_transmission(const SystemModel& model, const SystemState& state,
@@ -66,6 +68,7 @@ void apply_transmission(const SystemModel& model, const SystemState& state,
   calc_coordinate(model, state, transmission, terms, out);
   out.response = evaluate_laws(transmission, out.motion, memory, now);
   if (source == WrenchSource::law) out.applied = out.response.force;
+  out.received = -out.applied * out.motion.rate;
   if (const auto* path =
           std::get_if<PathCoordinate>(&transmission.coordinate)) {
     for (std::size_t i = 0; i < path->points.size(); ++i) {

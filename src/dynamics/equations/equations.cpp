@@ -205,6 +205,28 @@ void reset_forces(const SystemModel& model, const SystemState& state,
   reset_full_forces(model, state, terms);
 }
 
+// Of all forces but loads and gravity, whose power is known already. With the
+// velocities of these forces, so that powers of a coupler and of the bodies
+// that it joins cancel at states that are not solutions either.
+void set_received(const SystemModel& model, const SystemState& state,
+                  SystemTerms& terms) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    BodyTerms& t = terms.bodies[b];
+    if (body.full >= 0) {
+      const auto f = static_cast<std::size_t>(body.full);
+      const ConstNodes udot = nodes_of(model.full_bodies[f], state.udot_H);
+      t.received = terms.full[f].force.cwiseProduct(udot).sum() + t.dissipated -
+                   t.supplied;
+      continue;
+    }
+    t.received = t.modal_force.dot(modes_of(body, state.etadot)) - t.supplied;
+    if (!body.has_rigid_motion()) continue;
+    const BodyState& rigid = state.bodies[b];
+    t.received += t.force_W.dot(rigid.v_WB_W) + t.moment_B.dot(rigid.w_WB_B);
+  }
+}
+
 }  // namespace
 
 SystemTerms make_terms(const SystemModel& model) {
@@ -303,6 +325,7 @@ void calc_forces(const SystemModel& model, const SystemState& state, Side side,
     apply_body_load(model, state, load, side, terms);
   }
   add_product_forces(model, state, terms);
+  set_received(model, state, terms);
 }
 
 void calc_terms(const SystemModel& model, const SystemState& state, Side side,

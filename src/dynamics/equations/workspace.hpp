@@ -27,6 +27,7 @@ struct BodyTerms {
   Vector3 moment_B;         ///< about Bo [N m]
   VectorX modal_force;      ///< m [kg^-1/2 N]
   double supplied = 0.0;    ///< power of loads and gravity on it [W]
+  double received = 0.0;    ///< of couplers and pairs on it [W]
   double dissipated = 0.0;  ///< by its damping [W]
   /// m x m derivative of the elastic force by the modes, for NewtonMatrix,
   /// which fills it but over a step; empty if elasticity is diagonal
@@ -61,6 +62,7 @@ struct CouplerTerms {
   /// The acting wrench, like response.wrench: the law's, or Newton's iterate
   /// [N, N m].
   Vector6 applied = Vector6::Zero();
+  double received = 0.0;  ///< power of the bodies that it joins on it [W]
 };
 
 /// One transmission at a state.
@@ -69,6 +71,7 @@ struct TransmissionTerms {
   joints::ScalarResponse response;  ///< of all its laws
   /// The acting force, like response's [N or N m].
   double applied = 0.0;
+  double received = 0.0;  ///< power of the bodies that it joins on it [W]
   /// Derivatives of the coordinate: of a path, with respect to each point in
   /// the world frame, over zeros [-]; of a sum, with respect to the increments
   /// of CouplerResponse of each coupler [unit of z / m, unit of z / rad].

@@ -64,8 +64,7 @@ void EnergyLedger::evaluate_full(std::size_t b, const SystemState& state,
   t.solver->multiply_mass(udot, scratch_[f]);
   EnergyAccount& row = next_[b];
   row.kinetic = 0.5 * scratch_[f].cwiseProduct(udot).sum();
-  row.power = t.force.cwiseProduct(udot).sum() + terms.bodies[b].dissipated -
-              terms.bodies[b].supplied;
+  row.power = terms.bodies[b].received;
   const Matrix3& R_WH = state.X_WH[f].R;
   row.momentum = R_WH * scratch_[f].rowwise().sum();
   row.force = R_WH * t.force.rowwise().sum();
@@ -80,14 +79,13 @@ void EnergyLedger::evaluate_body(std::size_t b, const SystemState& state,
   const auto etadot = state.etadot.segment(body.offset, body.modes);
   EnergyAccount& row = next_[b];
   row.kinetic = 0.5 * etadot.squaredNorm();
-  row.power = t.modal_force.dot(etadot) - t.supplied;
+  row.power = t.received;
   if (body.has_rigid_motion()) {
     const Vector3& w = rigid.w_WB_B;
     row.momentum = body.mass * rigid.v_WB_W;
     row.force = t.force_W;
     row.kinetic += 0.5 * row.momentum.dot(rigid.v_WB_W) +
                    w.dot(0.5 * (t.J * w) + t.H * etadot);
-    row.power += t.force_W.dot(rigid.v_WB_W) + t.moment_B.dot(w);
   }
 }
 
@@ -109,14 +107,10 @@ EnergyLedger::Sums EnergyLedger::evaluate(const SystemState& state,
     sums.coupler += energy;
   };
   for (const CouplerTerms& coupler : terms.couplers) {
-    const auto& response = coupler.response;
-    set(response.energy,
-        -response.wrench.head<3>().dot(coupler.motion.v_FM_F) -
-            response.wrench.tail<3>().dot(coupler.motion.w_FM_F));
+    set(coupler.response.energy, coupler.received);
   }
   for (const TransmissionTerms& transmission : terms.transmissions) {
-    set(transmission.response.energy,
-        -transmission.applied * transmission.motion.rate);
+    set(transmission.response.energy, transmission.received);
   }
   for (const joints::PairResponse& response : terms.pairs.responses) {
     set(response.energy, -find_power(response));

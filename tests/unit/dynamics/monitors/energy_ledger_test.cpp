@@ -314,6 +314,30 @@ TEST(EnergyLedger, HasADriftThatIsTheSumOfTheRows) {
   EXPECT_NEAR(sum, record.drift.value, 1e-10);
 }
 
+// Newton's last correction changes velocities after its terms: by the same
+// amount every step, if an acceleration is constant.
+TEST(EnergyLedger, HasTheSumOfTheRowsBeforeTheLastCorrectionToo) {
+  SprungMasses masses;
+  masses.add_path(1000.0, 0.1);
+  const SystemModel model = masses.builder.build();
+  EnergyLedger ledger(model, IntegratorKind::generalized_alpha);
+  SystemTerms terms = make_terms(model);
+  SystemState state = stretch(model, 0.0, 0.1, 1.0);
+  calc_terms(model, state, Side::right, terms);
+  ledger.start(state, terms);
+  const double mean = 2.0 / 3.0;  // velocity at the start
+  const double fall =
+      0.5 * 2.0 * (std::pow(0.9 - mean, 2) - std::pow(1.0 - mean, 2));
+  for (int i = 1; i <= 10; ++i) {
+    state = stretch(model, 0.1 * i, 0.5, 1.0);
+    calc_terms(model, state, Side::right, terms);
+    state.bodies[1].v_WB_W.x() = 0.9;
+    ledger.add(state, terms, make_flows(model));
+    const double rise = 0.5 * 100.0 * 0.24 + 0.5 * 1000.0 * 0.16;
+    EXPECT_NEAR(find_record(model, ledger).drift.value, rise + fall, 1e-9);
+  }
+}
+
 TEST(EnergyLedger, BeginsAStepWithTheForcesAfterAJump) {
   SprungMasses masses;
   const SystemModel model = masses.builder.build();
