@@ -228,7 +228,7 @@ class PlanDraw {
             : static_cast<IntegratorKind>(draw_.integer(
                   0, static_cast<int>(dynamics::kLastIntegrator)));
     settings.rho_inf = draw_.uniform(0.0, 1.0);
-    // Newton's error, which depends on company and velocity, is round-off.
+    // Newton's error is round-off.
     settings.newton_tolerance = kNewtonTolerance;
     const auto& traits = dynamics::traits_of(settings.integrator);
     settings.step = (traits.is_implicit ? draw_.log_uniform(0.003, 0.03)

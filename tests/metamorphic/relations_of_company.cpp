@@ -92,15 +92,10 @@ std::optional<Changed> add_twin(const ScenePlan& plan, RandomDraw&) {
   return changed;
 }
 
-// A body of 1000 t on a spring, 1 km away. With explicit schemes only: Newton's
-// method ends for all bodies at once, at an error relative to the farthest and
-// the fastest one (newton/newton_measures.cpp, measure_roundoff and
-// measure_motion), so that a stranger changes the last digits of implicit ones.
+// A body of 1000 t on a spring, 1 km away.
 auto add_stranger(double speed) {
   return
       [=](const ScenePlan& plan, RandomDraw& draw) -> std::optional<Changed> {
-        if (dynamics::traits_of(plan.settings.integrator).is_implicit)
-          return {};
         Changed changed{.plan = plan, .energies = Changed::Energies::none};
         changed.steps = Changed::Steps::same_if_fixed;
         BodyPlan body;

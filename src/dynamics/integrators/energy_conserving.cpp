@@ -19,9 +19,8 @@
 namespace limber::dynamics {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Round-off of a position, relative to its distance from the world origin [-].
-constexpr double kRoundoff = 4.0 * kEpsilon;
+// Round-off of a step's motion, relative to it [-].
+constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
 // Small inertias and nearly constant coordinates amplify it by up to this [-].
 constexpr double kNoise = 100.0;
 // Contraction above which to factor again, since many iterations are needed to
@@ -33,10 +32,6 @@ constexpr double kDamped = 0.5;
 
 Eigen::Map<const VectorX> modes_of(const BodyModel& body, const VectorX& all) {
   return {all.data() + body.offset, body.modes};
-}
-
-double radius_of_gyration_squared(const BodyModel& body) {
-  return 0.5 * body.J0.trace() / body.mass;
 }
 
 // Components (xx, yy, zz, xy, xz, yz): a' A b / 2 = half_product . pack(A).
@@ -66,7 +61,8 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       turns_(model.bodies.size(), Vector3::Zero()),
       residual_(VectorX::Zero(count_unknowns(model))),
       x_(VectorX::Zero(count_unknowns(model))),
-      last_x_(x_) {
+      step_(make_rates(model)),
+      progress_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
@@ -211,28 +207,23 @@ Vector3 EnergyConserving::change_turn(std::size_t b, const Vector3& x) const {
   return cayley_jacobian_inverse(turns_[b]) * x;
 }
 
-// Whether the increments undo most of the last ones: between the two slopes of
-// a friction law Newton's method can alternate for ever.
-bool EnergyConserving::reverses_last() const {
-  constexpr double kReversed = -0.5;
-  double both = 0.0;
-  double now = 0.0;
-  double before = 0.0;
-  const auto add = [&](double weight, const auto& a, const auto& b) {
-    both += weight * a.dot(b);
-    now += weight * a.squaredNorm();
-    before += weight * b.squaredNorm();
-  };
+// Rotations by Cayley's vector, in which they add up: the rotation itself is
+// almost constant when that vector diverges.
+void EnergyConserving::turn_increments() {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const Eigen::Index row = first_row(body, b);
-    add(body.mass, x_.segment<3>(row), last_x_.segment<3>(row));
-    add(body.mass * radius_of_gyration_squared(body), x_.segment<3>(row + 3),
-        last_x_.segment<3>(row + 3));
-    add(1.0, x_.segment(row + 6, body.modes),
-        last_x_.segment(row + 6, body.modes));
+    const Eigen::Index row = first_row(model_.bodies[b], b) + 3;
+    x_.segment<3>(row) = change_turn(b, x_.segment<3>(row));
   }
-  return both < kReversed * std::sqrt(now * before);
+}
+
+// Whether the increments undo most of the last ones in a group: between the two
+// slopes of a friction law Newton's method can alternate for ever.
+bool EnergyConserving::reverses_last() const {
+  return std::any_of(progress_.groups().begin(), progress_.groups().end(),
+                     [](const GroupProgress& g) {
+                       return g.now.value > g.roundoff.rigid &&
+                              g.reversal.is_backward();
+                     });
 }
 
 void EnergyConserving::apply_increments(double h, double share) {
@@ -245,56 +236,60 @@ void EnergyConserving::apply_increments(double h, double share) {
         x_.segment(row + 6, body.modes) / h;
     if (!body.has_rigid_motion()) continue;
     middle_.bodies[b].v_WB_W += x_.segment<3>(row) / h;
-    middle_.bodies[b].w_WB_B += change_turn(b, x_.segment<3>(row + 3)) / h;
+    middle_.bodies[b].w_WB_B += x_.segment<3>(row + 3) / h;
   }
 }
 
-// Length of the increments [m], mass-weighted within a body, and the body with
-// the largest. Rotations are measured by Cayley's vector, since the rotation
-// itself is almost constant when that vector diverges.
-EnergyConserving::Size EnergyConserving::measure_increments() const {
-  Size largest;
+void EnergyConserving::set_motion(double h) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const Eigen::Index row = first_row(body, b);
-    const double squared =
-        x_.segment<3>(row).squaredNorm() +
-        radius_of_gyration_squared(body) *
-            change_turn(b, x_.segment<3>(row + 3)).squaredNorm() +
-        x_.segment(row + 6, body.modes).squaredNorm() / body.mass;
-    if (!(squared <= largest.value)) {
-      largest = {squared, b};
-      if (!std::isfinite(squared)) break;
-    }
+    step_.translation[b] = h * middle_.bodies[b].v_WB_W;
+    step_.rotation[b] = h * middle_.bodies[b].w_WB_B;
   }
-  largest.value = std::sqrt(largest.value);
-  return largest;
-}
-
-// The step's motion on the same scale [m].
-double EnergyConserving::measure_motion(double h) const {
-  double largest = 0.0;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const BodyModel& body = model_.bodies[b];
-    const double squared =
-        middle_.bodies[b].v_WB_W.squaredNorm() +
-        radius_of_gyration_squared(body) *
-            middle_.bodies[b].w_WB_B.squaredNorm() +
-        middle_.etadot.segment(body.offset, body.modes).squaredNorm() /
-            body.mass;
-    largest = std::max(largest, squared);
-  }
-  return h * std::sqrt(largest);
+  step_.modes = h * middle_.etadot;
 }
 
 // Below this length corrections may consist of round-off alone [m].
-double EnergyConserving::measure_roundoff() const {
-  double reach = 0.0;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    reach = std::max(reach, next_.bodies[b].p_WB.squaredNorm() +
-                                radius_of_gyration_squared(model_.bodies[b]));
+double EnergyConserving::find_noise(const GroupProgress& group) const {
+  return std::max(kNoise * group.roundoff.rigid,
+                  settings_.tolerance * group.motion);
+}
+
+// Whether a sixteenth of round-off is left; corrections that no longer shrink
+// are round-off.
+void EnergyConserving::judge() {
+  for (GroupProgress& g : progress_.groups()) {
+    const double roundoff = std::max(kRoundoff * g.motion, g.roundoff.step);
+    const bool stays = g.before.value > 0.0 && g.contraction() > 0.5;
+    g.is_done = 16.0 * g.rest() <= roundoff ||
+                ((g.was_done || stays) && g.now.value <= find_noise(g));
   }
-  return kRoundoff * std::sqrt(reach);
+}
+
+// Whether the errors left may be round-off.
+bool EnergyConserving::is_noise() const {
+  return std::all_of(progress_.groups().begin(), progress_.groups().end(),
+                     [this](const GroupProgress& g) {
+                       return g.is_done || g.rest() <= find_noise(g);
+                     });
+}
+
+bool EnergyConserving::contracts_poorly(double poor) const {
+  return std::any_of(progress_.groups().begin(), progress_.groups().end(),
+                     [poor](const GroupProgress& g) {
+                       return !g.is_done && g.now.value > g.roundoff.rigid &&
+                              g.contraction() > poor;
+                     });
+}
+
+void EnergyConserving::fail(double end, const char* what) {
+  const CorrectionSize& worst = progress_.find_worst().now;
+  factored_step_ = 0.0;
+  has_wrenches_ = false;
+  throw NumericalError(fmt::format(
+      "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
+      "{:.3g} of the step's motion); a smaller step may help",
+      model_.bodies[worst.body].name, end, what, worst.value,
+      settings_.tolerance));
 }
 
 StepResult EnergyConserving::step(SystemState& state, double h, double end) {
@@ -304,68 +299,46 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   calc_terms(model_, state, Side::right, begin_);
   predict(state, h);
   advance(state, h, end);
-  const double roundoff = measure_roundoff();
+  set_motion(h);
+  progress_.start(next_, step_);
   bool needs_factors = !(std::abs(h - factored_step_) <= 1e-9 * h);
   StepResult result;
-  double last = 0.0;
-  Size correction;
-  const auto fail = [&](const Size& size, const char* what) {
-    factored_step_ = 0.0;
-    has_wrenches_ = false;
-    throw NumericalError(fmt::format(
-        "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
-        "{:.3g} of the step's motion); a smaller step may help",
-        model_.bodies[size.body].name, end, what, size.value,
-        settings_.tolerance));
-  };
   while (true) {
     calc_residual(state, h);
     if (needs_factors || !matrix_.knows_pairs(mean_)) {
       try {
         factor(state);
       } catch (const NumericalError&) {
-        fail(correction, "Newton's method diverged");
+        fail(end, "Newton's method diverged");
       }
       ++result.factorizations;
       factored_step_ = h;
       needs_factors = false;
     }
-    last_x_.swap(x_);
     matrix_.solve(model_, mean_, residual_, x_);
-    correction = measure_increments();
+    turn_increments();
+    progress_.include(x_, true);
     ++result.iterations;
-    const bool is_damped =
-        result.iterations > 1 && correction.value > roundoff && reverses_last();
-    if (!std::isfinite(correction.value)) {
-      fail(correction, "the motion is no longer finite");
-    }
+    if (!progress_.is_finite()) fail(end, "the motion is no longer finite");
+    const bool is_damped = reverses_last();
     apply_increments(h, is_damped ? kDamped : 1.0);
     advance(state, h, end);
-    const double motion = measure_motion(h);
-    const double contraction =
-        result.iterations > 1 ? correction.value / last : 1.0;
-    last = correction.value;
-    // Error left after this correction at the same rate of contraction.
-    const double left =
-        contraction < 0.5 ? correction.value * contraction / (1.0 - contraction)
-                          : correction.value;
-    const double noise =
-        std::max(kNoise * roundoff, settings_.tolerance * motion);
+    set_motion(h);
+    progress_.measure_motion(next_, mean_, step_);
     if (is_damped) {
       needs_factors = true;
       if (result.iterations < settings_.max_iterations) continue;
     }
-    if (left <= 0.25 * kEpsilon * motion) break;
-    // Corrections that no longer shrink are round-off.
-    if (contraction > 0.5 && correction.value <= noise) break;
+    judge();
+    if (progress_.is_done()) break;
     if (result.iterations >= settings_.max_iterations) {
-      if (left <= noise) break;
-      fail(correction, "Newton's method did not converge");
+      if (is_noise()) break;
+      fail(end, "Newton's method did not converge");
     }
     needs_factors =
-        result.iterations > 1 && correction.value > roundoff &&
-        contraction > (result.factorizations > 0 ? kPoorFreshContraction
-                                                 : kPoorStepContraction);
+        result.iterations > 1 &&
+        contracts_poorly(result.factorizations > 0 ? kPoorFreshContraction
+                                                   : kPoorStepContraction);
   }
   flows_.clear();
   add_powers(mean_, h, flows_);

@@ -6,6 +6,7 @@
 #include "limber/dynamics/integrators/integrator.hpp"
 #include "limber/dynamics/integrators/maxwell_motion.hpp"
 #include "limber/dynamics/integrators/step_forces.hpp"
+#include "limber/dynamics/newton/convergence.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 
 namespace limber::dynamics {
@@ -60,21 +61,21 @@ class EnergyConserving final : public Integrator {
   [[nodiscard]] const EnergyFlows& flows() const override { return flows_; }
 
  private:
-  struct Size {
-    double value = 0.0;
-    std::size_t body = 0;
-  };
   void predict(const SystemState& from, double h);
   void advance(const SystemState& from, double h, double end);
   void calc_residual(const SystemState& from, double h);
   void calc_body_residual(const SystemState& from, double h, std::size_t b);
   void factor(const SystemState& from);
   [[nodiscard]] Vector3 change_turn(std::size_t b, const Vector3& x) const;
+  void turn_increments();
   [[nodiscard]] bool reverses_last() const;
   void apply_increments(double h, double share);
-  [[nodiscard]] Size measure_increments() const;
-  [[nodiscard]] double measure_motion(double h) const;
-  [[nodiscard]] double measure_roundoff() const;
+  void set_motion(double h);
+  [[nodiscard]] double find_noise(const GroupProgress& group) const;
+  void judge();
+  [[nodiscard]] bool is_noise() const;
+  [[nodiscard]] bool contracts_poorly(double poor) const;
+  [[noreturn]] void fail(double end, const char* what);
 
   const SystemModel& model_;
   Settings settings_;
@@ -97,7 +98,8 @@ class EnergyConserving final : public Integrator {
   std::vector<Vector3> turns_;  // of bodies over the step
   VectorX residual_;
   VectorX x_;
-  VectorX last_x_;  // of the iteration before
+  Rates step_;  // of velocities over the step
+  NewtonProgress progress_;
 };
 
 }  // namespace limber::dynamics

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
@@ -48,7 +49,9 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
       terms_(make_terms(model)),
       residual_(VectorX::Zero(count_unknowns(model))),
       x_(VectorX::Zero(count_unknowns(model))),
-      faces_(x_.size()),
+      progress_(model),
+      plan_(progress_.groups().size()),
+      course_(progress_.groups().size()),
       kept_wrenches_(VectorX::Zero(count_wrench_rows(terms_))),
       gaps_(model.couplers.size() + model.transmissions.size(),
             Vector6::Zero()) {
@@ -103,13 +106,18 @@ void GeneralizedAlpha::estimate_error(double h, StepResult& result) const {
   result.error_body = largest.body;
 }
 
-CorrectionSize GeneralizedAlpha::find_limit(
-    const CorrectionSize& predictor_errors, double motion) const {
-  if (settings_.tolerance == 0.0) {
-    return dynamics::find_limit(predictor_errors, p_.gamma, motion);
+// Largest errors of Newton's method, by convergence.hpp or by the settings.
+void GeneralizedAlpha::set_limits(bool has_trend) {
+  std::vector<GroupProgress>& groups = progress_.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const double limit = settings_.tolerance * groups[g].motion;
+    groups[g].limit =
+        settings_.tolerance > 0.0
+            ? CorrectionSize{.value = limit, .rigid = limit, .modal = limit}
+            : find_limit(
+                  has_trend ? course_.corrections[0][g] : CorrectionSize{},
+                  p_.gamma, groups[g].motion);
   }
-  const double limit = settings_.tolerance * motion;
-  return {.value = limit, .rigid = limit, .modal = limit};
 }
 
 void GeneralizedAlpha::set_coefficients(double h) {
@@ -258,11 +266,11 @@ void GeneralizedAlpha::apply_increments(double h) {
 }
 
 void GeneralizedAlpha::fail(const SystemState& from, double h,
-                            const CorrectionSize& limit,
-                            const CorrectionSize& correction,
                             const char* what) const {
+  const GroupProgress& worst = progress_.find_worst();
   throw NumericalError(describe(
-      {model_, from, terms_, x_, correction, h, next_.t, limit.value}, what));
+      {model_, from, terms_, x_, worst.now, h, next_.t, worst.limit.value},
+      what));
 }
 
 // Predicts the step's end by accelerations that change as over the last step;
@@ -300,13 +308,11 @@ void GeneralizedAlpha::restore_wrenches() {
 
 // Adds the effect on the motion of round-off in stiff wrenches, by the current
 // factors.
-void GeneralizedAlpha::add_wrench_noise(Roundoff& roundoff) {
+void GeneralizedAlpha::add_wrench_noise() {
   find_roundoff_gaps(model_, terms_, coefficients_.velocity, gaps_);
   calc_pair_roundoff(model_, next_, terms_, coefficients_.velocity, residual_);
   matrix_.solve(model_, terms_, residual_, gaps_, x_);
-  const CorrectionSize noise = measure_correction(model_, x_);
-  roundoff.rigid = std::max(roundoff.rigid, noise.rigid);
-  roundoff.modal = std::max(roundoff.modal, noise.modal);
+  progress_.add_roundoff(x_);
 }
 
 void GeneralizedAlpha::correct(bool exactly) {
@@ -318,20 +324,32 @@ void GeneralizedAlpha::correct(bool exactly) {
   }
 }
 
+// Marks the groups as done in which the last correction leaves no more than the
+// limit; by factors that earlier steps have measured, at their contraction.
+void GeneralizedAlpha::judge_early(bool keeps) {
+  std::vector<GroupProgress>& groups = progress_.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const CorrectionSize& now = groups[g].now;
+    const CorrectionSize& limit = groups[g].limit;
+    const bool is_foreseen =
+        keeps && now.value <= kSamePlace * groups[g].motion;
+    const FactorPlan::Rest rest =
+        is_foreseen ? plan_.expect_rest(course_.count - 1, g, now)
+                    : FactorPlan::Rest{now.rigid, now.modal};
+    groups[g].is_done = rest.rigid <= limit.rigid && rest.modal <= limit.modal;
+  }
+}
+
 // Newton's method from the prediction.
-FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
-                                              double end, bool keeps,
-                                              bool exactly,
-                                              StepResult& result) {
+void GeneralizedAlpha::converge(const SystemState& from, double h, double end,
+                                bool keeps, bool exactly, StepResult& result) {
   const bool has_trend = trend_step_ > 0.0 && model_.full_bodies.empty();
   const bool turns = predict(from, h, end);
-  Roundoff roundoff = measure_roundoff(model_, next_);
+  progress_.start(next_, inc_);
+  course_.clear();
   bool knows_noise = false;
   // Factors of an unreduced body are in its axes, and cheap to rotate.
   bool needs_factors = !keeps || turns;
-  CorrectionSize correction;
-  CorrectionSize limit;
-  FactorPlan::Course course;
   int slow_corrections = 0;  // with fresh factors
   int growing = 0;           // corrections in a row
   for (int iteration = 1;; ++iteration) {
@@ -341,54 +359,38 @@ FactorPlan::Course GeneralizedAlpha::converge(const SystemState& from, double h,
     const bool is_fresh = needs_factors;
     if (needs_factors) renew_factors(h, end, result);
     correct(exactly);
-    faces_.include(x_, iteration == 1, acts_on_nodes(model_, terms_));
-    const CorrectionSize last = correction;
-    correction = measure_correction(model_, x_);
+    progress_.include(x_, acts_on_nodes(model_, terms_));
+    course_.add(progress_.sizes());
     ++result.iterations;
-    if (!std::isfinite(correction.value)) {
-      fail(from, h, limit, correction, "the motion is no longer finite");
+    if (!progress_.is_finite()) {
+      fail(from, h, "the motion is no longer finite");
     }
     apply_increments(h);
     advance(from, h, end);
-    course.add(correction);
-    const double motion = measure_motion(model_, inc_);
-    limit = find_limit(has_trend ? course.corrections[0] : CorrectionSize{},
-                       motion);
-    const bool is_foreseen = keeps && result.factorizations == 0 &&
-                             correction.value <= kSamePlace * motion;
-    const FactorPlan::Rest expected =
-        is_foreseen ? plan_.expect_rest(course.count - 1, correction)
-                    : FactorPlan::Rest{correction.rigid, correction.modal};
-    if (expected.rigid <= limit.rigid && expected.modal <= limit.modal) {
-      return course;
-    }
+    progress_.measure_motion(next_, terms_, inc_);
+    set_limits(has_trend);
+    judge_early(keeps && result.factorizations == 0);
+    if (progress_.is_done()) return;
     needs_factors = exactly;
     if (iteration == 1 && settings_.max_iterations > 1) continue;
-    const double contraction = correction.value / last.value;
-    if (faces_.ends(correction.value, motion)) return course;
-    const auto is_done = [&] {
-      return has_converged(correction, last, limit, roundoff);
-    };
-    const bool is_slow = contraction > kPoorContraction;
-    if (!is_done() && !knows_noise &&
-        (is_slow || correction.rigid <= roundoff.rigid)) {
-      add_wrench_noise(roundoff);
+    progress_.judge();
+    if (!knows_noise && progress_.may_be_noise(kPoorContraction)) {
+      add_wrench_noise();
       knows_noise = true;
+      progress_.judge();
     }
-    // The contraction of round-off is meaningless.
-    if (!is_slow || correction.rigid > roundoff.rigid ||
-        correction.modal > roundoff.modal) {
-      course.slowest = std::max(course.slowest, contraction);
-      course.is_measured = true;
-    }
-    if (is_done()) return course;
+    const std::optional<double> contraction =
+        progress_.find_contraction(kPoorContraction);
+    course_.include(contraction);
+    if (progress_.is_done()) return;
     if (iteration >= settings_.max_iterations) {
-      fail(from, h, limit, correction, "Newton's method did not converge");
+      fail(from, h, "Newton's method did not converge");
     }
     growing = contraction > 1.0 ? growing + 1 : 0;
     if (exactly && growing >= kMostGrowing) {
-      fail(from, h, limit, correction, "Newton's method diverged");
+      fail(from, h, "Newton's method diverged");
     }
+    const bool is_slow = contraction > kPoorContraction;
     if (is_slow && is_fresh) ++slow_corrections;
     exactly = exactly || slow_corrections >= kSlowCorrections;
     needs_factors = exactly || is_slow;
@@ -401,12 +403,10 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
   StepResult result;
   const bool keeps = plan_.keeps() && factored_step_ > 0.0 &&
                      std::abs(h - factored_step_) <= 1e-9 * h;
-  FactorPlan::Course course;
   get_applied(terms_, kept_wrenches_);
   try {
-    course = converge(state, h, end, keeps, false, result);
+    converge(state, h, end, keeps, false, result);
   } catch (const NumericalError&) {
-    course.slowest = 1.0;
     // The factors caused the divergence; exact corrections may converge.
     restore_wrenches();
     try {
@@ -415,8 +415,10 @@ StepResult GeneralizedAlpha::step(SystemState& state, double h, double end) {
       restore_wrenches();
       throw;
     }
+    course_.clear();
+    course_.slowest = 1.0;
   }
-  plan_.finish_step(keeps, course);
+  plan_.finish_step(keeps, course_);
   work_.advance(state, next_, terms_, h, result);
   if (scale_) estimate_error(h, result);
   std::swap(a_, a_next_);

@@ -78,24 +78,20 @@ class GeneralizedAlpha final : public Integrator {
   void set_coefficients(double h);
   void fit_memory(double h);
   void estimate_error(double h, StepResult& result) const;
-  // Largest error of Newton's method [m], by convergence.hpp or by the
-  // settings.
-  [[nodiscard]] CorrectionSize find_limit(
-      const CorrectionSize& predictor_errors, double motion) const;
+  void set_limits(bool has_trend);
+  void judge_early(bool keeps);
   void advance(const SystemState& from, double h, double end);
   void apply_increments(double h);
   void add_quasi_static_accelerations();
   bool predict(const SystemState& from, double h, double end);
   void restore_wrenches();
-  void add_wrench_noise(Roundoff& roundoff);
+  void add_wrench_noise();
   void correct(bool exactly);
-  FactorPlan::Course converge(const SystemState& from, double h, double end,
-                              bool keeps, bool exactly, StepResult& result);
+  void converge(const SystemState& from, double h, double end, bool keeps,
+                bool exactly, StepResult& result);
   void refactor(bool renews_full = false);
   void renew_factors(double h, double end, StepResult& result);
   [[noreturn]] void fail(const SystemState& from, double h,
-                         const CorrectionSize& limit,
-                         const CorrectionSize& correction,
                          const char* what) const;
 
   const SystemModel& model_;
@@ -108,7 +104,6 @@ class GeneralizedAlpha final : public Integrator {
   NewtonMatrix::Coefficients coefficients_;
   double factored_step_ = 0.0;  // h of the current factors, 0: none [s]
   bool renews_full_ = false;    // also factors of unreduced bodies
-  FactorPlan plan_;
   double trend_step_ = 0.0;  // vdot_next_ is from this long before, 0: not [s]
   StepWork work_;
   MaxwellMotion maxwell_;
@@ -123,8 +118,10 @@ class GeneralizedAlpha final : public Integrator {
   Rates inc_;  // motion over the step
   VectorX residual_;
   VectorX x_;
-  FaceCycle faces_;        // of unreduced bodies that touch
-  VectorX kept_wrenches_;  // of the last state
+  NewtonProgress progress_;
+  FactorPlan plan_;
+  FactorPlan::Course course_;  // of the last step
+  VectorX kept_wrenches_;      // of the last state
   std::vector<Vector6> gaps_;
 };
 

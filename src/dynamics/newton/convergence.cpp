@@ -2,6 +2,9 @@
 #include "limber/dynamics/newton/convergence.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -10,8 +13,6 @@ constexpr double kErrorShare = 0.01;
 constexpr double kMostShare = 1e-9;  // of the step's motion [-]
 // Contraction above which the remaining error is not estimated [-].
 constexpr double kPromising = 0.5;
-// Relative difference of a correction from the reversed previous one [-].
-constexpr double kReversed = 0.1;
 // Largest correction between two faces, of the step's motion [-].
 constexpr double kBetweenFaces = 1e-3;
 
@@ -45,20 +46,114 @@ bool has_converged(const CorrectionSize& correction,
          is_done(correction.modal, before.modal, limit.modal, roundoff.modal);
 }
 
-FaceCycle::FaceCycle(Eigen::Index corrections)
-    : last_(VectorX::Zero(corrections)) {}
-
-void FaceCycle::include(const VectorX& correction, bool is_first,
-                        bool touches) {
-  goes_back_ = touches && touched_ && !is_first &&
-               (correction + last_).squaredNorm() <=
-                   kReversed * kReversed * correction.squaredNorm();
-  touched_ = touches;
-  if (touches) last_ = correction;
+double GroupProgress::rest() const {
+  return find_rest(now.value, before.value);
 }
 
-bool FaceCycle::ends(double size, double motion) const {
-  return goes_back_ && size <= kBetweenFaces * motion;
+bool GroupProgress::alternates() const {
+  return reversal.is_whole() && now.value <= kBetweenFaces * motion;
+}
+
+NewtonProgress::NewtonProgress(const SystemModel& model)
+    : model_(model),
+      groups_(model),
+      progress_(groups_.count()),
+      last_(VectorX::Zero(count_unknowns(model))),
+      sizes_(groups_.count()),
+      reversals_(groups_.count()),
+      roundoffs_(groups_.count()),
+      motions_(groups_.count()) {}
+
+void NewtonProgress::start(const SystemState& end, const Rates& motion) {
+  is_compared_ = false;
+  measure_roundoff(model_, groups_, end, motion, roundoffs_);
+  for (std::size_t g = 0; g < progress_.size(); ++g) {
+    progress_[g] = {};
+    progress_[g].roundoff = roundoffs_[g];
+  }
+}
+
+void NewtonProgress::include(const VectorX& increments, bool compares) {
+  measure_correction(model_, groups_, increments, sizes_);
+  if (compares && is_compared_) {
+    measure_reversal(model_, groups_, increments, last_, reversals_);
+  } else {
+    reversals_.assign(progress_.size(), {});
+  }
+  is_compared_ = compares;
+  if (compares) last_ = increments;
+  for (std::size_t g = 0; g < progress_.size(); ++g) {
+    progress_[g].before = progress_[g].now;
+    progress_[g].now = sizes_[g];
+    progress_[g].reversal = reversals_[g];
+    progress_[g].was_done = progress_[g].is_done;
+    progress_[g].is_done = false;
+  }
+}
+
+void NewtonProgress::measure_motion(const SystemState& state,
+                                    const SystemTerms& terms,
+                                    const Rates& motion) {
+  groups_.measure_motion(model_, state, terms, motion, motions_);
+  for (std::size_t g = 0; g < progress_.size(); ++g) {
+    progress_[g].motion = motions_[g];
+  }
+}
+
+void NewtonProgress::add_roundoff(const VectorX& increments) {
+  measure_correction(model_, groups_, increments, sizes_);
+  for (std::size_t g = 0; g < progress_.size(); ++g) {
+    Roundoff& roundoff = progress_[g].roundoff;
+    roundoff.rigid = std::max(roundoff.rigid, sizes_[g].rigid);
+    roundoff.modal = std::max(roundoff.modal, sizes_[g].modal);
+  }
+}
+
+void NewtonProgress::judge() {
+  for (GroupProgress& g : progress_) {
+    g.is_done =
+        has_converged(g.now, g.before, g.limit, g.roundoff) || g.alternates();
+  }
+}
+
+bool NewtonProgress::may_be_noise(double poor) const {
+  return std::any_of(
+      progress_.begin(), progress_.end(), [poor](const GroupProgress& g) {
+        return !g.is_done &&
+               (g.contraction() > poor || g.now.rigid <= g.roundoff.rigid);
+      });
+}
+
+std::optional<double> NewtonProgress::find_contraction(double poor) const {
+  std::optional<double> slowest;
+  for (const GroupProgress& g : progress_) {
+    const double contraction = g.contraction();
+    if (g.was_done && g.is_done) continue;
+    if (g.alternates() || (contraction > poor && g.is_roundoff())) continue;
+    slowest = std::max(slowest.value_or(0.0), contraction);
+  }
+  return slowest;
+}
+
+bool NewtonProgress::is_finite() const {
+  return std::all_of(
+      progress_.begin(), progress_.end(),
+      [](const GroupProgress& g) { return std::isfinite(g.now.value); });
+}
+
+bool NewtonProgress::is_done() const {
+  return std::all_of(progress_.begin(), progress_.end(),
+                     [](const GroupProgress& g) { return g.is_done; });
+}
+
+const GroupProgress& NewtonProgress::find_worst() const {
+  return *std::max_element(
+      progress_.begin(), progress_.end(),
+      [](const GroupProgress& a, const GroupProgress& b) {
+        if (std::isnan(a.now.value)) return false;
+        if (std::isnan(b.now.value)) return true;
+        return a.is_done != b.is_done ? a.is_done : a.now.value < b.now.value;
+      });
 }
 
 }  // namespace limber::dynamics

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "limber/dynamics/newton/newton_measures.hpp"
 
 /// Convergence criteria of Newton's method in a time step.
@@ -36,27 +39,83 @@ inline constexpr double kLeastShare = 1e-12;
                                  const CorrectionSize& limit,
                                  const Roundoff& roundoff);
 
-/// Detects a cycle of Newton's method: where an edge of a mesh is pressed
-/// inwards, the solution for one of its faces makes the other one nearest, and
-/// corrections alternate between them.
-class FaceCycle {
+/// One group of bodies in a step.
+struct GroupProgress {
+  CorrectionSize before;  ///< the correction before the last one
+  CorrectionSize now;     ///< the last correction
+  Reversal reversal;      ///< from one to the other, if they were compared
+  CorrectionSize limit;   ///< largest error allowed
+  Roundoff roundoff;
+  double motion = 0.0;    ///< the step's [m]
+  bool was_done = false;  ///< before the last correction
+  bool is_done = false;
+
+  /// Of the last correction by the one before; 1 if there was none [-].
+  [[nodiscard]] double contraction() const {
+    return before.value > 0.0 ? now.value / before.value : 1.0;
+  }
+  /// Error left at the same rate of contraction [m].
+  [[nodiscard]] double rest() const;
+  [[nodiscard]] bool is_roundoff() const {
+    return now.rigid <= roundoff.rigid && now.modal <= roundoff.modal;
+  }
+  /// Whether corrections alternate between the faces of a mesh: where one of
+  /// its edges is pressed inwards, the solution for one face makes the other
+  /// one nearest. Then the last correction took the one before back, and is at
+  /// most 1e-3 of the step's motion.
+  [[nodiscard]] bool alternates() const;
+};
+
+/// Newton's method in a step, by groups of bodies: it ends when it has
+/// converged in all of them.
+class NewtonProgress {
  public:
-  /// @param corrections as in NewtonMatrix
-  explicit FaceCycle(Eigen::Index corrections);
+  explicit NewtonProgress(const SystemModel& model);
 
-  /// @param is_first whether it is the first of a step, which reverts nothing
-  /// @param touches whether a mesh does; if not, the call costs nothing
-  void include(const VectorX& correction, bool is_first, bool touches);
+  /// Begins a step, at its predicted end.
+  void start(const SystemState& end, const Rates& motion);
+  /// Measures a correction.
+  /// @param compares with the one before, if that was to be compared, too;
+  /// else reversals are zero
+  void include(const VectorX& increments, bool compares);
+  /// Measures the step's motion. @param as MotionGroups::measure_motion
+  void measure_motion(const SystemState& state, const SystemTerms& terms,
+                      const Rates& motion);
+  /// Adds what round-off elsewhere does, given as increments.
+  void add_roundoff(const VectorX& increments);
 
-  /// Whether the last correction reverted the one before it, to within a tenth,
-  /// and is at most 1e-3 of the step's motion.
-  /// @param size, motion [m]
-  [[nodiscard]] bool ends(double size, double motion) const;
+  /// Sets which groups are done: that have converged, or alternate.
+  void judge();
+  /// Whether a group is not done although its correction is round-off of
+  /// coordinates, or contracts worse than `poor` [-].
+  [[nodiscard]] bool may_be_noise(double poor) const;
+  /// The slowest contraction of groups that were not done before; none if all
+  /// were. That of round-off, above `poor`, is meaningless [-].
+  [[nodiscard]] std::optional<double> find_contraction(double poor) const;
+
+  [[nodiscard]] std::vector<GroupProgress>& groups() { return progress_; }
+  [[nodiscard]] const std::vector<GroupProgress>& groups() const {
+    return progress_;
+  }
+  /// The last correction, by groups.
+  [[nodiscard]] const std::vector<CorrectionSize>& sizes() const {
+    return sizes_;
+  }
+  [[nodiscard]] bool is_finite() const;
+  [[nodiscard]] bool is_done() const;
+  /// The group that is not done with the longest correction; NaN is longest.
+  [[nodiscard]] const GroupProgress& find_worst() const;
 
  private:
+  const SystemModel& model_;
+  MotionGroups groups_;
+  std::vector<GroupProgress> progress_;
+  bool is_compared_ = false;  // the last correction, which is last_
   VectorX last_;
-  bool touched_ = false;
-  bool goes_back_ = false;
+  std::vector<CorrectionSize> sizes_;
+  std::vector<Reversal> reversals_;
+  std::vector<Roundoff> roundoffs_;
+  std::vector<double> motions_;
 };
 
 }  // namespace limber::dynamics

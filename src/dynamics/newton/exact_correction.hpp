@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "limber/dynamics/newton/motion_groups.hpp"
 #include "limber/dynamics/newton/residual_derivative.hpp"
 
 namespace limber::dynamics {
@@ -33,7 +34,12 @@ class ExactCorrection {
              VectorX& increments);
 
  private:
+  // Weights of the unknowns: lengths, in each group relative to the increments
+  // given, so that GMRES has the same relative error in all of them.
+  VectorX find_weights(const SystemTerms& terms, const VectorX& increments);
+
   const SystemModel& model_;
+  MotionGroups groups_;
   ResidualDerivative derivative_;
   VectorX lengths_;  // of units of the unknowns
 };

@@ -26,13 +26,13 @@ constexpr double kMostGrowth = 4.0;
 }  // namespace
 
 FactorPlan::Rest FactorPlan::expect_rest(
-    std::size_t i, const CorrectionSize& correction) const {
+    std::size_t i, std::size_t group, const CorrectionSize& correction) const {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const Rest unknown{kUnknown, kUnknown};
   if (trusted_steps_ == 0 || i + 1 >= measured_.count) return unknown;
-  const double ratio = correction.value / measured_.corrections[i].value;
+  const double ratio = correction.value / measured_.corrections[i][group].value;
   if (!(ratio <= kMostGrowth)) return unknown;
-  const CorrectionSize& next = measured_.corrections[i + 1];
+  const CorrectionSize& next = measured_.corrections[i + 1][group];
   return {kMargin * ratio * next.rigid, kMargin * ratio * next.modal};
 }
 

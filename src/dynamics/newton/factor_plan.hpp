@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
@@ -14,6 +17,9 @@ namespace limber::dynamics {
 /// correction.
 class FactorPlan {
  public:
+  /// @param groups of MotionGroups
+  explicit FactorPlan(std::size_t groups) : measured_(groups) {}
+
   /// Whether the next step keeps the current factors.
   [[nodiscard]] bool keeps() const { return fresh_steps_ == 0; }
 
@@ -22,21 +28,37 @@ class FactorPlan {
     double rigid = 0.0;  ///< of frames [m]
     double modal = 0.0;  ///< of modes [m]
   };
-  /// Error left after correction i (from 0) of a step that keeps factors, by
-  /// recent measurements; infinite without one, or if the correction is much
-  /// larger than the measured ones.
-  [[nodiscard]] Rest expect_rest(std::size_t i,
+  /// Error left in a group after correction i (from 0) of a step that keeps
+  /// factors, by recent measurements; infinite without one, or if the
+  /// correction is much larger than the measured ones.
+  [[nodiscard]] Rest expect_rest(std::size_t i, std::size_t group,
                                  const CorrectionSize& correction) const;
 
   /// Course of Newton's method in a step.
   struct Course {
-    std::array<CorrectionSize, 4> corrections{};  ///< the first ones
-    std::size_t count = 0;                        ///< number of these
+    explicit Course(std::size_t groups) {
+      corrections.fill(std::vector<CorrectionSize>(groups));
+    }
+    /// The first ones, by groups.
+    std::array<std::vector<CorrectionSize>, 4> corrections;
+    std::size_t count = 0;     ///< number of these
     double slowest = 0.0;      ///< worst contraction of corrections [-]
     bool is_measured = false;  ///< whether a contraction was measured
 
-    void add(const CorrectionSize& correction) {
+    void add(const std::vector<CorrectionSize>& correction) {
       if (count < corrections.size()) corrections[count++] = correction;
+    }
+    /// @param contraction of a correction, if it was measured [-]
+    void include(std::optional<double> contraction) {
+      if (!contraction) return;
+      slowest = std::max(slowest, *contraction);
+      is_measured = true;
+    }
+    /// For the next step. Keeps memory.
+    void clear() {
+      count = 0;
+      slowest = 0.0;
+      is_measured = false;
     }
   };
   /// @param kept whether the step started with factors of an earlier one

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -39,12 +42,10 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-// Connections to the world count only if it is a body like others.
-Groups find_groups(const SystemModel& model, bool with_world = true) {
-  Groups groups(model.bodies.size());
-  const auto join = [&](BodyIndex a, BodyIndex b) {
-    if (with_world || (a != kWorld && b != kWorld)) groups.join(a, b);
-  };
+// Calls `join` with each two bodies that couplers, transmissions or clamps
+// connect; the world is one like others.
+template <typename Join>
+void for_each_coupling(const SystemModel& model, Join join) {
   const auto body_at = [&](AttachmentIndex a) {
     return model.attachments[static_cast<std::size_t>(a)].body;
   };
@@ -54,14 +55,22 @@ Groups find_groups(const SystemModel& model, bool with_world = true) {
   for (const Coupler& c : model.couplers) {
     join(body_at(c.frame_F), body_at(c.frame_M));
   }
-  for (const Pair& pair : model.pairs) join(pair.body_A, pair.body_B);
   for (const Transmission& t : model.transmissions) {
-    const auto* path = std::get_if<PathCoordinate>(&t.coordinate);
-    if (path == nullptr) continue;  // its joints are couplers
-    for (const AttachmentIndex point : path->points) {
-      join(body_at(path->points.front()), body_at(point));
+    const JoinedBodies bodies = find_joined_bodies(model, t);
+    for (const BodyIndex a : bodies) {
+      for (const BodyIndex b : bodies) join(a, b);
     }
   }
+}
+
+// Connections to the world count only if it is a body like others.
+Groups find_groups(const SystemModel& model, bool with_world = true) {
+  Groups groups(model.bodies.size());
+  const auto join = [&](BodyIndex a, BodyIndex b) {
+    if (with_world || (a != kWorld && b != kWorld)) groups.join(a, b);
+  };
+  for_each_coupling(model, join);
+  for (const Pair& pair : model.pairs) join(pair.body_A, pair.body_B);
   return groups;
 }
 
@@ -283,6 +292,24 @@ std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
 std::vector<std::vector<BodyIndex>> find_linked_groups(
     const SystemModel& model) {
   return collect_groups(model, find_groups(model, false));
+}
+
+std::vector<CoupledGroup> find_coupled_groups(const SystemModel& model) {
+  Groups groups(model.bodies.size());
+  std::vector<char> is_held(model.bodies.size(), 0);
+  for_each_coupling(model, [&](BodyIndex a, BodyIndex b) {
+    if (a != kWorld && b != kWorld) groups.join(a, b);
+    if (a == kWorld && b != kWorld) is_held[index(b)] = 1;
+    if (b == kWorld && a != kWorld) is_held[index(a)] = 1;
+  });
+  std::vector<CoupledGroup> coupled;
+  for (std::vector<BodyIndex>& bodies : collect_groups(model, groups)) {
+    const bool any =
+        std::any_of(bodies.begin(), bodies.end(),
+                    [&](BodyIndex b) { return is_held[index(b)] != 0; });
+    coupled.push_back({std::move(bodies), any});
+  }
+  return coupled;
 }
 
 void check_balance(const SystemModel& model, const SystemState& state,

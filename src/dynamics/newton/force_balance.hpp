@@ -35,6 +35,15 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
 [[nodiscard]] std::vector<std::vector<BodyIndex>> find_linked_groups(
     const SystemModel& model);
 
+/// Bodies that couplers and transmissions connect to each other, except by way
+/// of the world; pairs connect none.
+struct CoupledGroup {
+  std::vector<BodyIndex> bodies;
+  bool is_held = false;  ///< by the world
+};
+[[nodiscard]] std::vector<CoupledGroup> find_coupled_groups(
+    const SystemModel& model);
+
 /// Checks that the forces on each free group balance, since internal forces
 /// cannot balance them in any configuration.
 /// @param terms at rest, evaluated by calc_terms

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -33,9 +34,10 @@ double mean_square(const SystemModel& model, const BodyModel& body,
 
 }  // namespace
 
-CorrectionSize measure_correction(const SystemModel& model,
-                                  const VectorX& increments) {
-  CorrectionSize largest;
+void measure_correction(const SystemModel& model, const MotionGroups& groups,
+                        const VectorX& increments,
+                        std::vector<CorrectionSize>& sizes) {
+  sizes.assign(groups.count(), {});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const double* x = increments.data() + first_row(body, b);
@@ -46,53 +48,72 @@ CorrectionSize measure_correction(const SystemModel& model,
         mean_square(model, body, increments.tail(model.nodal_count));
     const double modal =
         Eigen::Map<const VectorX>(x + 6, body.modes).squaredNorm() / body.mass;
+    CorrectionSize& largest = sizes[groups.of(b)];
+    if (!std::isfinite(largest.value)) continue;
     largest.rigid = std::max(largest.rigid, rigid);
     largest.modal = std::max(largest.modal, modal);
-    if (!(rigid + modal <= largest.value)) {
-      largest.value = rigid + modal;
-      largest.body = b;
-      if (!std::isfinite(largest.value)) break;
-    }
+    if (rigid + modal <= largest.value) continue;
+    largest.value = rigid + modal;
+    largest.body = b;
   }
-  largest.value = std::sqrt(largest.value);
-  largest.rigid = std::sqrt(largest.rigid);
-  largest.modal = std::sqrt(largest.modal);
-  return largest;
+  for (CorrectionSize& size : sizes) {
+    size.value = std::sqrt(size.value);
+    size.rigid = std::sqrt(size.rigid);
+    size.modal = std::sqrt(size.modal);
+  }
 }
 
-double measure_motion(const SystemModel& model, const Rates& motion) {
-  double largest = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const double squared =
-        motion.translation[b].squaredNorm() +
-        radius_of_gyration_squared(body) * motion.rotation[b].squaredNorm() +
-        motion.modes.segment(body.offset, body.modes).squaredNorm() /
-            body.mass +
-        mean_square(model, body, motion.nodes);
-    largest = std::max(largest, squared);
-  }
-  return std::sqrt(largest);
+bool Reversal::is_backward() const {
+  return both < -0.5 * std::sqrt(now * before);
 }
 
-Roundoff measure_roundoff(const SystemModel& model, const SystemState& state) {
-  double reach = 0.0;
-  double bend = 0.0;
+void measure_reversal(const SystemModel& model, const MotionGroups& groups,
+                      const VectorX& now, const VectorX& before,
+                      std::vector<Reversal>& reversals) {
+  reversals.assign(groups.count(), {});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
+    Reversal& sum = reversals[groups.of(b)];
+    const auto add = [&](double weight, Eigen::Index row, Eigen::Index rows) {
+      const auto x = now.segment(row, rows);
+      const auto y = before.segment(row, rows);
+      sum.both += weight * x.dot(y);
+      sum.now += weight * x.squaredNorm();
+      sum.before += weight * y.squaredNorm();
+    };
+    const Eigen::Index row = first_row(body, b);
+    add(body.mass, row, 3);
+    add(body.mass * radius_of_gyration_squared(body), row + 3, 3);
+    add(1.0, row + 6, body.modes);
+    if (body.full < 0) continue;
+    const FullModel& full = model.full_bodies[index(body.full)];
+    add(3.0 * body.mass / static_cast<double>(full.dofs()),
+        first_node_row(model) + full.first, full.dofs());
+  }
+}
+
+void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
+                      const SystemState& state, const Rates& motion,
+                      std::vector<Roundoff>& roundoffs) {
+  roundoffs.assign(groups.count(), {});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    Roundoff& largest = roundoffs[groups.of(b)];
+    double reach = radius_of_gyration_squared(body);
     if (body.full >= 0) {
-      const double noise = kNodalNoise * kNodalNoise;
-      reach = std::max(reach, noise * (mean_square(model, body, state.u_H) +
-                                       radius_of_gyration_squared(body)));
-      continue;
+      reach += mean_square(model, body, state.u_H);
+      reach *= kNodalNoise * kNodalNoise;
+    } else {
+      reach += state.bodies[b].p_WB.squaredNorm();
     }
-    reach = std::max(reach, state.bodies[b].p_WB.squaredNorm() +
-                                radius_of_gyration_squared(body));
-    bend = std::max(
-        bend,
-        state.eta.segment(body.offset, body.modes).squaredNorm() / body.mass);
+    const double step = kRoundoff * motion.translation[b].norm();
+    const double bend =
+        state.eta.segment(body.offset, body.modes).squaredNorm() / body.mass;
+    largest.step = std::max(largest.step, step);
+    largest.rigid =
+        std::max({largest.rigid, largest.step, kRoundoff * std::sqrt(reach)});
+    largest.modal = std::max(largest.modal, kRoundoff * std::sqrt(bend));
   }
-  return {kRoundoff * std::sqrt(reach), kRoundoff * std::sqrt(bend)};
 }
 
 void find_roundoff_gaps(const SystemModel& model, const SystemTerms& terms,

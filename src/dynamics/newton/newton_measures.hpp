@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/newton/motion_groups.hpp"
 
 /// Lengths for the convergence tests of Newton's method in a time step:
 /// mass-weighted within a body, so that rotations and modes count by the
-/// displacement of its mass; the maximum over bodies.
+/// displacement of its mass; the maximum over the bodies of each group of
+/// MotionGroups. All take one value a group.
 namespace limber::dynamics {
 
 /// Length of a correction [m], and of its two kinds separately. The precision
@@ -21,21 +23,39 @@ struct CorrectionSize {
   double modal = 0.0;    ///< [m]
 };
 /// @param increments as in NewtonMatrix
-[[nodiscard]] CorrectionSize measure_correction(const SystemModel& model,
-                                                const VectorX& increments);
+void measure_correction(const SystemModel& model, const MotionGroups& groups,
+                        const VectorX& increments,
+                        std::vector<CorrectionSize>& sizes);
 
-/// A step's motion on the same scale [m].
-[[nodiscard]] double measure_motion(const SystemModel& model,
-                                    const Rates& motion);
+/// Two corrections in succession: sums over a group of the squares of their
+/// lengths, each times a body's mass, and of their product [kg m^2].
+struct Reversal {
+  double both = 0.0;
+  double now = 0.0;
+  double before = 0.0;
+
+  /// Whether it takes the last one back, to within a tenth.
+  [[nodiscard]] bool is_whole() const {
+    return now > 0.0 && now + 2.0 * both + before <= 0.01 * now;
+  }
+  /// Whether the angle between them is more than 120 degrees.
+  [[nodiscard]] bool is_backward() const;
+};
+/// @param now, before as increments of NewtonMatrix
+void measure_reversal(const SystemModel& model, const MotionGroups& groups,
+                      const VectorX& now, const VectorX& before,
+                      std::vector<Reversal>& reversals);
 
 /// Below these [m] corrections are round-off.
 struct Roundoff {
   double rigid = 0.0;  ///< [m]
   double modal = 0.0;  ///< [m]
+  double step = 0.0;   ///< of velocities, as translations in a step [m]
 };
 /// Of the coordinates themselves.
-[[nodiscard]] Roundoff measure_roundoff(const SystemModel& model,
-                                        const SystemState& state);
+void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
+                      const SystemState& state, const Rates& motion,
+                      std::vector<Roundoff>& roundoffs);
 
 /// Effect of round-off of frames' motion on the laws' wrenches, as gaps of
 /// NewtonMatrix, one per coupler, then one per transmission. Their solution is

@@ -286,6 +286,29 @@ TEST(EnergyConserving, KeepsTheEnergyOfTheLightestBody) {
   }
 }
 
+// The first correction of a step does not tell whether corrections shrink: at
+// 1e6 m one of 1e-8 m was called round-off.
+TEST(EnergyConserving, VibratesAlikeWhereverTheBodyIs) {
+  const auto vibrate = [](double place) {
+    const auto cloud = testing::make_point_mass_body(24, 4, 4.0, 1.0, 60.0, 42);
+    SystemBuilder builder;
+    builder.add_flexible_body("cloud", testing::share(cloud), Fidelity::coupled,
+                              {});
+    const SystemModel model = builder.build();
+    SystemState state = make_state(model);
+    state.bodies[0].p_WB.x() = place;
+    state.etadot << 1e-4, -2e-4, 1e-4, 3e-4;
+    EnergyConserving scheme(model, {});
+    for (int i = 1; i <= 100; ++i) scheme.step(state, 1e-4, 1e-4 * i);
+    return state;
+  };
+  const SystemState near = vibrate(0.0);
+  const SystemState far = vibrate(1e6);
+  EXPECT_GT(near.eta.norm(), 1e-6);
+  EXPECT_LT((far.eta - near.eta).norm(), 1e-12 * near.eta.norm());
+  EXPECT_LT((far.etadot - near.etadot).norm(), 1e-12 * near.etadot.norm());
+}
+
 TEST(EnergyConserving, LeavesTheStateAsItWasWhenNewtonFails) {
   const FreeChain chain = make_free_chain(1e7, 1.0, 0.1);
   SystemState state = chain.state;

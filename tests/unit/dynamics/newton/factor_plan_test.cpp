@@ -14,9 +14,9 @@ CorrectionSize make_size(double rigid, double modal) {
 
 // Corrections of 1 and 0.01 m.
 FactorPlan::Course measure(double slowest = 0.01) {
-  FactorPlan::Course course;
-  course.add(make_size(0.6, 0.8));
-  course.add(make_size(0.006, 0.008));
+  FactorPlan::Course course(1);
+  course.add({make_size(0.6, 0.8)});
+  course.add({make_size(0.006, 0.008)});
   course.slowest = slowest;
   course.is_measured = true;
   return course;
@@ -24,8 +24,8 @@ FactorPlan::Course measure(double slowest = 0.01) {
 
 // One in which nothing contracted measurably.
 FactorPlan::Course leave_unmeasured() {
-  FactorPlan::Course course;
-  course.add(make_size(0.6, 0.8));
+  FactorPlan::Course course(1);
+  course.add({make_size(0.6, 0.8)});
   return course;
 }
 
@@ -36,7 +36,7 @@ int count_fresh(FactorPlan& plan) {
 }
 
 TEST(FactorPlan, KeepsFactorsFromTheStartAndWhileTheyContractWell) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   for (int i = 0; i < 1000; ++i) {
     ASSERT_TRUE(plan.keeps());
     plan.finish_step(true, measure());
@@ -44,35 +44,37 @@ TEST(FactorPlan, KeepsFactorsFromTheStartAndWhileTheyContractWell) {
 }
 
 TEST(FactorPlan, ExpectsWhatWasMeasuredInProportionTwentyTimes) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   plan.finish_step(true, measure());
-  const auto rest = plan.expect_rest(0, make_size(0.3, 0.4));
+  const auto rest = plan.expect_rest(0, 0, make_size(0.3, 0.4));
   EXPECT_NEAR(rest.rigid, 20.0 * 0.5 * 0.006, 1e-15);
   EXPECT_NEAR(rest.modal, 20.0 * 0.5 * 0.008, 1e-15);
 }
 
 TEST(FactorPlan, ExpectsNothingOfMuchLargerOrLaterCorrections) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   plan.finish_step(true, measure());
-  EXPECT_TRUE(std::isfinite(plan.expect_rest(0, make_size(2.34, 3.12)).rigid));
-  EXPECT_TRUE(std::isinf(plan.expect_rest(0, make_size(2.46, 3.28)).rigid));
-  EXPECT_TRUE(std::isinf(plan.expect_rest(1, make_size(0.3, 0.4)).modal));
-  EXPECT_TRUE(std::isinf(plan.expect_rest(0, make_size(NAN, 0.4)).modal));
+  EXPECT_TRUE(
+      std::isfinite(plan.expect_rest(0, 0, make_size(2.34, 3.12)).rigid));
+  EXPECT_TRUE(std::isinf(plan.expect_rest(0, 0, make_size(2.46, 3.28)).rigid));
+  EXPECT_TRUE(std::isinf(plan.expect_rest(1, 0, make_size(0.3, 0.4)).modal));
+  EXPECT_TRUE(std::isinf(plan.expect_rest(0, 0, make_size(NAN, 0.4)).modal));
 }
 
 TEST(FactorPlan, TrustsAMeasurementForEightSteps) {
-  FactorPlan plan;
-  EXPECT_TRUE(std::isinf(plan.expect_rest(0, make_size(0.3, 0.4)).rigid));
+  FactorPlan plan(1);
+  EXPECT_TRUE(std::isinf(plan.expect_rest(0, 0, make_size(0.3, 0.4)).rigid));
   plan.finish_step(true, measure());
   for (int i = 0; i < 8; ++i) {
-    EXPECT_TRUE(std::isfinite(plan.expect_rest(0, make_size(0.3, 0.4)).rigid));
+    EXPECT_TRUE(
+        std::isfinite(plan.expect_rest(0, 0, make_size(0.3, 0.4)).rigid));
     plan.finish_step(true, leave_unmeasured());
   }
-  EXPECT_TRUE(std::isinf(plan.expect_rest(0, make_size(0.3, 0.4)).rigid));
+  EXPECT_TRUE(std::isinf(plan.expect_rest(0, 0, make_size(0.3, 0.4)).rigid));
 }
 
 TEST(FactorPlan, MakesNewFactorsAfterThirtyTwoStepsWithoutAMeasurement) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   for (int i = 0; i < 32; ++i) {
     plan.finish_step(true, leave_unmeasured());
     ASSERT_TRUE(plan.keeps());
@@ -82,7 +84,7 @@ TEST(FactorPlan, MakesNewFactorsAfterThirtyTwoStepsWithoutAMeasurement) {
 }
 
 TEST(FactorPlan, DoublesTheFreshStepsOfFactorsThatSoonContractBadly) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   int expected = 8;
   for (int failure = 0; failure < 9; ++failure) {
     plan.finish_step(true, measure(0.9));
@@ -92,17 +94,17 @@ TEST(FactorPlan, DoublesTheFreshStepsOfFactorsThatSoonContractBadly) {
 }
 
 TEST(FactorPlan, RenewsFactorsOnceThatContractBadlyAfterManySteps) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   for (int i = 0; i < 200; ++i) plan.finish_step(true, measure());
   plan.finish_step(true, measure(0.9));
   EXPECT_EQ(count_fresh(plan), 1);
 }
 
 TEST(FactorPlan, ForgetsMeasurementsWhenRefreshed) {
-  FactorPlan plan;
+  FactorPlan plan(1);
   plan.finish_step(true, measure());
   plan.refresh();
-  EXPECT_TRUE(std::isinf(plan.expect_rest(0, make_size(0.3, 0.4)).rigid));
+  EXPECT_TRUE(std::isinf(plan.expect_rest(0, 0, make_size(0.3, 0.4)).rigid));
 }
 
 }  // namespace

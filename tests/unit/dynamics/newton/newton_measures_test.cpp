@@ -45,5 +45,27 @@ TEST(RoundoffGaps, GrowWithTheDistanceAndWithArms) {
   EXPECT_NEAR(find_gap(3.0, 4.0) - find_gap(3.0, 2.0), by_arm, 1e-9 * by_arm);
 }
 
+Reversal compare(double first, double second) {
+  SystemBuilder builder;
+  builder.add_rigid_body("a", {4.0, Matrix3::Identity()});
+  const SystemModel model = builder.build();
+  std::vector<Reversal> reversals;
+  const VectorX x = VectorX::LinSpaced(6, -1.0, 2.0);
+  measure_reversal(model, MotionGroups(model), second * x, first * x,
+                   reversals);
+  return reversals.at(0);
+}
+
+TEST(Reversal, IsBackwardOrWhole) {
+  EXPECT_TRUE(compare(1.0, -1.0).is_whole());
+  EXPECT_TRUE(compare(1.0, -1.1).is_whole());
+  EXPECT_FALSE(compare(1.0, -0.9).is_whole());
+  EXPECT_FALSE(compare(1.0, 1.0).is_whole());
+  EXPECT_FALSE(compare(0.0, 0.0).is_whole());
+  EXPECT_TRUE(compare(1.0, -0.1).is_backward());
+  EXPECT_FALSE(compare(1.0, 0.1).is_backward());
+  EXPECT_FALSE(compare(0.0, 0.0).is_backward());
+}
+
 }  // namespace
 }  // namespace limber::dynamics::newton_measures_test
