@@ -99,8 +99,9 @@ CouplerResponse PointSpring::evaluate_over_step(const MotionStep& motion,
                                                 const CouplerMemory& memory,
                                                 const StepTimes& times) const {
   const SwitchMode mode = memory.switches[0];
-  const double length =
-      0.5 * (motion.begin.p_FM_F.norm() + motion.end.p_FM_F.norm());
+  const double length0 = motion.begin.p_FM_F.norm();
+  const double length1 = motion.end.p_FM_F.norm();
+  const double length = 0.5 * (length0 + length1);
   const double across = motion.mean.p_FM_F.norm();
   const double share = across > 0.0 ? across / length : 1.0;
   RelativeMotion line = motion.mean;
@@ -111,12 +112,18 @@ CouplerResponse PointSpring::evaluate_over_step(const MotionStep& motion,
   if (!(across > 0.0)) return response;
   const Vector3 direction = motion.mean.p_FM_F / length;
   const double rate = direction.dot(motion.mean.v_FM_F);
+  // Of the length that the rate leads to: not that of rounded places.
+  RelativeMotion end = motion.end;
+  if (length1 > 0.0) end.p_FM_F *= (length0 + times.h * rate) / length1;
   const double lack =
       find_lack({.energy0 = evaluate(motion.begin, mode).energy,
-                 .energy1 = evaluate(motion.end, mode).energy,
+                 .energy1 = evaluate(end, mode).energy,
                  .h = times.h,
                  .dissipation = response.dissipation,
-                 .power = response.wrench.head<3>().dot(motion.mean.v_FM_F)});
+                 .power = response.wrench.head<3>().dot(motion.mean.v_FM_F),
+                 .force = response.wrench.head<3>().norm(),
+                 .z0 = length0,
+                 .z1 = length1});
   if (lack != 0.0 && rate != 0.0) {
     response.wrench.head<3>() += (lack / rate) * direction;
   }

@@ -97,12 +97,12 @@ CoordinateStep find_path_step(const Step& step, const PathCoordinate& path,
     const double length1 = last.norm();
     const Vector3 direction = (first + last) / (length0 + length1);
     coordinate.z0 += length0;
-    coordinate.z1 += length1;
     coordinate.rate += direction.dot(step.motion.frames[to].v_W -
                                      step.motion.frames[from].v_W);
     gradients[i].head<3>() -= direction;
     gradients[i + 1].head<3>() += direction;
   }
+  coordinate.z1 = coordinate.z0 + step.times.h * coordinate.rate;
   return coordinate;
 }
 

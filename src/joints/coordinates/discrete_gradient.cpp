@@ -29,17 +29,18 @@ CoordinateStep find_coordinate_step(const AxisCoordinate& coordinate,
                                     double h) {
   CoordinateStep step;
   step.z0 = evaluate(coordinate, motion.begin, near).z;
-  step.z1 = evaluate(coordinate, motion.end, near).z;
   RelativeMotion middle = motion.mean;
   middle.R_FM = find_middle_rotation(motion.begin.R_FM, motion.end.R_FM);
   const CoordinateValue value = evaluate(coordinate, middle, near);
   step.rate = value.rate;
   step.gradient = value.gradient;
   step.hessian = value.hessian;
+  step.z1 = step.z0 + h * step.rate;
   const Vector3& w = motion.mean.w_FM_F;
   const double speed = w.norm();
   if (coordinate.kind == AxisCoordinate::Kind::angle &&
       h * speed > kSmallTurn) {
+    step.z1 = evaluate(coordinate, motion.end, near).z;
     step.rate = (step.z1 - step.z0) / h;
     step.gradient.tail<3>() += ((step.rate - value.rate) / (speed * speed)) * w;
   }
@@ -52,18 +53,24 @@ double find_lack(const StepBalance& b) {
   const double noise =
       kRoundoff *
       ((std::abs(b.energy0) + std::abs(b.energy1)) / b.h +
-       std::abs(b.dissipation) + std::abs(b.supplied) + std::abs(b.power));
+       std::abs(b.dissipation) + std::abs(b.supplied) + std::abs(b.power) +
+       std::abs(b.force) * (std::abs(b.z0) + std::abs(b.z1)) / b.h);
   return std::abs(lack) <= noise ? 0.0 : lack;
 }
 
-ScalarResponse balance(const ScalarStep& step, double rate, double h) {
+ScalarResponse balance(const ScalarStep& step, const CoordinateStep& coordinate,
+                       double h) {
   ScalarResponse response = step.response;
+  const double rate = coordinate.rate;
   const double lack = find_lack({.energy0 = step.energy0,
                                  .energy1 = step.energy1,
                                  .h = h,
                                  .dissipation = response.dissipation,
                                  .supplied = response.supplied,
-                                 .power = response.force * rate});
+                                 .power = response.force * rate,
+                                 .force = response.force,
+                                 .z0 = coordinate.z0,
+                                 .z1 = coordinate.z1});
   if (lack != 0.0 && rate != 0.0) response.force += lack / rate;
   return response;
 }

@@ -35,10 +35,12 @@ struct StepTimes {
   [[nodiscard]] double middle() const { return begin + 0.5 * h; }
 };
 
-/// A coordinate at both ends of a step.
+/// A coordinate at both ends of a step. The end is that of the rate, without
+/// the round-off of the places of both frames: over a small step it would be a
+/// large part of the force.
 struct CoordinateStep {
   double z0 = 0.0;                     ///< [m or rad]
-  double z1 = 0.0;                     ///< [m or rad]
+  double z1 = 0.0;                     ///< z0 + h rate [m or rad]
   double rate = 0.0;                   ///< (z1 - z0) / h [m/s or rad/s]
   Vector6 gradient = Vector6::Zero();  ///< with rate = gradient . velocity [-]
   /// As that of CoordinateValue, approximate [1/rad].
@@ -70,6 +72,9 @@ struct StepBalance {
   double dissipation = 0.0;  ///< [W]
   double supplied = 0.0;     ///< [W]
   double power = 0.0;        ///< of the law's force on the moving frame [W]
+  double force = 0.0;        ///< along the coordinate [N or N m]
+  double z0 = 0.0;           ///< the coordinate, which rounds [m or rad]
+  double z1 = 0.0;           ///< [m or rad]
 };
 
 /// Power missing in the energy balance [W]; 0 if it is round-off.
@@ -97,9 +102,9 @@ template <typename Law>
 }
 
 /// A scalar law at the mean, its force corrected so that energies balance.
-/// @param rate mean rate over the step [m/s or rad/s]
 /// @param h length of the step [s]
-[[nodiscard]] ScalarResponse balance(const ScalarStep& step, double rate,
+[[nodiscard]] ScalarResponse balance(const ScalarStep& step,
+                                     const CoordinateStep& coordinate,
                                      double h);
 
 }  // namespace limber::joints

@@ -68,8 +68,8 @@ SwitchValue EndStop::find_switch(int index, const ScalarMotion& motion) const {
 ScalarResponse EndStop::evaluate_over_step(const CoordinateStep& coordinate,
                                            const StepTimes& times,
                                            const SwitchModes& modes) const {
-  return balance(evaluate_ends(*this, coordinate, times, modes),
-                 coordinate.rate, times.h);
+  return balance(evaluate_ends(*this, coordinate, times, modes), coordinate,
+                 times.h);
 }
 
 std::optional<BeyondBound> EndStop::find_beyond_bound(

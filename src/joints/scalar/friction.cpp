@@ -42,8 +42,8 @@ ScalarResponse Friction::evaluate(const ScalarMotion& motion,
 ScalarResponse Friction::evaluate_over_step(const CoordinateStep& coordinate,
                                             const StepTimes& times,
                                             const SwitchModes& modes) const {
-  return balance(evaluate_ends(*this, coordinate, times, modes),
-                 coordinate.rate, times.h);
+  return balance(evaluate_ends(*this, coordinate, times, modes), coordinate,
+                 times.h);
 }
 
 }  // namespace limber::joints

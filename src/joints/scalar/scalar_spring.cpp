@@ -52,8 +52,8 @@ SwitchValue ScalarSpring::find_switch(int /*index*/,
 ScalarResponse ScalarSpring::evaluate_over_step(
     const CoordinateStep& coordinate, const StepTimes& times,
     const SwitchModes& modes) const {
-  return balance(evaluate_ends(*this, coordinate, times, modes),
-                 coordinate.rate, times.h);
+  return balance(evaluate_ends(*this, coordinate, times, modes), coordinate,
+                 times.h);
 }
 
 }  // namespace limber::joints
