@@ -34,10 +34,9 @@ std::string name_whirl(const dynamics::NaturalMode& mode) {
 
 /// Frequency in the world frame of a circular motion in a rotating frame, with
 /// sign.
-std::optional<double> find_world_frequency(const FrequencyReport& f,
-                                           const dynamics::NaturalMode& mode) {
+std::optional<double> find_world_frequency(const dynamics::NaturalMode& mode) {
   constexpr double kCircle = 0.99;
-  const double spin = find_spin(f).norm();
+  const double spin = mode.axes_w_W.norm();
   if (spin == 0.0 || std::abs(mode.orbit) < kCircle) return {};
   constexpr double kStill = 1e-6;  // of the spin: displaced axis
   const double w = std::copysign(mode.value.imag(), mode.orbit) + spin;
@@ -58,7 +57,7 @@ std::string describe_mode(const FrequencyReport& f,
   } else if (m.damping_ratio() < -1e-9) {
     add(fmt::format("unstable, grows as exp({:.4g} t)", m.value.real()));
   }
-  const std::optional<double> world = find_world_frequency(f, m);
+  const std::optional<double> world = find_world_frequency(m);
   if (world && *world == 0.0) {
     add("stationary, seen from the world");
   } else if (world) {
@@ -66,6 +65,10 @@ std::string describe_mode(const FrequencyReport& f,
                     *world > 0.0 ? "forward" : "backward", std::abs(*world)));
   } else if (m.value.imag() > 0.0) {
     add(name_whirl(m));
+  }
+  if (m.axes_w_W != find_spin(f)) {
+    add(fmt::format("seen from axes that turn at {:.6g} rad/s",
+                    m.axes_w_W.norm()));
   }
   return text;
 }
@@ -77,9 +80,11 @@ Json list_mode(const FrequencyReport& f, const dynamics::NaturalMode& m) {
             {"growth_rate", m.value.real()},
             {"moves_freely", m.is_free()}};
   if (!f.modes.is_moving) return json;
+  json["axes_angular_velocity"] =
+      std::vector<double>(m.axes_w_W.begin(), m.axes_w_W.end());
   json["orbit"] = m.orbit;
   json["whirl"] = name_whirl(m);
-  if (const auto world = find_world_frequency(f, m)) {
+  if (const auto world = find_world_frequency(m)) {
     json["world_frequency"] = *world;
     json["whirl"] = *world > 0.0 ? "forward" : *world < 0.0 ? "backward" : "";
   }

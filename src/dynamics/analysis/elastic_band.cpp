@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limber/common/index.hpp"
+#include "limber/dynamics/analysis/motion_groups.hpp"
 #include "limber/dynamics/analysis/principal_basis.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 
@@ -22,9 +24,11 @@ struct OwnModes {
   int bodies = 0;
 };
 
-OwnModes find_own_modes(const SystemModel& model) {
+OwnModes find_own_modes(const SystemModel& model,
+                        const std::vector<BodyIndex>& group) {
   OwnModes own;
-  for (const BodyModel& body : model.bodies) {
+  for (const BodyIndex b : group) {
+    const BodyModel& body = model.bodies[index(b)];
     if (body.modes == 0) continue;
     ++own.bodies;
     for (const double lambda : flexbody::rest_stiffness(body.elasticity)) {
@@ -34,6 +38,13 @@ OwnModes find_own_modes(const SystemModel& model) {
     }
   }
   return own;
+}
+
+Index count_coordinates(const SystemModel& model,
+                        const std::vector<BodyIndex>& group) {
+  Index count = 6 * std::ssize(group);
+  for (const BodyIndex b : group) count += model.bodies[index(b)].modes;
+  return count;
 }
 
 /// Twice the strain energy of each column of Q.
@@ -46,9 +57,8 @@ VectorX find_strain(const SmallMotion& motion, const MatrixX& Q) {
   return strain;
 }
 
-double find_lowest(const SystemModel& model, const SystemState& state,
+double find_lowest(const SystemModel& model, const SmallMotion& motion,
                    const OwnModes& own) {
-  const SmallMotion motion = find_small_motion(model, stop(state));
   const PrincipalBasis basis = find_principal_basis(model, motion);
   const VectorX strain = find_strain(motion, basis.Q);
   const VectorX S = motion.project_stiffness(basis.Q).diagonal();
@@ -62,16 +72,25 @@ double find_lowest(const SystemModel& model, const SystemState& state,
 
 }  // namespace
 
-std::optional<flexbody::FrequencyBand> find_elastic_band(
+std::vector<std::optional<flexbody::FrequencyBand>> find_elastic_bands(
     const SystemModel& model, const SystemState& state) {
   constexpr double kBelow = 10.0;
-  const OwnModes own = find_own_modes(model);
-  if (!(own.high > 0.0)) return {};
-  const Index coordinates = 6 * std::ssize(model.bodies) + model.modal_count;
-  const double low = coordinates > kMostCoordinates
-                         ? own.low / (kBelow * own.bodies)
-                         : find_lowest(model, state, own);
-  return flexbody::FrequencyBand{low, std::max(own.high, kNarrowest * low)};
+  std::vector<std::optional<flexbody::FrequencyBand>> bands(
+      model.bodies.size());
+  std::optional<SmallMotion> motion;
+  for (const auto& group : find_linked_groups(model)) {
+    const OwnModes own = find_own_modes(model, group);
+    if (!(own.high > 0.0)) continue;
+    double low = own.low / (kBelow * own.bodies);
+    if (count_coordinates(model, group) <= kMostCoordinates) {
+      if (!motion) motion = find_small_motion(model, stop(state));
+      low = find_lowest(model, take_group(model, *motion, group).motion, own);
+    }
+    const flexbody::FrequencyBand band{low,
+                                       std::max(own.high, kNarrowest * low)};
+    for (const BodyIndex b : group) bands[index(b)] = band;
+  }
+  return bands;
 }
 
 }  // namespace limber::dynamics

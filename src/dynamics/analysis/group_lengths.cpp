@@ -9,54 +9,17 @@
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
-namespace {
-
-using Group = std::vector<BodyIndex>;
-
-double sum_masses(const SystemModel& model, const Group& group) {
-  double mass = 0.0;
-  for (const BodyIndex b : group) mass += model.bodies[index(b)].mass;
-  return mass;
-}
-
-Vector3 find_centre(const SystemModel& model, const SystemState& state,
-                    const Group& group) {
-  Vector3 sum = Vector3::Zero();
-  for (const BodyIndex b : group) {
-    sum += model.bodies[index(b)].mass * state.bodies[index(b)].p_WB;
-  }
-  return sum / sum_masses(model, group);
-}
-
-double find_extent(const SystemModel& model, const SystemState& state,
-                   const Group& group) {
-  const Vector3 centre = find_centre(model, state, group);
-  double radius = 0.0;
-  double distance = 0.0;
-  for (const BodyIndex b : group) {
-    const BodyModel& body = model.bodies[index(b)];
-    radius = std::max(radius, std::sqrt(0.5 * body.J0.trace() / body.mass));
-    distance =
-        std::max(distance, (state.bodies[index(b)].p_WB - centre).norm());
-  }
-  return radius + 2.0 * distance;
-}
-
-}  // namespace
-
 GroupLengths::GroupLengths(const SystemModel& model, const SystemState& start)
     : group_of_row_(static_cast<std::size_t>(count_unknowns(model)), 0),
       weights_(find_length_weights(model)) {
-  const std::vector<Group> groups = find_linked_groups(model);
+  const auto groups = find_linked_groups(model);
   extents_.resize(std::ssize(groups));
   masses_.resize(std::ssize(groups));
-  double mass = 0.0;
-  for (const BodyModel& body : model.bodies) mass += body.mass;
-  weights_ *= std::sqrt(mass);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto place = static_cast<Eigen::Index>(g);
-    extents_[place] = find_extent(model, start, groups[g]);
-    masses_[place] = sum_masses(model, groups[g]);
+    const GroupExtent extent = find_group_extent(model, start, groups[g]);
+    extents_[place] = extent.reach;
+    masses_[place] = extent.mass;
     for (const BodyIndex b : groups[g]) include_body(model, b, g);
   }
   for (Eigen::Index i = 0; i < weights_.size(); ++i) {

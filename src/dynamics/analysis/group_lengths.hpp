@@ -13,8 +13,8 @@ namespace limber::dynamics {
 ///
 /// Equation   L^2 = sum_b (m |dp|^2 + m r^2 |dtheta|^2 + |deta|^2
 ///            + m |du|^2 / N) / sum_b m   over the bodies of a group,
-///            r the radius of gyration; the group's extent is twice the largest
-///            distance of a body from its centre of mass, plus the largest r
+///            r the radius of gyration; the group's extent is its
+///            GroupExtent::reach
 class GroupLengths {
  public:
   GroupLengths(const SystemModel& model, const SystemState& start);

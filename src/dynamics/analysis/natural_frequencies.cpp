@@ -9,6 +9,7 @@
 #include "limber/common/dense/general_eigen.hpp"
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/dense/symmetric_eigen.hpp"
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/steady_linearisation.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
@@ -67,7 +68,8 @@ Orbit make_orbit(const SystemModel& model, const SystemState& state,
   const Matrix3 turn = skew(c.axes.R.transpose() * e_W);
   MatrixX around = MatrixX::Zero(motion.size(), motion.size());
   MatrixX all = around;
-  for (std::size_t b = 0; b < motion.places.size(); ++b) {
+  for (const BodyIndex of : motion.bodies) {
+    const std::size_t b = index(of);
     const BodyModel& body = model.bodies[b];
     const Index p = motion.places[b];
     if (p >= 0) {
@@ -127,14 +129,20 @@ void add_orbits(const Orbit& orbit, const Eigen::MatrixXcd& u,
   }
 }
 
+NaturalMode make_mode(std::complex<double> value) {
+  NaturalMode mode;
+  mode.value = value;
+  return mode;
+}
+
 void add_oscillations(const SystemModel& model, const SystemState& state,
-                      const SteadyMotion& c, NaturalModes& found) {
-  constexpr double kNothing = 1e-11;   // of the fastest
+                      const SteadyMotion& c, std::vector<NaturalMode>& modes) {
+  constexpr double kNothing = 1e-11;   // of the group's fastest
   constexpr double kOfTheSpin = 1e-7;  // for double zeros
   constexpr double kRelaxing = 0.5;
   const FirstOrder first(c.motion, c.basis);
   if (first.A.rows() == 0) return;
-  const Vector3 spin = find_fastest_spin(state);
+  const Vector3 spin = find_fastest_spin(state, c.motion.bodies);
   const bool turns = !spin.isZero(0.0);
   const Index elements = c.motion.relaxation_rates().size();
   const auto eigen =
@@ -151,11 +159,11 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
       continue;
     }
     if (std::abs(values[i]) <= least) {
-      if (coasting-- <= 0) found.modes.emplace_back();
+      if (coasting-- <= 0) modes.emplace_back();
     } else if (values[i].imag() == 0.0 || (!turns && values[i].imag() > 0.0)) {
-      found.modes.push_back({values[i], 0.0});
+      modes.push_back(make_mode(values[i]));
     } else if (values[i].imag() > 0.0) {
-      around.push_back({values[i], 0.0});
+      around.push_back(make_mode(values[i]));
       columns.push_back(i);
     }
   }
@@ -164,22 +172,35 @@ void add_oscillations(const SystemModel& model, const SystemState& state,
              eigen.vectors.middleRows(values.size() - elements - first.Q.cols(),
                                       first.Q.cols())(Eigen::all, columns),
              around);
-  found.modes.insert(found.modes.end(), around.begin(), around.end());
+  modes.insert(modes.end(), around.begin(), around.end());
 }
 
 /// At rest and undamped: from the diagonal of the basis.
-void add_frequencies(const SteadyMotion& c, NaturalModes& found) {
+void add_frequencies(const SteadyMotion& c, std::vector<NaturalMode>& modes) {
   const VectorX squares = c.motion.project_stiffness(c.basis.Q).diagonal().tail(
       c.motion.size() - c.basis.free);
   for (const double s : squares) {
     const double w = std::sqrt(std::abs(s));
     if (s < 0.0) {
-      found.modes.push_back({w, 0.0});
-      found.modes.push_back({-w, 0.0});
+      modes.push_back(make_mode(w));
+      modes.push_back(make_mode(-w));
     } else {
-      found.modes.push_back({{0.0, w}, 0.0});
+      modes.push_back(make_mode({0.0, w}));
     }
   }
+}
+
+std::vector<NaturalMode> find_group_modes(const SystemModel& model,
+                                          const SystemState& state,
+                                          const SteadyMotion& c) {
+  std::vector<NaturalMode> modes(static_cast<std::size_t>(c.basis.free));
+  const bool is_moving = moves(model, state, c.motion.bodies);
+  if (!is_moving && is_conservative(c.motion, c.basis)) {
+    add_frequencies(c, modes);
+  } else {
+    add_oscillations(model, state, c, modes);
+  }
+  return modes;
 }
 
 }  // namespace
@@ -194,17 +215,18 @@ NaturalModes find_natural_modes(const SystemModel& model,
                                 const SystemState& state) {
   NaturalModes found;
   found.is_moving = moves(state);
-  const SteadyMotion c = linearise_steadily(model, state);
-  if (c.motion.size() == 0) return found;
-  found.axes = c.axes;
-  found.change = c.change;
-  found.imbalance = find_imbalance(model, state, c.axes);
-  found.modes.resize(static_cast<std::size_t>(c.basis.free));
-  if (!found.is_moving && is_conservative(c.motion, c.basis)) {
-    add_frequencies(c, found);
-  } else {
-    add_oscillations(model, state, c, found);
+  std::vector<Vector3> spins(model.bodies.size(), Vector3::Zero());
+  for (const SteadyMotion& c : linearise_groups(model, state)) {
+    const Vector3& w_W = c.axes.w_W;
+    if (w_W.norm() > found.axes.w_W.norm()) found.axes = c.axes;
+    found.change = std::max(found.change, c.change);
+    for (const BodyIndex b : c.motion.bodies) spins[index(b)] = w_W;
+    std::vector<NaturalMode> modes = find_group_modes(model, state, c);
+    for (NaturalMode& mode : modes) mode.axes_w_W = w_W;
+    found.modes.insert(found.modes.end(), modes.begin(), modes.end());
   }
+  if (found.modes.empty()) return found;
+  found.imbalance = find_imbalance(model, state, spins);
   std::stable_sort(found.modes.begin(), found.modes.end(),
                    [](const NaturalMode& a, const NaturalMode& b) {
                      return std::abs(a.value) < std::abs(b.value);

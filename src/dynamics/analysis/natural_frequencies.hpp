@@ -18,6 +18,8 @@ struct NaturalMode {
   /// forward circle, -1 a backward circle, 0 a line. From the orbits of the
   /// masses.
   double orbit = 0.0;
+  /// Of the axes in which both are expressed, world frame [rad/s].
+  Vector3 axes_w_W = Vector3::Zero();
 
   [[nodiscard]] bool is_free() const { return value == 0.0; }
   /// Undamped natural frequency of a damped oscillation, |value| / 2 pi [Hz].
@@ -30,18 +32,18 @@ struct NaturalMode {
 struct NaturalModes {
   std::vector<NaturalMode> modes;  ///< free ones, then by |value|
   bool is_moving = false;
-  TurningAxes axes;     ///< in which values are expressed; at rest: world
+  TurningAxes axes;     ///< the fastest of the modes' axes; at rest: world
   Imbalance imbalance;  ///< of the start
-  /// Relative change of M, D and S while the system rotates by 1 rad: 0 if the
-  /// frequencies are exact [-].
+  /// Largest relative change of a group's M, D and S while it rotates by 1 rad:
+  /// 0 if the frequencies are exact [-].
   double change = 0.0;
 };
 
 /// Eigenvalues of small motion about the steady motion of a state, with
-/// dampers, gyroscopic and centrifugal terms. A moving system is described in
-/// fixed axes, or in axes that rotate with the fastest spinning body, whichever
-/// give constant coefficients: an axisymmetric rotor in any bearings, or any
-/// rotor in isotropic bearings.
+/// dampers, gyroscopic and centrifugal terms. Each linked group of bodies that
+/// moves is described by itself, in fixed axes, or in axes that rotate with its
+/// fastest spinning body, whichever give constant coefficients: an axisymmetric
+/// rotor in any bearings, or any rotor in isotropic bearings.
 ///
 /// Equation   det(M s^2 + D s + S + E' diag(s tau / (1 + s tau)) E) = 0 of
 ///            SmallMotion; relaxation of Maxwell elements is left out. Free
@@ -49,7 +51,7 @@ struct NaturalModes {
 ///            stiffness, where the rest of S is round-off. It is separated
 ///            first.
 /// Source     Genta, "Dynamics of Rotating Systems", 2005, ch. 3 [@genta2005]
-/// Limits     dense: (12 bodies + 2 modes + Maxwell elements)^3
+/// Limits     dense: (12 bodies + 2 modes + Maxwell elements)^3 of a group
 /// @throws InputError for a body at level `full`.
 [[nodiscard]] NaturalModes find_natural_modes(const SystemModel& model,
                                               const SystemState& state);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/analysis/principal_basis.hpp"
 
+#include <algorithm>
+
 #include "limber/common/dense/linear_solve.hpp"
 #include "limber/common/dense/qr.hpp"
 #include "limber/common/dense/singular_values.hpp"
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
+#include "limber/dynamics/analysis/motion_groups.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 
 namespace limber::dynamics {
@@ -29,24 +33,29 @@ MatrixX find_null_space(MatrixX rows) {
   return Q.rightCols(n - rank);
 }
 
-/// Translations of all bodies together, if nothing ties them to the world.
+/// Translations of each group that nothing ties to the world.
 MatrixX find_free_translations(const SystemModel& model,
                                const SmallMotion& motion) {
-  std::size_t free = 0;
-  for (const auto& group : find_free_groups(model)) free += group.size();
   MatrixX drift(motion.size(), 0);
-  if (free < model.bodies.size()) return drift;
-  drift = MatrixX::Zero(motion.size(), 3);
-  for (const Index p : motion.places) {
-    if (p >= 0) drift.block<3, 3>(p, 0).setIdentity();
+  for (const auto& group : find_free_groups(model)) {
+    if (motion.places[index(group.front())] < 0) continue;  // not of it
+    drift.conservativeResize(Eigen::NoChange, drift.cols() + 3);
+    drift.rightCols<3>().setZero();
+    for (const BodyIndex b : group) {
+      drift.rightCols<3>().middleRows<3>(motion.places[index(b)]).setIdentity();
+    }
   }
   return drift;
 }
 
-}  // namespace
+bool is_symmetric(const MatrixX& S) {
+  constexpr double kSame = 1e-12;
+  return (S - S.transpose()).norm() <= kSame * S.norm();
+}
 
-PrincipalBasis find_principal_basis(const SystemModel& model,
-                                    const SmallMotion& motion) {
+/// Of one linked group, with its own sizes.
+PrincipalBasis find_group_basis(const SystemModel& model,
+                                const SmallMotion& motion) {
   constexpr double kNothing = 1e-9;
   constexpr double kSafety = 10.0;  // of round-off
   const Index n = motion.size();
@@ -74,20 +83,91 @@ PrincipalBasis find_principal_basis(const SystemModel& model,
     free.conservativeResize(n, drift.cols() + loose);
     free.rightCols(loose) = open * svd.V.rightCols(loose);
   }
-  if (free.cols() == n) return {to_x * free, n, drift.cols()};
+  if (free.cols() == n) {
+    PrincipalBasis basis{to_x * free, n, drift.cols(), {}, true};
+    basis.is_symmetric = is_symmetric(motion.project_stiffness(basis.Q));
+    return basis;
+  }
   const MatrixX other = to_x * find_complement(free);
   const MatrixX S = motion.project_stiffness(other);
   const auto eigen = dense::find_eigenpairs(MatrixX(0.5 * (S + S.transpose())));
-  PrincipalBasis basis{MatrixX(n, n), free.cols(), drift.cols()};
+  PrincipalBasis basis{MatrixX(n, n), free.cols(), drift.cols(), eigen.values,
+                       true};
   basis.Q << to_x * free, other * eigen.vectors;
+  basis.is_symmetric = is_symmetric(motion.project_stiffness(basis.Q));
   return basis;
 }
 
+/// Places columns of groups' bases one after another in that of the whole.
+class Columns {
+ public:
+  explicit Columns(MatrixX& Q) : Q_(Q) {}
+  void append(const MotionGroup& group, const MatrixX& columns) {
+    Q_(group.coordinates, Eigen::seqN(count_, columns.cols())) = columns;
+    count_ += columns.cols();
+  }
+
+ private:
+  MatrixX& Q_;
+  Index count_ = 0;
+};
+
+/// A column of a group's basis that something holds.
+struct Held {
+  double square;  // of its frequency [1/s^2]
+  std::size_t group;
+  Index column;
+};
+
+std::vector<Held> sort_held(const std::vector<PrincipalBasis>& bases) {
+  std::vector<Held> held;
+  for (std::size_t g = 0; g < bases.size(); ++g) {
+    for (Index i = 0; i < bases[g].squares.size(); ++i) {
+      held.push_back({bases[g].squares[i], g, bases[g].free + i});
+    }
+  }
+  std::stable_sort(held.begin(), held.end(), [](const Held& a, const Held& b) {
+    return a.square < b.square;
+  });
+  return held;
+}
+
+}  // namespace
+
+PrincipalBasis find_principal_basis(const SystemModel& model,
+                                    const SmallMotion& motion) {
+  const std::vector<MotionGroup> groups = split_groups(model, motion);
+  std::vector<PrincipalBasis> bases;
+  PrincipalBasis all;
+  for (const MotionGroup& group : groups) {
+    bases.push_back(find_group_basis(model, group.motion));
+    all.free += bases.back().free;
+    all.drift += bases.back().drift;
+    all.is_symmetric = all.is_symmetric && bases.back().is_symmetric;
+  }
+  const Index n = motion.size();
+  all.Q = MatrixX::Zero(n, n);
+  Columns columns(all.Q);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    columns.append(groups[g], bases[g].Q.leftCols(bases[g].drift));
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const PrincipalBasis& basis = bases[g];
+    columns.append(groups[g],
+                   basis.Q.middleCols(basis.drift, basis.free - basis.drift));
+  }
+  all.squares.resize(n - all.free);
+  Index i = 0;
+  for (const Held& held : sort_held(bases)) {
+    columns.append(groups[held.group], bases[held.group].Q.col(held.column));
+    all.squares[i++] = held.square;
+  }
+  return all;
+}
+
 bool is_conservative(const SmallMotion& motion, const PrincipalBasis& basis) {
-  constexpr double kSame = 1e-12;
-  const MatrixX S = motion.project_stiffness(basis.Q);
   return motion.relaxations.empty() && motion.D.isZero(0.0) &&
-         (S - S.transpose()).norm() <= kSame * S.norm();
+         basis.is_symmetric;
 }
 
 }  // namespace limber::dynamics

@@ -76,6 +76,7 @@ class Derivatives {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyModel& body = model_.bodies[b];
       const Index row = first_row(body, b);
+      out_.bodies.emplace_back(b);
       out_.places.push_back(body.has_rigid_motion() ? std::ssize(rows_) : -1);
       for (Index i = body.has_rigid_motion() ? 0 : 6; i < 6 + body.modes; ++i) {
         if (i == 6) break;

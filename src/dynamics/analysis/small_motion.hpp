@@ -72,6 +72,7 @@ struct SmallMotion {
     double time = 0.0;       ///< tau [s]
   };
   std::vector<Relaxation> relaxations;
+  std::vector<BodyIndex> bodies;  ///< whose motion it is
   std::vector<Eigen::Index>
       places;  ///< index of a body's first of six, -1: fixed
   std::vector<Eigen::Index> modes;  ///< index of a body's first mode

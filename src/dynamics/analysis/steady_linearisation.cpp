@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/analysis/motion_groups.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -27,31 +29,61 @@ double measure_change(const SmallMotion& a, const SmallMotion& b,
                    dM.cwiseAbs().maxCoeff()});
 }
 
+using Bodies = std::vector<BodyIndex>;
+
 SteadyMotion linearise(const SystemModel& model, const SystemState& state,
-                       const Vector3& w_W, const Vector3& spin_W) {
+                       const Bodies& bodies, const Vector3& w_W,
+                       const Vector3& spin_W) {
   SteadyMotion c;
   c.axes.w_W = w_W;
-  c.motion = find_small_motion(model, state, c.axes);
+  const auto find = [&](const SystemState& at, const TurningAxes& axes) {
+    return take_group(model, find_small_motion(model, at, axes), bodies).motion;
+  };
+  c.motion = find(state, c.axes);
   c.basis = find_principal_basis(model, c.motion);
   if (spin_W.isZero(0.0)) return c;
   const double time = 1.0 / spin_W.norm();
   const TurningAxes later{exp_rotation(time * w_W), w_W};
   const SystemState then = advance_steadily(model, state, c.axes, time);
-  c.change = measure_change(c.motion, find_small_motion(model, then, later),
-                            c.basis, spin_W.norm());
+  c.change =
+      measure_change(c.motion, find(then, later), c.basis, spin_W.norm());
   return c;
+}
+
+SteadyMotion linearise(const SystemModel& model, const SystemState& state,
+                       const Bodies& bodies) {
+  constexpr double kSame = 1e-6;
+  const Vector3 spin = find_fastest_spin(state, bodies);
+  SteadyMotion still = linearise(model, state, bodies, Vector3::Zero(), spin);
+  if (spin.isZero(0.0) || still.change <= kSame) return still;
+  SteadyMotion turning = linearise(model, state, bodies, spin, spin);
+  return turning.change < still.change ? turning : still;
 }
 
 }  // namespace
 
 SteadyMotion linearise_steadily(const SystemModel& model,
                                 const SystemState& state) {
-  constexpr double kSame = 1e-6;
-  const Vector3 spin = find_fastest_spin(state);
-  SteadyMotion still = linearise(model, state, Vector3::Zero(), spin);
-  if (spin.isZero(0.0) || still.change <= kSame) return still;
-  SteadyMotion turning = linearise(model, state, spin, spin);
-  return turning.change < still.change ? turning : still;
+  Bodies all;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) all.emplace_back(b);
+  return linearise(model, state, all);
+}
+
+std::vector<SteadyMotion> linearise_groups(const SystemModel& model,
+                                           const SystemState& state) {
+  std::vector<SteadyMotion> motions;
+  const SmallMotion still = find_small_motion(model, state);
+  for (const Bodies& group : find_linked_groups(model)) {
+    if (find_fastest_spin(state, group).isZero(0.0)) {
+      SteadyMotion& c = motions.emplace_back();
+      c.motion = take_group(model, still, group).motion;
+      c.basis = find_principal_basis(model, c.motion);
+    } else {
+      motions.push_back(linearise(model, state, group));
+    }
+    if (motions.back().motion.size() == 0) motions.pop_back();
+  }
+  return motions;
 }
 
 }  // namespace limber::dynamics

@@ -10,7 +10,7 @@ namespace limber::dynamics {
 /// is most nearly so.
 struct SteadyMotion {
   TurningAxes axes;
-  SmallMotion motion;
+  SmallMotion motion;  ///< without frames: MotionGroup
   PrincipalBasis basis;
   /// Relative change of M, D and S while the system rotates by 1 rad [-].
   double change = 0.0;
@@ -21,5 +21,10 @@ struct SteadyMotion {
 /// @throws InputError for a body at level `full`.
 [[nodiscard]] SteadyMotion linearise_steadily(const SystemModel& model,
                                               const SystemState& state);
+
+/// Each linked group that has coordinates by itself, in its own axes.
+/// @throws InputError for a body at level `full`.
+[[nodiscard]] std::vector<SteadyMotion> linearise_groups(
+    const SystemModel& model, const SystemState& state);
 
 }  // namespace limber::dynamics

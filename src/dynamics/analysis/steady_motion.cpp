@@ -3,39 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-double sum_forces(const SystemModel& model, const SystemState& state,
-                  const SystemTerms& terms) {
-  double sum = 0.0;
-  for (const BodyModel& body : model.bodies) {
-    sum += body.mass * model.gravity_W.norm();
-  }
-  for (const Load& load : model.loads) {
-    const double factor = evaluate(load.function, now_of(state));
-    sum += std::abs(factor) * load.force.norm();
-  }
-  for (const CouplerTerms& c : terms.couplers) {
-    sum += c.applied.head<3>().norm();
-  }
-  for (const BodyTerms& body : terms.bodies) sum += body.force_W.norm();
-  return sum;
-}
+using Bodies = std::vector<BodyIndex>;
 
-// Force of couplers due to round-off of positions.
-double find_noise(const SystemModel& model, const SystemTerms& terms) {
-  std::vector<Vector6> gaps;
-  find_roundoff_gaps(model, terms, 0.0, gaps);
-  double noise = 0.0;
-  for (const Vector6& gap : gaps) noise = std::max(noise, gap.norm());
-  return noise;
+bool contains(const Bodies& bodies, BodyIndex b) {
+  return std::find(bodies.begin(), bodies.end(), b) != bodies.end();
 }
 
 void note(double size, const std::string& body, double& largest,
@@ -45,19 +28,139 @@ void note(double size, const std::string& body, double& largest,
   where = body;
 }
 
+/// What is left of the forces at a state.
+class Remainder {
+ public:
+  Remainder(const SystemModel& model, const SystemState& state,
+            const std::vector<Vector3>& spins)
+      : model_(model),
+        state_(state),
+        spins_(spins),
+        drifts_(find_drifts(model, state)),
+        terms_(make_terms(model)),
+        a_(make_accelerations(model)) {
+    calc_terms(model, state, Side::right, terms_);
+    solve_accelerations(model, terms_, a_);
+    find_roundoff_gaps(model, terms_, 0.0, noise_);
+  }
+
+  struct OfGroup {
+    Imbalance left;
+    double excess = 0.0;  // of it over round-off of the forces [-]
+  };
+
+  [[nodiscard]] OfGroup find(const Bodies& group) const {
+    constexpr double kBalanced = 1e-6;  // of the acting forces
+    constexpr double kSafety = 100.0;   // of round-off
+    OfGroup out;
+    out.left.acting = sum_forces(group);
+    double reach = 0.0;
+    for (const BodyIndex b : group) {
+      include(b, out.left);
+      const BodyModel& body = model_.bodies[index(b)];
+      reach = std::max(reach, std::sqrt(0.5 * body.J0.trace() / body.mass));
+    }
+    const double limit =
+        kBalanced * out.left.acting + kSafety * find_noise(group);
+    const double left = std::max(out.left.force, out.left.moment / reach);
+    out.left.matters = left > limit;
+    if (left > 0.0) {
+      out.excess =
+          limit > 0.0 ? left / limit : std::numeric_limits<double>::infinity();
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] bool holds(const Bodies& group, AttachmentIndex a) const {
+    return contains(group, model_.attachments[index(a)].body);
+  }
+
+  [[nodiscard]] double sum_forces(const Bodies& group) const {
+    double sum = 0.0;
+    for (const Load& load : model_.loads) {
+      if (!holds(group, load.where)) continue;
+      sum +=
+          std::abs(evaluate(load.function, now_of(state_))) * load.force.norm();
+    }
+    for (std::size_t c = 0; c < model_.couplers.size(); ++c) {
+      const Coupler& coupler = model_.couplers[c];
+      if (!holds(group, coupler.frame_F) && !holds(group, coupler.frame_M)) {
+        continue;
+      }
+      sum += terms_.couplers[c].applied.head<3>().norm();
+    }
+    for (const BodyIndex b : group) {
+      sum += model_.bodies[index(b)].mass * model_.gravity_W.norm() +
+             terms_.bodies[index(b)].force_W.norm();
+    }
+    return sum;
+  }
+
+  // Force of couplers due to round-off of positions.
+  [[nodiscard]] double find_noise(const Bodies& group) const {
+    double noise = 0.0;
+    for (std::size_t c = 0; c < noise_.size(); ++c) {
+      if (acts_on(group, c)) noise = std::max(noise, noise_[c].norm());
+    }
+    return noise;
+  }
+
+  // Gaps are those of couplers, then of transmissions.
+  [[nodiscard]] bool acts_on(const Bodies& group, std::size_t gap) const {
+    const std::size_t couplers = model_.couplers.size();
+    if (gap < couplers) {
+      const Coupler& coupler = model_.couplers[gap];
+      return holds(group, coupler.frame_F) || holds(group, coupler.frame_M);
+    }
+    const JoinedBodies joined =
+        find_joined_bodies(model_, model_.transmissions[gap - couplers]);
+    return std::any_of(joined.begin(), joined.end(),
+                       [&](BodyIndex b) { return contains(group, b); });
+  }
+
+  void include(BodyIndex b, Imbalance& left) const {
+    const BodyModel& body = model_.bodies[index(b)];
+    const auto modes = a_.etaddot.segment(body.offset, body.modes);
+    note(std::sqrt(body.mass) * modes.norm(), body.name, left.force,
+         left.force_body);
+    if (!body.has_rigid_motion()) return;
+    const BodyState& at = state_.bodies[index(b)];
+    const Vector3& w_W = spins_[index(b)];
+    const Vector3 steady = w_W.cross(at.v_WB_W - drifts_[index(b)]);
+    left.acting += body.mass * steady.norm();
+    const BodyTerms& t = terms_.bodies[index(b)];
+    const Vector3 w = t.R_WB.transpose() * w_W;
+    note(body.mass * (a_.a_WB_W[index(b)] - steady).norm(), body.name,
+         left.force, left.force_body);
+    note((t.J * (a_.dw_WB_B[index(b)] - w.cross(at.w_WB_B))).norm(), body.name,
+         left.moment, left.moment_body);
+  }
+
+  const SystemModel& model_;
+  const SystemState& state_;
+  const std::vector<Vector3>& spins_;
+  std::vector<Vector3> drifts_;
+  SystemTerms terms_;
+  Accelerations a_;
+  std::vector<Vector6> noise_;
+};
+
 }  // namespace
 
-Vector3 find_drift(const SystemModel& model, const SystemState& state) {
-  std::size_t free = 0;
-  for (const auto& group : find_free_groups(model)) free += group.size();
-  Vector3 drift = Vector3::Zero();
-  if (free < model.bodies.size()) return drift;
-  double mass = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    drift += model.bodies[b].mass * state.bodies[b].v_WB_W;
-    mass += model.bodies[b].mass;
+std::vector<Vector3> find_drifts(const SystemModel& model,
+                                 const SystemState& state) {
+  std::vector<Vector3> drifts(model.bodies.size(), Vector3::Zero());
+  for (const Bodies& group : find_free_groups(model)) {
+    Vector3 momentum = Vector3::Zero();
+    double mass = 0.0;
+    for (const BodyIndex b : group) {
+      momentum += model.bodies[index(b)].mass * state.bodies[index(b)].v_WB_W;
+      mass += model.bodies[index(b)].mass;
+    }
+    for (const BodyIndex b : group) drifts[index(b)] = momentum / mass;
   }
-  return drift / mass;
+  return drifts;
 }
 
 bool moves(const SystemState& state) {
@@ -68,52 +171,39 @@ bool moves(const SystemState& state) {
                      });
 }
 
+bool moves(const SystemModel& model, const SystemState& state,
+           const std::vector<BodyIndex>& bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [&](BodyIndex b) {
+    const BodyModel& body = model.bodies[index(b)];
+    const BodyState& at = state.bodies[index(b)];
+    return !at.v_WB_W.isZero(0.0) || !at.w_WB_B.isZero(0.0) ||
+           !state.etadot.segment(body.offset, body.modes).isZero(0.0);
+  });
+}
+
 Imbalance find_imbalance(const SystemModel& model, const SystemState& state,
-                         const TurningAxes& axes) {
-  constexpr double kBalanced = 1e-6;  // of the acting forces
-  constexpr double kSafety = 100.0;   // of round-off
-  SystemTerms terms = make_terms(model);
-  calc_terms(model, state, Side::right, terms);
-  Accelerations a = make_accelerations(model);
-  solve_accelerations(model, terms, a);
-  const Vector3 drift = find_drift(model, state);
-  Imbalance out;
-  out.acting = sum_forces(model, state, terms);
-  double reach = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const BodyModel& body = model.bodies[b];
-    const auto modes = a.etaddot.segment(body.offset, body.modes);
-    note(std::sqrt(body.mass) * modes.norm(), body.name, out.force,
-         out.force_body);
-    if (!body.has_rigid_motion()) continue;
-    const BodyState& at = state.bodies[b];
-    const Vector3 steady = axes.w_W.cross(at.v_WB_W - drift);
-    const double force = body.mass * (a.a_WB_W[b] - steady).norm();
-    out.acting += body.mass * steady.norm();
-    const Vector3 w = terms.bodies[b].R_WB.transpose() * axes.w_W;
-    const double moment =
-        (terms.bodies[b].J * (a.dw_WB_B[b] - w.cross(at.w_WB_B))).norm();
-    note(force, body.name, out.force, out.force_body);
-    note(moment, body.name, out.moment, out.moment_body);
-    reach = std::max(reach, std::sqrt(0.5 * body.J0.trace() / body.mass));
+                         const std::vector<Vector3>& spins) {
+  const Remainder remainder(model, state, spins);
+  Remainder::OfGroup worst;
+  for (const Bodies& group : find_linked_groups(model)) {
+    Remainder::OfGroup next = remainder.find(group);
+    if (next.excess > worst.excess) worst = std::move(next);
   }
-  const double limit =
-      kBalanced * out.acting + kSafety * find_noise(model, terms);
-  out.matters = out.force > limit || out.moment > limit * reach;
-  return out;
+  return worst.left;
 }
 
 SystemState advance_steadily(const SystemModel& model, const SystemState& state,
                              const TurningAxes& axes, double time) {
-  const Vector3 drift = find_drift(model, state);
+  const std::vector<Vector3> drifts = find_drifts(model, state);
   const Vector3 turn = time * axes.w_W;
   const Matrix3 R = exp_rotation(turn);
   SystemState later = state;
-  for (BodyState& body : later.bodies) {
-    const Vector3 v = body.v_WB_W - drift;
+  for (std::size_t b = 0; b < later.bodies.size(); ++b) {
+    BodyState& body = later.bodies[b];
+    const Vector3 v = body.v_WB_W - drifts[b];
     const Vector3 w = body.quat_WB * body.w_WB_B;
-    body.p_WB += time * (drift + left_jacobian(turn) * v);
-    body.v_WB_W = drift + R * v;
+    body.p_WB += time * (drifts[b] + left_jacobian(turn) * v);
+    body.v_WB_W = drifts[b] + R * v;
     const Quaternion q = exp_quaternion(turn) *
                          exp_quaternion(time * (w - axes.w_W)) * body.quat_WB;
     body.quat_WB = q.normalized();
@@ -122,13 +212,21 @@ SystemState advance_steadily(const SystemModel& model, const SystemState& state,
   return later;
 }
 
-Vector3 find_fastest_spin(const SystemState& state) {
+Vector3 find_fastest_spin(const SystemState& state,
+                          const std::vector<BodyIndex>& bodies) {
   Vector3 fastest = Vector3::Zero();
-  for (const BodyState& body : state.bodies) {
+  for (const BodyIndex b : bodies) {
+    const BodyState& body = state.bodies[index(b)];
     const Vector3 w = body.quat_WB * body.w_WB_B;
     if (w.norm() > fastest.norm()) fastest = w;
   }
   return fastest;
+}
+
+Vector3 find_fastest_spin(const SystemState& state) {
+  std::vector<BodyIndex> all;
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) all.emplace_back(b);
+  return find_fastest_spin(state, all);
 }
 
 }  // namespace limber::dynamics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "limber/dynamics/analysis/small_motion.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
@@ -11,11 +12,12 @@
 namespace limber::dynamics {
 
 /// Additional load that would make a start steady: at rest, or rotating with
-/// the axes.
+/// the axes; of the linked group that is farthest from it, measured by its own
+/// forces.
 struct Imbalance {
   double force = 0.0;   ///< the largest on a body [N]
   double moment = 0.0;  ///< the largest on a body [N m]
-  double acting = 0.0;  ///< sum of forces, including centripetal ones [N]
+  double acting = 0.0;  ///< sum of its forces, including centripetal ones [N]
   std::string force_body;
   std::string moment_body;
   /// Whether it exceeds round-off of the acting forces.
@@ -23,18 +25,21 @@ struct Imbalance {
 };
 
 [[nodiscard]] bool moves(const SystemState& state);
+[[nodiscard]] bool moves(const SystemModel& model, const SystemState& state,
+                         const std::vector<BodyIndex>& bodies);
 
-/// Velocity of the mass centre of a system that nothing ties to the world; else
-/// 0 [m/s].
-[[nodiscard]] Vector3 find_drift(const SystemModel& model,
-                                 const SystemState& state);
+/// Velocity of the mass centre of each body's free group; 0 of bodies that
+/// something ties to the world [m/s].
+[[nodiscard]] std::vector<Vector3> find_drifts(const SystemModel& model,
+                                               const SystemState& state);
 
 /// Equation   left = m (a - w x (v - v_0)),  J (w_b' - w x w_b) of each body,
-///            w that of the axes, v_0 that of the mass centre if nothing ties
-///            the system to the world, else 0; for modes sqrt(m) |eta''|
+///            w that of the axes, v_0 as find_drifts; for modes
+///            sqrt(m) |eta''|
+/// @param spins of each body's axes, world frame [rad/s]
 [[nodiscard]] Imbalance find_imbalance(const SystemModel& model,
                                        const SystemState& state,
-                                       const TurningAxes& axes);
+                                       const std::vector<Vector3>& spins);
 
 /// The state after a time [s], if it is steady in the rotating axes.
 [[nodiscard]] SystemState advance_steadily(const SystemModel& model,
@@ -43,6 +48,8 @@ struct Imbalance {
                                            double time);
 
 /// The largest angular velocity of a body, world frame [rad/s].
+[[nodiscard]] Vector3 find_fastest_spin(const SystemState& state,
+                                        const std::vector<BodyIndex>& bodies);
 [[nodiscard]] Vector3 find_fastest_spin(const SystemState& state);
 
 }  // namespace limber::dynamics

@@ -41,7 +41,7 @@ class Spin {
   Spin(const SystemModel& model, const SystemState& start)
       : model_(model),
         w_(find_fastest_spin(start)),
-        drift_(find_drift(model, start)),
+        drifts_(find_drifts(model, start)),
         p_0_(start.bodies.front().p_WB),
         v_0_(start.bodies.front().v_WB_W),
         terms_(make_terms(model)),
@@ -174,7 +174,7 @@ class Spin {
 
   VectorX find_residual(const SystemState& state) {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      rates_.translation[b] = w_.cross(state.bodies[b].v_WB_W - drift_);
+      rates_.translation[b] = w_.cross(state.bodies[b].v_WB_W - drifts_[b]);
     }
     calc_terms(model_, state, Side::right, terms_);
     VectorX residual = VectorX::Zero(count_unknowns(model_));
@@ -233,10 +233,10 @@ class Spin {
   }
 
   const SystemModel& model_;
-  Vector3 w_;      // [rad/s]
-  Vector3 drift_;  // [m/s]
-  Vector3 p_0_;    // a point of the rotation [m]
-  Vector3 v_0_;    // and its velocity [m/s]
+  Vector3 w_;                    // [rad/s]
+  std::vector<Vector3> drifts_;  // of each body's free group [m/s]
+  Vector3 p_0_;                  // a point of the rotation [m]
+  Vector3 v_0_;                  // and its velocity [m/s]
   SystemTerms terms_;
   Rates rates_;
   GroupLengths lengths_;

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
@@ -20,6 +21,13 @@ namespace {
 
 double radius_of_gyration(const BodyModel& body) {
   return std::sqrt(0.5 * body.J0.trace() / body.mass);
+}
+
+// Whether it cannot move, as the world.
+bool is_fixed(const SystemModel& model, BodyIndex b) {
+  if (b == kWorld) return true;
+  const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
+  return body.clamped && body.modes == 0 && body.full < 0;
 }
 
 /// Connected groups of bodies; the world is the last entry.
@@ -42,36 +50,45 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-// Calls `join` with each two bodies that couplers, transmissions or clamps
-// connect; the world is one like others.
-template <typename Join>
-void for_each_coupling(const SystemModel& model, Join join) {
+using Join = std::function<void(BodyIndex, BodyIndex)>;
+
+// Bodies that forces of couplers and along paths act between.
+void join_by_couplings(const SystemModel& model, const Join& join) {
   const auto body_at = [&](AttachmentIndex a) {
     return model.attachments[static_cast<std::size_t>(a)].body;
   };
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].clamped) join(BodyIndex(b), kWorld);
-  }
   for (const Coupler& c : model.couplers) {
     join(body_at(c.frame_F), body_at(c.frame_M));
   }
   for (const Transmission& t : model.transmissions) {
-    const JoinedBodies bodies = find_joined_bodies(model, t);
-    for (const BodyIndex a : bodies) {
-      for (const BodyIndex b : bodies) join(a, b);
+    const auto* path = std::get_if<PathCoordinate>(&t.coordinate);
+    if (path == nullptr) continue;  // its joints are couplers
+    for (const AttachmentIndex point : path->points) {
+      join(body_at(path->points.front()), body_at(point));
     }
   }
 }
 
-// Connections to the world count only if it is a body like others.
-Groups find_groups(const SystemModel& model, bool with_world = true) {
-  Groups groups(model.bodies.size());
-  const auto join = [&](BodyIndex a, BodyIndex b) {
-    if (with_world || (a != kWorld && b != kWorld)) groups.join(a, b);
-  };
-  for_each_coupling(model, join);
+void join_by_pairs(const SystemModel& model, const Join& join) {
   for (const Pair& pair : model.pairs) join(pair.body_A, pair.body_B);
-  return groups;
+}
+
+// Of joints that a gear connects, although no force acts between them.
+void join_by_gears(const SystemModel& model, const Join& join) {
+  for (const Transmission& t : model.transmissions) {
+    const auto* sum = std::get_if<JointSum>(&t.coordinate);
+    if (sum == nullptr) continue;
+    std::optional<BodyIndex> first;
+    for (const JointSum::Term& term : sum->terms) {
+      const Coupler& c = model.couplers[static_cast<std::size_t>(term.coupler)];
+      for (const AttachmentIndex a : {c.frame_F, c.frame_M}) {
+        const BodyIndex b = model.attachments[static_cast<std::size_t>(a)].body;
+        if (is_fixed(model, b)) continue;
+        join(first.value_or(b), b);
+        first = b;
+      }
+    }
+  }
 }
 
 /// Bodies of each group without the world.
@@ -102,8 +119,7 @@ struct Wrench {
 struct Group {
   std::vector<BodyIndex> bodies;
   std::vector<char> has;  ///< of all bodies, whether it is one of them
-  Vector3 centre;         ///< of mass [m]
-  double reach = 0.0;     ///< from it, with the radius of gyration [m]
+  GroupExtent extent;
 
   [[nodiscard]] bool contains(BodyIndex b) const {
     return b != kWorld && has[static_cast<std::size_t>(b)] != 0;
@@ -113,21 +129,8 @@ struct Group {
 Group describe_group(const SystemModel& model, const SystemState& state,
                      const std::vector<BodyIndex>& bodies) {
   Group group{bodies, std::vector<char>(model.bodies.size(), 0),
-              Vector3::Zero()};
-  double mass = 0.0;
-  for (const BodyIndex b : bodies) {
-    const auto i = static_cast<std::size_t>(b);
-    group.has[i] = 1;
-    mass += model.bodies[i].mass;
-    group.centre += model.bodies[i].mass * state.bodies[i].p_WB;
-  }
-  group.centre /= mass;
-  for (const BodyIndex b : bodies) {
-    const auto i = static_cast<std::size_t>(b);
-    group.reach =
-        std::max(group.reach, (state.bodies[i].p_WB - group.centre).norm() +
-                                  radius_of_gyration(model.bodies[i]));
-  }
+              find_group_extent(model, state, bodies)};
+  for (const BodyIndex b : bodies) group.has[static_cast<std::size_t>(b)] = 1;
   return group;
 }
 
@@ -170,7 +173,7 @@ Magnitudes find_magnitudes(const SystemModel& model, const SystemState& state,
     if (body.full < 0) continue;
     sum.force += terms.full[static_cast<std::size_t>(body.full)].force.norm();
   }
-  sum.moment += group.reach * sum.force;
+  sum.moment += group.extent.reach * sum.force;
   return sum;
 }
 
@@ -266,8 +269,6 @@ VectorX find_increments(const SystemModel& model, const SystemState& from,
 
 VectorX find_length_weights(const SystemModel& model) {
   VectorX weights = VectorX::Zero(count_unknowns(model));
-  double mass = 0.0;
-  for (const BodyModel& body : model.bodies) mass += body.mass;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const Eigen::Index row = first_row(model.bodies[b], b);
@@ -282,26 +283,66 @@ VectorX find_length_weights(const SystemModel& model) {
         .setConstant(
             std::sqrt(3.0 * body.mass / static_cast<double>(full.dofs())));
   }
-  return weights / std::sqrt(mass);
+  return weights;
 }
 
 std::vector<std::vector<BodyIndex>> find_free_groups(const SystemModel& model) {
-  return collect_groups(model, find_groups(model));
+  Groups groups(model.bodies.size());
+  for (BodyIndex b(0); b < std::ssize(model.bodies); ++b) {
+    if (model.bodies[static_cast<std::size_t>(b)].clamped) {
+      groups.join(b, kWorld);
+    }
+  }
+  const Join join = [&](BodyIndex a, BodyIndex b) { groups.join(a, b); };
+  join_by_couplings(model, join);
+  join_by_pairs(model, join);
+  return collect_groups(model, groups);
 }
 
 std::vector<std::vector<BodyIndex>> find_linked_groups(
     const SystemModel& model) {
-  return collect_groups(model, find_groups(model, false));
+  Groups groups(model.bodies.size());
+  const Join join = [&](BodyIndex a, BodyIndex b) {
+    if (!is_fixed(model, a) && !is_fixed(model, b)) groups.join(a, b);
+  };
+  join_by_couplings(model, join);
+  join_by_pairs(model, join);
+  join_by_gears(model, join);
+  return collect_groups(model, groups);
+}
+
+GroupExtent find_group_extent(const SystemModel& model,
+                              const SystemState& state,
+                              const std::vector<BodyIndex>& group) {
+  GroupExtent extent;
+  for (const BodyIndex b : group) {
+    const auto i = static_cast<std::size_t>(b);
+    extent.mass += model.bodies[i].mass;
+    extent.centre += model.bodies[i].mass * state.bodies[i].p_WB;
+  }
+  extent.centre /= extent.mass;
+  for (const BodyIndex b : group) {
+    const auto i = static_cast<std::size_t>(b);
+    extent.reach =
+        std::max(extent.reach, (state.bodies[i].p_WB - extent.centre).norm() +
+                                   radius_of_gyration(model.bodies[i]));
+  }
+  return extent;
 }
 
 std::vector<CoupledGroup> find_coupled_groups(const SystemModel& model) {
   Groups groups(model.bodies.size());
   std::vector<char> is_held(model.bodies.size(), 0);
-  for_each_coupling(model, [&](BodyIndex a, BodyIndex b) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    is_held[b] = model.bodies[b].clamped ? 1 : 0;
+  }
+  const Join join = [&](BodyIndex a, BodyIndex b) {
     if (a != kWorld && b != kWorld) groups.join(a, b);
     if (a == kWorld && b != kWorld) is_held[index(b)] = 1;
     if (b == kWorld && a != kWorld) is_held[index(a)] = 1;
-  });
+  };
+  join_by_couplings(model, join);
+  join_by_gears(model, join);
   std::vector<CoupledGroup> coupled;
   for (std::vector<BodyIndex>& bodies : collect_groups(model, groups)) {
     const bool any =
@@ -318,7 +359,7 @@ void check_balance(const SystemModel& model, const SystemState& state,
   for (const std::vector<BodyIndex>& bodies : find_free_groups(model)) {
     const Group group = describe_group(model, state, bodies);
     const Magnitudes all = find_magnitudes(model, state, terms, group);
-    Wrench sum{group.centre};
+    Wrench sum{group.extent.centre};
     for (const BodyIndex b : bodies) add_body(model, state, terms, b, sum);
     const std::string who = name_group(model, bodies);
     if (sum.force.norm() > kBalanced * all.force) {

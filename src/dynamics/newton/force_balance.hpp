@@ -20,18 +20,20 @@ void displace(const SystemModel& model, const VectorX& increments, double share,
                                       const SystemState& from,
                                       const SystemState& to);
 
-/// Weights of increments, such that the weighted norm is their length [m].
+/// Weights of increments, such that the weighted norm is their length times the
+/// root of the mass: of places [kg^1/2], of rotations [kg^1/2 m], of modes [-].
 ///
-/// Equation   L^2 = sum_b (m |dp|^2 + m r^2 |dtheta|^2 + |deta|^2
-///            + m |du|^2 / N) / sum_b m,   r the radius of gyration
+/// Equation   |w x|^2 = sum_b (m |dp|^2 + m r^2 |dtheta|^2 + |deta|^2
+///            + m |du|^2 / N),   r the radius of gyration
 [[nodiscard]] VectorX find_length_weights(const SystemModel& model);
 
 /// Groups of connected bodies without a connection to the world.
 [[nodiscard]] std::vector<std::vector<BodyIndex>> find_free_groups(
     const SystemModel& model);
 
-/// Groups of bodies that are connected to each other, except by way of the
-/// world. A body that the world clamps is one of its own.
+/// Groups of bodies whose motions depend on each other: connected, also by
+/// gears, except by way of the world or of a rigid body that it clamps, which
+/// is a group of its own.
 [[nodiscard]] std::vector<std::vector<BodyIndex>> find_linked_groups(
     const SystemModel& model);
 
@@ -43,6 +45,17 @@ struct CoupledGroup {
 };
 [[nodiscard]] std::vector<CoupledGroup> find_coupled_groups(
     const SystemModel& model);
+
+/// Mass, place and size of a group of bodies.
+struct GroupExtent {
+  double mass = 0.0;                 ///< [kg]
+  Vector3 centre = Vector3::Zero();  ///< of mass [m]
+  double reach = 0.0;  ///< of bodies' origins from it, plus their radius of
+                       ///< gyration; the largest [m]
+};
+[[nodiscard]] GroupExtent find_group_extent(
+    const SystemModel& model, const SystemState& state,
+    const std::vector<BodyIndex>& group);
 
 /// Checks that the forces on each free group balance, since internal forces
 /// cannot balance them in any configuration.

@@ -27,17 +27,20 @@ namespace {
 /// Mass in <inertial> may differ from the mesh's by this share.
 constexpr double kMassShare = 0.01;
 
+/// Of bodies that do not deform.
+constexpr flexbody::FrequencyBand kAnyBand{1.0, 2.0};
+
 }  // namespace
 
 Assembly::Assembly(const Scene& scene, const BodyPlans& plans,
                    const std::vector<LinkMotion>& motions,
-                   const std::optional<flexbody::FrequencyBand>& band)
+                   const std::optional<ElasticBands>& bands)
     : scene_(scene),
       plans_(plans),
       motions_(motions),
-      band_(band),
+      bands_(bands),
       sites_(scene, plans, motions, body_index_) {
-  if (band) builder_.set_gravity(scene.scenario.gravity);
+  if (bands) builder_.set_gravity(scene.scenario.gravity);
 }
 
 void Assembly::add_bodies() {
@@ -76,11 +79,17 @@ void Assembly::add_body(const BodyPlan& plan) {
   }
 }
 
+std::size_t Assembly::count_bodies() const {
+  return body_index_.size() -
+         static_cast<std::size_t>(std::count(
+             body_index_.begin(), body_index_.end(), dynamics::kWorld));
+}
+
 dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
                                                 const Link& link) {
   using dynamics::Fidelity;
   Fidelity level = scene_.scenario.level_of(link.name);
-  if (!band_) {
+  if (!bands_) {
     if (level != Fidelity::rigid) level = Fidelity::coupled;
     return builder_.add_flexible_body(plan.name, plan.reduced, level, {});
   }
@@ -113,7 +122,8 @@ dynamics::BodyIndex Assembly::add_flexible_body(const BodyPlan& plan,
   }
   if (loss_factor > 0.0) {
     damping.maxwell = with_context("link '" + link.name + "'", [&] {
-      return flexbody::find_maxwell_elements(loss_factor, *band_);
+      return flexbody::find_maxwell_elements(
+          loss_factor, bands_->at(count_bodies()).value_or(kAnyBand));
     });
   }
   return builder_.add_flexible_body(plan.name, plan.reduced, level, damping);

@@ -15,14 +15,17 @@
 
 namespace limber::scene {
 
+/// Of dynamics::find_elastic_bands, one per body.
+using ElasticBands = std::vector<std::optional<flexbody::FrequencyBand>>;
+
 /// Builds a scene's system, part by part.
 class Assembly {
  public:
-  /// @param band of frequencies for loss factors; without it all flexible
-  /// bodies are linear and undamped, at level coupled, as find_band needs them
+  /// @param bands of frequencies for loss factors; without them all flexible
+  /// bodies are linear and undamped, at level coupled, as find_bands needs them
   Assembly(const Scene& scene, const BodyPlans& plans,
            const std::vector<LinkMotion>& motions,
-           const std::optional<flexbody::FrequencyBand>& band);
+           const std::optional<ElasticBands>& bands);
 
   void add_bodies();
   void add_inputs();
@@ -49,6 +52,7 @@ class Assembly {
 
  private:
   void add_body(const BodyPlan& plan);
+  [[nodiscard]] std::size_t count_bodies() const;
   [[nodiscard]] dynamics::BodyIndex add_flexible_body(const BodyPlan& plan,
                                                       const Link& link);
   void check_moment(const LoadSpec& load, const AttachmentSite& site) const;
@@ -68,7 +72,7 @@ class Assembly {
   const Scene& scene_;
   const BodyPlans& plans_;
   const std::vector<LinkMotion>& motions_;
-  std::optional<flexbody::FrequencyBand> band_;
+  std::optional<ElasticBands> bands_;
   std::vector<dynamics::BodyIndex> body_index_;  ///< one per plan
   AttachmentSites sites_;
   dynamics::SystemBuilder builder_;

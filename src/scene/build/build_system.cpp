@@ -81,20 +81,19 @@ bool has_loss_factor(const Scene& scene) {
                      });
 }
 
-/// The band of the whole scene's frequencies at its start, which its links'
-/// loss factors hold in; the same at all levels. Without loss factors any.
-flexbody::FrequencyBand find_band(const Scene& scene, BodyPlans plans,
-                                  const std::vector<LinkMotion>& motions) {
-  constexpr flexbody::FrequencyBand kAny{1.0, 2.0};
-  if (!has_loss_factor(scene)) return kAny;
+/// The bands of frequencies at the scene's start which its links' loss factors
+/// hold in, one per body; the same at all levels. Without loss factors none.
+ElasticBands find_bands(const Scene& scene, BodyPlans plans,
+                        const std::vector<LinkMotion>& motions) {
+  if (!has_loss_factor(scene)) return {};
   for (BodyPlan& plan : plans.bodies) plan.full.reset();
-  Assembly assembly(scene, plans, motions, {});
+  Assembly assembly(scene, plans, motions, std::nullopt);
   assembly.add_bodies();
   assembly.add_inputs();
   assembly.add_couplers();
   const dynamics::SystemModel model = assembly.build();
-  return dynamics::find_elastic_band(model, assembly.make_initial_state(model))
-      .value_or(kAny);
+  return dynamics::find_elastic_bands(model,
+                                      assembly.make_initial_state(model));
 }
 
 }  // namespace
@@ -109,7 +108,7 @@ BuiltScene build_system(const Scene& scene, const Reducer& reducer,
   const Reductions reductions = find_reductions(scene, reducer, cache, known);
   BodyPlans plans = plan_bodies(scene.robot, reductions.of_link);
   add_full_bodies(scene, make_full, plans);
-  Assembly assembly(scene, plans, motions, find_band(scene, plans, motions));
+  Assembly assembly(scene, plans, motions, find_bands(scene, plans, motions));
   assembly.add_bodies();
   assembly.add_inputs();
   assembly.add_couplers();

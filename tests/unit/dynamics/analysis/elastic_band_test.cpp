@@ -51,7 +51,8 @@ VectorX find_omega(const SystemModel& model, const SystemState& state) {
 
 TEST(ElasticBand, OfAFreeBodyIsThatOfItsModes) {
   const testing::Chain chain = make_free_chain(1);
-  const auto band = find_elastic_band(chain.builder.build(), chain.state);
+  const auto band =
+      find_elastic_bands(chain.builder.build(), chain.state).front();
   ASSERT_TRUE(band.has_value());
   EXPECT_NEAR(band->low, kLowest, 1e-6 * kLowest);
   EXPECT_NEAR(band->high, 2.0 * kLowest, 1e-6 * kLowest);
@@ -60,7 +61,7 @@ TEST(ElasticBand, OfAFreeBodyIsThatOfItsModes) {
 TEST(ElasticBand, BeginsWithTheLowestModeOfTheSystem) {
   const testing::Chain chain = make_free_chain(4);
   for (const SystemModel& model : {chain.builder.build(), hold(chain)}) {
-    const auto band = find_elastic_band(model, chain.state);
+    const auto band = find_elastic_bands(model, chain.state).front();
     ASSERT_TRUE(band.has_value());
     EXPECT_NEAR(band->low, find_omega(model, chain.state)[0], 1e-6 * kLowest);
     EXPECT_LT(band->low, kLowest);
@@ -75,16 +76,36 @@ TEST(ElasticBand, LeavesOutRigidMotionOnSoftSprings) {
           joints::JointKind::fixed, Vector3::UnitY(), Vector3::UnitX(),
           {.translational_stiffness = 1e-3, .rotational_stiffness = 1e-3}),
       chain.builder.attach_world("ground", {}), chain.last_interfaces[0]);
-  const auto band = find_elastic_band(chain.builder.build(), chain.state);
+  const auto band =
+      find_elastic_bands(chain.builder.build(), chain.state).front();
   ASSERT_TRUE(band.has_value());
   EXPECT_NEAR(band->low, kLowest, 1e-3 * kLowest);
+}
+
+// One of the same bodies, free beside the chain, which vibrates more slowly.
+TEST(ElasticBand, IsThatOfALinkedGroup) {
+  testing::Chain chain = make_free_chain(4);
+  const auto links = find_elastic_bands(chain.builder.build(), chain.state);
+  const auto reduced = chain.builder.build().bodies.front().reduced;
+  chain.builder.add_flexible_body("free", reduced, Fidelity::coupled, {});
+  const SystemModel model = chain.builder.build();
+  SystemState state = make_state(model);
+  std::copy(chain.state.bodies.begin(), chain.state.bodies.end(),
+            state.bodies.begin());
+  const auto bands = find_elastic_bands(model, state);
+  ASSERT_EQ(bands.size(), 5U);
+  EXPECT_NEAR(bands[4]->low, kLowest, 1e-6 * kLowest);
+  EXPECT_LT(bands[0]->low, 0.9 * kLowest);
+  EXPECT_EQ(bands[0]->low, bands[3]->low);
+  EXPECT_NEAR(bands[0]->low, links[0]->low, 1e-9 * kLowest);
 }
 
 TEST(ElasticBand, NeedsAFlexibleBody) {
   const testing::Chain chain = testing::make_chain(
       {.bodies = 2, .modes = 3, .fidelity = Fidelity::rigid});
-  EXPECT_FALSE(
-      find_elastic_band(chain.builder.build(), chain.state).has_value());
+  EXPECT_FALSE(find_elastic_bands(chain.builder.build(), chain.state)
+                   .front()
+                   .has_value());
 }
 
 // Every mode below the top of the band whose strain is in the bodies.
@@ -97,7 +118,7 @@ TEST(LossFactor, DampsEveryModeAlikeHoweverTheBodiesAreHeld) {
       };
       const SystemState state = make_free_chain(bodies).state;
       const SystemModel elastic = make({});
-      const auto band = find_elastic_band(elastic, state);
+      const auto band = find_elastic_bands(elastic, state).front();
       const SystemModel model = make(
           {.maxwell = flexbody::find_maxwell_elements(kLossFactor, *band)});
       SystemState start = state;
