@@ -148,21 +148,6 @@ class Remainder {
 
 }  // namespace
 
-std::vector<Vector3> find_drifts(const SystemModel& model,
-                                 const SystemState& state) {
-  std::vector<Vector3> drifts(model.bodies.size(), Vector3::Zero());
-  for (const Bodies& group : find_free_groups(model)) {
-    Vector3 momentum = Vector3::Zero();
-    double mass = 0.0;
-    for (const BodyIndex b : group) {
-      momentum += model.bodies[index(b)].mass * state.bodies[index(b)].v_WB_W;
-      mass += model.bodies[index(b)].mass;
-    }
-    for (const BodyIndex b : group) drifts[index(b)] = momentum / mass;
-  }
-  return drifts;
-}
-
 bool moves(const SystemState& state) {
   return !state.etadot.isZero(0.0) || !state.udot_H.isZero(0.0) ||
          std::any_of(state.bodies.begin(), state.bodies.end(),

@@ -28,11 +28,6 @@ struct Imbalance {
 [[nodiscard]] bool moves(const SystemModel& model, const SystemState& state,
                          const std::vector<BodyIndex>& bodies);
 
-/// Velocity of the mass centre of each body's free group; 0 of bodies that
-/// something ties to the world [m/s].
-[[nodiscard]] std::vector<Vector3> find_drifts(const SystemModel& model,
-                                               const SystemState& state);
-
 /// Equation   left = m (a - w x (v - v_0)),  J (w_b' - w x w_b) of each body,
 ///            w that of the axes, v_0 as find_drifts; for modes
 ///            sqrt(m) |eta''|

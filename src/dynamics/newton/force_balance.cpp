@@ -353,6 +353,23 @@ std::vector<CoupledGroup> find_coupled_groups(const SystemModel& model) {
   return coupled;
 }
 
+std::vector<Vector3> find_drifts(const SystemModel& model,
+                                 const SystemState& state) {
+  std::vector<Vector3> drifts(model.bodies.size(), Vector3::Zero());
+  for (const auto& group : find_free_groups(model)) {
+    Vector3 momentum = Vector3::Zero();
+    double mass = 0.0;
+    for (const BodyIndex b : group) {
+      momentum += model.bodies[static_cast<std::size_t>(b)].mass *
+                  state.bodies[static_cast<std::size_t>(b)].v_WB_W;
+      mass += model.bodies[static_cast<std::size_t>(b)].mass;
+    }
+    for (const BodyIndex b : group)
+      drifts[static_cast<std::size_t>(b)] = momentum / mass;
+  }
+  return drifts;
+}
+
 void check_balance(const SystemModel& model, const SystemState& state,
                    const SystemTerms& terms) {
   constexpr double kBalanced = 1e-10;  // of the magnitudes: round-off

@@ -57,6 +57,11 @@ struct GroupExtent {
     const SystemModel& model, const SystemState& state,
     const std::vector<BodyIndex>& group);
 
+/// Velocity of the mass centre of each body's free group; 0 of bodies that
+/// something ties to the world [m/s].
+[[nodiscard]] std::vector<Vector3> find_drifts(const SystemModel& model,
+                                               const SystemState& state);
+
 /// Checks that the forces on each free group balance, since internal forces
 /// cannot balance them in any configuration.
 /// @param terms at rest, evaluated by calc_terms

@@ -37,7 +37,7 @@ EventStepper::EventStepper(const SystemModel& model,
       watch_(model),
       touches_(model),
       limits_(model),
-      heeds_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
+      ends_at_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
       commit_pairs_(model),
       events_(events),
       last_flows_(make_flows(model)),
@@ -186,14 +186,14 @@ bool EventStepper::advance_to(double share, SystemState& state) {
 }
 
 void EventStepper::settle(SystemState& state, double nominal_h) {
-  if (watch_.is_empty() && touches_.is_empty() && !heeds_limits_) {
+  if (watch_.is_empty() && touches_.is_empty() && !ends_at_limits_) {
     add_last();
     return;
   }
   const auto crossing = watch_.find_first(state, h_);
   const auto touch = touches_.find_first(before_, state);
   const double limit =
-      heeds_limits_ ? limits_.find_first(before_, state).value_or(1.0) : 1.0;
+      ends_at_limits_ ? limits_.find_first(before_, state).value_or(1.0) : 1.0;
   const double share = std::min(
       {crossing ? crossing->share : 1.0, touch ? touch->share : 1.0, limit});
   if (cut_ == kMostCut && touch) check_missed_touch(touch->index, state);

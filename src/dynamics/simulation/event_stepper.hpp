@@ -108,7 +108,7 @@ class EventStepper {
   EventWatch watch_;
   TouchWatch touches_;
   LimitCrossing limits_;
-  bool heeds_limits_ = false;  // with a tolerance
+  bool ends_at_limits_ = false;  // with a tolerance
   std::vector<Angle> angles_;
   PairCommit commit_pairs_;
   std::vector<Event>& events_;

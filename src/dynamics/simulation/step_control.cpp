@@ -4,24 +4,77 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/motion_scale.hpp"
+#include "limber/dynamics/equations/residual.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/system/unknowns.hpp"
+
 namespace limber::dynamics {
 namespace {
 
-constexpr double kFirstShare = 1e-4;  // first step relative to the span [-]
 constexpr double kSafety = 0.8;
 constexpr double kWorthGrowing = 1.5;
 constexpr double kMostGrowth = 4.0;
 constexpr double kMostShrinking = 0.1;
-constexpr double kMostTurn = 1.0;  // [rad]
+constexpr double kMostTurn = 1.0;     // [rad]
+constexpr double kSmallShare = 1e-3;  // of a body's size, for differences
+
+Rates find_acceleration_rates(const SystemModel& model,
+                              const SystemState& state, Side side) {
+  SystemTerms terms = make_terms(model);
+  calc_terms(model, state, side, terms);
+  Accelerations a = make_accelerations(model);
+  solve_accelerations(model, terms, a);
+  return {a.a_WB_W, a.dw_WB_B, a.etaddot, a.uddot_H};
+}
+
+// In which no body moves by more than a small share of its size.
+double find_short_time(const SystemModel& model, const SystemState& state) {
+  const std::vector<Vector3> drifts = find_drifts(model, state);
+  double fastest = 0.0;  // [1/s]
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyState& at = state.bodies[b];
+    const double reach = find_reach(model, static_cast<BodyIndex>(b));
+    fastest = std::max(
+        fastest, (at.v_WB_W - drifts[b]).norm() / reach + at.w_WB_B.norm());
+  }
+  return kSmallShare / fastest;
+}
+
+// The state after a time in which the accelerations hardly change.
+SystemState continue_motion(const SystemModel& model, const SystemState& state,
+                            const Rates& a, double h) {
+  VectorX moved = VectorX::Zero(count_unknowns(model));
+  SystemState later = state;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const Eigen::Index row = first_row(body, b);
+    const BodyState& at = state.bodies[b];
+    moved.segment<3>(row) = h * at.v_WB_W + 0.5 * h * h * a.translation[b];
+    moved.segment<3>(row + 3) = h * at.w_WB_B + 0.5 * h * h * a.rotation[b];
+    moved.segment(row + 6, body.modes) =
+        h * state.etadot.segment(body.offset, body.modes) +
+        0.5 * h * h * a.modes.segment(body.offset, body.modes);
+    later.bodies[b].v_WB_W += h * a.translation[b];
+    later.bodies[b].w_WB_B += h * a.rotation[b];
+  }
+  moved.tail(model.nodal_count) = h * state.udot_H + 0.5 * h * h * a.nodes;
+  later.etadot += h * a.modes;
+  later.udot_H += h * a.nodes;
+  later.t += h;
+  displace(model, moved, 1.0, later);
+  return later;
+}
 
 }  // namespace
 
-StepControl::StepControl(const ErrorBudget& budget, double span, double longest,
+StepControl::StepControl(const ErrorBudget& budget, double longest,
                          double refinement)
     : budget_(budget),
       longest_(refinement * longest),
       most_turn_(refinement * kMostTurn),
-      h_(std::min(longest_, refinement * kFirstShare * span)) {}
+      h_(longest_) {}
 
 double StepControl::propose(const SystemState& state, double left) const {
   double h = std::min(h_, longest_);
@@ -50,6 +103,21 @@ bool StepControl::accepts(double h, double error) {
   if (accepted) budget_.count(h);
   was_rejected_ = !accepted;
   return accepted;
+}
+
+double find_first_step(const SystemModel& model, const SystemState& state,
+                       double allowed) {
+  const MotionScale scale(model);
+  const Rates a = find_acceleration_rates(model, state, Side::right);
+  const double size =
+      scale.measure_change(make_rates(model), a, 1.0, 0.0).displacement;
+  const double free = std::sqrt(allowed / size);
+  const double h = std::min(find_short_time(model, state), free);
+  if (!(h < kInfinity)) return kInfinity;
+  const Rates later = find_acceleration_rates(
+      model, continue_motion(model, state, a, h), Side::left);
+  const double change = scale.measure_change(a, later, 1.0, 0.0).displacement;
+  return std::min(free, std::cbrt(allowed * h / change));
 }
 
 }  // namespace limber::dynamics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "limber/common/records/archive.hpp"
 #include "limber/dynamics/simulation/error_budget.hpp"
 #include "limber/dynamics/system/system_state.hpp"
@@ -22,12 +24,13 @@ namespace limber::dynamics {
 class StepControl {
  public:
   /// @param budget errors that steps may have
-  /// @param span duration of the run [s]
-  /// @param longest step [s]
+  /// @param longest step, the first one unless it is set [s]
   /// @param refinement factor of the limits, at most 1 [-]
-  StepControl(const ErrorBudget& budget, double span, double longest,
+  StepControl(const ErrorBudget& budget, double longest,
               double refinement = 1.0);
 
+  /// Sets the length of the first step [s].
+  void begin(double h) { h_ = std::min(h, longest_); }
   /// Length of the next step from `state`, at most `left` [s].
   [[nodiscard]] double propose(const SystemState& state, double left) const;
   /// Whether a step of length h [s] with the error `error` [m] is accepted;
@@ -53,5 +56,18 @@ class StepControl {
   double h_;          // [s]
   bool was_rejected_ = false;
 };
+
+/// Length of a first step whose error is about `allowed` [m], infinite if
+/// nothing accelerates [s]. It does not depend on the duration of the run, nor
+/// on a common velocity of bodies that nothing ties to the world.
+///
+/// Equation   h = min(sqrt(allowed / a), cbrt(allowed / j)),
+///            a the largest acceleration of a point of a body, j its rate of
+///            change, of the motion continued for a thousandth of a body's size
+///            or until accelerations have displaced a body by `allowed`
+/// Source     as starting step sizes of [@hairer1993, sec. II.4], for
+///            equations of second order
+[[nodiscard]] double find_first_step(const SystemModel& model,
+                                     const SystemState& state, double allowed);
 
 }  // namespace limber::dynamics

@@ -63,8 +63,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       oscillations_(find_oscillations(model)),
       stepper_(model, settings, statistics.events),
       sampling_(model, state.t),
-      control_(make_budget(settings, state.t), settings.end_time - state.t,
-               settings.step, refinement),
+      control_(make_budget(settings, state.t), settings.step, refinement),
       peaks_(model, followed),
       audit_(model, settings.integrator),
       contacts_(model, settings.integrator),
@@ -220,9 +219,13 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
   const double longest = find_longest_step(settings_, origin_);
   parts_ = count_parts(origin_, breakpoints_[next_].time, longest);
   part_ = 0;
-  h_ = is_adaptive() ? control_.propose(state, span)
-                     : span / static_cast<double>(parts_);
   try {
+    if (is_adaptive() && !has_started_) {
+      control_.begin(find_first_step(model_, state, control_.allowed()));
+    }
+    h_ = is_adaptive()
+             ? std::min(control_.propose(state, span), limit_free_step(state))
+             : span / static_cast<double>(parts_);
     if (!has_started_) {
       if (const auto impulse = stepper_.start(state, h_)) {
         statistics_.warnings.push_back(describe(*impulse, state.t, h_));

@@ -15,15 +15,17 @@ SystemState make_spinning(double rate) {
   return state;
 }
 
-// A run of 1 s, whose first step is 1e-4 s.
+// With a first step of 1e-4 s.
 StepControl make_control(double longest = 1.0, double refinement = 1.0) {
-  return {ErrorBudget::each(1e-6), 1.0, longest, refinement};
+  StepControl control(ErrorBudget::each(1e-6), longest, refinement);
+  control.begin(1e-4);
+  return control;
 }
 
-TEST(StepControl, StartsWithATenThousandthOfTheRun) {
+TEST(StepControl, BeginsWithAStepOfAtMostTheLongest) {
   EXPECT_DOUBLE_EQ(make_control().step(), 1e-4);
   EXPECT_DOUBLE_EQ(make_control(2e-5).step(), 2e-5);
-  EXPECT_DOUBLE_EQ(make_control(1.0, 0.5).step(), 0.5e-4);
+  EXPECT_DOUBLE_EQ(make_control(2e-4, 0.25).step(), 5e-5);
 }
 
 TEST(StepControl, TakesTheNextStepFromTheCubicRootOfTheError) {
@@ -125,11 +127,9 @@ TEST(StepControl, ShortensAllLimitsByTheRefinement) {
     return h;
   };
   EXPECT_DOUBLE_EQ(
-      settle(StepControl(ErrorBudget::each(1.0), 1.0, 0.3, 0.25), resting),
-      0.075);
+      settle(StepControl(ErrorBudget::each(1.0), 0.3, 0.25), resting), 0.075);
   EXPECT_DOUBLE_EQ(
-      settle(StepControl(ErrorBudget::each(1.0), 1.0, 0.3, 0.25), turning),
-      0.0025);
+      settle(StepControl(ErrorBudget::each(1.0), 0.3, 0.25), turning), 0.0025);
 }
 
 }  // namespace

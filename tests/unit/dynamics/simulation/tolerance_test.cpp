@@ -222,7 +222,8 @@ TEST(StepControl, TakesTheFewestStepsForTheSumOfTheirErrors) {
   // A step of h errs by C h^3, for a moment a million times more.
   const double fast = 0.05;
   const auto rate = [&](double t) { return t < fast ? 1e6 : 1.0; };
-  StepControl control(ErrorBudget::each(1e-9), 1.0, 1.0);
+  StepControl control(ErrorBudget::each(1e-9), 1.0);
+  control.begin(1e-4);
   const SystemState no_bodies;
   double t = 0.0;
   double errors = 0.0;
