@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/analysis/motion_groups.hpp"
+#include "limber/dynamics/analysis/group_motion.hpp"
 #include "limber/dynamics/analysis/principal_basis.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -9,8 +9,8 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
-#include "limber/dynamics/analysis/motion_groups.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/analysis/group_motion.hpp"
+#include "limber/dynamics/newton/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -102,7 +102,7 @@ PrincipalBasis find_group_basis(const SystemModel& model,
 class Columns {
  public:
   explicit Columns(MatrixX& Q) : Q_(Q) {}
-  void append(const MotionGroup& group, const MatrixX& columns) {
+  void append(const GroupMotion& group, const MatrixX& columns) {
     Q_(group.coordinates, Eigen::seqN(count_, columns.cols())) = columns;
     count_ += columns.cols();
   }
@@ -136,10 +136,10 @@ std::vector<Held> sort_held(const std::vector<PrincipalBasis>& bases) {
 
 PrincipalBasis find_principal_basis(const SystemModel& model,
                                     const SmallMotion& motion) {
-  const std::vector<MotionGroup> groups = split_groups(model, motion);
+  const std::vector<GroupMotion> groups = split_groups(model, motion);
   std::vector<PrincipalBasis> bases;
   PrincipalBasis all;
-  for (const MotionGroup& group : groups) {
+  for (const GroupMotion& group : groups) {
     bases.push_back(find_group_basis(model, group.motion));
     all.free += bases.back().free;
     all.drift += bases.back().drift;

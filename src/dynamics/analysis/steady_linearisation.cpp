@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/analysis/motion_groups.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/analysis/group_motion.hpp"
+#include "limber/dynamics/newton/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -10,7 +10,7 @@ namespace limber::dynamics {
 /// is most nearly so.
 struct SteadyMotion {
   TurningAxes axes;
-  SmallMotion motion;  ///< without frames: MotionGroup
+  SmallMotion motion;  ///< without frames: GroupMotion
   PrincipalBasis basis;
   /// Relative change of M, D and S while the system rotates by 1 rad [-].
   double change = 0.0;

@@ -9,7 +9,7 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/linked_groups.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
 
 namespace limber::dynamics {

@@ -8,7 +8,7 @@
 namespace limber::dynamics {
 
 /// The small motion of bodies that no other's depends on.
-struct MotionGroup {
+struct GroupMotion {
   /// In their coordinates, with the links that these move; `damping`,
   /// velocities and frames are left out.
   SmallMotion motion;
@@ -16,12 +16,12 @@ struct MotionGroup {
 };
 
 /// @param group bodies that are linked to no others
-[[nodiscard]] MotionGroup take_group(const SystemModel& model,
+[[nodiscard]] GroupMotion take_group(const SystemModel& model,
                                      const SmallMotion& motion,
                                      const std::vector<BodyIndex>& group);
 
 /// Of each linked group among the motion's bodies that has coordinates.
-[[nodiscard]] std::vector<MotionGroup> split_groups(const SystemModel& model,
+[[nodiscard]] std::vector<GroupMotion> split_groups(const SystemModel& model,
                                                     const SmallMotion& motion);
 
 }  // namespace limber::dynamics

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/analysis/motion_groups.hpp"
+#include "limber/dynamics/analysis/group_motion.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -36,9 +36,9 @@ void take_links(const SmallMotion& motion, const std::vector<Index>& x,
 
 }  // namespace
 
-MotionGroup take_group(const SystemModel& model, const SmallMotion& motion,
+GroupMotion take_group(const SystemModel& model, const SmallMotion& motion,
                        const std::vector<BodyIndex>& group) {
-  MotionGroup out;
+  GroupMotion out;
   SmallMotion& part = out.motion;
   std::vector<Index>& x = out.coordinates;
   part.bodies = group;
@@ -68,14 +68,14 @@ MotionGroup take_group(const SystemModel& model, const SmallMotion& motion,
   return out;
 }
 
-std::vector<MotionGroup> split_groups(const SystemModel& model,
+std::vector<GroupMotion> split_groups(const SystemModel& model,
                                       const SmallMotion& motion) {
-  std::vector<MotionGroup> parts;
+  std::vector<GroupMotion> parts;
   for (const auto& group : find_linked_groups(model)) {
     const bool is_of_it = std::find(motion.bodies.begin(), motion.bodies.end(),
                                     group.front()) != motion.bodies.end();
     if (!is_of_it) continue;
-    MotionGroup part = take_group(model, motion, group);
+    GroupMotion part = take_group(model, motion, group);
     if (part.motion.size() > 0) parts.push_back(std::move(part));
   }
   return parts;

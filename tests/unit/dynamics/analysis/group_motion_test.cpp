@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
-#include "limber/dynamics/newton/force_balance.hpp"
+#include "limber/dynamics/newton/linked_groups.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
 
-namespace limber::dynamics::motion_groups_test {
+namespace limber::dynamics::group_motion_test {
 namespace {
 
 joints::Bushing make_bushing(const Vector3& translation,
@@ -234,4 +234,4 @@ TEST(MotionGroups, AreOutOfBalanceBesideAStrangerUnderAHugeLoad) {
 }
 
 }  // namespace
-}  // namespace limber::dynamics::motion_groups_test
+}  // namespace limber::dynamics::group_motion_test
