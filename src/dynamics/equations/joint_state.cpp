@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,9 @@ using joints::JointCoordinates;
 using joints::JointShape;
 using joints::RelativeMotion;
 
-constexpr double kClosed = 1e-6;  // share of the size; [rad]
+constexpr double kClosed = 1e-6;  // share of the size or speed; [rad]
+// Of velocities, relative to the largest of the bodies.
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Distance of a joint's frames from their constrained position, and its
 /// rate.
@@ -206,11 +209,68 @@ class Placing {
     is_placed_[index(body_of(M))] = true;
   }
 
-  void check_loops() {
-    double size = 0.0;
-    for (const Attachment& attachment : model_.attachments) {
-      size = std::max(size, attachment.p_BF.norm());
+  // Bodies that joints connect to this one, except by way of the world.
+  [[nodiscard]] std::vector<bool> find_linked(std::size_t coupler) const {
+    std::vector<bool> linked(model_.bodies.size(), false);
+    const auto mark = [&](BodyIndex b) {
+      if (b != kWorld) linked[index(b)] = true;
+    };
+    const auto has = [&](BodyIndex b) {
+      return b != kWorld && linked[index(b)];
+    };
+    mark(body_of(model_.couplers[coupler].frame_F));
+    mark(body_of(model_.couplers[coupler].frame_M));
+    for (bool is_new = true; is_new;) {
+      is_new = false;
+      for (const Coupler& c : model_.couplers) {
+        const BodyIndex F = body_of(c.frame_F);
+        const BodyIndex M = body_of(c.frame_M);
+        if (F == kWorld || M == kWorld || has(F) == has(M)) continue;
+        mark(F);
+        mark(M);
+        is_new = true;
+      }
     }
+    return linked;
+  }
+
+  // What the gap of a loop is compared with.
+  struct Scale {
+    double size = 0.0;   // of arms, and between bodies [m]
+    double speed = 0.0;  // relative to one of the bodies, or to the world [m/s]
+    double spin = 0.0;   // [rad/s]
+    double rounding = 0.0;  // of the speed [m/s]
+  };
+
+  [[nodiscard]] Scale find_scale(std::size_t coupler) const {
+    const std::vector<bool> linked = find_linked(coupler);
+    const BodyIndex F = body_of(model_.couplers[coupler].frame_F);
+    const BodyIndex M = body_of(model_.couplers[coupler].frame_M);
+    const BodyState* reference = nullptr;
+    if (F != kWorld && M != kWorld) reference = &state_.bodies[index(F)];
+    Scale scale;
+    for (const Attachment& a : model_.attachments) {
+      if (a.body == kWorld || !linked[index(a.body)]) continue;
+      scale.size = std::max(scale.size, a.p_BF.norm());
+    }
+    for (std::size_t b = 0; b < linked.size(); ++b) {
+      if (!linked[b]) continue;
+      const BodyState& at = state_.bodies[b];
+      scale.spin = std::max(scale.spin, at.w_WB_B.norm());
+      scale.rounding = std::max(scale.rounding, kRounding * at.v_WB_W.norm());
+      if (reference != nullptr) {
+        scale.speed =
+            std::max(scale.speed, (at.v_WB_W - reference->v_WB_W).norm());
+        scale.size = std::max(scale.size, (at.p_WB - reference->p_WB).norm());
+      } else {
+        scale.speed = std::max(scale.speed, at.v_WB_W.norm());
+      }
+    }
+    scale.speed += scale.spin * scale.size;
+    return scale;
+  }
+
+  void check_loops() {
     for (std::size_t c = 0; c < shapes_.size(); ++c) {
       if (!shapes_[c] || places_[c]) continue;
       const Coupler& coupler = model_.couplers[c];
@@ -224,13 +284,15 @@ class Placing {
       const Gap gap =
           find_gap(std::get<joints::Joint>(coupler.law),
                    find_relative_motion(model_, state_, CouplerIndex(c)));
-      if (!(gap.distance <= kClosed * size && gap.turn <= kClosed)) {
+      const Scale scale = find_scale(c);
+      if (!(gap.distance <= kClosed * scale.size && gap.turn <= kClosed)) {
         add(coupler.name,
             fmt::format("it closes a loop, and its frames are {:.3g} m and "
                         "{:.3g} rad from where it holds them; give the joints "
                         "before it coordinates that close it",
                         gap.distance, gap.turn));
-      } else if (!(gap.speed <= kClosed * size && gap.spin <= kClosed)) {
+      } else if (!(gap.speed <= kClosed * scale.speed + scale.rounding &&
+                   gap.spin <= kClosed * scale.spin)) {
         add(coupler.name,
             fmt::format("it closes a loop, and its frames leave where it holds "
                         "them at {:.3g} m/s and {:.3g} rad/s; give the joints "

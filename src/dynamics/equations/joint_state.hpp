@@ -30,8 +30,8 @@ using JointStates = std::map<std::string, joints::JointCoordinates>;
 /// joints need coordinates each.
 /// @throws InputError, listing all errors: an unknown joint, with the nearest
 /// name; a wrong number of coordinates, a value that is not finite; a loop that
-/// does not close, to 1e-6 of the system's size, 1e-6 rad, or as much per
-/// second, with the gap.
+/// does not close, to 1e-6 of the size of the bodies linked to it, or 1e-6 rad,
+/// or at 1e-6 of their speeds, with the gap.
 void place_bodies(const SystemModel& model, const JointStates& joints,
                   SystemState& state);
 

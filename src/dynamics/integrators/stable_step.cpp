@@ -49,16 +49,35 @@ void scale(const SystemModel& model, Change& x, double factor) {
   });
 }
 
-// Small against every body, large against round-off [kg^1/2 m].
-double find_increment(const SystemModel& model) {
-  constexpr double kShare = 1e-7;
-  double least = std::numeric_limits<double>::infinity();
-  for (const BodyModel& body : model.bodies) {
-    least = std::min(least, std::sqrt(body.J0.trace()));
+// Square of a body's part of the mass-weighted norm.
+double measure_part(const SystemModel& model, const Change& x, std::size_t b) {
+  const BodyModel& body = model.bodies[b];
+  double part = body.mass * x.a_WB_W[b].squaredNorm() +
+                body.J0.trace() / 3.0 * x.dw_WB_B[b].squaredNorm() +
+                x.etaddot.segment(body.offset, body.modes).squaredNorm();
+  if (body.full >= 0) {
+    const FullModel& full =
+        model.full_bodies[static_cast<std::size_t>(body.full)];
+    part += full.mesh->node_mass.sum() *
+            x.uddot_H.segment(full.first, full.dofs()).squaredNorm() /
+            static_cast<double>(full.dofs());
   }
-  return kShare * least;
+  return part;
 }
-constexpr double kVelocity = 1e-3;  // [kg^1/2 m/s]
+
+// Factor of a change that moves no body by more than a small share of its size,
+// large against round-off [-].
+double find_increment(const SystemModel& model, const Change& x) {
+  constexpr double kShare = 1e-7;
+  double largest = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    largest = std::max(largest,
+                       measure_part(model, x, b) / model.bodies[b].J0.trace());
+  }
+  return kShare / std::sqrt(largest);
+}
+
+constexpr double kSlow = 0.01;
 
 class Iteration {
  public:
@@ -70,13 +89,35 @@ class Iteration {
         terms_(make_terms(model)),
         x_(make_accelerations(model)),
         rest_(make_accelerations(model)),
-        increment_(find_increment(model)),
         has_modes_(has_modes) {
     find_accelerations(state_, rest_);
   }
 
-  // Largest eigenvalue of -d(acceleration)/d(position or velocity).
-  double find_largest(bool of_velocity) {
+  // Largest eigenvalue of -d(acceleration)/d(position).
+  double find_largest_stiffness() { return find_largest(0.0); }
+  // Of -d(acceleration)/d(velocity), by velocities that are small beside those
+  // of an oscillation as fast as `rate` [1/s] and as small as the changes of
+  // positions.
+  double find_largest_damping(double rate) {
+    return find_largest(kSlow * (rate > 0.0 ? rate : 1.0));
+  }
+
+  // The body with the largest part of the last eigenvector.
+  std::size_t find_largest_body() {
+    double most = -1.0;
+    std::size_t largest = 0;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const double part = measure_part(model_, x_, b);
+      if (!(part > most)) continue;
+      most = part;
+      largest = b;
+    }
+    return largest;
+  }
+
+ private:
+  // @param rate of velocities by changes [1/s]; 0: positions
+  double find_largest(double rate) {
     constexpr double kEnough = 1e-5;  // settles to about a thousandth
     constexpr int kMostIterations = 3000;
     constexpr int kSettled = 20;
@@ -92,7 +133,7 @@ class Iteration {
       const double size = measure_change(model_, x_);
       if (!(size > 0.0)) return 0.0;
       scale(model_, x_, 1.0 / size);
-      apply(of_velocity);
+      apply(rate);
       const double next = measure_change(model_, x_);
       settled = std::abs(next - eigenvalue) <= kEnough * next ? settled + 1 : 0;
       eigenvalue = next;
@@ -100,30 +141,6 @@ class Iteration {
     return eigenvalue;
   }
 
-  // The body with the largest part of the last eigenvector.
-  std::size_t find_largest_body() {
-    double most = -1.0;
-    std::size_t largest = 0;
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      const BodyModel& body = model_.bodies[b];
-      double share = body.mass * x_.a_WB_W[b].squaredNorm() +
-                     body.J0.trace() / 3.0 * x_.dw_WB_B[b].squaredNorm() +
-                     x_.etaddot.segment(body.offset, body.modes).squaredNorm();
-      if (body.full >= 0) {
-        const FullModel& full =
-            model_.full_bodies[static_cast<std::size_t>(body.full)];
-        share += full.mesh->node_mass.sum() *
-                 x_.uddot_H.segment(full.first, full.dofs()).squaredNorm() /
-                 static_cast<double>(full.dofs());
-      }
-      if (!(share > most)) continue;
-      most = share;
-      largest = b;
-    }
-    return largest;
-  }
-
- private:
   void find_accelerations(const SystemState& at, Change& accelerations) {
     calc_terms(model_, at, Side::right, terms_);
     solve_accelerations(model_, terms_, accelerations);
@@ -139,8 +156,9 @@ class Iteration {
   }
 
   // x <- -(a(state + e x) - a(state)) / e
-  void apply(bool of_velocity) {
-    const double e = of_velocity ? kVelocity : increment_;
+  void apply(double rate) {
+    const bool of_velocity = rate > 0.0;
+    const double e = (of_velocity ? rate : 1.0) * find_increment(model_, x_);
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const BodyState& from = state_.bodies[b];
       BodyState& body = displaced_.bodies[b];
@@ -177,7 +195,6 @@ class Iteration {
   SystemTerms terms_;
   Change x_;
   Change rest_;
-  double increment_;  // of positions, in the norm of measure_change()
   bool has_modes_;
 };
 
@@ -197,8 +214,8 @@ double find_fastest_relaxation(const SystemModel& model) {
 double find_stable_step(const SystemModel& model, const SystemState& state,
                         IntegratorKind scheme) {
   Iteration iteration(model, state, scheme != IntegratorKind::splitting);
-  const double omega_squared = iteration.find_largest(false);
-  const double c = iteration.find_largest(true);
+  const double omega_squared = iteration.find_largest_stiffness();
+  const double c = iteration.find_largest_damping(std::sqrt(omega_squared));
   const auto divide = [](double longest, double rate) {
     return rate > 0.0 ? longest / rate
                       : std::numeric_limits<double>::infinity();
@@ -225,7 +242,7 @@ double find_stable_step(const SystemModel& model, const SystemState& state,
 std::size_t find_fastest_body(const SystemModel& model,
                               const SystemState& state) {
   Iteration iteration(model, state, true);
-  iteration.find_largest(false);
+  (void)iteration.find_largest_stiffness();
   return iteration.find_largest_body();
 }
 

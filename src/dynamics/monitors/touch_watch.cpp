@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/interpolation.hpp"
 
@@ -21,7 +22,8 @@ constexpr double kSpeedMargin = 1.5;
 // Distance that counts as zero, over the motion in a step, or over the bodies'
 // size there, if that is smaller [-].
 constexpr double kNoWay = 1e-4;
-constexpr double kLeastWay = 1e-12;  // [m]
+// Round-off of places in distances, of the places [-].
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 // Fraction of a step between looks at separating bodies, and the largest one
 // for bodies whose boxes meet but whose surfaces nowhere face each other [-].
 constexpr double kLeastAdvance = 1.0 / 64.0;
@@ -102,6 +104,16 @@ joints::TouchReading TouchWatch::read(std::size_t index,
                            memory_of(pair, state), watched.scratch);
 }
 
+double TouchWatch::find_rounding(const Watched& watched,
+                                 const SystemState& state) const {
+  const Pair& pair = model_.pairs[watched.pair];
+  double places = watched.law->find_size();
+  for (const BodyIndex b : {pair.body_A, pair.body_B}) {
+    if (b != kWorld) places += state.bodies[index(b)].p_WB.norm();
+  }
+  return kRounding * places;
+}
+
 template <typename Predicate>
 double TouchWatch::bisect(const SystemState& before, const SystemState& after,
                           double low, double high, const Predicate& is_early) {
@@ -141,7 +153,8 @@ std::optional<double> TouchWatch::find_touch_share(Watched& watched,
   double clearance = find_clearance(watched, before);
   if (clearance > reach) return std::nullopt;
   const double size = watched.law->find_size();
-  const double none = kNoWay * std::min(reach, size) + kLeastWay;
+  const double none =
+      kNoWay * std::min(reach, size) + find_rounding(watched, before);
   watched.near = 2.0 * none;
   const double part_of_size = kPartOfSize * size / reach;
   const double part = std::min(kLeastAdvance, part_of_size);
@@ -319,7 +332,8 @@ double TouchWatch::find_tolerance(std::size_t index, const SystemState& state,
   Watched& watched = pairs_[index];
   if (!watched.is_touching) return watched.near;
   const double way = kSpeedMargin * h * find_speed_bound(watched, state);
-  return 2.0 * (kNoWay * std::min(way, watched.law->find_size()) + kLeastWay);
+  return 2.0 * (kNoWay * std::min(way, watched.law->find_size()) +
+                find_rounding(watched, state));
 }
 
 bool TouchWatch::is_deep(std::size_t index, const SystemState& state) {

@@ -143,6 +143,9 @@ class TouchWatch {
                                         const SystemState& state) const;
   [[nodiscard]] double find_clearance(Watched& watched,
                                       const SystemState& state) const;
+  // Of the distance of both bodies, for the places they are at [m].
+  [[nodiscard]] double find_rounding(const Watched& watched,
+                                     const SystemState& state) const;
   [[nodiscard]] double find_least_advance(Watched& watched,
                                           const SystemState& before,
                                           double part_of_size);

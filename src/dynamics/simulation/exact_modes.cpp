@@ -13,7 +13,7 @@ namespace {
 
 // Number of times at which energies are sampled to find the modes that move.
 constexpr int kEnergyLooks = 256;
-constexpr double kExcited = 1e-6;  // of the largest energy of a mode
+constexpr double kExcited = 1e-6;  // of the largest of a mode of the body
 constexpr double kLooksAPeriod = 10.0;
 
 void drop_modes(BodyModel& body) {
@@ -148,23 +148,20 @@ double ExactModes::find_longest_look(double end) const {
   for (int i = 0; i <= kEnergyLooks; ++i) {
     times.push_back(start_ + (end - start_) * i / kEnergyLooks);
   }
-  std::vector<VectorX> energies;  // the largest of each mode
-  double most = 0.0;
+  double fastest = 0.0;
   for (const Part& part : parts_) {
     std::vector<double> looks = times;
     for (const double t : part.response.interval_starts()) {
       if (t > start_ && t < end) looks.push_back(t);
     }
     const flexbody::ModalEnergies e = part.response.evaluate_energies(looks);
-    energies.emplace_back((e.kinetic + e.elastic).rowwise().maxCoeff());
-    most = std::max(most, energies.back().maxCoeff());
-  }
-  double fastest = 0.0;
-  for (std::size_t p = 0; p < parts_.size() && most > 0.0; ++p) {
-    fastest = std::max(fastest, parts_[p].fastest_load);
-    for (Eigen::Index k = 0; k < energies[p].size(); ++k) {
-      if (energies[p][k] < kExcited * most) continue;
-      fastest = std::max(fastest, std::sqrt(parts_[p].lambda[k]));
+    const VectorX energies = (e.kinetic + e.elastic).rowwise().maxCoeff();
+    const double most = energies.maxCoeff();
+    if (!(most > 0.0)) continue;
+    fastest = std::max(fastest, part.fastest_load);
+    for (Eigen::Index k = 0; k < energies.size(); ++k) {
+      if (energies[k] < kExcited * most) continue;
+      fastest = std::max(fastest, std::sqrt(part.lambda[k]));
     }
   }
   const double period = 2.0 * std::numbers::pi / fastest;

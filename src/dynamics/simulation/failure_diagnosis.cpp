@@ -9,9 +9,11 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
+#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/monitors/hold_watch.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
+#include "limber/dynamics/newton/force_balance.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -93,29 +95,33 @@ std::string find_cause(const SystemModel& model, const SystemState& state,
   return describe_turn(model, state, h);
 }
 
-std::string find_start_clash(const SystemModel& model, const SystemTerms& terms,
-                             double stored, double h) {
+std::string find_start_clash(const SystemModel& model, const SystemState& state,
+                             const SystemTerms& terms, double h) {
   constexpr double kMuch = 10.0;
+  std::string clash;
   double most = 0.0;
-  std::size_t coupler = 0;
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const double power = terms.couplers[c].response.dissipation;
     if (power <= most) continue;
+    const double relative = find_relative_kinetic(
+        model, state, find_joined_bodies(model, model.couplers[c]));
+    if (!(h * power > kMuch * relative)) continue;
     most = power;
-    coupler = c;
+    clash = fmt::format(
+        "bodies start with velocities that coupler '{}' does not allow: its "
+        "damper takes {:.3g} W at the start, where their relative motion has "
+        "{:.3g} J; let them start with velocities that fit, or with less "
+        "damping there",
+        model.couplers[c].name, power, relative);
   }
-  if (!(h * most > kMuch * stored)) return {};
-  return fmt::format(
-      "bodies start with velocities that coupler '{}' does not allow: its "
-      "damper takes {:.3g} W at the start, where {:.3g} J are stored; let them "
-      "start with velocities that fit, or with less damping there",
-      model.couplers[coupler].name, most, stored);
+  return clash;
 }
 
 std::string find_most_energy(const SystemModel& model,
                              const SystemState& state) {
   SystemTerms terms = make_terms(model);
   calc_terms(model, state, Side::right, terms);
+  const std::vector<Vector3> drifts = find_drifts(model, state);
   double most = -1.0;
   std::string where;
   const auto offer = [&](double energy, const auto& name) {
@@ -126,7 +132,7 @@ std::string find_most_energy(const SystemModel& model,
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const BodyState& rigid = state.bodies[b];
-    offer(0.5 * body.mass * rigid.v_WB_W.squaredNorm() +
+    offer(0.5 * body.mass * (rigid.v_WB_W - drifts[b]).squaredNorm() +
               0.5 * rigid.w_WB_B.dot(terms.bodies[b].J * rigid.w_WB_B),
           [&] { return fmt::format("the motion of body '{}'", body.name); });
     const VectorX* lambda = flexbody::find_eigenvalues(body.elasticity);

@@ -20,18 +20,19 @@ namespace limber::dynamics {
                                      IntegratorKind integrator, double h);
 
 /// A message naming the coupler whose damper opposes the initial velocities, if
-/// it would dissipate ten times the stored energy within a step; else empty. A
+/// it would dissipate ten times the energy of the relative motion of the bodies
+/// that it joins within a step; else empty. A
 /// stiff, damped coupler stops incompatible initial velocities within much less
 /// than a step, which the step does not resolve.
 /// @param terms at the start
-/// @param stored energy [J]
 /// @param h length of the step [s]
 [[nodiscard]] std::string find_start_clash(const SystemModel& model,
-                                           const SystemTerms& terms,
-                                           double stored, double h);
+                                           const SystemState& state,
+                                           const SystemTerms& terms, double h);
 
 /// Location of the largest part of the stored energy: the motion or a mode of a
-/// body, or a coupler, as in "mode 3 (812 Hz) of body 'link'".
+/// body, relative to the mass centre of what it is free with, or a coupler, as
+/// in "mode 3 (812 Hz) of body 'link'".
 [[nodiscard]] std::string find_most_energy(const SystemModel& model,
                                            const SystemState& state);
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "limber/common/errors.hpp"
-#include "limber/dynamics/equations/energy.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/integrators/interpolation.hpp"
 #include "limber/dynamics/monitors/event_fields.hpp"
@@ -230,8 +230,8 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
       if (const auto impulse = stepper_.start(state, h_)) {
         statistics_.warnings.push_back(describe(*impulse, state.t, h_));
       }
-      const double stored = calc_energy(model_, state, terms_).total();
-      clash_ = find_start_clash(model_, terms_, stored, h_);
+      calc_terms(model_, state, Side::right, terms_);
+      clash_ = find_start_clash(model_, state, terms_, h_);
       peaks_.start(state);
       contacts_.include(state, stepper_.touches());
       audit_.start(state, terms_, statistics_.events);

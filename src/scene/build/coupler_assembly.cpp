@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "limber/common/index.hpp"
@@ -19,11 +20,45 @@ namespace {
 /// a warning.
 constexpr double kFarShare = 0.05;
 
-/// Largest gap between the ends of a loop, relative to the robot's size.
+/// Largest gap between the ends of a loop, relative to its size.
 constexpr double kGapShare = 1e-6;
+/// Round-off of the ends, relative to their places.
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-/// A gear with a larger error at the start gets a warning [rad, m].
+/// A gear with a larger error at the start, relative to what it adds up, gets a
+/// warning [-].
 constexpr double kStretched = 1e-9;
+
+/// A link and those that carry it, up to the root, without the world.
+std::vector<int> list_carriers(const Robot& robot, const std::string& name) {
+  std::vector<int> links;
+  if (name == "world") return links;
+  links.push_back(find_link(robot, name));
+  const auto find_joint = [&] {
+    return std::find_if(
+        robot.joints.begin(), robot.joints.end(),
+        [&](const Joint& joint) { return joint.child == links.back(); });
+  };
+  for (auto joint = find_joint(); joint != robot.joints.end();
+       joint = find_joint()) {
+    if (robot.links[index(joint->parent)].name == "world") break;
+    links.push_back(joint->parent);
+  }
+  return links;
+}
+
+/// Links that carry one of two ends, but not both, and the ends' own.
+std::vector<int> list_loop(const Robot& robot, const std::string& from,
+                           const std::string& to) {
+  std::vector<int> a = list_carriers(robot, from);
+  std::vector<int> b = list_carriers(robot, to);
+  while (a.size() > 1 && b.size() > 1 && a.back() == b.back()) {
+    a.pop_back();
+    b.pop_back();
+  }
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
 
 }  // namespace
 
@@ -183,14 +218,19 @@ void CouplerAssembly::add_joint(int i) {
   });
 }
 
-void CouplerAssembly::check_gap(const Pose& from, const Pose& to,
+void CouplerAssembly::check_gap(const LoopEnds& ends,
+                                const std::vector<LinkMotion>& motions,
                                 const char* where) const {
-  double size = std::max(from.p.norm(), to.p.norm());
-  for (const LinkMotion& link : at_zero_) {
-    size = std::max(size, (link.X_WL.p - from.p).norm());
+  const Pose from = sites_.find_pose(ends.from, motions);
+  const Pose to = sites_.find_pose(ends.to, motions);
+  double size = 0.0;
+  for (const int link :
+       list_loop(scene_.robot, ends.from.where.link, ends.to.where.link)) {
+    size = std::max(size, (motions[index(link)].X_WL.p - from.p).norm());
   }
   const double gap = (to.p - from.p).norm();
-  if (gap <= kGapShare * size) return;
+  const double rounding = kRounding * (from.p.norm() + to.p.norm());
+  if (gap <= kGapShare * size + rounding) return;
   throw InputError(fmt::format(
       "its ends are {:.3g} m apart {}, at ({:.6g}, {:.6g}, {:.6g}) and "
       "({:.6g}, {:.6g}, {:.6g}) m; they must meet there",
@@ -200,8 +240,7 @@ void CouplerAssembly::check_gap(const Pose& from, const Pose& to,
 
 void CouplerAssembly::add_loop(const Loop& loop) {
   const Pose X_WF = sites_.find_pose(loop.from, at_zero_);
-  check_gap(X_WF, sites_.find_pose(loop.to, at_zero_),
-            "where all joints are at zero");
+  check_gap({loop.from, loop.to}, at_zero_, "where all joints are at zero");
   add_joint({loop.name, loop.kind, loop.axis_F, loop.second_F, loop.coupler,
              loop.actions, joints::Drive::kUnlimited, joints::Drive::kUnlimited,
              loads_.of_loop(loop), X_WF.p},
@@ -220,7 +259,9 @@ void CouplerAssembly::add_connector(const Connector& connector) {
     return;
   }
   // Unstressed at the start: both frames are that of the first end.
-  if (connector.to.where.point) check_gap(from, to, "at the start");
+  if (connector.to.where.point) {
+    check_gap({connector.from, connector.to}, start, "at the start");
+  }
   add_coupler(
       connector.name,
       joints::Bushing(std::get<joints::Bushing::Parameters>(connector.law)), F,
@@ -286,7 +327,10 @@ void CouplerAssembly::check_start(const Gear& gear) {
   };
   const double needed = gear.ratio * place(with->second) + gear.offset;
   const double excess = place(joint->second) - needed;
-  if (std::abs(excess) <= kStretched * (1.0 + std::abs(needed))) return;
+  const double sum = std::abs(place(joint->second)) +
+                     std::abs(gear.ratio * place(with->second)) +
+                     std::abs(gear.offset);
+  if (std::abs(excess) <= kStretched * sum) return;
   warnings_.push_back(fmt::format(
       "gear '{}' starts strained by {:.3g}: joint '{}' is at {:g}, "
       "and joint '{}' asks for {:g}",

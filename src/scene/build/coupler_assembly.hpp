@@ -63,7 +63,12 @@ class CouplerAssembly {
   void check_joint_interface(const Joint& joint, int link,
                              const AttachmentSite& site);
   void add_loop(const Loop& loop);
-  void check_gap(const Pose& from, const Pose& to, const char* where) const;
+  struct LoopEnds {
+    const ConnectorEnd& from;
+    const ConnectorEnd& to;
+  };
+  void check_gap(const LoopEnds& ends, const std::vector<LinkMotion>& motions,
+                 const char* where) const;
   void add_connector(const Connector& connector);
   void add_latch(const Latch& latch);
   void add_tendon(const Tendon& tendon);

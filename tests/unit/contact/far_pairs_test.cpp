@@ -5,9 +5,11 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "limber/contact/contact_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
+#include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
@@ -154,6 +156,33 @@ TEST(FarPairs, TouchOnTimeAtAnySpeedAndStep) {
           flight, kEarly * step * flight)
           << speed << " m/s, steps of " << step;
     }
+  }
+}
+
+// Of bodies at rest it is the round-off of their places, in any unit of length.
+TEST(FarPairs, CountARoundOffOfTheirPlacesAsTouching) {
+  const auto find_share = [](double size) {
+    dynamics::SystemBuilder builder;
+    const BodyIndex a = add_body(builder, "a");
+    const BodyIndex b = add_body(builder, "b");
+    builder.add_pair(
+        "a/b", a, b,
+        std::make_shared<ContactPair>(
+            make_ball(size, 1.0), make_ball(size, 1.0), ContactParameters{}));
+    const dynamics::SystemModel model = builder.build();
+    dynamics::SystemState state = dynamics::make_state(model);
+    state.bodies[1].p_WB = {1.999 * size, 0.0, 0.0};
+    dynamics::TouchWatch touches(model);
+    std::vector<dynamics::Event> events;
+    touches.start(state, events);
+    EXPECT_TRUE(touches.is_touching(0));
+    return touches.find_tolerance(0, state, 1.0) / size;
+  };
+  const double one = find_share(1.0);
+  EXPECT_GT(one, 1e-16);
+  EXPECT_LT(one, 1e-12);
+  for (const double size : {1e-6, 1e-3, 1e6}) {
+    EXPECT_NEAR(find_share(size), one, 1e-6 * one) << size;
   }
 }
 

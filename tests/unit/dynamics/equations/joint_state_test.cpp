@@ -187,11 +187,18 @@ TEST(JointState, FollowsInterfacesOfABentBodyThatMoves) {
 }
 
 /// A square of hinges about z, the last of which closes it.
-SystemModel make_square() {
+/// @param side [m]
+/// @param arm of a pendulum beside it, 0: none [m]
+SystemModel make_square(double side = 1.0, double arm = 0.0) {
   SystemBuilder builder;
-  const Pose near{Matrix3::Identity(), {-0.5, 0, 0}};
-  const Pose far{Matrix3::Identity(), {0.5, 0, 0}};
-  const Pose corner{Matrix3::Identity(), {1, 0, 0}};
+  const Pose near{Matrix3::Identity(), {-0.5 * side, 0, 0}};
+  const Pose far{Matrix3::Identity(), {0.5 * side, 0, 0}};
+  const Pose corner{Matrix3::Identity(), {side, 0, 0}};
+  if (arm > 0.0) {
+    const auto stranger = builder.add_rigid_body("stranger", kInertia);
+    const Pose end{Matrix3::Identity(), {arm, 0, 0}};
+    builder.add_joint("E", JointKind::revolute, {}, {stranger, end});
+  }
   const auto left = builder.add_rigid_body("left", kInertia);
   const auto top = builder.add_rigid_body("top", kInertia);
   const auto right = builder.add_rigid_body("right", kInertia);
@@ -219,6 +226,41 @@ TEST(JointState, ClosesALoopWhoseCoordinatesDo) {
                                     2.0 * std::sin(0.05))));
   EXPECT_THAT(refusal(model, joints(closed, u + 0.1)),
               HasSubstr("leave where it holds them at 0.1 m/s and 0 rad/s"));
+}
+
+// A millimetre of 1 m is closed beside an arm of 1 km, if that counts.
+TEST(JointState, JudgesALoopByItsOwnSize) {
+  const double q = 1.2;
+  const double error = 1e-4;
+  for (const double side : {1e-3, 1.0, 1e3}) {
+    for (const double arm : {0.0, 1e3}) {
+      const auto refuse = [&](double angle) {
+        return refusal(
+            make_square(side, arm),
+            {{"A", {{q}, {}}}, {"B", {{-q}, {}}}, {"C", {{angle}, {}}}});
+      };
+      EXPECT_EQ(refuse(q - std::numbers::pi), "") << side << ' ' << arm;
+      EXPECT_THAT(refuse(q - std::numbers::pi + error),
+                  HasSubstr("joint 'D': it closes a loop, and its frames are"))
+          << side << ' ' << arm;
+    }
+  }
+}
+
+// Whatever the unit of time: an error of all of a rate is refused, one of a
+// hundred-millionth is not.
+TEST(JointState, JudgesTheRatesOfALoopByItsOwnSpeeds) {
+  const double q = 1.2;
+  for (const double u : {1e-8, 1.0, 1e8}) {
+    const auto refuse = [&](double rate_C) {
+      return refusal(make_square(),
+                     {{"A", {{q}, {u}}},
+                      {"B", {{-q}, {-u}}},
+                      {"C", {{q - std::numbers::pi}, {rate_C}}}});
+    };
+    EXPECT_EQ(refuse(u * (1.0 + 1e-8)), "") << u;
+    EXPECT_THAT(refuse(2.0 * u), HasSubstr("leave where it holds them")) << u;
+  }
 }
 
 // Such as one that carries a spring, or is measured.

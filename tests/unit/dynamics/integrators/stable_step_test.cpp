@@ -9,6 +9,7 @@
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/integrators/central_differences.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/joints/joint_kind.hpp"
 #include "limber/joints/point_spring.hpp"
 #include "support/point_mass_body.hpp"
 #include "support/spring_network.hpp"
@@ -72,6 +73,30 @@ TEST(StableStep, OfADamperAloneIsOneOverItsRate) {
   const double step = kReducedMass / 100.0;
   EXPECT_NEAR(find(model), step, 1e-6 * step);
   EXPECT_TRUE(is_stable(model, 0.99 * step));
+}
+
+// Coulomb friction is a damper of F / vs near rest. In steps of 1e-3 kg^1/2 m/s
+// a mote of 1 ug moved at 1000 vs.
+TEST(StableStep, OfFrictionIsThatNearRestOfBodiesOfAnyMass) {
+  constexpr double kSpeed = 1e-3;  // [m/s]
+  for (const double mass : {1e-6, 1e-2, 100.0}) {
+    const double force = 1e3 * mass;
+    SystemBuilder builder;
+    const auto slider =
+        builder.add_rigid_body("slider", {mass, mass * Matrix3::Identity()});
+    builder.add_coupler(
+        "rail",
+        joints::make_joint(
+            joints::JointKind::prismatic, Vector3::UnitX(), Vector3::UnitY(),
+            {.translational_stiffness = 1e8 * mass,
+             .rotational_stiffness = 1e8 * mass},
+            {{0, joints::Friction({.coulomb = force, .speed = kSpeed})}}),
+        builder.attach_world("ground", {}),
+        builder.attach_frame("shoe", slider, {}));
+    const double rate = force / kSpeed / mass;  // 1e6 1/s
+    const double expected = 2.0 / (rate + std::hypot(rate, 1e4));
+    EXPECT_NEAR(find(builder.build()), expected, 1e-2 * expected) << mass;
+  }
 }
 
 TEST(StableStep, IsInfiniteWhereNothingVibrates) {

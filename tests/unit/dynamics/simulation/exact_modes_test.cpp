@@ -102,6 +102,21 @@ TEST(ExactModes, ClampedBodyUnderAStepLoadHasTheClosedFormWithoutSteps) {
   EXPECT_EQ(r.state.eta, r.states.back().eta);
 }
 
+// A slow stranger with 1e10 times the energy hid the oscillation of a body.
+TEST(ExactModes, AreLookedAtInThePeriodsOfEachBodyThatMoves) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  Scene scene(make_body(1, true));
+  PointMassBody slow = make_point_mass_body(20, 1, 4.0, 1.0, 1e-3 * kLowest, 1);
+  slow.reduced.clamped = true;
+  scene.builder.add_flexible_body("stranger", share(slow), Fidelity::uncoupled,
+                                  {});
+  const SystemModel model = scene.builder.build();
+  SystemState state = make_state(model);
+  state.eta << 1e-3, 1e5;
+  const ExactModes exact(model, state);
+  EXPECT_NEAR(exact.find_longest_look(1.0), kTurn / kLowest / 10.0, 1e-9);
+}
+
 TEST(ExactModes, GravityOnAClampedBodyMakesItSwingAboutItsSag) {
   const PointMassBody points = make_body(2, true);
   Scene scene(points);

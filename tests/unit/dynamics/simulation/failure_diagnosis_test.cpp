@@ -8,6 +8,7 @@
 #include <string>
 
 #include "limber/common/rotation.hpp"
+#include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
 #include "support/point_mass_body.hpp"
@@ -113,6 +114,42 @@ TEST_F(MostEnergy, OfAModeIsThatOfItsDeformationAndVelocity) {
   for (const double share : {0.0, 0.5, 1.0}) {
     move(share, 1.0 - share);
     EXPECT_EQ(find(), "mode 2 (14.32 Hz) of body 'cloud'");
+  }
+}
+
+// 'cloud' is free: its velocity in the world is nobody's energy.
+TEST_F(MostEnergy, LeavesOutTheVelocityOfAFreeMassCentre) {
+  state_.bodies[1].v_WB_W.x() = 7500.0;
+  move(1.0, 0.0);
+  EXPECT_EQ(find(), "the motion of body 'top'");
+}
+
+// A damper that takes 100 J in a step of 1 ms, from bodies whose relative
+// motion has 0.5 J, is one to name, wherever both go, and whatever passes.
+TEST(StartClash, GoesByTheRelativeMotionOfTheBodiesJoined) {
+  SystemBuilder builder;
+  std::vector<BodyIndex> b;
+  for (const char* name : {"a", "b", "stranger"}) {
+    b.push_back(builder.add_rigid_body(name, {1.0, Matrix3::Identity()}));
+  }
+  builder.add_coupler(
+      "damper",
+      joints::Bushing({.translational_damping = 1e5 * Matrix3::Identity()}),
+      builder.attach_frame("on_a", b[0], {}),
+      builder.attach_frame("on_b", b[1], {}));
+  const SystemModel model = builder.build();
+  SystemTerms terms = make_terms(model);
+  for (const double common : {0.0, 7500.0}) {
+    for (const double passing : {0.0, 5000.0}) {
+      SystemState state = make_state(model);
+      state.bodies[0].v_WB_W.x() = common;
+      state.bodies[1].v_WB_W.x() = common + 1.0;
+      state.bodies[2].v_WB_W.x() = passing;
+      calc_terms(model, state, Side::right, terms);
+      EXPECT_THAT(find_start_clash(model, state, terms, 1e-3),
+                  HasSubstr("coupler 'damper' does not allow"));
+      EXPECT_THAT(find_start_clash(model, state, terms, 1e-5), IsEmpty());
+    }
   }
 }
 
