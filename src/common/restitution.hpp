@@ -23,4 +23,20 @@ inline constexpr double kImpactDuration = 0.01;
 /// @throws ContractError for values outside their range.
 [[nodiscard]] double find_restitution_damping(double restitution, double speed);
 
+/// Smaller restitutions use the factor of this one: the bodies then keep 0.25 %
+/// of their energy. The factor grows without bound towards 0 [-].
+inline constexpr double kLeastRestitution = 0.05;
+
+/// The beta with which two free bodies under f max(0, 1 + beta v / sqrt(v^2 +
+/// 2 W / m)) part with `restitution` times the speed of their touch.
+///
+/// Equation   ln e = -beta int u^2 / (1 + beta (u - u^3)) du from -1 to 1,
+///            beta <= 1; beyond it from -1/beta, where the force ends, and
+///            times 1/beta: with E = m v^2 / 2 + W and v = u sqrt(2 E / m),
+///            dE/du depends neither on f = dW/dd nor on m and the speed
+/// @param restitution e in [0, 1] [-]
+/// @return beta [-]: 0 at e = 1, about 3/2 (1 - e) near it, 7.17 at the least
+/// @throws ContractError for a value outside its range.
+[[nodiscard]] double find_restitution_factor(double restitution);
+
 }  // namespace limber
