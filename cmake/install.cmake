@@ -32,6 +32,7 @@ endforeach()
 set(public_headers
   limber.hpp
   common/errors.hpp
+  common/restitution.hpp
   common/rotation.hpp
   contact/contact_pair.hpp
   contact/law/bristle_friction.hpp

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "limber/common/errors.hpp"
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
-#include "limber/contact/meetings.hpp"
 #include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
+#include "limber/contact/touch.hpp"
 
 namespace limber::contact {
 namespace {
@@ -33,6 +34,22 @@ double check_masses(const ContactSide& A, const ContactSide& B) {
   const double mass = find_reduced_mass(A.mass, B.mass);
   if (std::isfinite(mass)) return mass;
   throw InputError("contact: neither side can move");
+}
+
+// Of which normal forces turn the body.
+bool is_turned(const Shape& shape) {
+  const bool is_ball = std::holds_alternative<Sphere>(shape.kind);
+  return !is_ball || !shape.X_BS.p.isZero(0.0);
+}
+
+FreeBody make_free_body(const ContactSide& side,
+                        const ContactParameters& parameters) {
+  const bool is_damped = parameters.restitution < 1.0 && !parameters.damping;
+  if (is_damped && std::isfinite(side.mass) && is_turned(side.shape) &&
+      side.inertia_B.isZero(0.0)) {
+    throw InputError("contact: restitution needs the inertia of both bodies");
+  }
+  return {side.mass, side.inertia_B};
 }
 
 SurfacePlace to_place(const PlaceMemory& memory) {
@@ -80,6 +97,8 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
                          const ContactParameters& parameters)
     : A_(std::move(side_A)),
       B_(std::move(side_B)),
+      free_A_(make_free_body(A_, parameters)),
+      free_B_(make_free_body(B_, parameters)),
       parameters_(parameters),
       shapes_(A_.shape, B_.shape, !parameters.radius && !parameters.stiffness),
       law_(parameters, find_pair_moduli(A_.material, B_.material),
@@ -126,6 +145,8 @@ void ContactPair::describe_parameters(Manifest& out) const {
     out.within(name, [&] {
       describe(out, "shape", side.shape);
       out.add("mass [kg]", side.mass);
+      const Matrix3& J = side.inertia_B;
+      out.add("inertia [kg m^2]", {J.data(), J.data() + J.size()}, "3 x 3");
       if (!side.material) return;
       out.add("youngs modulus [Pa]", side.material->youngs_modulus);
       out.add("poisson ratio", side.material->poisson_ratio);
@@ -216,17 +237,6 @@ bool ContactPair::touches(const Meeting& meeting, std::size_t i,
   return !(pads.force[static_cast<Eigen::Index>(i)] <= 0.0);
 }
 
-PointResponse ContactPair::respond(const PointMotion& motion, std::size_t i,
-                                   const PadLaw::Response& pads,
-                                   const PointMemory& before) const {
-  if (!is_pad(i)) return law_.evaluate(motion, before);
-  const auto pad = static_cast<Eigen::Index>(i);
-  PointResponse response = law_.evaluate(
-      motion, ElasticForce{pads.force[pad], pads.stiffness(pad, pad)}, before);
-  response.area = pads_->area(i);
-  return response;
-}
-
 HertzLaw ContactPair::find_law(const Meeting& meeting, double share) const {
   return law_.find_law(meeting.curvature,
                        find_residual(A_.shape, meeting.on_A) +
@@ -239,25 +249,10 @@ void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
                            joints::PairResponse& out) const {
   Meetings meetings(count_features());
   meet(bodies, 0.0, memory, meetings.all());
-  PadLaw::Response pads;
-  evaluate_pads(meetings.all(), pads);
-  out.energy += pads.energy;
-  CoupledPads points;
-  for (std::size_t i = 0; i < count_features(); ++i) {
-    const Meeting& meeting = meetings[i];
-    if (!touches(meeting, i, pads)) continue;
-    const std::size_t at = out.points().size();
-    joints::PairPoint& point = out.add();
-    const PointMemory known = load_memory(numbers_of(i, memory));
-    const PointMotion motion = place(bodies, meeting, known, now.t, point);
-    const PointMemory before = recall(known, meeting, i, motion.rate());
-    const PointResponse response = respond(motion, i, pads, before);
-    set_response(response, point, out);
-    out.energy += response.energy;
-    if (is_pad(i)) points.add(at, i, response.by_elastic_W, meeting.normal_W);
-    if (twist_) add_twist(bodies, meeting, response, now.t - before.time, out);
-  }
-  points.couple(pads, out);
+  Touch touch;
+  gather(bodies, now.t, memory, meetings.all(), touch, out);
+  out.energy += touch.pads.energy;
+  respond(bodies, now.t, meetings.all(), touch, out);
 }
 
 void ContactPair::commit_twist(const PairBodies& bodies, const Meeting& meeting,
@@ -274,25 +269,23 @@ void ContactPair::commit(const PairBodies& bodies, double t,
                          joints::PairResponse& scratch) const {
   Meetings meetings(count_features());
   meet(bodies, 0.0, memory, meetings.all());
-  PadLaw::Response pads;
-  evaluate_pads(meetings.all(), pads);
   scratch.clear();
-  joints::PairPoint& point = scratch.add();
+  Touch touch;
+  gather(bodies, t, memory, meetings.all(), touch, scratch);
+  const DampingRate damping = find_damping(bodies, touch);
   for (std::size_t i = 0; i < count_features(); ++i) {
-    const Meeting& meeting = meetings[i];
-    const std::span<double> numbers = numbers_of(i, memory);
-    PointMemory next;
-    if (touches(meeting, i, pads)) {
-      const PointMemory known = load_memory(numbers);
-      const PointMotion motion = place(bodies, meeting, known, t, point);
-      const PointResponse response =
-          respond(motion, i, pads, recall(known, meeting, i, motion.rate()));
-      next = response.next;
-      if (twist_) commit_twist(bodies, meeting, response.normal_force, next);
-      next.on_A = to_memory(meeting.on_A, point.on_A);
-      next.on_B = to_memory(meeting.on_B, point.on_B);
-    }
-    save_memory(next, numbers);
+    save_memory({}, numbers_of(i, memory));
+  }
+  for (const TouchingPoint& at : touch.points.all()) {
+    const Meeting& meeting = meetings[at.feature];
+    const joints::PairPoint& point = scratch.points()[at.point];
+    const PointResponse response =
+        law_.evaluate(at.motion, at.elastic.force, damping, at.before);
+    PointMemory next = response.next;
+    if (twist_) commit_twist(bodies, meeting, response.normal_force, next);
+    next.on_A = to_memory(meeting.on_A, point.on_A);
+    next.on_B = to_memory(meeting.on_B, point.on_B);
+    save_memory(next, numbers_of(at.feature, memory));
   }
 }
 
@@ -375,26 +368,23 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
                                        joints::PairResponse& scratch) const {
   Meetings meetings(count_features());
   meet(bodies, 0.0, memory, meetings.all());
-  PadLaw::Response pads;
-  evaluate_pads(meetings.all(), pads);
   scratch.clear();
-  joints::PairPoint& point = scratch.add();
+  Touch touch;
+  gather(bodies, now.t, memory, meetings.all(), touch, scratch);
+  const DampingRate damping = find_damping(bodies, touch);
   joints::TouchReading reading;
-  reading.energy = pads.energy;
+  reading.energy = touch.pads.energy;
   double largest = -1.0;
-  for (std::size_t i = 0; i < count_features(); ++i) {
-    const Meeting& meeting = meetings[i];
-    if (!touches(meeting, i, pads)) continue;
-    const PointMemory known = load_memory(numbers_of(i, memory));
-    const PointMotion motion = place(bodies, meeting, known, now.t, point);
+  for (const TouchingPoint& at : touch.points.all()) {
+    const Meeting& meeting = meetings[at.feature];
     const PointResponse response =
-        respond(motion, i, pads, recall(known, meeting, i, motion.rate()));
+        law_.evaluate(at.motion, at.elastic.force, damping, at.before);
     ++reading.points;
     reading.normal_force += response.normal_force;
     reading.force_W += response.force_W;
     reading.friction_W += response.friction_W;
-    reading.energy += response.energy;
-    reading.area += response.area;
+    reading.energy += at.elastic.energy + response.energy;
+    reading.area += at.elastic.area;
     reading.depth = std::max(reading.depth, meeting.depth);
     reading.slips = reading.slips || response.slips;
     if (response.normal_force <= largest) continue;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "limber/contact/effective_mass.hpp"
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/materials.hpp"
 #include "limber/contact/law/point_law.hpp"
@@ -14,33 +15,41 @@
 
 namespace limber::contact {
 
+struct Touch;
+
 /// One of the two bodies of a contact.
 struct ContactSide {
   Shape shape;
   std::optional<SurfaceMaterial> material;  ///< none: rigid
   double mass = 0.0;  ///< of the body; infinity of the world [kg]
+  /// Of the body, about Bo, its centre of mass; zero of the world, and of
+  /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
+  Matrix3 inertia_B = Matrix3::Zero();
 };
 
 /// Contact of two shapes: at each of their features a normal force, which
 /// stores energy and is damped to a restitution, and friction.
 ///
-/// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth,
-///            k for 1/R_e = the sum of both curvatures, R = R_A + R_B the
-///            residual flexibilities of both bases there; t of a bristle
-///            within mu f; for a flat surface of a flexible body on a plane,
-///            a face of a box, an end of a cylinder or another flat surface
-///            the forces of its pads (PadContact); for shapes that touch at one
-///            place also PointTwist, against rotation about
-///            the normal
+/// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth
+///            with one s of all features that touch (find_damping), k for 1/R_e
+///            = the sum of both curvatures, R = R_A + R_B the residual
+///            flexibilities of both bases there; t of a bristle within mu f;
+///            for a flat surface of a flexible body on a plane, a face of a
+///            box, an end of a cylinder or another flat surface the forces of
+///            its pads (PadContact); for shapes that touch at one place also
+///            PointTwist, against rotation about the normal
 /// Source     docs/theory/contact_laws.md
-/// Limits     the tangent takes the normal as constant; shapes that touch at
-///            several features have no torsional friction at each of them
+/// Limits     bodies in joints are damped as free, flexible ones as rigid; the
+///            tangent takes the normal and the damping by other features as
+///            constant; shapes that touch at several features have no torsional
+///            friction at each of them
 class ContactPair final : public joints::PairInteraction,
                           public joints::Touching {
  public:
   /// @throws InputError, without the pair's name, for a value outside its
-  /// range, shapes that have no rule for each other, and two sides of which
-  /// neither has a finite mass.
+  /// range, shapes that have no rule for each other, two sides of which neither
+  /// has a finite mass, and a restitution of a body that may turn without
+  /// inertia.
   ContactPair(ContactSide side_A, ContactSide side_B,
               const ContactParameters& parameters);
 
@@ -114,9 +123,19 @@ class ContactPair final : public joints::PairInteraction,
   [[nodiscard]] PointMemory recall(const PointMemory& memory,
                                    const Meeting& meeting, std::size_t i,
                                    double rate) const;
-  [[nodiscard]] PointResponse respond(const PointMotion& motion, std::size_t i,
-                                      const PadLaw::Response& pads,
-                                      const PointMemory& before) const;
+  [[nodiscard]] ElasticPoint find_elastic(const PointMotion& motion,
+                                          std::size_t i,
+                                          const PadLaw::Response& pads) const;
+  // Finds all that touches, and adds a point to `out` for each.
+  void gather(const joints::PairBodies& bodies, double t,
+              std::span<const double> memory, std::span<const Meeting> meetings,
+              Touch& touch, joints::PairResponse& out) const;
+  [[nodiscard]] DampingRate find_damping(const joints::PairBodies& bodies,
+                                         const Touch& touch) const;
+  // Sets the forces and tangents of the touch's points.
+  void respond(const joints::PairBodies& bodies, double t,
+               std::span<const Meeting> meetings, const Touch& touch,
+               joints::PairResponse& out) const;
   [[nodiscard]] bool touches(const Meeting& meeting, std::size_t i,
                              const PadLaw::Response& pads) const;
   // The meetings of a step's begin, middle and end.
@@ -125,17 +144,18 @@ class ContactPair final : public joints::PairInteraction,
     std::span<const Meeting> middle;
     std::span<const Meeting> end;
   };
-  void evaluate_pads_over_step(const joints::PairStep& step,
-                               const StepMeetings& meetings,
-                               std::span<const double> memory,
-                               joints::PairResponse& out) const;
+  void add_pads_over_step(const joints::PairStep& step,
+                          const StepMeetings& meetings,
+                          std::span<const double> memory, Touch& touch,
+                          joints::PairResponse& out) const;
   [[nodiscard]] PointMotion place(const joints::PairBodies& bodies,
                                   const Meeting& meeting,
                                   const PointMemory& memory, double t,
                                   joints::PairPoint& point) const;
   [[nodiscard]] HertzLaw find_law(const Meeting& meeting, double share) const;
-  // The elastic force over a step that balances the energies of both ends.
-  [[nodiscard]] ElasticForce find_step_force(const joints::PairStep& step,
+  // The force over a step that balances the energies of both ends, and the mean
+  // of these.
+  [[nodiscard]] ElasticPoint find_step_force(const joints::PairStep& step,
                                              const PointMotion& motion,
                                              const joints::PairPoint& point,
                                              const Meeting& begin,
@@ -143,6 +163,8 @@ class ContactPair final : public joints::PairInteraction,
 
   ContactSide A_;
   ContactSide B_;
+  FreeBody free_A_;
+  FreeBody free_B_;
   ContactParameters parameters_;
   ShapePair shapes_;
   PointLaw law_;

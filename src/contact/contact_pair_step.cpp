@@ -1,14 +1,14 @@
-// SPDX-License-Identifier: BSD-3-Clause ContactPair over a step of the
-// energy-conserving scheme.
+// SPDX-License-Identifier: BSD-3-Clause
+// ContactPair over a step of the energy-conserving scheme.
 #include <algorithm>
 #include <cmath>
 
 #include "limber/contact/contact_pair.hpp"
 #include "limber/contact/feature_slots.hpp"
 #include "limber/contact/meeting_order.hpp"
-#include "limber/contact/meetings.hpp"
 #include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
+#include "limber/contact/touch.hpp"
 
 namespace limber::contact {
 namespace {
@@ -30,7 +30,7 @@ Meeting carry(const Shape& A, const Shape& B, const joints::PairBodies& bodies,
 
 }  // namespace
 
-ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
+ElasticPoint ContactPair::find_step_force(const joints::PairStep& step,
                                           const PointMotion& motion,
                                           const joints::PairPoint& point,
                                           const Meeting& begin,
@@ -38,7 +38,10 @@ ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
   const HertzLaw::StepResponse mean =
       law_.find_law(motion.curvature, motion.residual, motion.share)
           .evaluate_over_step(begin.depth, end.depth);
-  ElasticForce elastic{mean.force, mean.stiffness};
+  const auto first = find_law(begin, begin.share).evaluate(begin.depth);
+  const auto last = find_law(end, end.share).evaluate(end.depth);
+  ElasticPoint elastic{.force = {mean.force, mean.stiffness, 0.5 * last.force},
+                       .energy = 0.5 * (first.energy() + last.energy())};
   // Motion and energies are nearly those of that law: the normal rotates, and
   // curvature and residual vary.
   const Vector3 way = (find_position(step.end.B, point.on_B) -
@@ -46,11 +49,9 @@ ElasticForce ContactPair::find_step_force(const joints::PairStep& step,
                       (find_position(step.end.A, point.on_A) -
                        find_position(step.begin.A, point.on_A));
   const double deepening = -motion.normal_W.dot(way);
-  const double work =
-      find_law(end, end.share).evaluate(end.depth).energy() -
-      find_law(begin, begin.share).evaluate(begin.depth).energy();
+  const double work = last.energy() - first.energy();
   if (std::abs(deepening) > kLeastWay * std::abs(end.depth - begin.depth)) {
-    elastic.force = std::max(work / deepening, 0.0);
+    elastic.force.force = std::max(work / deepening, 0.0);
   }
   return elastic;
 }
@@ -89,12 +90,16 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
   Meetings middle(count_features());
   Meetings end(count_features());
   meet(step, memory, begin.all(), middle.all(), end.all());
+  Touch touch;
   if (pads_) {
-    evaluate_pads_over_step(step, {begin.all(), middle.all(), end.all()},
-                            memory, out);
+    add_pads_over_step(step, {begin.all(), middle.all(), end.all()}, memory,
+                       touch, out);
   }
   for (std::size_t i = shapes_.pad_count(); i < count_features(); ++i) {
     if (!(begin[i].depth > 0.0) && !(end[i].depth > 0.0)) continue;
+    TouchingPoint& at = touch.points.add();
+    at.feature = i;
+    at.point = out.points().size();
     joints::PairPoint& point = out.add();
     // A feature that exists at one instant only.
     const Meeting& known = end[i].depth > 0.0 ? end[i] : begin[i];
@@ -106,31 +111,28 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
     complete(step.begin, begin.all()[i]);
     complete(step.middle, middle.all()[i]);
     complete(step.end, end.all()[i]);
-    const PointMemory before = load_memory(numbers_of(i, memory));
-    const PointMotion motion =
-        place(step.middle, middle[i], before, step.times.middle(), point);
-    const ElasticForce elastic =
-        find_step_force(step, motion, point, begin[i], end[i]);
-    const PointResponse response = law_.evaluate(motion, elastic, before);
-    set_response(response, point, out);
-    if (twist_) {
-      add_twist(step.middle, middle[i], response,
-                step.times.middle() - before.time, out);
-    }
+    at.before = load_memory(numbers_of(i, memory));
+    at.motion =
+        place(step.middle, middle[i], at.before, step.times.middle(), point);
+    at.elastic = find_step_force(step, at.motion, point, begin[i], end[i]);
+    touch.sum(step.middle, middle[i].p_W, at);
   }
+  respond(step.middle, step.times.middle(), middle.all(), touch, out);
 }
 
 // As HertzLaw::evaluate_over_step for all pads together: the mean of the forces
 // at both ends, and the remaining energy by the pads' motion.
-void ContactPair::evaluate_pads_over_step(const joints::PairStep& step,
-                                          const StepMeetings& meetings,
-                                          std::span<const double> memory,
-                                          joints::PairResponse& out) const {
+void ContactPair::add_pads_over_step(const joints::PairStep& step,
+                                     const StepMeetings& meetings,
+                                     std::span<const double> memory,
+                                     Touch& touch,
+                                     joints::PairResponse& out) const {
   PadLaw::Response begin;
   PadLaw::Response end;
   evaluate_pads(meetings.begin, begin);
   evaluate_pads(meetings.end, end);
-  PadLaw::Response mean;
+  PadLaw::Response& mean = touch.pads;
+  touch.motion.energy = 0.5 * (begin.energy + end.energy);
   mean.force = 0.5 * (begin.force + end.force);
   mean.stiffness = 0.5 * end.stiffness;
   PadLaw::Vector ways = PadLaw::Vector::Zero(mean.force.size());
@@ -152,24 +154,23 @@ void ContactPair::evaluate_pads_over_step(const joints::PairStep& step,
     const double left = end.energy - begin.energy - mean.force.dot(ways);
     mean.force += left / square * ways;
   }
-  CoupledPads points;
   for (std::size_t i = 0; i < shapes_.pad_count(); ++i) {
     const auto pad = static_cast<Eigen::Index>(i);
     const Meeting& middle = meetings.middle[i];
     if (middle.depth == Meeting{}.depth) continue;
     if (begin.force[pad] <= 0.0 && end.force[pad] <= 0.0) continue;
     mean.force[pad] = std::max(mean.force[pad], 0.0);
-    const std::size_t at = out.points().size();
-    joints::PairPoint& point = out.add();
+    TouchingPoint& at = touch.points.add();
+    at.feature = i;
+    at.point = out.points().size();
     const PointMemory known = load_memory(numbers_of(i, memory));
-    const PointMotion motion =
-        place(step.middle, middle, known, step.times.middle(), point);
-    const PointMemory before = recall(known, middle, i, motion.rate());
-    const PointResponse response = respond(motion, i, mean, before);
-    set_response(response, point, out);
-    points.add(at, i, response.by_elastic_W, middle.normal_W);
+    at.motion =
+        place(step.middle, middle, known, step.times.middle(), out.add());
+    at.before = recall(known, middle, i, at.motion.rate());
+    at.elastic.force = {mean.force[pad], mean.stiffness(pad, pad),
+                        0.5 * end.force[pad]};
+    touch.sum(step.middle, middle.p_W, at);
   }
-  points.couple(mean, out);
 }
 
 }  // namespace limber::contact

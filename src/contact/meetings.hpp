@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <span>
-#include <type_traits>
 
 #include "limber/common/errors.hpp"
 #include "limber/contact/narrow_phase/meeting.hpp"
+#include "limber/contact/stack_array.hpp"
 
 namespace limber::contact {
 
@@ -18,29 +17,26 @@ class Meetings {
   /// The largest number for any two shapes.
   static constexpr std::size_t kMost = 64;
 
-  explicit Meetings(std::size_t count)
-      : all_(reinterpret_cast<Meeting*>(place_), count) {
-    LIMBER_EXPECT(count > 0 && count <= kMost);
-    std::uninitialized_default_construct(all_.begin(), all_.end());
+  explicit Meetings(std::size_t count) {
+    LIMBER_EXPECT(count > 0);
+    for (std::size_t i = 0; i < count; ++i) all_.add();
   }
-  Meetings(const Meetings&) = delete;  // `all_` points into it
-  Meetings& operator=(const Meetings&) = delete;
 
-  [[nodiscard]] std::span<Meeting> all() { return all_; }
+  [[nodiscard]] std::span<Meeting> all() { return all_.all(); }
+  [[nodiscard]] std::span<const Meeting> all() const { return all_.all(); }
   [[nodiscard]] const Meeting& operator[](std::size_t i) const {
-    return all_[i];
+    return all_.all()[i];
   }
   [[nodiscard]] std::size_t find_deepest() const {
+    const auto all = all_.all();
     const auto deepest = std::max_element(
-        all_.begin(), all_.end(),
+        all.begin(), all.end(),
         [](const Meeting& a, const Meeting& b) { return a.depth < b.depth; });
-    return static_cast<std::size_t>(deepest - all_.begin());
+    return static_cast<std::size_t>(deepest - all.begin());
   }
 
  private:
-  static_assert(std::is_trivially_destructible_v<Meeting>);
-  alignas(Meeting) std::byte place_[kMost * sizeof(Meeting)];
-  std::span<Meeting> all_;
+  StackArray<Meeting, kMost> all_;
 };
 
 }  // namespace limber::contact

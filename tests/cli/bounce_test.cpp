@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,60 @@ INSTANTIATE_TEST_SUITE_P(Steps, Bounces,
                          ::testing::Values("", "tolerance = 1e-3",
                                            "tolerance = 1e-4",
                                            "tolerance = 1e-6", "step = 5e-6"));
+
+/// The speeds of three balls of 30 g of which one strikes two at 1 m/s that are
+/// `gap` apart.
+std::vector<double> strike_cradle(double gap) {
+  const Workspace place;
+  place.write("ball.urdf", kBall);
+  std::string scene =
+      "robot = 'ball.urdf'\n[time]\nduration = 1.5e-3\nstep = 5e-7\n"
+      "output_interval = 1.5e-4\n[output]\npictures = false\n"
+      "[initial.base]\nposition = [0.0, 0.0, 100.0]\n"
+      "[[contact]]\nbetween = ['b?', 'b?']\nfriction = 0.0\n"
+      "restitution = 0.9\n";
+  const std::vector<double> x = {-1e-5, 0.02, 0.04 + gap};
+  for (std::size_t i = 0; i < 3; ++i) {
+    scene += fmt::format(
+        "[[projectile]]\nname = 'b{0}'\nradius = 0.01\nmass = 0.03\n"
+        "position = [{1:.17g}, 0.0, 0.0]\nvelocity = [{2}, 0.0, 0.0]\n"
+        "youngs_modulus = 2e9\npoisson_ratio = 0.3\n"
+        "[[probe]]\nname = 'v{0}'\nlink = 'b{0}'\nquantity = 'velocity'\n",
+        i, x[i], i == 0 ? 1.0 : 0.0);
+  }
+  place.write("s.toml", scene);
+  const CommandResult result = place.limber("run s.toml --out o");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  std::istringstream lines(read_text(place.folder() / "o/probes.csv"));
+  std::string head;
+  std::getline(lines, head);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) last = line;
+  std::istringstream columns(last);
+  std::istringstream names(head);
+  std::vector<double> speeds;
+  std::string value;
+  for (std::string name;
+       std::getline(names, name, ',') && std::getline(columns, value, ',');) {
+    if (name.starts_with('v') && name.ends_with(".x")) {
+      speeds.push_back(std::stod(value));
+    }
+  }
+  return speeds;
+}
+
+// By a Runge-Kutta solution of the springs; a gap of 0 is the limit of small
+// ones.
+TEST(Cradle, OfThreeBallsDoesNotDependOnHowATouchBegan) {
+  for (const double gap : {1e-8, 0.0}) {
+    const std::vector<double> speeds = strike_cradle(gap);
+    ASSERT_EQ(speeds.size(), 3U);
+    EXPECT_NEAR(speeds[0], -0.0374, 1e-3) << gap;
+    EXPECT_NEAR(speeds[1], 0.1316, 1e-3) << gap;
+    EXPECT_NEAR(speeds[2], 0.9058, 1e-3) << gap;
+    EXPECT_NEAR(speeds[0] + speeds[1] + speeds[2], 1.0, 1e-9) << gap;
+  }
+}
 
 TEST(StepsWithoutAChoice, TakeATenThousandthOfTheLargestBodysSize) {
   const Workspace place;

@@ -1,41 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+/// Damping of normal forces by what a touch is at now: nothing is remembered.
 namespace limber::contact {
 
-/// Damping of a normal force, and the restitution that it causes.
-struct ContactDamping {
-  double coefficient = 0.0;  ///< b [s/m]
-  double restitution = 1.0;  ///< of an impact at `speed` [-]
-  double speed = 0.0;        ///< [m/s]
-};
-
-/// Smaller restitutions use the b of this one: the body then keeps 1e-4 of its
-/// energy, and touches for up to 7.2 times as long as without damping. At 0 it
-/// would stop at once, under an infinite force [-].
-inline constexpr double kLeastRestitution = 0.01;
-/// Slower touches use the b of this speed, and so lose less energy: b grows
-/// without bound as 1 / speed, and a contact that begins at rest may be moved
-/// faster afterwards [m/s].
-inline constexpr double kLeastTouchSpeed = 1e-5;
-
-/// The b with which two free bodies that touch at `speed` part at `restitution`
-/// times it, for any masses and elastic law. The result contains the
-/// restitution and the speed that it is for.
-///
-/// Source     find_restitution_damping (common/restitution.hpp)
-/// @param restitution e in [0, 1] [-]
-/// @param speed normal approach at first touch >= 0 [m/s]
-/// @throws InputError for a restitution outside its range; ContractError for a
-/// speed that is.
-[[nodiscard]] ContactDamping find_contact_damping(double restitution,
-                                                  double speed);
-
-/// f and its derivative, of an elastic law: at a depth, or over a step.
+/// f and the derivatives of an elastic law: at a depth, or over a step.
 struct ElasticForce {
   double force = 0.0;      ///< f >= 0 [N]
   double stiffness = 0.0;  ///< df/dd [N/m]
+  /// dW/dd of the energy by which it is damped: f at a depth [N].
+  double energy_slope = 0.0;
 };
+
+/// All points at which two bodies touch, together.
+struct TouchMotion {
+  double force = 0.0;   ///< F = sum f [N]
+  double square = 0.0;  ///< S = sum f d'^2 [N m^2/s^2]
+  double energy = 0.0;  ///< W, elastic [J]
+  double inverse_mass =
+      0.0;  ///< 1/m of both bodies, see TouchCompliance [1/kg]
+
+  void add(const ElasticForce& elastic, double rate, double stored) {
+    force += elastic.force;
+    square += elastic.force * rate * rate;
+    energy += stored;
+  }
+};
+
+/// s with its derivatives.
+struct DampingRate {
+  double s = 0.0;          ///< [s/m]
+  double by_force = 0.0;   ///< ds/dF [s/(m N)]
+  double by_square = 0.0;  ///< ds/dS [s^3/(N m^3)]
+  double by_energy = 0.0;  ///< ds/dW [s/(m J)]
+};
+
+/// Equation   s = beta / sqrt(S / F + 2 W / m); of one point of a free impact
+///            beta / sqrt(d'^2 + 2 W / m), so that its |s d'| <= beta
+/// Source     find_restitution_factor (common/restitution.hpp)
+/// @param factor beta >= 0 [-]
+/// @return all zero of bodies at rest without energy
+[[nodiscard]] DampingRate find_damping(double factor,
+                                       const TouchMotion& motion);
 
 /// A damped normal force.
 struct DampedForce {
@@ -46,13 +52,15 @@ struct DampedForce {
   bool is_cut = false;       ///< whether it would pull, and is 0 instead
 };
 
-/// Equation   force = f max(0, 1 + b d'); dissipation f b d'^2, or -f d' where
-///            the bodies part faster than 1/b: the force is then cut to 0, and
+/// Of one point.
+///
+/// Equation   force = f max(0, 1 + s d'); dissipation f s d'^2, or -f d' where
+///            the bodies part faster than 1/s: the force is then cut to 0, and
 ///            what was stored is lost
-/// Source     [@hunt1975]; the cut as of end stops
+/// Source     [@hunt1975], with the s of find_damping; the cut as of end stops
+/// Limits     the derivatives take the other points of the touch as held
 /// @param rate d', over a step its mean [m/s]
-/// @param coefficient b >= 0 [s/m]
 [[nodiscard]] DampedForce damp(const ElasticForce& elastic, double rate,
-                               double coefficient);
+                               const DampingRate& damping);
 
 }  // namespace limber::contact

@@ -6,11 +6,15 @@
 #include <numbers>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/restitution.hpp"
 #include "limber/contact/law/impact_estimate.hpp"
 #include "limber/contact/law/point_tangent.hpp"
 
 namespace limber::contact {
 namespace {
+
+// Slower touches begin as one of this speed [m/s].
+constexpr double kLeastTouchSpeed = 1e-5;
 
 PointMemory remembered(const PointLaw& law, const PointMotion& motion,
                        const PointMemory& memory) {
@@ -33,6 +37,9 @@ PointLaw::PointLaw(const ContactParameters& parameters,
       tangential_ratio_(moduli ? moduli->tangential_ratio()
                                : kDefaultTangentialRatio) {
   check(parameters);
+  if (!parameters.damping) {
+    factor_ = find_restitution_factor(parameters.restitution);
+  }
   LIMBER_EXPECT(mass > 0.0 && std::isfinite(mass));
   LIMBER_EXPECT(size > 0.0);
 }
@@ -46,17 +53,18 @@ HertzLaw PointLaw::find_law(double curvature, double residual,
     const HertzLaw::Parameters whole = make_default_law(mass_).parameters();
     return HertzLaw({share * whole.stiffness, whole.residual / share});
   }
-  const double radius =
-      parameters_.radius.value_or(1.0 / std::max(curvature, 1.0 / size_));
-  return HertzLaw({share * find_hertz_stiffness(moduli_->normal, radius),
-                   residual / share});
+  const double stiffness =
+      find_hertz_stiffness(moduli_->normal, find_radius(curvature));
+  return HertzLaw({share * stiffness, residual / share});
+}
+
+double PointLaw::find_radius(double curvature) const {
+  return parameters_.radius.value_or(1.0 / std::max(curvature, 1.0 / size_));
 }
 
 PointMemory PointLaw::begin(const HertzLaw& law, double rate) const {
   PointMemory memory;
   memory.speed = std::max(rate, kLeastTouchSpeed);
-  memory.damping = parameters_.damping.value_or(
-      find_contact_damping(parameters_.restitution, memory.speed).coefficient);
   const double v = std::max(memory.speed, kReferenceSpeed);
   memory.tangential_stiffness =
       tangential_ratio_ *
@@ -68,28 +76,30 @@ double PointLaw::find_duration(const HertzLaw& law, double speed) const {
   return estimate_impact(law, mass_, speed).duration;
 }
 
-PointResponse PointLaw::evaluate(const PointMotion& motion,
-                                 const PointMemory& memory) const {
-  const HertzLaw law =
-      find_law(motion.curvature, motion.residual, motion.share);
-  const HertzLaw::Response elastic = law.evaluate(motion.depth);
-  PointResponse out =
-      evaluate(motion, ElasticForce{elastic.force, elastic.stiffness}, memory);
-  out.energy += elastic.energy();
-  const double radius = parameters_.radius.value_or(
-      1.0 / std::max(motion.curvature, 1.0 / size_));
-  out.area = motion.share * std::numbers::pi * radius * elastic.hertz_depth;
-  return out;
+ElasticPoint PointLaw::find_elastic(const PointMotion& motion) const {
+  const HertzLaw::Response elastic =
+      find_law(motion.curvature, motion.residual, motion.share)
+          .evaluate(motion.depth);
+  return {.force = {elastic.force, elastic.stiffness, elastic.force},
+          .energy = elastic.energy(),
+          .area = motion.share * std::numbers::pi *
+                  find_radius(motion.curvature) * elastic.hertz_depth};
+}
+
+DampingRate PointLaw::find_damping(const TouchMotion& touch) const {
+  if (parameters_.damping) return {.s = *parameters_.damping};
+  return contact::find_damping(factor_, touch);
 }
 
 PointResponse PointLaw::evaluate(const PointMotion& motion,
                                  const ElasticForce& elastic,
+                                 const DampingRate& damping,
                                  const PointMemory& memory) const {
   PointResponse out;
   out.next = remembered(*this, motion, memory);
   const double rate = motion.rate();
-  const DampedForce pressed = damp(elastic, rate, out.next.damping);
-  const double grip = std::max(0.0, 1.0 + out.next.damping * rate);
+  const DampedForce pressed = damp(elastic, rate, damping);
+  const double grip = std::max(0.0, 1.0 + damping.s * rate);
   out.normal_force = pressed.force;
   out.dissipation = pressed.dissipation;
   out.force_W = pressed.force * motion.normal_W;

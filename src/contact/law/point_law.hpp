@@ -29,15 +29,21 @@ struct PointMotion {
   [[nodiscard]] double rate() const { return -normal_W.dot(velocity_W); }
 };
 
+/// What one contact point stores.
+struct ElasticPoint {
+  ElasticForce force;
+  double energy = 0.0;  ///< [J]
+  double area = 0.0;    ///< that touches, Hertz's [m^2]
+};
+
 /// Forces on B at one contact point.
 struct PointResponse {
   Vector3 force_W = Vector3::Zero();     ///< normal force and friction [N]
   double normal_force = 0.0;             ///< [N]
   Vector3 friction_W = Vector3::Zero();  ///< [N]
   bool slips = false;
-  double energy = 0.0;                  ///< stored [J]
+  double energy = 0.0;                  ///< stored by friction [J]
   double dissipation = 0.0;             ///< [W]
-  double area = 0.0;                    ///< that touches, Hertz's [m^2]
   Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
   Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]
   /// d force_W / d elastic force, if that depends on other points [-].
@@ -68,13 +74,15 @@ class PointLaw {
   [[nodiscard]] bool has_friction() const { return has_friction_; }
 
   /// @param motion of a point with depth > 0
-  [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
-                                       const PointMemory& memory) const;
+  [[nodiscard]] ElasticPoint find_elastic(const PointMotion& motion) const;
 
-  /// With a given elastic force, such as the mean over a step. `energy` is then
-  /// that of friction alone, `area` 0.
+  /// For all points of a touch; the constant b of the parameters, if there.
+  [[nodiscard]] DampingRate find_damping(const TouchMotion& touch) const;
+
+  /// @param elastic at motion's depth, or the mean over a step
   [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
                                        const ElasticForce& elastic,
+                                       const DampingRate& damping,
                                        const PointMemory& memory) const;
 
   /// The elastic force law for these surfaces; for a share w that of w k and
@@ -90,6 +98,8 @@ class PointLaw {
  private:
   void add_friction(const PointMotion& motion, const DampedForce& pressed,
                     PointResponse& out) const;
+  // R_e [m]
+  [[nodiscard]] double find_radius(double curvature) const;
 
   ContactParameters parameters_;
   std::optional<PairModuli> moduli_;
@@ -97,6 +107,7 @@ class PointLaw {
   double size_;  // [m]
   bool has_friction_;
   double tangential_ratio_;  // k_t / k_n [-]
+  double factor_ = 0.0;      // beta of the restitution [-]
 };
 
 }  // namespace limber::contact

@@ -19,7 +19,6 @@ void visit_numbers(Memory& memory, const Visit& visit) {
     visit(place.v);
   };
   visit(memory.speed);
-  visit(memory.damping);
   visit(memory.tangential_stiffness);
   visit(memory.time);
   visit_vector(memory.bristle.s_S);

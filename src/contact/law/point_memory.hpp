@@ -35,7 +35,6 @@ struct TurnMemory {
 struct PointMemory {
   /// Approach speed at first touch, 0 before it [m/s].
   double speed = 0.0;
-  double damping = 0.0;               ///< b of that speed [s/m]
   double tangential_stiffness = 0.0;  ///< k_t of that speed [N/m]
   double time = 0.0;                  ///< of the last commit [s]
   BristleMemory bristle = {};         ///< in the frame of body B
@@ -48,7 +47,7 @@ struct PointMemory {
 };
 
 /// Number of values in a point's memory.
-inline constexpr std::size_t kPointNumbers = 27;
+inline constexpr std::size_t kPointNumbers = 26;
 
 /// @param numbers kPointNumbers of them
 [[nodiscard]] PointMemory load_memory(std::span<const double> numbers);

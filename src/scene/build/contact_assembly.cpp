@@ -20,8 +20,12 @@
 namespace limber::scene {
 namespace {
 
-double find_mass(const BodyPlan& plan) {
-  return plan.is_world ? kInfinity : plan.mass;
+contact::ContactSide make_side(
+    contact::Shape shape,
+    const std::optional<contact::SurfaceMaterial>& material,
+    const BodyPlan& plan) {
+  if (plan.is_world) return {std::move(shape), material, kInfinity};
+  return {std::move(shape), material, plan.mass, plan.inertia};
 }
 
 const flexbody::ContactSurface& bare_surface(
@@ -155,9 +159,8 @@ ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
         fmt::format("link '{}'", source.name),
         [&] { return make_rigid_shape(collision.geometry, site.X_BF); });
     sides.push_back(
-        {source.name + number,
-         site.body,
-         {shape, source.contact.material, find_mass(sites_.plan_of(link))}});
+        {source.name + number, site.body,
+         make_side(shape, source.contact.material, sites_.plan_of(link))});
   }
   return sides;
 }
@@ -176,10 +179,10 @@ ContactAssembly::Sides ContactAssembly::make_flexible(int link) {
         sides.push_back(
             {surfaces.size() > 1 ? plan.name + "." + name : plan.name,
              sites_.body_of(link, plan.piece),
-             {{skin, Pose{}},
-              contact::SurfaceMaterial{surface.youngs_modulus,
-                                       surface.poisson_ratio},
-              find_mass(plan)}});
+             make_side({skin, Pose{}},
+                       contact::SurfaceMaterial{surface.youngs_modulus,
+                                                surface.poisson_ratio},
+                       plan)});
       });
     }
   }

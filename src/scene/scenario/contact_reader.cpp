@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "limber/common/restitution.hpp"
+
 namespace limber::scene {
 namespace {
 
@@ -69,26 +71,46 @@ ContactSpec read_contact(TomlTable& table, const ContactOptions& otherwise) {
   return contact;
 }
 
+/// The numbers of contacts that are so, of many the first.
+template <typename Is>
+std::vector<std::string> list_contacts(const std::vector<ContactSpec>& contacts,
+                                       Is is_so) {
+  constexpr std::size_t kMostListed = 10;
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (is_so(contacts[i].options)) numbers.push_back(fmt::format("{}", i + 1));
+  }
+  if (numbers.size() <= kMostListed) return numbers;
+  numbers.resize(kMostListed);
+  numbers.emplace_back("...");
+  return numbers;
+}
+
 /// A notice of the contacts without a value, if there are any.
 template <typename Leaves>
 void tell_default(const std::vector<ContactSpec>& contacts, Leaves leaves_out,
                   const char* key, const char* means,
                   std::vector<std::string>& notices) {
-  constexpr std::size_t kMostListed = 10;
-  std::vector<std::string> numbers;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (leaves_out(contacts[i].options))
-      numbers.push_back(fmt::format("{}", i + 1));
-  }
+  const auto numbers = list_contacts(contacts, leaves_out);
   if (numbers.empty()) return;
-  if (numbers.size() > kMostListed) {
-    numbers.resize(kMostListed);
-    numbers.emplace_back("...");
-  }
   notices.push_back(
       fmt::format("no '{}' is given for [[contact]] {}: {}; give it there or "
                   "in [{}]",
                   key, fmt::join(numbers, ", "), means, kDefault));
+}
+
+/// A notice of restitutions that no damping gives.
+void tell_least_restitution(Scenario& scenario) {
+  const auto numbers =
+      list_contacts(scenario.contacts, [](const ContactOptions& o) {
+        return o.restitution.value_or(1.0) < kLeastRestitution;
+      });
+  if (numbers.empty()) return;
+  scenario.warnings.push_back(
+      fmt::format("'restitution' of [[contact]] {} is below {}, and acts as "
+                  "that: the bodies part with {:.2g} % of their energy",
+                  fmt::join(numbers, ", "), kLeastRestitution,
+                  100.0 * kLeastRestitution * kLeastRestitution));
 }
 
 }  // namespace
@@ -115,6 +137,7 @@ void read_contacts(TomlTable& root, Scenario& scenario) {
       scenario.contacts,
       [](const ContactOptions& o) { return !o.restitution && !o.damping; },
       "restitution", "it loses no energy (1)", scenario.warnings);
+  tell_least_restitution(scenario);
 }
 
 }  // namespace limber::scene

@@ -307,13 +307,13 @@ TEST(ContactPair, BalancesTheWorkOfFrictionHoweverFarASpinningBallSinksIn) {
 // Its corners touch at once, and are damped alike.
 TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
   SystemBuilder builder;
-  const auto box = builder.add_rigid_body(
-      "box", {1.0, Vector3(1e-3, 2e-3, 2.5e-3).asDiagonal().toDenseMatrix()});
+  const Matrix3 inertia = Vector3(1e-3, 2e-3, 2.5e-3).asDiagonal();
+  const auto box = builder.add_rigid_body("box", {1.0, inertia});
   builder.add_pair(
       "floor/box", kWorld, box,
       std::make_shared<ContactPair>(
           floor_side(),
-          ContactSide{Shape{Box{{0.05, 0.04, 0.03}}, {}}, kSteel, 1.0},
+          ContactSide{Shape{Box{{0.05, 0.04, 0.03}}, {}}, kSteel, 1.0, inertia},
           ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.5}));
   Scene scene{builder.build(), {}};
   scene.state = make_state(scene.model);
@@ -332,16 +332,16 @@ TEST(ContactPair, LetsABoxThatLandsFlatNeitherTurnNorSlide) {
 TEST(ContactPair, LetsACylinderLeapOffItsRimAsRestitutionSays) {
   const double mass = 1.0;
   const double inertia = 1e-3;
+  const Matrix3 inertias = inertia * Matrix3::Identity();
   SystemBuilder builder;
-  const auto rod =
-      builder.add_rigid_body("rod", {mass, inertia * Matrix3::Identity()});
+  const auto rod = builder.add_rigid_body("rod", {mass, inertias});
   builder.add_pair(
       "table/rod", kWorld, rod,
       std::make_shared<ContactPair>(
           ContactSide{Shape{Box{{0.5, 0.5, 0.1}},
                             Pose{Matrix3::Identity(), {0.0, 0.0, -0.1}}},
                       kSteel, kInfinity},
-          ContactSide{Shape{Cylinder{0.03, 0.05}, {}}, kSteel, mass},
+          ContactSide{Shape{Cylinder{0.03, 0.05}, {}}, kSteel, mass, inertias},
           ContactParameters{.restitution = 0.5}));
   Scene scene{builder.build(), {}};
   scene.state = make_state(scene.model);
@@ -369,18 +369,19 @@ Scene make_block_on_slope(double amplitude) {
   const double mass = 1.0;
   const double slope = 10.0 * kPi / 180.0;
   const Vector3 squares = half.cwiseProduct(half);
+  const Matrix3 inertia =
+      mass / 3.0 *
+      Vector3(squares.y() + squares.z(), squares.x() + squares.z(),
+              squares.x() + squares.y())
+          .asDiagonal()
+          .toDenseMatrix();
   SystemBuilder builder;
-  const auto block = builder.add_rigid_body(
-      "block",
-      {mass, mass / 3.0 *
-                 Vector3(squares.y() + squares.z(), squares.x() + squares.z(),
-                         squares.x() + squares.y())
-                     .asDiagonal()
-                     .toDenseMatrix()});
+  const auto block = builder.add_rigid_body("block", {mass, inertia});
   builder.add_pair(
       "floor/block", kWorld, block,
       std::make_shared<ContactPair>(
-          floor_side(), ContactSide{Shape{Box{half}, {}}, kSteel, mass},
+          floor_side(),
+          ContactSide{Shape{Box{half}, {}}, kSteel, mass, inertia},
           ContactParameters{.friction = {.sliding = 0.3}, .restitution = 0.1}));
   builder.set_gravity(9.81 * Vector3(std::sin(slope), 0.0, -std::cos(slope)));
   if (amplitude > 0.0) {

@@ -67,13 +67,17 @@ inline flexbody::ContactSurface make_end(int modes) {
   return end;
 }
 
+/// Second moments of mass, int r r^T dm [kg m^2].
+inline Matrix3 make_second_moments() {
+  const double side = kMass * kSide * kSide / 12.0;
+  return Vector3(kMass * kLength * kLength / 12.0, side, side).asDiagonal();
+}
+
 inline std::shared_ptr<const flexbody::ReducedBody> make_rod(int modes) {
   auto rod = std::make_shared<flexbody::ReducedBody>();
   rod->name = "rod";
   rod->mass = kMass;
-  const double side = kMass * kSide * kSide / 12.0;
-  rod->integrals.S0 =
-      Vector3(kMass * kLength * kLength / 12.0, side, side).asDiagonal();
+  rod->integrals.S0 = make_second_moments();
   const auto m = static_cast<std::size_t>(modes);
   rod->integrals.S1.assign(m, Matrix3::Zero());
   rod->integrals.S2.assign(m * m, Matrix3::Zero());
@@ -98,8 +102,10 @@ inline std::shared_ptr<const flexbody::ReducedBody> make_rod(int modes) {
 enum class Target { wall, box, rod };
 
 inline ContactSide make_rod_side(int modes) {
+  const Matrix3 S = make_second_moments();
   return {Shape{std::make_shared<const Skin>(make_end(modes)), {}},
-          SurfaceMaterial{kModulus, 0.0}, kMass};
+          SurfaceMaterial{kModulus, 0.0}, kMass,
+          S.trace() * Matrix3::Identity() - S};
 }
 
 /// What is struck fills x < 0; the rod comes along -x.
@@ -130,7 +136,8 @@ inline RodScene make_rod_scene(int modes, Target target,
   } else if (target == Target::box) {
     const auto box = builder.add_rigid_body(
         "box", {.mass = kHeavy, .inertia = kHeavy * Matrix3::Identity()});
-    add_pair(box, {Shape{Box{{0.1, 0.05, 0.04}}, {}}, std::nullopt, kHeavy});
+    add_pair(box, {Shape{Box{{0.1, 0.05, 0.04}}, {}}, std::nullopt, kHeavy,
+                   kHeavy * Matrix3::Identity()});
   } else {
     const auto other = builder.add_flexible_body(
         "other", make_rod(modes), dynamics::Fidelity::coupled, {});

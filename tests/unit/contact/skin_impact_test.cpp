@@ -51,10 +51,11 @@ struct Pair {
         kMass, 0.4 * kMass * kRadius * kRadius * Matrix3::Identity()};
     const auto a = builder.add_rigid_body("a", inertia);
     const auto b = builder.add_rigid_body("b", inertia);
-    builder.add_pair("a/b", a, b,
-                     std::make_shared<ContactPair>(
-                         ContactSide{A, kSteel, kMass},
-                         ContactSide{B, kSteel, kMass}, parameters));
+    builder.add_pair(
+        "a/b", a, b,
+        std::make_shared<ContactPair>(
+            ContactSide{A, kSteel, kMass, inertia.inertia},
+            ContactSide{B, kSteel, kMass, inertia.inertia}, parameters));
     model = builder.build();
     state = dynamics::make_state(model);
     state.bodies[1].p_WB = way;

@@ -227,7 +227,7 @@ TEST(BristleFriction, ThePointsTangentIsTheForcesDerivative) {
     const auto at = [&](const Vector3& u, const Vector3& v) {
       const HertzLaw::Response r = law.evaluate(depth - n.dot(u - u0));
       Point point;
-      point.pressed = damp({r.force, r.stiffness}, -n.dot(v), 0.5);
+      point.pressed = damp({r.force, r.stiffness}, -n.dot(v), {.s = 0.5});
       BristleMotion m = d.motion;
       m.increment_S = u;
       m.velocity_S = v;

@@ -15,9 +15,10 @@ namespace limber::contact::test {
 /// of Dormand and Prince (1980) with 1e-12 a step.
 class TwoBodyImpact {
  public:
-  TwoBodyImpact(const HertzLaw& law, double damping, double mass_A,
+  /// @param factor beta of the damping [-]
+  TwoBodyImpact(const HertzLaw& law, double factor, double mass_A,
                 double mass_B)
-      : law_(law), damping_(damping), mass_A_(mass_A), mass_B_(mass_B) {}
+      : law_(law), factor_(factor), mass_A_(mass_A), mass_B_(mass_B) {}
 
   struct Outcome {
     double duration = 0.0;     // [s]
@@ -83,7 +84,11 @@ class TwoBodyImpact {
 
   [[nodiscard]] DampedForce find_force(const State& x) const {
     const HertzLaw::Response r = law_.evaluate(x[0]);
-    return damp({r.force, r.stiffness}, x[1] - x[2], damping_);
+    const ElasticForce elastic{r.force, r.stiffness, r.force};
+    const double rate = x[1] - x[2];
+    TouchMotion touch{.inverse_mass = 1.0 / mass_A_ + 1.0 / mass_B_};
+    touch.add(elastic, rate, r.energy());
+    return damp(elastic, rate, find_damping(factor_, touch));
   }
 
   [[nodiscard]] State find_rate(const State& x) const {
@@ -122,7 +127,7 @@ class TwoBodyImpact {
   }
 
   HertzLaw law_;
-  double damping_;
+  double factor_;
   double mass_A_;
   double mass_B_;
 };

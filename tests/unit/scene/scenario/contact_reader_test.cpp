@@ -193,6 +193,20 @@ TEST(ContactReader, TellsWhichValuesItTakesForGranted) {
                         "loses no energy (1)"));
 }
 
+TEST(ContactReader, TellsWhichRestitutionsActAsTheLeast) {
+  const Scenario scenario = read(
+      "[contact_default]\nfriction=0.3\n"
+      "[[contact]]\nbetween=['a','b']\nrestitution=0\n"
+      "[[contact]]\nbetween=['a','c']\nrestitution=0.05\n"
+      "[[contact]]\nbetween=['a','d']\nrestitution=0.049\n"
+      "[[contact]]\nbetween=['a','e']\ndamping=0.1\n");
+  ASSERT_EQ(scenario.warnings.size(), 1U);
+  EXPECT_THAT(scenario.warnings[0],
+              HasSubstr("'restitution' of [[contact]] 1, 3 is below 0.05, and "
+                        "acts as that: the bodies part with 0.25 % of their "
+                        "energy"));
+}
+
 TEST(ContactReader, TellsEveryProblemOfAContact) {
   const std::string text = error_of(
       "[contact_default]\nbetween=['a','b']\n"

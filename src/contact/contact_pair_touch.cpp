@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ContactPair's forces of all features that touch, damped together.
+#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/point_numbers.hpp"
+#include "limber/contact/touch.hpp"
+
+namespace limber::contact {
+
+ElasticPoint ContactPair::find_elastic(const PointMotion& motion, std::size_t i,
+                                       const PadLaw::Response& pads) const {
+  if (!is_pad(i)) return law_.find_elastic(motion);
+  const auto pad = static_cast<Eigen::Index>(i);
+  const double force = pads.force[pad];
+  return {.force = {force, pads.stiffness(pad, pad), force},
+          .area = pads_->area(i)};
+}
+
+void ContactPair::gather(const joints::PairBodies& bodies, double t,
+                         std::span<const double> memory,
+                         std::span<const Meeting> meetings, Touch& touch,
+                         joints::PairResponse& out) const {
+  evaluate_pads(meetings, touch.pads);
+  touch.motion.energy = touch.pads.energy;
+  for (std::size_t i = 0; i < count_features(); ++i) {
+    const Meeting& meeting = meetings[i];
+    if (!touches(meeting, i, touch.pads)) continue;
+    TouchingPoint& at = touch.points.add();
+    at.feature = i;
+    at.point = out.points().size();
+    const PointMemory known = load_memory(numbers_of(i, memory));
+    at.motion = place(bodies, meeting, known, t, out.add());
+    at.elastic = find_elastic(at.motion, i, touch.pads);
+    at.before = recall(known, meeting, i, at.motion.rate());
+    touch.sum(bodies, meeting.p_W, at);
+  }
+}
+
+DampingRate ContactPair::find_damping(const joints::PairBodies& bodies,
+                                      const Touch& touch) const {
+  TouchMotion motion = touch.motion;
+  if (motion.force == 0.0) return {};
+  motion.inverse_mass =
+      find_inverse_mass(free_A_, free_B_, bodies, touch.load, motion.force);
+  return law_.find_damping(motion);
+}
+
+void ContactPair::respond(const joints::PairBodies& bodies, double t,
+                          std::span<const Meeting> meetings, const Touch& touch,
+                          joints::PairResponse& out) const {
+  const DampingRate damping = find_damping(bodies, touch);
+  CoupledPads pads;
+  for (const TouchingPoint& at : touch.points.all()) {
+    const Meeting& meeting = meetings[at.feature];
+    const PointResponse response =
+        law_.evaluate(at.motion, at.elastic.force, damping, at.before);
+    set_response(response, out.points()[at.point], out);
+    out.energy += at.elastic.energy + response.energy;
+    if (is_pad(at.feature)) {
+      pads.add(at.point, at.feature, response.by_elastic_W, meeting.normal_W);
+    }
+    if (twist_) add_twist(bodies, meeting, response, t - at.before.time, out);
+  }
+  pads.couple(touch.pads, out);
+}
+
+}  // namespace limber::contact
