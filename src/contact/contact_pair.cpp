@@ -373,6 +373,7 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
   gather(bodies, now.t, memory, meetings.all(), touch, scratch);
   const DampingRate damping = find_damping(bodies, touch);
   joints::TouchReading reading;
+  set_rates(bodies, touch, reading);
   reading.energy = touch.pads.energy;
   double largest = -1.0;
   for (const TouchingPoint& at : touch.points.all()) {

@@ -130,6 +130,8 @@ class ContactPair final : public joints::PairInteraction,
   void gather(const joints::PairBodies& bodies, double t,
               std::span<const double> memory, std::span<const Meeting> meetings,
               Touch& touch, joints::PairResponse& out) const;
+  void set_rates(const joints::PairBodies& bodies, const Touch& touch,
+                 joints::TouchReading& reading) const;
   [[nodiscard]] DampingRate find_damping(const joints::PairBodies& bodies,
                                          const Touch& touch) const;
   // Sets the forces and tangents of the touch's points.

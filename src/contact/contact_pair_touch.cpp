@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ContactPair's forces of all features that touch, damped together.
+#include <algorithm>
+#include <cmath>
+
 #include "limber/contact/contact_pair.hpp"
 #include "limber/contact/point_numbers.hpp"
 #include "limber/contact/touch.hpp"
@@ -42,6 +45,22 @@ DampingRate ContactPair::find_damping(const joints::PairBodies& bodies,
   motion.inverse_mass =
       find_inverse_mass(free_A_, free_B_, bodies, touch.load, motion.force);
   return law_.find_damping(motion);
+}
+
+// k = F^2 / (2 W), that of a spring with the same force and energy.
+void ContactPair::set_rates(const joints::PairBodies& bodies,
+                            const Touch& touch,
+                            joints::TouchReading& reading) const {
+  constexpr double kMostDamping = 4.0;
+  const TouchMotion& motion = touch.motion;
+  if (!(motion.force > 0.0)) return;
+  const double inverse_mass =
+      find_inverse_mass(free_A_, free_B_, bodies, touch.load, motion.force);
+  reading.normal_speed = std::sqrt(motion.square / motion.force);
+  if (!(motion.energy > 0.0)) return;
+  reading.elastic_speed = std::sqrt(2.0 * motion.energy * inverse_mass);
+  reading.frequency = motion.force * inverse_mass / reading.elastic_speed *
+                      std::clamp(law_.damping_factor(), 1.0, kMostDamping);
 }
 
 void ContactPair::respond(const joints::PairBodies& bodies, double t,

@@ -76,6 +76,8 @@ class PointLaw {
   /// @param motion of a point with depth > 0
   [[nodiscard]] ElasticPoint find_elastic(const PointMotion& motion) const;
 
+  /// Of the restitution, as of find_restitution_factor [-].
+  [[nodiscard]] double damping_factor() const { return factor_; }
   /// For all points of a touch; the constant b of the parameters, if there.
   [[nodiscard]] DampingRate find_damping(const TouchMotion& touch) const;
 

@@ -15,7 +15,7 @@ constexpr auto fields_of(const SimulationSettings*) {
   return list_fields("settings", "integrator", "end [s]", "step [s]",
                      "tolerance [m]", "passes", "most steps", "step changes",
                      "output times [s]", "rho_inf", "Newton's tolerance",
-                     "Newton's iterations", "exact modes");
+                     "Newton's iterations", "impact steps", "exact modes");
 }
 
 }  // namespace limber::dynamics

@@ -39,6 +39,9 @@ struct SimulationSettings {
   /// rho_inf = 1.
   double newton_tolerance = 0.0;
   int newton_iterations = 20;  ///< largest number per step
+  /// Steps in half a period of an impact, at least; longer ones are divided
+  /// [-].
+  double impact_steps = 20.0;
   /// Modes of `uncoupled` bodies driven by known loads only are solved in
   /// closed form, without steps (not by explicit_euler, which samples loads).
   bool exact_modes = true;

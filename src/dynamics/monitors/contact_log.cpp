@@ -22,12 +22,6 @@ Vector3 find_rigid_velocity(const joints::PairBody& body, const Vector3& p_W) {
   return body.v_WB_W + w_W.cross(p_W - body.p_WB);
 }
 
-bool is_coarse(const OngoingContact& pair) {
-  return pair.longest_step * TouchWatch::kFewestSteps >
-             pair.record.impact_duration &&
-         pair.record.impact_duration > 0.0;
-}
-
 }  // namespace
 
 ContactLog::ContactLog(const SystemModel& model, IntegratorKind scheme)
@@ -56,7 +50,6 @@ void ContactLog::begin(std::size_t i, const SystemState& state,
   if (record.touches > 0) finished_.push_back(record);
   const Pair& of = model_.pairs[touches.pair_of(i)];
   const joints::PairTouch touch = touches.find_touch(i, state);
-  pair.longest_step = 0.0;
   pair.most_force = {};
   pair.most_depth = {};
   record = {.pair = of.name, .time = state.t, .touches = 1};
@@ -76,7 +69,6 @@ void ContactLog::include(std::size_t i, const SystemState& state,
   if (!touched) begin(i, state, touches);
   if (touched) {
     record.impulse += 0.5 * h * (pair.force + now.normal_force);
-    pair.longest_step = std::max(pair.longest_step, h);
   }
   const bool is_strongest = now.normal_force > record.peak_force;
   pair.most_force.include(now.normal_force, state.t);
@@ -130,16 +122,6 @@ std::vector<ContactRecord> ContactLog::find_records() const {
 }
 
 void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
-  for (const OngoingContact& pair : pairs_) {
-    if (!is_coarse(pair)) continue;
-    warnings.push_back(fmt::format(
-        "contact '{}': the impact at t = {:.6g} s lasts about {:.3g} s, the "
-        "steps are up to {:.3g} s long: its restitution and its peak force are "
-        "not resolved; steps of {:.2g} s would resolve them",
-        pair.record.pair, pair.record.time, pair.record.impact_duration,
-        pair.longest_step,
-        pair.record.impact_duration / TouchWatch::kStepsOfImpact));
-  }
   const std::vector<ContactRecord> records = find_records();
   for (const ImpactSpectrum& spectrum : find_impact_spectra(model_, records)) {
     if (!spectrum.is_enough()) warnings.push_back(describe(spectrum));

@@ -17,7 +17,6 @@ struct OngoingContact {
   bool is_touching = false;
   double force = 0.0;         ///< normal, at the last state [N]
   double left = 0.0;          ///< time of the last leave [s]
-  double longest_step = 0.0;  ///< in which it touched [s]
   RefinedPeak most_force;     ///< of this record, normal [N]
   RefinedPeak most_depth;     ///< of this record [m]
   ContactRecord record = {};  ///< of no touches: there is none
@@ -25,8 +24,7 @@ struct OngoingContact {
 
 constexpr auto fields_of(const OngoingContact*) {
   return list_fields("ongoing contact", "is touching", "force [N]", "left [s]",
-                     "longest step [s]", "largest force [N]",
-                     "largest depth [m]", "record");
+                     "largest force [N]", "largest depth [m]", "record");
 }
 
 /// Records every impact from the ends of all accepted steps.

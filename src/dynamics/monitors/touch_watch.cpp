@@ -278,8 +278,8 @@ TouchWatch::Impact TouchWatch::find_impact(double h, double t) const {
                   h);
 }
 
-double TouchWatch::find_steps_of_touch(double h) const {
-  return describe(find_shortest([](const Watched&) { return true; }), h).steps;
+TouchWatch::Impact TouchWatch::find_touch_in(double h) const {
+  return describe(find_shortest([](const Watched&) { return true; }), h);
 }
 
 TouchWatch::Impact TouchWatch::describe(const Watched* touch, double h) {
@@ -370,6 +370,13 @@ double TouchWatch::find_longest_step(double t) const {
                                  }),
                                  1.0);
   return impact.steps / kStepsOfImpact;
+}
+
+double TouchWatch::find_first_step(double parts) const {
+  const Impact impact = describe(
+      find_shortest([](const Watched& watched) { return watched.steps <= 1; }),
+      1.0);
+  return impact.steps / parts;
 }
 
 void TouchWatch::pass_all(SystemState& state, std::vector<Event>& events) {

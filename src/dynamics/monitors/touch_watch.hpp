@@ -96,6 +96,9 @@ class TouchWatch {
   [[nodiscard]] double impact_duration(std::size_t index) const {
     return pairs_[index].impact_duration;
   }
+  /// T_c / parts of the shortest touch that the last step ended at, or that
+  /// there is from the start; infinite without any [s].
+  [[nodiscard]] double find_first_step(double parts) const;
   /// Longest step that resolves ongoing impacts; infinite without any. A touch
   /// of more than eight times the expected duration is rest [s].
   [[nodiscard]] double find_longest_step(double t) const;
@@ -106,8 +109,8 @@ class TouchWatch {
   /// The shortest ongoing impact. An impact is ongoing for three steps from a
   /// touch, or eight times T_c.
   [[nodiscard]] Impact find_impact(double h, double t) const;
-  /// T_c / h of the shortest touch, an impact or not; infinite without any [-].
-  [[nodiscard]] double find_steps_of_touch(double h) const;
+  /// The shortest touch, an impact or not.
+  [[nodiscard]] Impact find_touch_in(double h) const;
   /// The touch at `state`.
   [[nodiscard]] joints::PairTouch find_touch(std::size_t index,
                                              const SystemState& state);

@@ -22,7 +22,8 @@ constexpr double kSameEvent = 1e-9;
 constexpr int kMostRepeats = 12;
 constexpr double kLeastReduction = 0.999;
 // Largest gain of a step in an impact that it does not resolve, and in an
-// ongoing touch, relative to the energy before it [-].
+// ongoing touch, relative to the energy of the pair and of its bodies' relative
+// motion before it, and the work on these [-].
 constexpr double kMostGain = 1e-3;
 constexpr double kMostGainInTouch = 1e-2;
 
@@ -30,18 +31,22 @@ constexpr double kMostGainInTouch = 1e-2;
 
 EventStepper::EventStepper(const SystemModel& model,
                            const SimulationSettings& settings,
-                           std::vector<Event>& events)
+                           std::vector<Event>& events, double refinement)
     : model_(model),
       integrator_(make_integrator(model, settings)),
       terms_(make_terms(model)),
       watch_(model),
       touches_(model),
+      impacts_(model, settings.impact_steps / refinement),
       limits_(model),
       ends_at_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
       commit_pairs_(model),
       events_(events),
       last_flows_(make_flows(model)),
       flows_(last_flows_) {
+  for (const Pair& pair : model.pairs) {
+    joined_.push_back(find_joined_bodies(pair));
+  }
   using Kind = joints::AxisCoordinate::Kind;
   for (std::size_t c = 0; c < model.couplers.size(); ++c) {
     const auto& coordinates = joints::coordinates_of(model.couplers[c].law);
@@ -92,33 +97,54 @@ void EventStepper::add_between_steps(const EnergyFlows& flows) {
 // resolved one does, the step fails; so does a step longer than an impact in an
 // ongoing touch.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
-  const TouchWatch::Impact impact = touches_.find_impact(h, state.t);
+  TouchWatch::Impact impact = touches_.find_impact(h, state.t);
   const bool damps = integrator_->damp(impact.steps < TouchWatch::kFewestSteps);
   const bool is_impact = impact.steps < TouchWatch::kSureSteps;
-  if (!is_impact && !(touches_.find_steps_of_touch(h) < 1.0)) {
+  if (!is_impact) impact = touches_.find_touch_in(h);
+  if (!is_impact && !(impact.steps < 1.0)) {
     const StepResult result = integrator_->step(state, h, end);
     last_flows_ = integrator_->flows();
     return result;
   }
   const double before = calc_energy(model_, state, terms_).total();
+  const double own_before = find_touch_energy(impact.pair, state);
   StepResult result = integrator_->step(state, h, end);
   last_flows_ = integrator_->flows();
   const double after = calc_energy(model_, state, terms_).total();
   const double gained = after + result.dissipated - result.load_work - before;
+  const Eigen::Index row =
+      EnergyRows(model_).pairs + static_cast<Eigen::Index>(impact.pair);
+  double own_gain = find_touch_energy(impact.pair, state) - own_before +
+                    last_flows_.dissipated[row];
+  double at_stake = own_before;
+  for (const BodyIndex b : joined_[impact.pair]) {
+    if (b == kWorld) continue;
+    own_gain += last_flows_.dissipated[b] - last_flows_.supplied[b];
+    at_stake += std::abs(last_flows_.supplied[b]);
+  }
   const double most = is_impact ? kMostGain : kMostGainInTouch;
-  if (gained > most * (before + std::abs(result.load_work))) {
+  if (gained > most * at_stake) {
     take_back(state);
     throw NumericalError(fmt::format(
         "a step of {:.3g} s at t = {:.9g} s, too long for the contact in it, "
         "gains {:.3g} J",
         h, state.t, gained));
   }
-  if (damps && gained < 0.0) {
-    result.dissipated -= gained;
-    last_flows_.dissipated[EnergyRows(model_).pairs +
-                           static_cast<Eigen::Index>(impact.pair)] -= gained;
+  // Not what other bodies lose.
+  const double lost = std::max(std::min(-gained, -own_gain), 0.0);
+  if (damps) {
+    result.dissipated += lost;
+    last_flows_.dissipated[row] += lost;
   }
   return result;
+}
+
+// Stored in a pair, and in the motion of its bodies beside each other.
+// `terms_` are those of `state`.
+double EventStepper::find_touch_energy(std::size_t pair,
+                                       const SystemState& state) const {
+  return terms_.pairs.responses[pair].energy +
+         find_relative_kinetic(model_, state, joined_[pair]);
 }
 
 // Takes a step; costs of a reverted step remain in `last_`.
@@ -138,12 +164,18 @@ void EventStepper::advance(SystemState& state, double h, double end) {
 }
 
 void EventStepper::attempt(SystemState& state, double h, double end) {
-  touches_.check_step(h, state.t);
+  h_ = impacts_.limit(h, touches_);
+  touches_.check_step(h_, state.t);
   touches_.mark_apart(state);
   if (keeps_before_) before_ = state;
   last_ = {};
-  h_ = h;
-  advance(state, h, end);
+  advance(state, h_, h_ < h ? state.t + h_ : end);
+  while (const auto shorter =
+             impacts_.find_shorter(before_, state, h_, touches_)) {
+    take_back(state);
+    h_ = *shorter;
+    advance(state, h_, state.t + h_);
+  }
 }
 
 void EventStepper::take_back(SystemState& state) {
@@ -186,6 +218,7 @@ bool EventStepper::advance_to(double share, SystemState& state) {
 }
 
 void EventStepper::settle(SystemState& state, double nominal_h) {
+  impacts_.accept(h_);
   if (watch_.is_empty() && touches_.is_empty() && !ends_at_limits_) {
     add_last();
     return;
@@ -224,10 +257,9 @@ void EventStepper::settle(SystemState& state, double nominal_h) {
 void EventStepper::check_deep_touch(std::size_t index, SystemState& state) {
   if (touches_.is_touching(index)) return;
   const joints::TouchReading touch = touches_.read(index, state);
-  const double stored = calc_energy(model_, state, terms_).total();
-  if (!(touch.energy > kMostGain * (stored + std::abs(totals_.load_work)))) {
-    return;
-  }
+  const JoinedBodies& bodies = joined_[touches_.pair_of(index)];
+  const double at_stake = find_relative_kinetic(model_, state, bodies);
+  if (!(touch.energy > kMostGain * at_stake)) return;
   const double t = state.t;
   take_back(state);
   throw NumericalError(fmt::format(
@@ -292,6 +324,7 @@ void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   integrator_->exchange_memory(archive, state);
   watch_.exchange_memory(archive);
   touches_.exchange_memory(archive);
+  impacts_.exchange_memory(archive);
   archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
           totals_.dissipated, flows_.supplied, flows_.dissipated);
   if (keeps_before_) before_ = state;

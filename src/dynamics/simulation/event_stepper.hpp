@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/integrators/make_integrator.hpp"
 #include "limber/dynamics/monitors/event_watch.hpp"
+#include "limber/dynamics/monitors/impact_steps.hpp"
 #include "limber/dynamics/monitors/limit_crossing.hpp"
 #include "limber/dynamics/monitors/touch_watch.hpp"
 #include "limber/dynamics/simulation/damper_impulse.hpp"
@@ -29,8 +31,9 @@ namespace limber::dynamics {
 class EventStepper {
  public:
   /// @param events new events are added here; stored by reference
+  /// @param refinement of steps in impacts, see StepControl [-]
   EventStepper(const SystemModel& model, const SimulationSettings& settings,
-               std::vector<Event>& events);
+               std::vector<Event>& events, double refinement = 1.0);
 
   /// Initialises before the first step, of about `h` [s]. Latches within reach
   /// close; for implicit schemes apply_damper_impulse() changes velocities.
@@ -39,8 +42,9 @@ class EventStepper {
   /// Prepares for the next step, of about h [s], at a discontinuity of a load.
   void cross_jump(const SystemState& state, double h);
 
-  /// Advances `state` by h [s], to the time `end` [s], ignoring events. Either
-  /// `take_back` or `settle` must follow.
+  /// Advances `state` by h [s], to the time `end` [s], or by less if bodies
+  /// strike each other, ignoring events. Either `take_back` or `settle` must
+  /// follow.
   /// @throws NumericalError naming the body or coupler and the time; `state` is
   /// unchanged.
   void attempt(SystemState& state, double h, double end);
@@ -53,6 +57,8 @@ class EventStepper {
   /// Adds work and losses between two steps.
   void add_between_steps(const EnergyFlows& flows);
 
+  /// Length of the attempted step [s].
+  [[nodiscard]] double length() const { return h_; }
   /// Result of the last attempted step.
   [[nodiscard]] const StepResult& last() const { return last_; }
   /// State at its beginning; stored if there are switches or steps may be
@@ -63,6 +69,10 @@ class EventStepper {
   /// Energies of totals() by what they belong to, without that of an impulse at
   /// the start.
   [[nodiscard]] const EnergyFlows& flows() const { return flows_; }
+  /// A pair whose impacts get longer steps than resolve them, once.
+  [[nodiscard]] std::optional<std::size_t> take_excess() {
+    return impacts_.take_excess();
+  }
   /// Which pairs touch.
   [[nodiscard]] TouchWatch& touches() { return touches_; }
 
@@ -90,6 +100,8 @@ class EventStepper {
   };
   void advance(SystemState& state, double h, double end);
   StepResult take_step(SystemState& state, double h, double end);
+  [[nodiscard]] double find_touch_energy(std::size_t pair,
+                                         const SystemState& state) const;
   void pass(const EventWatch::Crossing& crossing, SystemState& state, double h);
   void pass_all_at_end(SystemState& state, double h);
   // @throws NumericalError if a touch adds energy, or a leave is not genuine;
@@ -107,9 +119,11 @@ class EventStepper {
   SystemTerms terms_;  // of energies
   EventWatch watch_;
   TouchWatch touches_;
+  ImpactSteps impacts_;
   LimitCrossing limits_;
   bool ends_at_limits_ = false;  // with a tolerance
   std::vector<Angle> angles_;
+  std::vector<JoinedBodies> joined_;  // of each pair
   PairCommit commit_pairs_;
   std::vector<Event>& events_;
   bool is_implicit_ = false;

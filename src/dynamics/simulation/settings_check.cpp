@@ -122,6 +122,7 @@ void check_settings(const SystemModel& model, const SystemState& state,
   if (!(settings.rho_inf >= 0.0) || !(settings.rho_inf <= 1.0)) {
     refuse(fmt::format("rho_inf is {:g}; expected 0 to 1", settings.rho_inf));
   }
+  if (!(settings.impact_steps >= 1.0)) refuse("impact_steps must be >= 1");
   if (!(settings.newton_tolerance >= 0.0) || settings.newton_iterations < 1) {
     refuse("newton_tolerance must be >= 0, newton_iterations > 0");
   }

@@ -61,7 +61,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       outputs_(find_outputs_after(state.t, settings)),
       refinement_(refinement),
       oscillations_(find_oscillations(model)),
-      stepper_(model, settings, statistics.events),
+      stepper_(model, settings, statistics.events, refinement),
       sampling_(model, state.t),
       control_(make_budget(settings, state.t), settings.step, refinement),
       peaks_(model, followed),
@@ -210,6 +210,13 @@ void TimeLoop::tell(RunRecord& record) {
   record.contacts = contacts_.find_records();
   audit_.add_warnings(statistics_.warnings);
   contacts_.add_warnings(statistics_.warnings);
+  if (const auto pair = stepper_.take_excess()) {
+    statistics_.warnings.push_back(fmt::format(
+        "contact '{}': a step got 200 parts for the impacts in it, and its "
+        "rest was taken at once: their restitution may be wrong; take shorter "
+        "steps, softer contacts or fewer impact_steps",
+        model_.pairs[*pair].name));
+  }
 }
 
 // Plans the steps to the next breakpoint.

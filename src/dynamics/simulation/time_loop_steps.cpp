@@ -162,7 +162,7 @@ bool TimeLoop::take_free_step(SystemState& state, const Visit& visit) {
   const std::size_t events = statistics_.events.size();
   const bool has_moved = goes_through(state, h_, [&] {
     stepper_.attempt(state, h_, h_ == left ? mark : state.t + h_);
-    counts = control_.accepts(h_, stepper_.last().error);
+    counts = control_.accepts(stepper_.length(), stepper_.last().error);
     counts ? stepper_.settle(state, h_) : stepper_.take_back(state);
   });
   if (!has_moved) {

@@ -34,8 +34,15 @@ struct TouchReading {
   double depth = 0.0;                  ///< largest [m]
   double area = 0.0;                   ///< of all points' [m^2]
   double energy = 0.0;                 ///< stored [J]
-  int points = 0;                      ///< that touch, count
-  bool slips = false;                  ///< whether one does
+  /// Of the vibration of both bodies on this touch, at least the rate at which
+  /// its damper acts [rad/s].
+  double frequency = 0.0;
+  double normal_speed = 0.0;  ///< root mean square of all points' [m/s]
+  /// At which both bodies have as much kinetic energy as the touch has elastic
+  /// energy [m/s].
+  double elastic_speed = 0.0;
+  int points = 0;      ///< that touch, count
+  bool slips = false;  ///< whether one does
   /// The part of force_W that is friction [N].
   Vector3 friction_W = Vector3::Zero();
 };

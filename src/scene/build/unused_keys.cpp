@@ -83,6 +83,9 @@ class Finder {
       tell("time", "newton_tolerance", why);
       tell("time", "newton_iterations", why);
     }
+    if (scenario_.contacts.empty()) {
+      tell("time", "impact_steps", "there is no contact");
+    }
     if (time.tolerance == 0.0) {
       tell("time", "most_steps", "it limits steps to a tolerance alone");
     }

@@ -183,6 +183,9 @@ dynamics::SimulationSettings read_time_settings(
           .value_or(settings.newton_tolerance);
   settings.newton_iterations = table.integer("newton_iterations", 1, 10000)
                                    .value_or(settings.newton_iterations);
+  settings.impact_steps =
+      table.number("impact_steps", {4.0, 1000.0, false, false})
+          .value_or(settings.impact_steps);
   settings.most_steps = table.integer("most_steps", 1, 1'000'000'000)
                             .value_or(settings.most_steps);
   settings.exact_modes =

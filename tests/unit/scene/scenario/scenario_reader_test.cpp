@@ -49,6 +49,16 @@ TEST(ScenarioReader, ReadsHowManyStepsAToleranceMayTake) {
   EXPECT_EQ(scenario.settings.most_steps, 5000);
 }
 
+TEST(ScenarioReader, ReadsHowManyStepsAnImpactGets) {
+  const std::string time = "robot='r.urdf'\n[time]\nduration=1.0\nstep=0.1\n";
+  EXPECT_EQ(read(time).settings.impact_steps, 20.0);
+  EXPECT_EQ(read(time + "impact_steps=48\n").settings.impact_steps, 48.0);
+  for (const char* value : {"3.9", "1001", "nan", "'12'"}) {
+    EXPECT_THROW(read(time + "impact_steps=" + value + "\n"), InputError)
+        << value;
+  }
+}
+
 TEST(ScenarioReader, TellsWhereStepsAreLongerThanTheOutputInterval) {
   const auto warnings = [](const std::string& time) {
     return read("robot='r.urdf'\n[time]\nduration=1.0\n" + time).warnings;

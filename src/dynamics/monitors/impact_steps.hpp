@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "limber/common/records/archive.hpp"
+#include "limber/dynamics/monitors/touch_watch.hpp"
+#include "limber/dynamics/system/system_state.hpp"
+
+namespace limber::dynamics {
+
+/// Shortens steps while bodies strike each other, so that each impact is
+/// resolved whatever the step of a run.
+///
+/// Equation   omega h <= pi / n while a pair is struck, omega the frequency of
+///            its touch at the step's end (TouchReading), n steps a half
+///            period; a touch begins with T_c / n. Struck: approaching or
+///            parting at more than max(|g| h, v / 20), v the speed whose
+///            kinetic energy is the touch's elastic energy; what is slower
+///            rests, as a body on the ground, or in a grip that tightens. After
+///            a step one longer by a quarter is tried.
+/// Limits     a longer step gets at most 200 parts; the rest of it is taken at
+///            once
+class ImpactSteps {
+ public:
+  /// @param steps n, of half a period of a touch > 0 [-]
+  /// @param model stored by reference
+  ImpactSteps(const SystemModel& model, double steps);
+
+  /// Length of the next step, at most h [s].
+  [[nodiscard]] double limit(double h, const TouchWatch& touches);
+  /// A shorter length for the step of `h` from `before` to `after`, if an
+  /// impact in it is not resolved [s].
+  [[nodiscard]] std::optional<double> find_shorter(const SystemState& before,
+                                                   const SystemState& after,
+                                                   double h,
+                                                   TouchWatch& touches);
+  /// Accepts the step last asked about.
+  void accept(double h);
+
+  /// Pair with which a step got more than the most parts, once.
+  [[nodiscard]] std::optional<std::size_t> take_excess();
+
+  /// Saves or restores its state for checkpoints.
+  void exchange_memory(Archive& archive);
+
+ private:
+  const SystemModel& model_;
+  double steps_;
+  double longest_;  // next step [s]
+  int parts_ = 0;   // of the present step of the run, so far
+  // The last step asked about: of its touches the largest omega that counts
+  // [rad/s], and their pair.
+  double frequency_ = 0.0;
+  std::size_t fastest_ = 0;
+  bool has_excess_ = false;
+  bool was_told_ = false;
+};
+
+}  // namespace limber::dynamics
