@@ -8,7 +8,7 @@
 #include "limber/dynamics/analysis/group_motion.hpp"
 #include "limber/dynamics/analysis/principal_basis.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "limber/common/index.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -10,7 +10,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/dynamics/analysis/group_motion.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

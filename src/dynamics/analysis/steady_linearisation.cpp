@@ -6,7 +6,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/analysis/group_motion.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -9,8 +9,8 @@
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/relative_energy.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
 #include "limber/dynamics/newton/newton_measures.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -10,7 +10,7 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/equations.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

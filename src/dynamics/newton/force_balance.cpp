@@ -8,8 +8,8 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
 #include "limber/dynamics/newton/newton_matrix.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {

@@ -6,7 +6,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/mean_frame.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

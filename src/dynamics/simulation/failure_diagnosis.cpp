@@ -13,7 +13,7 @@
 #include "limber/dynamics/integrators/stable_step.hpp"
 #include "limber/dynamics/monitors/hold_watch.hpp"
 #include "limber/dynamics/monitors/linear_limit.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {

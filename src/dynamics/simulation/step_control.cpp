@@ -8,7 +8,7 @@
 #include "limber/dynamics/equations/motion_scale.hpp"
 #include "limber/dynamics/equations/residual.hpp"
 #include "limber/dynamics/newton/force_balance.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {

@@ -12,7 +12,7 @@
 #include "limber/dynamics/analysis/steady_motion.hpp"
 #include "limber/dynamics/analysis/steady_spin.hpp"
 #include "limber/dynamics/monitors/rounding_limit.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/scene/build/assembly.hpp"
 #include "limber/scene/build/contact_assembly.hpp"
 #include "limber/scene/build/link_motion.hpp"

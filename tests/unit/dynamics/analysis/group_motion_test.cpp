@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "limber/dynamics/analysis/natural_frequencies.hpp"
-#include "limber/dynamics/newton/linked_groups.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/joints/joint_kind.hpp"
 
