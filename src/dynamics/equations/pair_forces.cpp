@@ -314,6 +314,13 @@ void apply_pairs(const SystemModel& model, const SystemState& state,
   }
 }
 
+bool has_points(const SystemTerms& terms) {
+  return std::any_of(terms.pairs.responses.begin(), terms.pairs.responses.end(),
+                     [](const joints::PairResponse& response) {
+                       return !response.points().empty();
+                     });
+}
+
 bool acts_on_nodes(const SystemModel& model, const SystemTerms& terms) {
   if (model.full_bodies.empty()) return false;
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {

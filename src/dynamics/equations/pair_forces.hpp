@@ -99,6 +99,9 @@ void add_product_forces(const SystemModel& model, const SystemState& state,
 /// @throws NumericalError if its force, energy or dissipation is not finite.
 void check_finite(const joints::PairResponse& response);
 
+/// Whether a pair has points.
+[[nodiscard]] bool has_points(const SystemTerms& terms);
+
 /// Whether a pair has points on an unreduced body. NewtonMatrix treats such a
 /// body as the world there, so that corrections have to be exact.
 [[nodiscard]] bool acts_on_nodes(const SystemModel& model,

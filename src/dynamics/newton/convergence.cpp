@@ -97,6 +97,11 @@ void NewtonProgress::measure_motion(const SystemState& state,
   groups_.measure_motion(model_, state, terms, motion, motions_);
   for (std::size_t g = 0; g < progress_.size(); ++g) {
     progress_[g].motion = motions_[g];
+    roundoffs_[g] = progress_[g].roundoff;
+  }
+  raise_roundoff_in_contact(model_, groups_, terms, roundoffs_);
+  for (std::size_t g = 0; g < progress_.size(); ++g) {
+    progress_[g].roundoff = roundoffs_[g];
   }
 }
 

@@ -59,10 +59,10 @@ struct GroupProgress {
   [[nodiscard]] bool is_roundoff() const {
     return now.rigid <= roundoff.rigid && now.modal <= roundoff.modal;
   }
-  /// Whether corrections alternate between the faces of a mesh: where one of
-  /// its edges is pressed inwards, the solution for one face makes the other
-  /// one nearest. Then the last correction took the one before back, and is at
-  /// most 1e-3 of the step's motion.
+  /// Whether corrections alternate between two faces of a shape or mesh: where
+  /// an edge between them is pressed inwards, the solution for one face makes
+  /// the other one nearest. Then the last correction took the one before back,
+  /// and is at most 1e-3 of the step's motion.
   [[nodiscard]] bool alternates() const;
 };
 

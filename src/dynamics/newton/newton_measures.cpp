@@ -7,6 +7,7 @@
 
 #include "limber/common/index.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/unknowns.hpp"
 
 namespace limber::dynamics {
@@ -14,12 +15,16 @@ namespace {
 
 // Round-off of a position, relative to its distance from the world origin.
 constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
+// Of what contacts do to a body, relative to its radius of gyration: resting
+// boxes do not come closer.
+constexpr double kContactRoundoff = 1e-14;
 // Forces of a whole mesh are differences of large ones: their round-off moves
 // soft modes by this factor more.
 constexpr double kNodalNoise = 100.0;
 
 double radius_of_gyration_squared(const BodyModel& body) {
-  return 0.5 * body.J0.trace() / body.mass;
+  const double r = radius_of_gyration(body);
+  return r * r;
 }
 
 // Mean square over a body's nodes; zero if it is reduced.
@@ -113,6 +118,21 @@ void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
     largest.rigid =
         std::max({largest.rigid, largest.step, kRoundoff * std::sqrt(reach)});
     largest.modal = std::max(largest.modal, kRoundoff * std::sqrt(bend));
+  }
+}
+
+void raise_roundoff_in_contact(const SystemModel& model,
+                               const MotionGroups& groups,
+                               const SystemTerms& terms,
+                               std::vector<Roundoff>& roundoffs) {
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    if (terms.pairs.responses[i].points().empty()) continue;
+    for (const BodyIndex b : {model.pairs[i].body_A, model.pairs[i].body_B}) {
+      if (b == kWorld) continue;
+      double& rigid = roundoffs[groups.of(index(b))].rigid;
+      rigid = std::max(rigid, kContactRoundoff *
+                                  radius_of_gyration(model.bodies[index(b)]));
+    }
   }
 }
 

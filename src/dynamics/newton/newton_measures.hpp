@@ -57,6 +57,13 @@ void measure_roundoff(const SystemModel& model, const MotionGroups& groups,
                       const SystemState& state, const Rates& motion,
                       std::vector<Roundoff>& roundoffs);
 
+/// Raises that of bodies in contact, in which rotations and small gaps are
+/// differences of places on their surfaces.
+void raise_roundoff_in_contact(const SystemModel& model,
+                               const MotionGroups& groups,
+                               const SystemTerms& terms,
+                               std::vector<Roundoff>& roundoffs);
+
 /// Effect of round-off of frames' motion on the laws' wrenches, as gaps of
 /// NewtonMatrix, one per coupler, then one per transmission. Their solution is
 /// the unavoidable effect of stiff couplers on the motion.
