@@ -161,7 +161,7 @@ std::size_t ContactPair::most_points() const {
 }
 
 std::size_t ContactPair::memory_size() const {
-  return kPointNumbers * count_features();
+  return kPointNumbers * count_features() + kMobilityNumbers;
 }
 
 void ContactPair::check(int modes_A, int modes_B) const {
@@ -208,8 +208,9 @@ void ContactPair::meet(const PairBodies& bodies, double reach,
   if (shapes_.has_loose_features()) follow_memory(memory, out);
   const std::size_t ordered = shapes_.ordered_count();
   if (ordered == out.size()) return;
-  take_slots(memory.subspan(kPointNumbers * ordered), size_,
-             out.subspan(ordered));
+  take_slots(memory.subspan(kPointNumbers * ordered,
+                            kPointNumbers * (out.size() - ordered)),
+             size_, out.subspan(ordered));
 }
 
 void ContactPair::evaluate_pads(std::span<const Meeting> meetings,
@@ -249,7 +250,7 @@ void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
                            joints::PairResponse& out) const {
   Meetings meetings(count_features());
   meet(bodies, 0.0, memory, meetings.all());
-  Touch touch;
+  Touch touch(memory);
   gather(bodies, now.t, memory, meetings.all(), touch, out);
   out.energy += touch.pads.energy;
   respond(bodies, now.t, meetings.all(), touch, out);
@@ -270,7 +271,7 @@ void ContactPair::commit(const PairBodies& bodies, double t,
   Meetings meetings(count_features());
   meet(bodies, 0.0, memory, meetings.all());
   scratch.clear();
-  Touch touch;
+  Touch touch(memory);
   gather(bodies, t, memory, meetings.all(), touch, scratch);
   const DampingRate damping = find_damping(bodies, touch);
   for (std::size_t i = 0; i < count_features(); ++i) {
@@ -356,10 +357,17 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
                             load_memory(numbers_of(deepest, memory)).speed);
 }
 
+void ContactPair::set_mobility(const joints::PairMobility& mobility,
+                               std::span<double> memory) const {
+  std::copy_n(mobility.data(), kMobilityNumbers,
+              memory.last<kMobilityNumbers>().begin());
+}
+
 void ContactPair::end_touch(std::span<double> memory) const {
   for (std::size_t i = 0; i < count_features(); ++i) {
     save_memory({}, numbers_of(i, memory));
   }
+  std::fill_n(memory.last<kMobilityNumbers>().begin(), kMobilityNumbers, 0.0);
 }
 
 joints::TouchReading ContactPair::read(const PairBodies& bodies,
@@ -369,7 +377,7 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
   Meetings meetings(count_features());
   meet(bodies, 0.0, memory, meetings.all());
   scratch.clear();
-  Touch touch;
+  Touch touch(memory);
   gather(bodies, now.t, memory, meetings.all(), touch, scratch);
   const DampingRate damping = find_damping(bodies, touch);
   joints::TouchReading reading;

@@ -39,10 +39,10 @@ struct ContactSide {
 ///            its pads (PadContact); for shapes that touch at one place also
 ///            PointTwist, against rotation about the normal
 /// Source     docs/theory/contact_laws.md
-/// Limits     bodies in joints are damped as free, flexible ones as rigid; the
-///            tangent takes the normal and the damping by other features as
-///            constant; shapes that touch at several features have no torsional
-///            friction at each of them
+/// Limits     flexible bodies are damped as rigid ones, and as free ones where
+///            no mobility of joints is set; the tangent takes the normal and
+///            the damping by other features as constant; shapes that touch at
+///            several features have no torsional friction at each of them
 class ContactPair final : public joints::PairInteraction,
                           public joints::Touching {
  public:
@@ -84,6 +84,8 @@ class ContactPair final : public joints::PairInteraction,
   [[nodiscard]] joints::TouchReach find_reach_A() const override;
   [[nodiscard]] joints::TouchReach find_reach_B() const override;
   [[nodiscard]] double find_size() const override { return size_; }
+  void set_mobility(const joints::PairMobility& mobility,
+                    std::span<double> memory) const override;
   void end_touch(std::span<double> memory) const override;
   double begin_touch(const joints::PairBodies& bodies, double t,
                      std::span<double> memory,
@@ -130,6 +132,8 @@ class ContactPair final : public joints::PairInteraction,
   void gather(const joints::PairBodies& bodies, double t,
               std::span<const double> memory, std::span<const Meeting> meetings,
               Touch& touch, joints::PairResponse& out) const;
+  [[nodiscard]] double find_inverse_mass(const joints::PairBodies& bodies,
+                                         const Touch& touch) const;
   void set_rates(const joints::PairBodies& bodies, const Touch& touch,
                  joints::TouchReading& reading) const;
   [[nodiscard]] DampingRate find_damping(const joints::PairBodies& bodies,

@@ -90,7 +90,7 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
   Meetings middle(count_features());
   Meetings end(count_features());
   meet(step, memory, begin.all(), middle.all(), end.all());
-  Touch touch;
+  Touch touch(memory);
   if (pads_) {
     add_pads_over_step(step, {begin.all(), middle.all(), end.all()}, memory,
                        touch, out);

@@ -38,12 +38,21 @@ void ContactPair::gather(const joints::PairBodies& bodies, double t,
   }
 }
 
+double ContactPair::find_inverse_mass(const joints::PairBodies& bodies,
+                                      const Touch& touch) const {
+  const double F = touch.motion.force;
+  const Eigen::Map<const joints::PairMobility> Y(touch.mobility.data());
+  if (Y.isZero(0.0)) {
+    return contact::find_inverse_mass(free_A_, free_B_, bodies, touch.load, F);
+  }
+  return contact::find_inverse_mass(Y, bodies, touch.load, F);
+}
+
 DampingRate ContactPair::find_damping(const joints::PairBodies& bodies,
                                       const Touch& touch) const {
   TouchMotion motion = touch.motion;
   if (motion.force == 0.0) return {};
-  motion.inverse_mass =
-      find_inverse_mass(free_A_, free_B_, bodies, touch.load, motion.force);
+  motion.inverse_mass = find_inverse_mass(bodies, touch);
   return law_.find_damping(motion);
 }
 
@@ -54,8 +63,7 @@ void ContactPair::set_rates(const joints::PairBodies& bodies,
   constexpr double kMostDamping = 4.0;
   const TouchMotion& motion = touch.motion;
   if (!(motion.force > 0.0)) return;
-  const double inverse_mass =
-      find_inverse_mass(free_A_, free_B_, bodies, touch.load, motion.force);
+  const double inverse_mass = find_inverse_mass(bodies, touch);
   reading.normal_speed = std::sqrt(motion.square / motion.force);
   if (!(motion.energy > 0.0)) return;
   reading.elastic_speed = std::sqrt(2.0 * motion.energy * inverse_mass);

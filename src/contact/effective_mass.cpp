@@ -35,4 +35,15 @@ double find_inverse_mass(const FreeBody& A, const FreeBody& B,
          B.find_yield(bodies.B.R_WB, force_W, load.moment_B / F);
 }
 
+double find_inverse_mass(const joints::PairMobility& Y,
+                         const joints::PairBodies& bodies,
+                         const NormalLoad& load, double F) {
+  const Matrix3 R_AW = bodies.A.R_WB.transpose();
+  const Matrix3 R_BW = bodies.B.R_WB.transpose();
+  Eigen::Matrix<double, 12, 1> g;
+  g << -(R_AW * load.force_W), -(R_AW * load.moment_A), R_BW * load.force_W,
+      R_BW * load.moment_B;
+  return g.dot(Y * g) / (F * F);
+}
+
 }  // namespace limber::contact

@@ -3,6 +3,7 @@
 
 #include "limber/common/types.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
+#include "limber/joints/pairs/pair_mobility.hpp"
 
 /// The mass that two bodies oppose to the normal forces of their touch.
 namespace limber::contact {
@@ -39,10 +40,17 @@ class FreeBody {
 ///            all normal forces on a body, F their sum: of one point
 ///            1/m + (r x n) . J^-1 (r x n) of each body, of parallel forces
 ///            that at their centre
-/// Limits     bodies in joints count as free, flexible ones as rigid
+/// Limits     flexible bodies count as rigid
 /// @param F sum of the forces' sizes > 0 [N]
 /// @return 1/m [1/kg]
 [[nodiscard]] double find_inverse_mass(const FreeBody& A, const FreeBody& B,
+                                       const joints::PairBodies& bodies,
+                                       const NormalLoad& load, double F);
+
+/// The same of bodies in joints.
+///
+/// Equation   1/m = g . Y g / F^2
+[[nodiscard]] double find_inverse_mass(const joints::PairMobility& Y,
                                        const joints::PairBodies& bodies,
                                        const NormalLoad& load, double F);
 

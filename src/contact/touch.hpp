@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "limber/contact/effective_mass.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/meetings.hpp"
+#include "limber/contact/point_numbers.hpp"
 #include "limber/contact/stack_array.hpp"
 
 namespace limber::contact {
@@ -22,9 +24,14 @@ struct TouchingPoint {
 
 /// All features that touch, at one instant or over a step.
 struct Touch {
+  /// @param memory of the pair
+  explicit Touch(std::span<const double> memory)
+      : mobility(memory.last<kMobilityNumbers>()) {}
+
   PadLaw::Response pads;
   StackArray<TouchingPoint, Meetings::kMost> points;
   NormalLoad load;
+  std::span<const double, kMobilityNumbers> mobility;
   TouchMotion motion;  ///< but for the mass
 
   /// Adds a point that is complete to the sums.

@@ -9,6 +9,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
+#include "limber/common/restitution.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/interpolation.hpp"
 
@@ -49,7 +50,7 @@ bool has_place(const joints::PairTouch& touch) {
 }  // namespace
 
 TouchWatch::TouchWatch(const SystemModel& model)
-    : model_(model), travel_(model) {
+    : model_(model), travel_(model), mobility_(model) {
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const joints::Touching* law = model.pairs[p].law->touching();
     if (law == nullptr) continue;
@@ -362,6 +363,13 @@ void TouchWatch::pass(std::size_t index, SystemState& state,
   watched.impact_duration =
       watched.law->begin_touch(set_motion(watched, state), state.t,
                                memory_of(pair, state), watched.scratch);
+  if (!mobility_.is_joined(watched.pair)) return;
+  const double duration = std::isfinite(watched.impact_duration)
+                              ? watched.impact_duration
+                              : kImpactDuration;
+  watched.law->set_mobility(
+      mobility_.find(model_, state, watched.pair, M_PI / duration),
+      memory_of(pair, state));
 }
 
 double TouchWatch::find_longest_step(double t) const {

@@ -11,6 +11,7 @@
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/monitors/event.hpp"
 #include "limber/dynamics/monitors/travel_bound.hpp"
+#include "limber/dynamics/newton/joint_mobility.hpp"
 #include "limber/dynamics/system/system_state.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
@@ -176,6 +177,7 @@ class TouchWatch {
   const SystemModel& model_;
   std::vector<Watched> pairs_;
   TravelBound travel_;
+  JointMobility mobility_;
   std::vector<double> first_speeds_;  // of each body [m/s]
   std::vector<double> ways_;          // of each in a step, at most [m]
   SystemState within_;                // between a step's ends

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "limber/joints/pairs/pair_interaction.hpp"
+#include "limber/joints/pairs/pair_mobility.hpp"
 
 namespace limber::joints {
 
@@ -77,6 +78,10 @@ class Touching {
   virtual double begin_touch(const PairBodies& bodies, double t,
                              std::span<double> memory,
                              PairResponse& scratch) const = 0;
+  /// Keeps what joints leave of both bodies' freedom until they leave each
+  /// other; unless this is called after begin_touch(), both are free.
+  virtual void set_mobility(const PairMobility& mobility,
+                            std::span<double> memory) const = 0;
   /// Resets the memory where both leave each other: the next touch is new.
   virtual void end_touch(std::span<double> memory) const = 0;
   [[nodiscard]] virtual TouchReading read(const PairBodies& bodies,

@@ -78,6 +78,10 @@ class CountingPair final : public joints::PairInteraction,
     return pair_.find_reach_B();
   }
   double find_size() const override { return pair_.find_size(); }
+  void set_mobility(const joints::PairMobility& mobility,
+                    std::span<double> memory) const override {
+    pair_.set_mobility(mobility, memory);
+  }
   void end_touch(std::span<double> memory) const override {
     pair_.end_touch(memory);
   }
