@@ -130,8 +130,8 @@ void raise_roundoff_in_contact(const SystemModel& model,
     for (const BodyIndex b : {model.pairs[i].body_A, model.pairs[i].body_B}) {
       if (b == kWorld) continue;
       double& rigid = roundoffs[groups.of(index(b))].rigid;
-      rigid = std::max(rigid, kContactRoundoff *
-                                  radius_of_gyration(model.bodies[index(b)]));
+      rigid = std::max(
+          rigid, kContactRoundoff * radius_of_gyration(model.bodies[index(b)]));
     }
   }
 }
