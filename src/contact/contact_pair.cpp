@@ -25,33 +25,6 @@ using joints::PairBody;
 // as the corners of a box that lands flat, begin to touch together [-].
 constexpr double kTogether = 1e-9;
 
-double find_reduced_mass(double mass_A, double mass_B) {
-  return 1.0 / (1.0 / mass_A + 1.0 / mass_B);
-}
-
-double check_masses(const ContactSide& A, const ContactSide& B) {
-  LIMBER_EXPECT(A.mass > 0.0 && B.mass > 0.0);
-  const double mass = find_reduced_mass(A.mass, B.mass);
-  if (std::isfinite(mass)) return mass;
-  throw InputError("contact: neither side can move");
-}
-
-// Of which normal forces turn the body.
-bool is_turned(const Shape& shape) {
-  const bool is_ball = std::holds_alternative<Sphere>(shape.kind);
-  return !is_ball || !shape.X_BS.p.isZero(0.0);
-}
-
-FreeBody make_free_body(const ContactSide& side,
-                        const ContactParameters& parameters) {
-  const bool is_damped = parameters.restitution < 1.0 && !parameters.damping;
-  if (is_damped && std::isfinite(side.mass) && is_turned(side.shape) &&
-      side.inertia_B.isZero(0.0)) {
-    throw InputError("contact: restitution needs the inertia of both bodies");
-  }
-  return {side.mass, side.inertia_B};
-}
-
 SurfacePlace to_place(const PlaceMemory& memory) {
   return {memory.x_B, static_cast<int>(memory.face), memory.u, memory.v};
 }
@@ -70,25 +43,6 @@ void set_place(const PairBody& body, const Shape& shape,
   set_shape_functions(shape, surface, out.Phi_B);
   out.x_B.setZero();
   out.x_B = body.R_WB.transpose() * (p_W - body.p_WB) - find_arm(body, out);
-}
-
-joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
-  const VectorX still = VectorX::Zero(mode_reach.size());
-  PairBody body;
-  body.modes = static_cast<int>(still.size());
-  body.eta = body.etadot = still.data();
-  return {find_extent(shape, body), mode_reach};
-}
-
-// Largest speed of the shape's points relative to its body's origin [m/s].
-double find_own_speed(const Shape& shape, const VectorX& mode_reach,
-                      const PairBody& body) {
-  const double turn = body.w_WB_B.norm();
-  double speed = turn > 0.0 ? turn * find_extent(shape, body) : 0.0;
-  for (Eigen::Index k = 0; k < mode_reach.size(); ++k) {
-    speed += mode_reach[k] * std::abs(body.etadot[k]);
-  }
-  return speed;
 }
 
 }  // namespace
@@ -140,20 +94,7 @@ void ContactPair::add_twist(const PairBodies& bodies, const Meeting& meeting,
 }
 
 void ContactPair::describe_parameters(Manifest& out) const {
-  describe(out, "parameters", parameters_);
-  const auto describe_side = [&](const char* name, const ContactSide& side) {
-    out.within(name, [&] {
-      describe(out, "shape", side.shape);
-      out.add("mass [kg]", side.mass);
-      const Matrix3& J = side.inertia_B;
-      out.add("inertia [kg m^2]", {J.data(), J.data() + J.size()}, "3 x 3");
-      if (!side.material) return;
-      out.add("youngs modulus [Pa]", side.material->youngs_modulus);
-      out.add("poisson ratio", side.material->poisson_ratio);
-    });
-  };
-  describe_side("body A", A_);
-  describe_side("body B", B_);
+  describe(out, A_, B_, parameters_);
 }
 
 std::size_t ContactPair::most_points() const {

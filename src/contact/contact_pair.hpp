@@ -3,9 +3,7 @@
 
 #include <optional>
 
-#include "limber/contact/effective_mass.hpp"
-#include "limber/contact/law/contact_parameters.hpp"
-#include "limber/contact/law/materials.hpp"
+#include "limber/contact/contact_side.hpp"
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/pad_contact.hpp"
@@ -16,16 +14,6 @@
 namespace limber::contact {
 
 struct Touch;
-
-/// One of the two bodies of a contact.
-struct ContactSide {
-  Shape shape;
-  std::optional<SurfaceMaterial> material;  ///< none: rigid
-  double mass = 0.0;  ///< of the body; infinity of the world [kg]
-  /// Of the body, about Bo, its centre of mass; zero of the world, and of
-  /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
-  Matrix3 inertia_B = Matrix3::Zero();
-};
 
 /// Contact of two shapes: at each of their features a normal force, which
 /// stores energy and is damped to a restitution, and friction.

@@ -105,4 +105,22 @@ VectorX find_mode_reach(const Shape& shape) {
   return (*skin)->find_mode_reach();
 }
 
+joints::TouchReach find_reach(const Shape& shape, const VectorX& mode_reach) {
+  const VectorX still = VectorX::Zero(mode_reach.size());
+  joints::PairBody body;
+  body.modes = static_cast<int>(still.size());
+  body.eta = body.etadot = still.data();
+  return {find_extent(shape, body), mode_reach};
+}
+
+double find_own_speed(const Shape& shape, const VectorX& mode_reach,
+                      const joints::PairBody& body) {
+  const double turn = body.w_WB_B.norm();
+  double speed = turn > 0.0 ? turn * find_extent(shape, body) : 0.0;
+  for (Eigen::Index k = 0; k < mode_reach.size(); ++k) {
+    speed += mode_reach[k] * std::abs(body.etadot[k]);
+  }
+  return speed;
+}
+
 }  // namespace limber::contact

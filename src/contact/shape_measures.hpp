@@ -6,6 +6,7 @@
 #include "limber/common/records/manifest.hpp"
 #include "limber/contact/shapes/shape.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
+#include "limber/joints/pairs/touching.hpp"
 
 namespace limber::contact {
 
@@ -30,5 +31,14 @@ void describe(Manifest& out, std::string_view name, const Shape& shape);
 /// For each mode the largest displacement of a node of the shape, m entries
 /// [kg^-1/2].
 [[nodiscard]] VectorX find_mode_reach(const Shape& shape);
+
+/// @param mode_reach of find_mode_reach, here and below
+[[nodiscard]] joints::TouchReach find_reach(const Shape& shape,
+                                            const VectorX& mode_reach);
+
+/// Largest speed of the shape's points relative to its body's origin [m/s].
+[[nodiscard]] double find_own_speed(const Shape& shape,
+                                    const VectorX& mode_reach,
+                                    const joints::PairBody& body);
 
 }  // namespace limber::contact

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
+#include "limber/dynamics/integrators/integrator.hpp"
+
 namespace limber::dynamics {
 
 /// Parameters of generalized-alpha [-]; by default those of implicit Euler.
@@ -24,6 +28,15 @@ struct AlphaParameters {
   p.beta = 0.25 * (0.5 + p.gamma) * (0.5 + p.gamma);
   p.lag = 0.5 - p.beta;
   return p;
+}
+
+/// The same with what becomes of motion that steps do not resolve: calmed by a
+/// spectral radius of 1/2 at most.
+[[nodiscard]] inline AlphaParameters find_alpha_parameters(
+    double rho_inf, UnresolvedMotion motion) {
+  if (motion == UnresolvedMotion::ended) return {};
+  const bool calms = motion == UnresolvedMotion::calmed;
+  return find_alpha_parameters(calms ? std::min(rho_inf, 0.5) : rho_inf);
 }
 
 }  // namespace limber::dynamics

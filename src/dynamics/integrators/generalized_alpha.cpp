@@ -61,6 +61,15 @@ GeneralizedAlpha::GeneralizedAlpha(const SystemModel& model,
   if (conserves && settings.tolerance == 0.0) settings_.tolerance = kLeastShare;
 }
 
+bool GeneralizedAlpha::damp(UnresolvedMotion motion) {
+  if (!settings_.implicit_euler && motion != unresolved_) {
+    unresolved_ = motion;
+    p_ = find_alpha_parameters(settings_.rho_inf, motion);
+    refresh();
+  }
+  return !settings_.implicit_euler && unresolved_ == UnresolvedMotion::ended;
+}
+
 void GeneralizedAlpha::refresh() {
   factored_step_ = 0.0;
   renews_full_ = true;

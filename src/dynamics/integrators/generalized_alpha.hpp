@@ -60,13 +60,7 @@ class GeneralizedAlpha final : public Integrator {
   StepResult step(SystemState& state, double h, double end) override;
   void undo(const SystemState& before) override;
   void refresh() override;
-  bool damp(bool damps) override {
-    if (settings_.implicit_euler || damps == damps_) return damps_;
-    damps_ = damps;
-    p_ = damps ? AlphaParameters{} : find_alpha_parameters(settings_.rho_inf);
-    refresh();
-    return damps_;
-  }
+  bool damp(UnresolvedMotion motion) override;
   void exchange_memory(Archive& archive, const SystemState& state) override;
   [[nodiscard]] long take_solves() override { return matrix_.take_solves(); }
   [[nodiscard]] const SystemTerms& terms() const override { return terms_; }
@@ -97,7 +91,7 @@ class GeneralizedAlpha final : public Integrator {
   const SystemModel& model_;
   Settings settings_;
   AlphaParameters p_;
-  bool damps_ = false;
+  UnresolvedMotion unresolved_ = UnresolvedMotion::kept;
   std::optional<MotionScale> scale_;  // to estimate errors
   NewtonMatrix matrix_;
   ExactCorrection exact_;

@@ -8,6 +8,13 @@
 
 namespace limber::dynamics {
 
+/// What becomes of motion that steps do not resolve.
+enum class UnresolvedMotion {
+  kept,    ///< damped as the scheme is asked to
+  calmed,  ///< halved by each step at least, as of stiff contacts at rest
+  ended,   ///< as by implicit Euler, for impacts much shorter than a step
+};
+
 /// A time integration scheme. It is constructed from a SystemModel and
 /// allocates all its memory then; steps allocate nothing. Its IntegratorTraits
 /// state its properties.
@@ -41,10 +48,9 @@ class Integrator {
   /// Prepares for the next step, of about h [s], at a discontinuity of a load
   /// at `state`, the end of the last step.
   virtual void cross_jump(const SystemState& /*state*/, double /*h*/) {}
-  /// Selects whether the next steps damp all unresolved motion, like implicit
-  /// Euler, for impacts much shorter than a step.
-  /// @returns whether they do; false for schemes without such steps
-  virtual bool damp(bool /*damps*/) { return false; }
+  /// Selects how the next steps damp motion that they do not resolve.
+  /// @returns whether they damp all of it; false for schemes without such steps
+  virtual bool damp(UnresolvedMotion /*motion*/) { return false; }
   /// Reverts the last step; `before` is the state at its beginning.
   virtual void undo(const SystemState& /*before*/) {}
   /// Discards data of earlier steps that exchange_memory does not save: factors

@@ -16,11 +16,12 @@ namespace limber::dynamics {
 /// Equation   omega h <= pi / n while a pair is struck, omega the frequency of
 ///            its touch at the step's end (TouchReading), n steps a half
 ///            period; a touch begins with T_c / n. Struck: approaching or
-///            parting at more than max(|g| h, v / 20), v the speed whose
-///            kinetic energy is the touch's elastic energy; what is slower
-///            rests, as a body on the ground, or in a grip that tightens. After
-///            a step one longer by a quarter is tried.
-/// Limits     a longer step gets at most 200 parts; the rest of it is taken at
+///            parting at more than max(|g| h, v / 20), h the step of the run
+///            and v the speed whose kinetic energy is the touch's elastic
+///            energy; what is slower rests, as a body on the ground, or in a
+///            grip that tightens. After a step one longer by a quarter is
+///            tried.
+/// Limits     a longer step gets at most 1000 parts; the rest of it is taken at
 ///            once
 class ImpactSteps {
  public:
@@ -36,6 +37,9 @@ class ImpactSteps {
                                                    const SystemState& after,
                                                    double h,
                                                    TouchWatch& touches);
+  /// Whether bodies rest on each other, after the last step, that vibrate
+  /// faster than steps of h [s] resolve.
+  [[nodiscard]] bool rests_stiffly(double h) const;
   /// Accepts the step last asked about.
   void accept(double h);
 
@@ -46,14 +50,18 @@ class ImpactSteps {
   void exchange_memory(Archive& archive);
 
  private:
+  [[nodiscard]] double find_slow() const;
+
   const SystemModel& model_;
   double steps_;
-  double longest_;  // next step [s]
-  int parts_ = 0;   // of the present step of the run, so far
+  double longest_;     // next step [s]
+  double step_ = 0.0;  // of the run, without impacts [s]
+  int parts_ = 0;      // of it, so far
   // The last step asked about: of its touches the largest omega that counts
   // [rad/s], and their pair.
   double frequency_ = 0.0;
   std::size_t fastest_ = 0;
+  double rest_frequency_ = 0.0;  // largest of those that do not count [rad/s]
   bool has_excess_ = false;
   bool was_told_ = false;
 };

@@ -380,10 +380,12 @@ double TouchWatch::find_longest_step(double t) const {
   return impact.steps / kStepsOfImpact;
 }
 
-double TouchWatch::find_first_step(double parts) const {
-  const Impact impact = describe(
-      find_shortest([](const Watched& watched) { return watched.steps <= 1; }),
-      1.0);
+double TouchWatch::find_first_step(double parts, double slow) const {
+  const Impact impact =
+      describe(find_shortest([slow](const Watched& watched) {
+                 return watched.steps <= 1 && watched.rate > slow;
+               }),
+               1.0);
   return impact.steps / parts;
 }
 

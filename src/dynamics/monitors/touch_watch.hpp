@@ -98,8 +98,9 @@ class TouchWatch {
     return pairs_[index].impact_duration;
   }
   /// T_c / parts of the shortest touch that the last step ended at, or that
-  /// there is from the start; infinite without any [s].
-  [[nodiscard]] double find_first_step(double parts) const;
+  /// there is from the start, faster than `slow` [m/s]; infinite without any
+  /// [s].
+  [[nodiscard]] double find_first_step(double parts, double slow) const;
   /// Longest step that resolves ongoing impacts; infinite without any. A touch
   /// of more than eight times the expected duration is rest [s].
   [[nodiscard]] double find_longest_step(double t) const;

@@ -142,14 +142,21 @@ void ResidualDerivative::change_pairs(const VectorX& x, VectorX& r) const {
           if (j == k) {
             change -= (point.stiffness + c_.velocity * point.damping) * moved;
           } else if (response.is_coupled()) {
-            change -= response.coupling(k, j) * moved;
+            change -= (response.coupling(k, j) +
+                       c_.velocity * response.damping_coupling(k, j)) *
+                      moved;
           }
         }
         return change;
       };
-      const Vector3 by_dampers =
-          -point.damping *
-          ((B[k].v - A[k].v) - c_.velocity * (B[k].p - A[k].p));
+      const auto find_speed = [&](std::size_t j) -> Vector3 {
+        return (B[j].v - A[j].v) - c_.velocity * (B[j].p - A[j].p);
+      };
+      Vector3 by_dampers = -point.damping * find_speed(k);
+      for (std::size_t j = 0; response.is_coupled() && j < points.size(); ++j) {
+        if (j == k) continue;
+        by_dampers -= response.damping_coupling(k, j) * find_speed(j);
+      }
       Vector3 d_reduced = by_dampers;
       Vector3 d_full = by_dampers;
       if (full_A || full_B) {

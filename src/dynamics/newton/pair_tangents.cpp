@@ -115,11 +115,11 @@ void PairTangents::fill(const SystemModel& model, const Pair& pair, bool is_A,
     rows(columns.forces).noalias() = K.lazyProduct(rows(columns.moving));
     row += 3;
   }
-  if (response.is_coupled()) add_coupling(response, columns);
+  if (response.is_coupled()) add_coupling(response, velocity, columns);
 }
 
 void PairTangents::add_coupling(const joints::PairResponse& response,
-                                Columns& columns) {
+                                double velocity, Columns& columns) {
   const std::size_t count = response.points().size();
   const auto rows = [&](MatrixX& all, std::size_t i) {
     return all.block(3 * static_cast<Eigen::Index>(i), 0, 3,
@@ -128,8 +128,10 @@ void PairTangents::add_coupling(const joints::PairResponse& response,
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
       if (j == i) continue;
+      const Matrix3 K =
+          response.coupling(i, j) + velocity * response.damping_coupling(i, j);
       rows(columns.forces, i).noalias() +=
-          response.coupling(i, j).lazyProduct(rows(columns.moving, j));
+          K.lazyProduct(rows(columns.moving, j));
     }
   }
 }

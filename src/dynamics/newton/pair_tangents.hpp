@@ -47,7 +47,7 @@ class PairTangents {
                    const SystemTerms& terms, const SystemTerms& end_terms,
                    double velocity, const LuPlan& plan, Columns& columns);
   static void add_coupling(const joints::PairResponse& response,
-                           Columns& columns);
+                           double velocity, Columns& columns);
 
   std::vector<std::size_t> counts_;  // points of each pair
   Columns A_;

@@ -98,7 +98,10 @@ void EventStepper::add_between_steps(const EnergyFlows& flows) {
 // ongoing touch.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   TouchWatch::Impact impact = touches_.find_impact(h, state.t);
-  const bool damps = integrator_->damp(impact.steps < TouchWatch::kFewestSteps);
+  UnresolvedMotion motion = UnresolvedMotion::kept;
+  if (impacts_.rests_stiffly(h)) motion = UnresolvedMotion::calmed;
+  if (impact.steps < TouchWatch::kFewestSteps) motion = UnresolvedMotion::ended;
+  const bool damps = integrator_->damp(motion);
   const bool is_impact = impact.steps < TouchWatch::kSureSteps;
   if (!is_impact) impact = touches_.find_touch_in(h);
   if (!is_impact && !(impact.steps < 1.0)) {

@@ -212,7 +212,7 @@ void TimeLoop::tell(RunRecord& record) {
   contacts_.add_warnings(statistics_.warnings);
   if (const auto pair = stepper_.take_excess()) {
     statistics_.warnings.push_back(fmt::format(
-        "contact '{}': a step got 200 parts for the impacts in it, and its "
+        "contact '{}': a step got 1000 parts for the impacts in it, and its "
         "rest was taken at once: their restitution may be wrong; take shorter "
         "steps, softer contacts or fewer impact_steps",
         model_.pairs[*pair].name));

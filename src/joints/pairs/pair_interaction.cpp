@@ -34,7 +34,8 @@ Vector3 find_velocity(const PairBody& body, const PairPlace& place) {
 PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B,
                            bool is_coupled)
     : all_(most_points),
-      coupling_(is_coupled ? most_points * most_points : 0, Matrix3::Zero()) {
+      coupling_(is_coupled ? most_points * most_points : 0, Matrix3::Zero()),
+      damping_coupling_(coupling_) {
   for (PairPoint& point : all_) {
     point.on_A.Phi_B = Matrix3X::Zero(3, modes_A);
     point.on_B.Phi_B = Matrix3X::Zero(3, modes_B);
@@ -62,6 +63,8 @@ PairPoint& PairResponse::add() {
     for (std::size_t j = 0; j < count_; ++j) {
       coupling(count_ - 1, j).setZero();
       coupling(j, count_ - 1).setZero();
+      damping_coupling(count_ - 1, j).setZero();
+      damping_coupling(j, count_ - 1).setZero();
     }
   }
   return point;
@@ -76,6 +79,8 @@ std::size_t PairResponse::check_coupling(std::size_t i, std::size_t j) const {
 
 void PairResponse::uncouple() {
   std::fill(coupling_.begin(), coupling_.end(), Matrix3::Zero());
+  std::fill(damping_coupling_.begin(), damping_coupling_.end(),
+            Matrix3::Zero());
 }
 
 Matrix3 PairResponse::find_stiffness_bound(std::size_t i) const {

@@ -103,6 +103,16 @@ class PairResponse {
   [[nodiscard]] const Matrix3& coupling(std::size_t i, std::size_t j) const {
     return coupling_[check_coupling(i, j)];
   }
+  /// The same by velocities.
+  ///
+  /// Equation   d force_W,i = -damping_coupling(i, j) d(v_B - v_A)_j
+  [[nodiscard]] Matrix3& damping_coupling(std::size_t i, std::size_t j) {
+    return damping_coupling_[check_coupling(i, j)];
+  }
+  [[nodiscard]] const Matrix3& damping_coupling(std::size_t i,
+                                                std::size_t j) const {
+    return damping_coupling_[check_coupling(i, j)];
+  }
   [[nodiscard]] bool is_coupled() const { return !coupling_.empty(); }
   /// Sets all of it to zero.
   void uncouple();
@@ -118,6 +128,7 @@ class PairResponse {
 
   std::vector<PairPoint> all_;
   std::vector<Matrix3> coupling_;  // of all pairs of points
+  std::vector<Matrix3> damping_coupling_;
   std::size_t count_ = 0;
 };
 

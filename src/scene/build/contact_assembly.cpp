@@ -12,6 +12,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/names.hpp"
 #include "limber/contact/law/pad_law.hpp"
+#include "limber/contact/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
 #include "limber/scene/contacts/contact_shapes.hpp"
@@ -98,6 +99,15 @@ contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
   return {
       std::make_shared<const contact::Skin>(read_collision_mesh(*mesh, X_BS)),
       Pose{}};
+}
+
+std::shared_ptr<const joints::PairInteraction> make_law(
+    const contact::ContactSide& A, const contact::ContactSide& B,
+    const contact::ContactParameters& parameters) {
+  if (contact::PatchPair::suits(A, B, parameters)) {
+    return std::make_shared<const contact::PatchPair>(A, B, parameters);
+  }
+  return std::make_shared<const contact::ContactPair>(A, B, parameters);
 }
 
 std::string describe_pair(const Scene& scene, const TouchingPair& pair) {
@@ -224,10 +234,8 @@ void ContactAssembly::add_pair(std::size_t touching, const Side& A,
       scene_.scenario.contacts[scene_.touching[touching].contact].options;
   const std::string name = A.name + "/" + B.name;
   contact::ShapePair shapes(A.side.shape, B.side.shape);
-  const dynamics::PairIndex pair =
-      builder_.add_pair(name, A.body, B.body,
-                        std::make_shared<const contact::ContactPair>(
-                            A.side, B.side, make_parameters(options)));
+  const dynamics::PairIndex pair = builder_.add_pair(
+      name, A.body, B.body, make_law(A.side, B.side, make_parameters(options)));
   placed.push_back({name, std::move(shapes), options.radius, touching, pair});
 }
 

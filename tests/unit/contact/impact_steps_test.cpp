@@ -111,11 +111,11 @@ TEST(ImpactSteps, LeaveRestToTheStepsOfTheRun) {
   EXPECT_LT(rest(20.0).linear_solves, 1.1 * rest(1.0).linear_solves);
 }
 
-// 2000 parts would be needed: the rest after 200 is one step, which is told.
+// 2000 parts would be needed: the rest after 1000 is one step, which is told.
 TEST(ImpactSteps, AreBoundedWithAWarning) {
   const Outcome out = bounce(1.0, 5.0 * find_duration(), 1000.0);
   EXPECT_THAT(out.statistics.warnings,
-              ::testing::Contains(HasSubstr("a step got 200 parts")));
+              ::testing::Contains(HasSubstr("a step got 1000 parts")));
 }
 
 }  // namespace

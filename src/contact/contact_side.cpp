@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/contact_side.hpp"
+
+#include <cmath>
+#include <variant>
+
+#include "limber/common/errors.hpp"
+#include "limber/contact/shape_measures.hpp"
+
+namespace limber::contact {
+namespace {
+
+// Of which normal forces turn the body.
+bool is_turned(const Shape& shape) {
+  const bool is_ball = std::holds_alternative<Sphere>(shape.kind);
+  return !is_ball || !shape.X_BS.p.isZero(0.0);
+}
+
+void describe_side(Manifest& out, const char* name, const ContactSide& side) {
+  out.within(name, [&] {
+    describe(out, "shape", side.shape);
+    out.add("mass [kg]", side.mass);
+    const Matrix3& J = side.inertia_B;
+    out.add("inertia [kg m^2]", {J.data(), J.data() + J.size()}, "3 x 3");
+    if (!side.material) return;
+    out.add("youngs modulus [Pa]", side.material->youngs_modulus);
+    out.add("poisson ratio", side.material->poisson_ratio);
+  });
+}
+
+}  // namespace
+
+void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
+              const ContactParameters& parameters) {
+  describe(out, "parameters", parameters);
+  describe_side(out, "body A", A);
+  describe_side(out, "body B", B);
+}
+
+double check_masses(const ContactSide& A, const ContactSide& B) {
+  LIMBER_EXPECT(A.mass > 0.0 && B.mass > 0.0);
+  const double mass = 1.0 / (1.0 / A.mass + 1.0 / B.mass);
+  if (std::isfinite(mass)) return mass;
+  throw InputError("contact: neither side can move");
+}
+
+FreeBody make_free_body(const ContactSide& side,
+                        const ContactParameters& parameters) {
+  const bool is_damped = parameters.restitution < 1.0 && !parameters.damping;
+  if (is_damped && std::isfinite(side.mass) && is_turned(side.shape) &&
+      side.inertia_B.isZero(0.0)) {
+    throw InputError("contact: restitution needs the inertia of both bodies");
+  }
+  return {side.mass, side.inertia_B};
+}
+
+}  // namespace limber::contact

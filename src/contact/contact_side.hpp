@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "limber/common/records/manifest.hpp"
+#include "limber/contact/effective_mass.hpp"
+#include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/law/materials.hpp"
+#include "limber/contact/shapes/shape.hpp"
+
+namespace limber::contact {
+
+/// One of the two bodies of a contact.
+struct ContactSide {
+  Shape shape;
+  std::optional<SurfaceMaterial> material;  ///< none: rigid
+  double mass = 0.0;  ///< of the body; infinity of the world [kg]
+  /// Of the body, about Bo, its centre of mass; zero of the world, and of
+  /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
+  Matrix3 inertia_B = Matrix3::Zero();
+};
+
+/// Both sides and the law between them: all that forces depend on.
+void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
+              const ContactParameters& parameters);
+
+/// The reduced mass of both bodies [kg].
+/// @throws InputError if neither has a finite mass.
+[[nodiscard]] double check_masses(const ContactSide& A, const ContactSide& B);
+
+/// The body as its contacts move it.
+/// @throws InputError for a restitution of a body that may turn without
+/// inertia.
+[[nodiscard]] FreeBody make_free_body(const ContactSide& side,
+                                      const ContactParameters& parameters);
+
+}  // namespace limber::contact

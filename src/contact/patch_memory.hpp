@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "limber/common/types.hpp"
+
+namespace limber::contact {
+
+/// What a patch remembers of friction since the last accepted step.
+struct PatchMemory {
+  bool is_touching = false;
+  double time = 0.0;  ///< of the last step's end [s]
+  /// Material points of both bodies that were at one place then [m].
+  Vector3 x_A = Vector3::Zero();
+  Vector3 x_B = Vector3::Zero();
+  Quaternion turn_AB = Quaternion::Identity();  ///< R_AB then
+  /// The bristle's spring force, in A's axes and in B's [N].
+  Vector3 spring_A = Vector3::Zero();
+  Vector3 spring_B = Vector3::Zero();
+  double spin = 0.0;       ///< of the bristle's spring about n, over r_e [N]
+  double stiffness = 0.0;  ///< k_t then [N/m]
+};
+
+inline constexpr std::size_t kPatchNumbers = 20;
+
+[[nodiscard]] PatchMemory load_patch(std::span<const double> memory);
+/// @param memory of kPatchNumbers at least
+void save_patch(const PatchMemory& patch, std::span<double> memory);
+
+}  // namespace limber::contact

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/potential/pair_potential.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "limber/common/errors.hpp"
+#include "limber/common/rotation.hpp"
+
+namespace limber::contact {
+namespace {
+
+/// The share of W that one body's depth gives, about o.
+struct Half {
+  double energy = 0.0;
+  double load = 0.0;
+  Vector3 moved = Vector3::Zero();   // load times the centre of pressure
+  Matrix3 spread = Matrix3::Zero();  // load times r r'
+  Vector6 gradient = Vector6::Zero();
+  Matrix6 hessian = Matrix6::Zero();
+};
+
+// W = c sqrt(M), lambda = c / (2 sqrt(M))
+Half weigh(const DepthMoments& m, double c) {
+  const double root = std::sqrt(m.M);
+  const double lambda = 0.5 * c / root;
+  Half half;
+  half.energy = c * root;
+  half.load = lambda * m.pressure;
+  half.moved = lambda * m.first;
+  half.spread = lambda * m.second;
+  half.gradient = lambda * m.m1;
+  half.hessian =
+      lambda * m.m2 - (0.25 * c / (m.M * root)) * m.m1 * m.m1.transpose();
+  return half;
+}
+
+// The motion about o of one about o + d.
+Matrix6 shift(const Vector3& d) {
+  Matrix6 T = Matrix6::Identity();
+  T.topRightCorner<3, 3>() = skew(d);  // u_o = u - theta x d
+  return T;
+}
+
+Vector3 find_middle(const Polytope& polytope) {
+  Vector3 sum = Vector3::Zero();
+  double count = 0.0;
+  for (const Facet& facet : polytope.facets()) {
+    for (const Vector3& x : facet.corners()) {
+      sum += x;
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+Polytope move(const Polytope& polytope, const Vector3& by) {
+  Polytope moved;
+  for (const Facet& facet : polytope.facets()) {
+    Facet copy(facet.tag());
+    for (const Vector3& x : facet.corners()) copy.add(x + by);
+    moved.add(copy);
+  }
+  return moved;
+}
+
+// The part of `body` that lies in `solid`.
+Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X) {
+  std::array<Polytope, 2> scratch;
+  std::size_t next = 0;
+  const Polytope* part = &body;
+  for (const ConvexSolid::Face& face : solid.faces()) {
+    const Vector3 n = X.R * face.plane.n;
+    const Polytope& inside =
+        clip(*part, {n, face.plane.h + n.dot(X.p)}, -1, scratch[next]);
+    if (&inside != part) next = 1 - next;
+    part = &inside;
+    if (part->facets().size() < 4) return {};
+  }
+  return *part;
+}
+
+}  // namespace
+
+PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
+    : A_(A.kind), B_(B.kind), X_AS_(A.X_BS), X_BS_(B.X_BS), modulus_(modulus) {
+  LIMBER_EXPECT(A_.is_bounded() || B_.is_bounded());
+  LIMBER_EXPECT(modulus > 0.0);
+}
+
+Polytope PairPotential::find_overlap(const Pose& X_A, const Pose& X_B) const {
+  return B_.is_bounded() ? cut(B_.place(X_B), A_, X_A)
+                         : cut(A_.place(X_A), B_, X_B);
+}
+
+Patch PairPotential::evaluate(const joints::PairBodies& bodies,
+                              bool has_derivatives) const {
+  Patch out;
+  const Pose X_WA{bodies.A.R_WB, bodies.A.p_WB};
+  const Pose X_WB{bodies.B.R_WB, bodies.B.p_WB};
+  // Relative to a body's place, then to the overlap, so that the distance from
+  // the world's origin takes no digits.
+  const Vector3 near = B_.is_bounded() ? X_WB.p : X_WA.p;
+  const auto place = [](const Pose& X_WB_, const Pose& X_BS,
+                        const Vector3& from) {
+    return Pose{X_WB_.R * X_BS.R, (X_WB_.p - from) + X_WB_.R * X_BS.p};
+  };
+  Pose X_A = place(X_WA, X_AS_, near);
+  Pose X_B = place(X_WB, X_BS_, near);
+  Polytope overlap = find_overlap(X_A, X_B);
+  if (overlap.is_empty()) return out;
+  const Vector3 middle = find_middle(overlap);
+  overlap = move(overlap, -middle);
+  X_A.p -= middle;
+  X_B.p -= middle;
+  const Vector3 o = near + middle;
+  const DepthMoments of_A =
+      find_depth_moments(A_, X_A, overlap, 1.0, has_derivatives);
+  const DepthMoments of_B =
+      find_depth_moments(B_, X_B, overlap, -1.0, has_derivatives);
+  if (!(of_A.M > 0.0) || !(of_B.M > 0.0)) return out;
+  out.touches = true;
+  out.depth = std::max(of_A.depth, of_B.depth);
+  const double c = modulus_ / std::sqrt(std::numbers::pi);
+  const Half A = weigh(of_A, c);
+  const Half B = weigh(of_B, c);
+  const double load = A.load + B.load;
+  const Vector3 centre = (A.moved + B.moved) / load;
+  out.centre_W = o + centre;
+  out.spread_W = (A.spread + B.spread) / load - centre * centre.transpose();
+  out.energy = 0.5 * (A.energy + B.energy);
+  const Matrix6 T = shift(centre);
+  out.gradient_W = 0.5 * T.transpose() * (A.gradient + B.gradient);
+  out.hessian_W = 0.5 * T.transpose() * (A.hessian + B.hessian) * T;
+  return out;
+}
+
+}  // namespace limber::contact

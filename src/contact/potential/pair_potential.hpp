@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/common/types.hpp"
+#include "limber/contact/potential/depth_moments.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+namespace limber::contact {
+
+/// The touch of two solids, of one potential, world axes; motions (u, theta)
+/// and wrenches (force, moment) about the centre of pressure.
+struct Patch {
+  bool touches = false;
+  double energy = 0.0;                 ///< W [J]
+  Vector3 centre_W = Vector3::Zero();  ///< of pressure [m]
+  /// dW by a motion of B against A: minus the elastic wrench on B [N, N m].
+  Vector6 gradient_W = Vector6::Zero();
+  /// Its derivative, symmetric [N/m, N; N, N m].
+  Matrix6 hessian_W = Matrix6::Zero();
+  Matrix3 spread_W = Matrix3::Zero();  ///< second moments of pressure / N [m^2]
+  double depth = 0.0;                  ///< largest [m]
+
+  /// From A to B, unit [-].
+  [[nodiscard]] Vector3 normal_W() const {
+    return -gradient_W.head<3>().normalized();
+  }
+  /// N, elastic [N].
+  [[nodiscard]] double load() const { return gradient_W.head<3>().norm(); }
+};
+
+/// Elastic contact of two convex solids as one potential of their relative
+/// pose: no rule asks which feature is nearest.
+///
+/// Equation   W = c sqrt(M), c = E* / sqrt(pi), of each body's depth; their
+/// mean.
+///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
+///            that of a round punch [@johnson1985]
+/// Limits     solids of flats; a ball or cone would be 1.19 or 1.22 times as
+///            stiff as Hertz's, two feet far apart as stiff as one of their
+///            area
+class PairPotential {
+ public:
+  /// @param modulus E* > 0 [Pa]
+  /// @throws ContractError unless both are solids, one of them bounded.
+  PairPotential(const Shape& A, const Shape& B, double modulus);
+
+  /// @param has_derivatives else hessian_W is zero
+  [[nodiscard]] Patch evaluate(const joints::PairBodies& bodies,
+                               bool has_derivatives) const;
+
+  [[nodiscard]] double modulus() const { return modulus_; }
+
+ private:
+  // Of both, in the world's axes, relative to `origin`.
+  [[nodiscard]] Polytope find_overlap(const Pose& X_A, const Pose& X_B) const;
+
+  ConvexSolid A_;
+  ConvexSolid B_;
+  Pose X_AS_;
+  Pose X_BS_;
+  double modulus_;
+};
+
+}  // namespace limber::contact

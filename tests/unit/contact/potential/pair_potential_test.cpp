@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/potential/pair_potential.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "limber/common/rotation.hpp"
+
+/// Against closed forms of flats and corners, and against differences.
+namespace limber::contact::pair_potential_test {
+namespace {
+
+constexpr double kModulus = 1e9;  // [Pa]
+const Vector3 kHalf(0.05, 0.04, 0.03);
+
+struct Placing {
+  std::string name;
+  ShapeKind A;
+  Pose X_WB;  // of a box; A at the origin
+  ShapeKind B = Box{kHalf};
+};
+
+Pose turn(const Vector3& by, const Vector3& p) { return {exp_rotation(by), p}; }
+
+// The lowest corner of a turned box is d below z = 0.
+Pose lower(const Vector3& by, double d) {
+  const Matrix3 R = exp_rotation(by);
+  const double reach = (R.transpose() * Vector3::UnitZ()).cwiseAbs().dot(kHalf);
+  return {R, Vector3(0.01, -0.02, reach - d)};
+}
+
+std::vector<Placing> make_placings() {
+  const double d = 1e-4;
+  const Box table{Vector3(0.2, 0.3, 0.1)};
+  const auto on_top = [](Pose X) {
+    X.p.z() += 0.1;
+    return X;
+  };
+  std::vector<Placing> all{
+      {"flat on plane", HalfSpace{}, lower({0, 0, 0.3}, d)},
+      {"tilted on plane", HalfSpace{}, lower({1e-4, -2e-4, 0.3}, d)},
+      {"edge on plane", HalfSpace{}, lower({0.6, 0, 0}, d)},
+      {"corner on plane", HalfSpace{}, lower({0.6, 0.4, 0.2}, d)},
+      {"flat on box", table, on_top(lower({0, 0, 0.3}, d))},
+      {"corner on box", table, on_top(lower({0.6, 0.4, 0.2}, d))},
+      {"flat over a rim", table, on_top(lower({3e-4, 1e-4, 0.3}, d))}};
+  all.back().X_WB.p.x() = 0.19;
+  // Two edges that cross: of the table along y, of the box along its x.
+  Pose crossed = turn({0, 0, 0}, Vector3::Zero());
+  crossed.R = exp_rotation(Vector3(0, std::numbers::pi / 4, 0)) *
+              exp_rotation(Vector3(0, 0, 0.3)) *
+              exp_rotation(Vector3(std::numbers::pi / 4, 0, 0));
+  const Vector3 out = Vector3(1, 0, 1).normalized();
+  const double reach = (crossed.R.transpose() * out).cwiseAbs().dot(kHalf);
+  crossed.p = Vector3(0.2, 0.03, 0.1) + (reach - d) * out;
+  all.push_back({"edge across edge", table, crossed});
+  return all;
+}
+
+PairPotential make_potential(const Placing& placing) {
+  return {Shape{placing.A, {}}, Shape{placing.B, {}}, kModulus};
+}
+
+Patch evaluate(const PairPotential& potential, const Pose& X_WA,
+               const Pose& X_WB) {
+  const joints::PairBody A{X_WA.R, X_WA.p};
+  const joints::PairBody B{X_WB.R, X_WB.p};
+  return potential.evaluate({A, B}, true);
+}
+
+Pose move(const Pose& X, const Vector6& by, const Vector3& about) {
+  const Matrix3 R = exp_rotation(by.tail<3>());
+  return {R * X.R, about + by.head<3>() + R * (X.p - about)};
+}
+
+Vector6 unit(int i) { return Vector6::Unit(i); }
+
+TEST(PairPotential, OfAFlatIsThatOfARoundPunchOfItsArea) {
+  for (const double d : {1e-9, 1e-6, 1e-4}) {
+    const Placing flat{"flat", HalfSpace{}, lower({0, 0, 0.4}, d)};
+    const Patch patch = evaluate(make_potential(flat), {}, flat.X_WB);
+    const double area = 4.0 * kHalf.x() * kHalf.y();
+    const double k = 2.0 * kModulus * std::sqrt(area / std::numbers::pi);
+    // Next to its rim the nearest face of the box is another one.
+    const double rim = 25.0 * d + 1e-7;
+    ASSERT_TRUE(patch.touches);
+    EXPECT_NEAR(patch.gradient_W[2] / (-k * d), 1.0, rim);
+    EXPECT_NEAR(patch.energy / (0.5 * k * d * d), 1.0, rim);
+    EXPECT_NEAR(patch.hessian_W(2, 2) / k, 1.0, rim);
+    EXPECT_LT((patch.centre_W.head<2>() - flat.X_WB.p.head<2>()).norm(), 1e-9);
+    EXPECT_NEAR(patch.spread_W.trace(),
+                (kHalf.x() * kHalf.x() + kHalf.y() * kHalf.y()) / 3.0,
+                0.05 * d + 1e-9);
+  }
+}
+
+// int 4 t^3 of a cube's corner along its diagonal, depth below the plane:
+// sqrt(3) d^6 / 10; below the cube's faces by another program: 0.44 in W.
+TEST(PairPotential, OfACornerIsItsClosedForm) {
+  const Box cube{Vector3::Constant(0.05)};
+  const Vector3 axis = Vector3(1, 1, 1).normalized();
+  Matrix3 R;
+  R = Quaternion::FromTwoVectors(-axis, -Vector3::UnitZ()).toRotationMatrix();
+  const double d = 1e-3;
+  const Pose X{R, Vector3(0, 0, 0.05 * std::sqrt(3.0) - d)};
+  const Patch patch =
+      evaluate({Shape{HalfSpace{}, {}}, Shape{cube, {}}, kModulus}, {}, X);
+  const double c = kModulus / std::sqrt(std::numbers::pi);
+  const double soft_plane = c * std::sqrt(std::sqrt(3.0) / 10.0) * d * d * d;
+  EXPECT_NEAR(patch.energy / (0.5 * soft_plane * 1.44), 1.0, 3e-3);
+}
+
+TEST(PairPotential, HasTheGradientOfItsEnergy) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch patch = evaluate(potential, {}, placing.X_WB);
+    ASSERT_TRUE(patch.touches);
+    for (int i = 0; i < 6; ++i) {
+      const double h = i < 3 ? 1e-8 : 1e-7;
+      const auto energy = [&](double s) {
+        return evaluate(potential, {},
+                        move(placing.X_WB, s * h * unit(i), patch.centre_W))
+            .energy;
+      };
+      const double slope = (energy(1) - energy(-1)) / (2.0 * h);
+      EXPECT_NEAR(slope, patch.gradient_W[i],
+                  1e-6 * patch.gradient_W.head<3>().norm())
+          << i;
+    }
+  }
+}
+
+// About a point of the world: the wrench moves with the place of contact, half
+// with each body, which the Hessian leaves out, by up to the force times the
+// size of the overlap.
+TEST(PairPotential, HasTheHessianOfItsEnergy) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch patch = evaluate(potential, {}, placing.X_WB);
+    Matrix6 found = Matrix6::Zero();
+    for (int i = 0; i < 6; ++i) {
+      const double h = i < 3 ? 1e-8 : 1e-7;
+      const auto gradient = [&](double s) -> Vector6 {
+        const Patch at = evaluate(
+            potential, {}, move(placing.X_WB, s * h * unit(i), patch.centre_W));
+        Vector6 g = at.gradient_W;
+        g.tail<3>() +=
+            (at.centre_W - patch.centre_W).cross(Vector3(g.head<3>()));
+        return g;
+      };
+      found.col(i) = (gradient(1) - gradient(-1)) / (2.0 * h);
+    }
+    const Matrix6& K = patch.hessian_W;
+    const auto size = [](const Matrix6& m, int i, int j) {
+      const Matrix3 block = m.block<3, 3>(3 * i, 3 * j);
+      return block.norm();
+    };
+    const double k = size(K, 0, 0);
+    const double turn = size(K, 1, 1);
+    const double force = patch.gradient_W.head<3>().norm();
+    const Matrix6 rest = found - K;
+    EXPECT_LT(size(rest, 0, 0), 1e-5 * k);
+    EXPECT_LT(size(rest, 1, 1),
+              1e-5 * turn + patch.gradient_W.tail<3>().norm() + 1e-4 * force);
+    EXPECT_LT(size(rest, 0, 1),
+              1.01 * std::sqrt(2.0) * force + 1e-5 * std::sqrt(k * turn));
+    EXPECT_LT((K - K.transpose()).norm(), 1e-9 * K.norm());
+  }
+}
+
+TEST(PairPotential, IsTheSameWithNamesSwapped) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const Patch one = evaluate(make_potential(placing), {}, placing.X_WB);
+    const Patch other =
+        evaluate({Shape{placing.B, {}}, Shape{placing.A, {}}, kModulus},
+                 placing.X_WB, {});
+    EXPECT_NEAR(other.energy / one.energy, 1.0, 1e-9);
+    EXPECT_LT((other.centre_W - one.centre_W).norm(), 1e-10);
+    EXPECT_LT((other.gradient_W + one.gradient_W).norm(),
+              1e-9 * one.gradient_W.norm());
+    EXPECT_LT((other.hessian_W - one.hessian_W).norm(),
+              1e-7 * one.hessian_W.norm());
+  }
+}
+
+TEST(PairPotential, IsTheSameElsewhereAndTurned) {
+  const Pose X = turn({0.3, -1.0, 2.0}, {1e3, -2e3, 5e2});
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch here = evaluate(potential, {}, placing.X_WB);
+    const Patch there = evaluate(potential, X, X * placing.X_WB);
+    EXPECT_NEAR(there.energy / here.energy, 1.0, 1e-7);
+    EXPECT_LT(
+        (there.gradient_W.head<3>() - X.R * here.gradient_W.head<3>()).norm(),
+        1e-7 * here.gradient_W.head<3>().norm());
+  }
+}
+
+TEST(PairPotential, IsNothingApart) {
+  const Placing apart{"apart", HalfSpace{}, lower({0.2, 0.3, 0.1}, -1e-9)};
+  EXPECT_FALSE(evaluate(make_potential(apart), {}, apart.X_WB).touches);
+}
+
+}  // namespace
+}  // namespace limber::contact::pair_potential_test
