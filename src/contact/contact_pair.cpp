@@ -51,8 +51,7 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
                          const ContactParameters& parameters)
     : A_(std::move(side_A)),
       B_(std::move(side_B)),
-      free_A_(make_free_body(A_, parameters)),
-      free_B_(make_free_body(B_, parameters)),
+      mass_(A_, B_, parameters),
       parameters_(parameters),
       shapes_(A_.shape, B_.shape, !parameters.radius && !parameters.stiffness),
       law_(parameters, find_pair_moduli(A_.material, B_.material),
@@ -102,7 +101,7 @@ std::size_t ContactPair::most_points() const {
 }
 
 std::size_t ContactPair::memory_size() const {
-  return kPointNumbers * count_features() + kMobilityNumbers;
+  return kPointNumbers * count_features() + OpposedMass::kNumbers;
 }
 
 void ContactPair::check(int modes_A, int modes_B) const {
@@ -300,15 +299,14 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
 
 void ContactPair::set_mobility(const joints::PairMobility& mobility,
                                std::span<double> memory) const {
-  std::copy_n(mobility.data(), kMobilityNumbers,
-              memory.last<kMobilityNumbers>().begin());
+  OpposedMass::keep(mobility, memory);
 }
 
 void ContactPair::end_touch(std::span<double> memory) const {
   for (std::size_t i = 0; i < count_features(); ++i) {
     save_memory({}, numbers_of(i, memory));
   }
-  std::fill_n(memory.last<kMobilityNumbers>().begin(), kMobilityNumbers, 0.0);
+  OpposedMass::keep(joints::PairMobility::Zero(), memory);
 }
 
 joints::TouchReading ContactPair::read(const PairBodies& bodies,

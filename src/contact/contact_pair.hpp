@@ -157,8 +157,7 @@ class ContactPair final : public joints::PairInteraction,
 
   ContactSide A_;
   ContactSide B_;
-  FreeBody free_A_;
-  FreeBody free_B_;
+  OpposedMass mass_;
   ContactParameters parameters_;
   ShapePair shapes_;
   PointLaw law_;

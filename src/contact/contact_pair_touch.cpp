@@ -40,12 +40,8 @@ void ContactPair::gather(const joints::PairBodies& bodies, double t,
 
 double ContactPair::find_inverse_mass(const joints::PairBodies& bodies,
                                       const Touch& touch) const {
-  const double F = touch.motion.force;
-  const Eigen::Map<const joints::PairMobility> Y(touch.mobility.data());
-  if (Y.isZero(0.0)) {
-    return contact::find_inverse_mass(free_A_, free_B_, bodies, touch.load, F);
-  }
-  return contact::find_inverse_mass(Y, bodies, touch.load, F);
+  return mass_.find_inverse(bodies, touch.load, touch.motion.force,
+                            touch.memory);
 }
 
 DampingRate ContactPair::find_damping(const joints::PairBodies& bodies,

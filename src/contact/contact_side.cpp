@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/contact_side.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -28,6 +29,16 @@ void describe_side(Manifest& out, const char* name, const ContactSide& side) {
   });
 }
 
+FreeBody make_free_body(const ContactSide& side,
+                        const ContactParameters& parameters) {
+  const bool is_damped = parameters.restitution < 1.0 && !parameters.damping;
+  if (is_damped && std::isfinite(side.mass) && is_turned(side.shape) &&
+      side.inertia_B.isZero(0.0)) {
+    throw InputError("contact: restitution needs the inertia of both bodies");
+  }
+  return {side.mass, side.inertia_B};
+}
+
 }  // namespace
 
 void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
@@ -44,14 +55,22 @@ double check_masses(const ContactSide& A, const ContactSide& B) {
   throw InputError("contact: neither side can move");
 }
 
-FreeBody make_free_body(const ContactSide& side,
-                        const ContactParameters& parameters) {
-  const bool is_damped = parameters.restitution < 1.0 && !parameters.damping;
-  if (is_damped && std::isfinite(side.mass) && is_turned(side.shape) &&
-      side.inertia_B.isZero(0.0)) {
-    throw InputError("contact: restitution needs the inertia of both bodies");
-  }
-  return {side.mass, side.inertia_B};
+OpposedMass::OpposedMass(const ContactSide& A, const ContactSide& B,
+                         const ContactParameters& parameters)
+    : A_(make_free_body(A, parameters)), B_(make_free_body(B, parameters)) {}
+
+double OpposedMass::find_inverse(const joints::PairBodies& bodies,
+                                 const NormalLoad& load, double F,
+                                 std::span<const double> memory) const {
+  const Eigen::Map<const joints::PairMobility> Y(
+      memory.last<kNumbers>().data());
+  return Y.isZero(0.0) ? find_inverse_mass(A_, B_, bodies, load, F)
+                       : find_inverse_mass(Y, bodies, load, F);
+}
+
+void OpposedMass::keep(const joints::PairMobility& mobility,
+                       std::span<double> memory) {
+  std::copy_n(mobility.data(), kNumbers, memory.last<kNumbers>().begin());
 }
 
 }  // namespace limber::contact

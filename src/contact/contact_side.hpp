@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include "limber/common/records/manifest.hpp"
 #include "limber/contact/effective_mass.hpp"
@@ -29,10 +31,28 @@ void describe(Manifest& out, const ContactSide& A, const ContactSide& B,
 /// @throws InputError if neither has a finite mass.
 [[nodiscard]] double check_masses(const ContactSide& A, const ContactSide& B);
 
-/// The body as its contacts move it.
-/// @throws InputError for a restitution of a body that may turn without
-/// inertia.
-[[nodiscard]] FreeBody make_free_body(const ContactSide& side,
-                                      const ContactParameters& parameters);
+/// The mass that both bodies oppose to normal forces: as free ones, unless a
+/// mobility of joints is kept in their pair's memory, whose last kNumbers are
+/// those of a joints::PairMobility by columns, zero without joints.
+class OpposedMass {
+ public:
+  static constexpr std::size_t kNumbers = 144;
+
+  /// @throws InputError for a restitution of a body that may turn without
+  /// inertia.
+  OpposedMass(const ContactSide& A, const ContactSide& B,
+              const ContactParameters& parameters);
+
+  /// As find_inverse_mass [1/kg].
+  [[nodiscard]] double find_inverse(const joints::PairBodies& bodies,
+                                    const NormalLoad& load, double F,
+                                    std::span<const double> memory) const;
+  static void keep(const joints::PairMobility& mobility,
+                   std::span<double> memory);
+
+ private:
+  FreeBody A_;
+  FreeBody B_;
+};
 
 }  // namespace limber::contact

@@ -11,7 +11,6 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/contact/narrow_phase/nearest_cores.hpp"
-#include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
 
 namespace limber::contact {
@@ -155,15 +154,14 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
                      const ContactParameters& parameters)
     : A_(std::move(A)),
       B_(std::move(B)),
-      free_A_(make_free_body(A_, parameters)),
-      free_B_(make_free_body(B_, parameters)),
-      mass_(check_masses(A_, B_)),
+      mass_(A_, B_, parameters),
       parameters_(parameters),
       shapes_(A_.shape, B_.shape),
       potential_(A_.shape, B_.shape, find_modulus(A_, B_)),
       law_(parameters, find_ratio(A_, B_)),
       size_(contact::find_size(A_.shape, B_.shape)) {
   LIMBER_EXPECT(suits(A_, B_, parameters));
+  (void)check_masses(A_, B_);
 }
 
 void PatchPair::describe_parameters(Manifest& out) const {
@@ -171,7 +169,7 @@ void PatchPair::describe_parameters(Manifest& out) const {
 }
 
 std::size_t PatchPair::memory_size() const {
-  return kPatchNumbers + kMobilityNumbers;
+  return kPatchNumbers + OpposedMass::kNumbers;
 }
 
 PatchPoints PatchPair::place_points(const Patch& patch) const {
@@ -185,11 +183,7 @@ double PatchPair::find_inverse_mass(const PairBodies& bodies,
                                     std::span<const double> memory) const {
   NormalLoad load;
   load.add(bodies, patch.centre_W, patch.normal_W());
-  const Eigen::Map<const joints::PairMobility> Y(
-      memory.last<kMobilityNumbers>().data());
-  return Y.isZero(0.0)
-             ? contact::find_inverse_mass(free_A_, free_B_, bodies, load, 1.0)
-             : contact::find_inverse_mass(Y, bodies, load, 1.0);
+  return mass_.find_inverse(bodies, load, 1.0, memory);
 }
 
 PatchResponse PatchPair::respond(const PairBodies& bodies, const Patch& patch,
@@ -265,7 +259,7 @@ void PatchPair::commit(const PairBodies& bodies, double t,
                        std::span<double> memory,
                        joints::PairResponse& /*scratch*/) const {
   if (!law_.has_friction()) return;
-  const Patch patch = potential_.evaluate(bodies, true);
+  const Patch patch = potential_.evaluate(bodies, false);
   if (!patch.touches) {
     save_patch({}, memory);
     return;
@@ -343,15 +337,13 @@ double PatchPair::begin_touch(const PairBodies& bodies, double t,
   if (!load_patch(memory).is_touching) {
     save_patch(remember(bodies, touch.p_W, t, {}), memory);
   }
-  return find_duration(
-      bodies, touch,
-      contact::find_inverse_mass(free_A_, free_B_, bodies, load, 1.0));
+  return find_duration(bodies, touch,
+                       mass_.find_inverse(bodies, load, 1.0, memory));
 }
 
 void PatchPair::set_mobility(const joints::PairMobility& mobility,
                              std::span<double> memory) const {
-  std::copy_n(mobility.data(), kMobilityNumbers,
-              memory.last<kMobilityNumbers>().begin());
+  OpposedMass::keep(mobility, memory);
 }
 
 void PatchPair::end_touch(std::span<double> memory) const {
@@ -365,7 +357,7 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
                                      joints::PairResponse& /*scratch*/) const {
   constexpr double kMostDamping = 4.0;
   joints::TouchReading reading;
-  const Patch patch = potential_.evaluate(bodies, true);
+  const Patch patch = potential_.evaluate(bodies, false);
   if (!patch.touches) return reading;
   const PatchResponse response = respond(bodies, patch, memory);
   const double inverse_mass = find_inverse_mass(bodies, patch, memory);

@@ -88,9 +88,7 @@ class PatchPair final : public joints::PairInteraction,
 
   ContactSide A_;
   ContactSide B_;
-  FreeBody free_A_;
-  FreeBody free_B_;
-  double mass_;  // reduced [kg]
+  OpposedMass mass_;
   ContactParameters parameters_;
   ShapePair shapes_;
   PairPotential potential_;

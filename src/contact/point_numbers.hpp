@@ -10,10 +10,6 @@
 
 namespace limber::contact {
 
-/// At the end of a pair's memory: a joints::PairMobility by columns, zero of
-/// bodies without joints.
-inline constexpr std::size_t kMobilityNumbers = 144;
-
 /// The part of a pair's memory that belongs to one point.
 template <typename Number>
 [[nodiscard]] std::span<Number> numbers_of(std::size_t i,

@@ -8,7 +8,6 @@
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/meetings.hpp"
-#include "limber/contact/point_numbers.hpp"
 #include "limber/contact/stack_array.hpp"
 
 namespace limber::contact {
@@ -24,15 +23,13 @@ struct TouchingPoint {
 
 /// All features that touch, at one instant or over a step.
 struct Touch {
-  /// @param memory of the pair
-  explicit Touch(std::span<const double> memory)
-      : mobility(memory.last<kMobilityNumbers>()) {}
+  explicit Touch(std::span<const double> memory_) : memory(memory_) {}
 
   PadLaw::Response pads;
   StackArray<TouchingPoint, Meetings::kMost> points;
   NormalLoad load;
-  std::span<const double, kMobilityNumbers> mobility;
-  TouchMotion motion;  ///< but for the mass
+  std::span<const double> memory;  // of the pair
+  TouchMotion motion;              ///< but for the mass
 
   /// Adds a point that is complete to the sums.
   void sum(const joints::PairBodies& bodies, const Vector3& p_W,

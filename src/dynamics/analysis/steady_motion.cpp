@@ -58,7 +58,7 @@ class Remainder {
     for (const BodyIndex b : group) {
       include(b, out.left);
       const BodyModel& body = model_.bodies[index(b)];
-      reach = std::max(reach, std::sqrt(0.5 * body.J0.trace() / body.mass));
+      reach = std::max(reach, radius_of_gyration(body));
     }
     const double limit =
         kBalanced * out.left.acting + kSafety * find_noise(group);

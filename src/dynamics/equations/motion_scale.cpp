@@ -6,6 +6,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/dynamics/equations/displacement_measure.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -24,7 +25,7 @@ MotionScale::Largest take_root(MotionScale::Largest largest) {
 
 double find_reach(const SystemModel& model, BodyIndex b) {
   const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
-  double reach = std::sqrt(0.5 * body.J0.trace() / body.mass);
+  double reach = radius_of_gyration(body);
   if (body.reduced && body.reduced->rows.x_B.cols() > 0) {
     reach = std::max(reach, body.reduced->rows.x_B.colwise().norm().maxCoeff());
   }
