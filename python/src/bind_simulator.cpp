@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+
 #include "interruption.hpp"
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
@@ -16,7 +18,8 @@ SimulationSettings make_settings(double end_time, double step,
                                  const std::string& integrator,
                                  double tolerance, double rho_inf,
                                  double newton_tolerance, int newton_iterations,
-                                 bool exact_modes, bool verified) {
+                                 bool exact_modes,
+                                 std::optional<bool> verified) {
   SimulationSettings settings;
   settings.integrator = parse_integrator(integrator);
   settings.end_time = end_time;
@@ -27,7 +30,10 @@ SimulationSettings make_settings(double end_time, double step,
   settings.newton_tolerance = newton_tolerance;
   settings.newton_iterations = newton_iterations;
   settings.exact_modes = exact_modes;
-  settings.passes = verified ? TolerancePasses::verified : TolerancePasses::one;
+  if (verified) {
+    settings.passes =
+        *verified ? TolerancePasses::verified : TolerancePasses::one;
+  }
   return settings;
 }
 
@@ -104,13 +110,14 @@ void bind_simulator(py::module_& m) {
       "How a system is simulated: until end_time [s], with steps of at most "
       "`step` [s] or to a tolerance of any point's position [m], outputs at "
       "increasing times [s]. verified: repeat the run with shorter steps until "
-      "its error is known to be within the tolerance.")
+      "its error is known to be within the tolerance; None: where loads or "
+      "commands oscillate.")
       .def(py::init(&make_settings), py::arg("end_time"), py::arg("step"),
            py::arg("output_times") = std::vector<double>(),
            py::arg("integrator") = "generalized-alpha",
            py::arg("tolerance") = 0.0, py::arg("rho_inf") = 0.9,
            py::arg("newton_tolerance") = 0.0, py::arg("newton_iterations") = 20,
-           py::arg("exact_modes") = true, py::arg("verified") = false);
+           py::arg("exact_modes") = true, py::arg("verified") = std::nullopt);
   m.def("simulate", &simulate, py::arg("model"), py::arg("start"),
         py::arg("settings"), py::arg("probes"), py::arg("progress"));
 

@@ -150,11 +150,36 @@ TEST(StepsWithoutAChoice, TakeATenThousandthOfTheLargestBodysSize) {
   const json report = run(place, "");
   EXPECT_NEAR(report["tolerance"].get<double>(), 3.04e-6, 1e-8);
   EXPECT_EQ(report["passes"], 1);
+  EXPECT_EQ(report["tolerance_passes"], "one");
   EXPECT_FALSE(report.contains("estimated_error"));
   const json verified =
       run(place, "tolerance = 1e-4\ntolerance_passes = 'verified'");
   EXPECT_GE(verified["passes"].get<int>(), 2);
   EXPECT_LE(verified["estimated_error"].get<double>(), 1e-4);
+}
+
+// Also to the tolerance of a scene that names none.
+TEST(StepsWithoutAChoice, AreVerifiedUnderASinusoidalLoad) {
+  const Workspace place;
+  place.write("ball.urdf", kBall);
+  const std::string load =
+      "[[load]]\nname = 'push'\nlink = 'ball'\nforce = [1e-3, 0, 0]\n"
+      "frame = 'world'\ntime = { kind = 'sinusoid', frequency = 5 }\n";
+  const auto run_with = [&](const std::string& options) {
+    place.write("s.toml", write_scene("") + load);
+    const CommandResult result =
+        place.limber("run s.toml --json --out o " + options);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.out);
+  };
+  const json verified = run_with("");
+  EXPECT_EQ(verified["tolerance_passes"], "verified");
+  EXPECT_GE(verified["passes"].get<int>(), 2);
+  EXPECT_LE(verified["estimated_error"].get<double>(),
+            verified["tolerance"].get<double>());
+  const json one = run_with("--set time.tolerance_passes=one");
+  EXPECT_EQ(one["tolerance_passes"], "one");
+  EXPECT_EQ(one["passes"], 1);
 }
 
 TEST(StepsWithoutAChoice, AreAnErrorForOtherIntegratorsAndOtherWords) {

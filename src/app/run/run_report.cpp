@@ -58,8 +58,8 @@ void print_tolerance(const Run& run) {
         chosen);
     return;
   }
-  fmt::print("error   shared by all steps: tolerance {:.3g} m{}\n", tolerance,
-             chosen);
+  fmt::print("error   shared by all steps of one pass: tolerance {:.3g} m{}\n",
+             tolerance, chosen);
 }
 
 void print_text(const Run& run, const std::filesystem::path& folder) {

@@ -19,6 +19,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/dynamics/simulation/tolerance_loop.hpp"
 #include "limber/results/energy_audit.hpp"
 #include "limber/scene/build/build_system.hpp"
 #include "limber/scene/probes/followed_probes.hpp"
@@ -179,6 +180,8 @@ Run simulate_built(const scene::Scene& scene, scene::BuiltScene built,
   Run run;
   run.scene = scene;
   run.built = std::move(built);
+  run.built.settings.passes = dynamics::choose_passes(
+      run.built.model, run.built.settings, run.built.initial.t);
   add_columns(run);
   dynamics::Followed followed =
       scene::follow(run.built.probes, run.built.model);
@@ -246,6 +249,7 @@ Json summarize(const Run& run) {
   json["steps_halved"] = run.statistics.halved_steps;
   if (run.built.settings.tolerance > 0.0) {
     json["steps_rejected"] = run.statistics.rejected_steps;
+    json["tolerance_passes"] = to_string(run.built.settings.passes);
     json["passes"] = run.statistics.passes;
     json["tolerance"] = run.built.settings.tolerance;
     if (run.statistics.passes > 1) {

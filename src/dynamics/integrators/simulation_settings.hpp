@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "limber/dynamics/integrators/integrator_kind.hpp"
@@ -15,9 +17,18 @@ struct StepChange {
 
 /// How a run meets a tolerance.
 enum class TolerancePasses {
-  one,       ///< steps with an error that usually meets it; no estimate
-  verified,  ///< again with shorter steps until the difference shows it
+  automatic,  ///< verified where loads or commands oscillate, else one
+  one,        ///< steps with an error that usually meets it; no estimate
+  verified,   ///< again with shorter steps until the difference shows it
 };
+
+/// As scenarios name them, in the enumerators' order.
+inline constexpr std::array<std::string_view, 3> kTolerancePasses = {
+    "auto", "one", "verified"};
+
+[[nodiscard]] constexpr std::string_view to_string(TolerancePasses passes) {
+  return kTolerancePasses.at(static_cast<std::size_t>(passes));
+}
 
 struct SimulationSettings {
   IntegratorKind integrator = IntegratorKind::generalized_alpha;
@@ -27,7 +38,7 @@ struct SimulationSettings {
   /// varying length up to `step` [m]; 0: fixed steps. For adaptive integrators
   /// (IntegratorTraits::is_adaptive).
   double tolerance = 0.0;
-  TolerancePasses passes = TolerancePasses::one;  ///< to a tolerance
+  TolerancePasses passes = TolerancePasses::automatic;  ///< to a tolerance
   /// Largest number of steps to a tolerance, over all passes, including
   /// repeated steps.
   long most_steps = 5'000'000;

@@ -64,14 +64,20 @@ std::string name_those(bool IntegratorTraits::*property) {
 
 }  // namespace
 
-void refuse_hidden_memory(const SystemModel& model, const std::string& why) {
+const ControllerModel* find_hidden_memory(const SystemModel& model) {
   for (const ControllerModel& controller : model.controllers) {
-    if (!controller.law->has_hidden_memory()) continue;
-    throw InputError(fmt::format(
-        "controller '{}' keeps something that is not in its memory, so that "
-        "its samples cannot be repeated, but {}",
-        controller.name, why));
+    if (controller.law->has_hidden_memory()) return &controller;
   }
+  return nullptr;
+}
+
+void refuse_hidden_memory(const SystemModel& model, const std::string& why) {
+  const ControllerModel* controller = find_hidden_memory(model);
+  if (controller == nullptr) return;
+  throw InputError(
+      fmt::format("controller '{}' keeps something that is not in its memory, "
+                  "so that its samples cannot be repeated, but {}",
+                  controller->name, why));
 }
 
 void check_settings(const SystemModel& model, const SystemState& state,

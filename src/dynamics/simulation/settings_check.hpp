@@ -15,6 +15,10 @@ namespace limber::dynamics {
 void check_settings(const SystemModel& model, const SystemState& state,
                     const SimulationSettings& settings);
 
+/// The first controller with hidden memory; null if none has any.
+[[nodiscard]] const ControllerModel* find_hidden_memory(
+    const SystemModel& model);
+
 /// @param why controllers must be repeatable: the end of the message's sentence
 /// @throws InputError for a controller with hidden memory.
 void refuse_hidden_memory(const SystemModel& model, const std::string& why);

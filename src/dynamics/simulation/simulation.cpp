@@ -55,13 +55,16 @@ void simulate(const SystemModel& model, SystemState& state,
 }
 
 void simulate(const SystemModel& model, SystemState& state,
-              const SimulationSettings& settings, const Observer& observer,
+              const SimulationSettings& asked, const Observer& observer,
               const Progress& progress, SimulationStatistics& statistics,
               const Continuation& continuation, const Followed& followed,
               RunRecord& record) {
-  check_settings(model, state, settings);
-  if (settings.tolerance > 0.0 &&
-      settings.passes == TolerancePasses::verified) {
+  check_settings(model, state, asked);
+  SimulationSettings settings = asked;
+  settings.passes = choose_passes(model, asked, state.t);
+  const bool is_verified =
+      settings.tolerance > 0.0 && settings.passes == TolerancePasses::verified;
+  if (is_verified) {
     refuse_hidden_memory(model,
                          "a verified tolerance takes several passes; take one "
                          "pass, or a step");
@@ -70,8 +73,6 @@ void simulate(const SystemModel& model, SystemState& state,
     refuse_hidden_memory(model, "a checkpoint must continue alike");
   }
   const Stopwatch stopwatch(statistics.seconds);
-  const bool is_verified =
-      settings.tolerance > 0.0 && settings.passes == TolerancePasses::verified;
   const auto warn = [&] {
     warn_of_energy(settings.integrator, record.energy, statistics.warnings);
   };

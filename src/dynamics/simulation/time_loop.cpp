@@ -39,7 +39,7 @@ constexpr double kMostWork = 4e6;  // steps and solves, times unknowns
 constexpr double kBudgetShare = 0.5;  // of the tolerance
 
 ErrorBudget make_budget(const SimulationSettings& settings, double start) {
-  if (settings.passes == TolerancePasses::one) {
+  if (settings.passes != TolerancePasses::verified) {
     return ErrorBudget::in_all(kBudgetShare * settings.tolerance,
                                settings.end_time - start);
   }

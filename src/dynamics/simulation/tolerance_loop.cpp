@@ -9,7 +9,9 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/equations/motion_scale.hpp"
+#include "limber/dynamics/simulation/settings_check.hpp"
 #include "limber/dynamics/simulation/single_run.hpp"
+#include "limber/dynamics/system/oscillation.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -245,7 +247,25 @@ class ToleranceLoop {
   std::size_t now_logged_ = 0;
 };
 
+// Whether a load or a command oscillates between two times [s].
+bool has_oscillation(const SystemModel& model, double start, double end) {
+  const std::vector<Oscillation> all = find_oscillations(model);
+  return std::any_of(all.begin(), all.end(), [&](const Oscillation& one) {
+    return one.from < end && one.until > start;
+  });
+}
+
 }  // namespace
+
+TolerancePasses choose_passes(const SystemModel& model,
+                              const SimulationSettings& settings,
+                              double start) {
+  if (settings.passes != TolerancePasses::automatic) return settings.passes;
+  const bool is_verified = settings.tolerance > 0.0 &&
+                           find_hidden_memory(model) == nullptr &&
+                           has_oscillation(model, start, settings.end_time);
+  return is_verified ? TolerancePasses::verified : TolerancePasses::one;
+}
 
 void run_to_tolerance(const SystemModel& model, SystemState& state,
                       const SimulationSettings& settings,

@@ -5,6 +5,15 @@
 
 namespace limber::dynamics {
 
+/// Which passes a run from time `start` [s] makes to settings.tolerance: those
+/// of the settings, or of `automatic` verified ones if a load or a command
+/// oscillates in the run, and no controller hides what it remembers. Errors of
+/// an oscillation's steps add up in the velocity of what nothing restores: one
+/// pass missed its tolerance by up to 14 times then.
+[[nodiscard]] TolerancePasses choose_passes(const SystemModel& model,
+                                            const SimulationSettings& settings,
+                                            double start);
+
 /// simulate() to settings.tolerance with TolerancePasses::verified, for checked
 /// settings: passes over the whole time with decreasing steps, until the
 /// difference of two shows that the last is within the tolerance. The observer

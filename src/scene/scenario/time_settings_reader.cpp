@@ -109,7 +109,8 @@ std::vector<double> read_output_times(
 }
 
 dynamics::TolerancePasses parse_passes(std::string_view name) {
-  static const std::vector<std::string> names = {"one", "verified"};
+  static const std::vector<std::string> names = {
+      dynamics::kTolerancePasses.begin(), dynamics::kTolerancePasses.end()};
   return static_cast<dynamics::TolerancePasses>(
       find_name("tolerance_passes", name, names));
 }

@@ -227,6 +227,49 @@ TEST(OscillatingCommands, ReachAndLeaveTheEffortLimitWhenTheyDo) {
   }
 }
 
+int count_passes(const SystemModel& model, const SimulationSettings& settings) {
+  return run_from(model, make_state(model), settings).statistics.passes;
+}
+
+// One pass missed it by 1.6 times.
+TEST(OscillatingCommands, KeepTheToleranceByDefault) {
+  const double tolerance = 1.0924323882917619e-06;
+  SimulationSettings settings = make_settings(tolerance, 1.0, {});
+  settings.passes = SimulationSettings{}.passes;
+  EXPECT_LT(find_error(Servo{}, settings), tolerance);
+  EXPECT_GE(count_passes(make_driven(Servo{}), settings), 2);
+}
+
+TEST(OscillatingLoads, AreVerifiedByDefaultLikeOnAsking) {
+  const Push push{50.0, 12.5, 0.3};
+  const SystemModel model = make_pushed(push);
+  const auto run_with = [&](TolerancePasses passes) {
+    return run_from(model, make_state(model), make_settings(1e-4, 1.0, passes));
+  };
+  const RunOutcome asked = run_with(TolerancePasses::verified);
+  const RunOutcome chosen = run_with(TolerancePasses::automatic);
+  EXPECT_EQ(chosen.statistics.steps, asked.statistics.steps);
+  EXPECT_EQ(chosen.states.back().bodies[0].p_WB,
+            asked.states.back().bodies[0].p_WB);
+  EXPECT_EQ(run_with(TolerancePasses::one).statistics.passes, 1);
+}
+
+// Neither a steady force, nor one that oscillates after the end only.
+TEST(OscillatingLoads, AloneAreVerifiedByDefault) {
+  const SimulationSettings settings =
+      make_settings(1e-4, 1.0, TolerancePasses::automatic);
+  const auto passes_of = [&](const TimeFunction& function) {
+    SystemBuilder builder;
+    const testing::Mass mass = testing::add_mass(builder, "mass", kMass);
+    builder.add_load("push", mass.frame, {1.0, 0.0, 0.0}, Vector3::Zero(),
+                     LoadFrame::world, function);
+    return count_passes(builder.build(), settings);
+  };
+  EXPECT_EQ(passes_of(Sinusoid{.frequency = 2.0, .from = 1.0}), 1);
+  EXPECT_EQ(passes_of(Sinusoid{.frequency = 0.0, .phase = 1.0}), 1);
+  EXPECT_GE(passes_of(Sinusoid{.frequency = 2.0, .from = 0.9}), 2);
+}
+
 // Those of periods; the energy has its own.
 std::vector<std::string> find_warnings(const SystemModel& model, double step) {
   SimulationSettings settings;
