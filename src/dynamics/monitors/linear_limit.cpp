@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
@@ -29,9 +30,9 @@ Eigen::Index find_largest_mode(const DisplacementMeasure& measure,
   return k;
 }
 
-// Largest eigenvalue of B against the stiffness of the undeformed body.
-double find_largest_share(const flexbody::ModalElasticity& elasticity,
-                          const MatrixX& B) {
+// Eigenvalues of B against the stiffness of the undeformed body.
+VectorX find_shares(const flexbody::ModalElasticity& elasticity,
+                    const MatrixX& B) {
   MatrixX scaled;
   if (flexbody::is_diagonal_at_rest(elasticity)) {
     const VectorX scale =
@@ -45,7 +46,37 @@ double find_largest_share(const flexbody::ModalElasticity& elasticity,
         own.vectors * own.values.cwiseSqrt().cwiseInverse().asDiagonal();
     scaled = to_unit.transpose() * B * to_unit;
   }
-  return dense::find_eigenvalues(scaled).maxCoeff();
+  return dense::find_eigenvalues(scaled);
+}
+
+// [rad^2/s^2]; beyond this square of a spin rotation may soften a body.
+double find_harmless_square(const BodyModel& body) {
+  if (body.modes == 0 || body.clamped || body.fidelity != Fidelity::coupled) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double lowest = flexbody::lowest_rest_stiffness(body.elasticity);
+  return kHarmless * kHarmless * lowest;
+}
+
+// Shares of stiffness that a spin with these products cancels.
+VectorX find_shares(const BodyModel& body, const Vector6& half_w_squared) {
+  MatrixX B(body.modes, body.modes);
+  for (int k = 0; k < body.modes; ++k) {
+    for (int l = 0; l < body.modes; ++l) {
+      B(k, l) = half_w_squared.dot(body.inertia->J2.block<6, 1>(6 * k, l));
+    }
+  }
+  return find_shares(body.elasticity, B);
+}
+
+// The largest magnitude of a share for each product of spins [s^2/rad^2].
+Vector6 find_unit_shares(const BodyModel& body) {
+  Vector6 units;
+  for (int i = 0; i < 6; ++i) {
+    units[i] =
+        find_shares(body, Vector6(Vector6::Unit(i))).cwiseAbs().maxCoeff();
+  }
+  return units;
 }
 
 // The theory that holds for small deformations only.
@@ -88,19 +119,8 @@ double find_turn(const SystemModel& model, const SystemState& state,
 }  // namespace
 
 double find_softening(const BodyModel& body, const Vector3& w_WB_B) {
-  if (body.modes == 0 || body.clamped || body.fidelity != Fidelity::coupled) {
-    return 0.0;
-  }
-  const double lowest = flexbody::lowest_rest_stiffness(body.elasticity);
-  if (!(w_WB_B.squaredNorm() > kHarmless * kHarmless * lowest)) return 0.0;
-  const Vector6 half_w_squared = half_square(w_WB_B);
-  MatrixX B(body.modes, body.modes);
-  for (int k = 0; k < body.modes; ++k) {
-    for (int l = 0; l < body.modes; ++l) {
-      B(k, l) = half_w_squared.dot(body.inertia->J2.block<6, 1>(6 * k, l));
-    }
-  }
-  return find_largest_share(body.elasticity, B);
+  if (!(w_WB_B.squaredNorm() > find_harmless_square(body))) return 0.0;
+  return find_shares(body, half_square(w_WB_B)).maxCoeff();
 }
 
 std::optional<std::string> describe_softening(const BodyModel& body,
@@ -132,23 +152,36 @@ LinearLimit::LinearLimit(const SystemModel& model) : model_(model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     if (body.modes == 0 || !body.reduced) continue;
-    bodies_.push_back(
-        {b, body.reduced->size.maxCoeff(), DisplacementMeasure(body)});
+    bodies_.push_back({b, body.reduced->size.maxCoeff(),
+                       find_harmless_square(body), DisplacementMeasure(body)});
+    bodies_.back().eta = VectorX::Zero(body.modes);
   }
+}
+
+bool LinearLimit::may_exceed(const SystemState& state, Body& body,
+                             double limit) const {
+  const BodyModel& model = model_.bodies[body.index];
+  const auto eta = state.eta.segment(model.offset, model.modes);
+  const VectorX& sizes = body.measure.mode_sizes();
+  if (sizes.dot(eta.cwiseAbs()) <= limit) return false;
+  const double change = sizes.dot((eta - body.eta).cwiseAbs());
+  if (body.displacement + change <= limit) return false;
+  body.eta = eta;
+  body.displacement = body.measure.calc_displacement(body.eta);
+  return !(body.displacement <= limit);
 }
 
 void LinearLimit::check_deformation(const SystemState& state, Body& body,
                                     std::vector<std::string>& warnings) const {
+  if (body.size == 0.0) return;
+  const double share = body.was_told_large ? kAbsurdDeformation : kLarge;
+  if (!may_exceed(state, body, share * body.size)) return;
   const BodyModel& model = model_.bodies[body.index];
-  const VectorX eta = state.eta.segment(model.offset, model.modes);
-  const double bound = body.measure.mode_sizes().dot(eta.cwiseAbs());
-  if (bound <= kLarge * body.size || body.size == 0.0) return;
-  const double deformation = body.measure.calc_displacement(eta);
-  if (deformation <= kLarge * body.size) return;
+  const double deformation = body.displacement;
   const bool is_nonlinear = model.fidelity == Fidelity::nonlinear;
   const double turn = is_nonlinear ? find_turn(model_, state, body.index) : 0.0;
   if (is_nonlinear && turn <= kLargeTurn && deformation <= body.size) return;
-  const Eigen::Index mode = find_largest_mode(body.measure, eta);
+  const Eigen::Index mode = find_largest_mode(body.measure, body.eta);
   const std::string what = fmt::format(
       "body '{}' at t = {:.9g} s: deformed by {:.3g} m, {:.3g} % of its size "
       "({:.3g} m), most in mode {} ({:.4g} Hz)",
@@ -178,9 +211,23 @@ void LinearLimit::check_deformation(const SystemState& state, Body& body,
                      "deformations");
 }
 
+bool LinearLimit::may_soften(const SystemState& state, Body& body) const {
+  const Vector3& w_WB_B = state.bodies[body.index].w_WB_B;
+  if (!(w_WB_B.squaredNorm() > body.harmless_square)) return false;
+  const BodyModel& model = model_.bodies[body.index];
+  if (!body.unit_shares) body.unit_shares = find_unit_shares(model);
+  const Vector6 products = half_square(w_WB_B);
+  const double change =
+      body.unit_shares->dot((products - body.products).cwiseAbs());
+  if (body.softening + change < 1.0) return false;
+  body.products = products;
+  body.softening = find_shares(model, products).maxCoeff();
+  return body.softening >= 1.0;
+}
+
 void LinearLimit::check_speed(const SystemState& state, Body& body,
                               std::vector<std::string>& warnings) const {
-  if (body.was_told_soft) return;
+  if (body.was_told_soft || !may_soften(state, body)) return;
   const auto text = describe_softening(model_.bodies[body.index],
                                        state.bodies[body.index].w_WB_B);
   if (!text) return;

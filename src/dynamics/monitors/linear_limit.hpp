@@ -27,16 +27,22 @@ namespace limber::dynamics {
 [[nodiscard]] double find_softening(const BodyModel& body,
                                     const Vector3& w_WB_B);
 
-/// Monitors deformations: linear elasticity is valid for small ones only.
+/// Monitors deformations: linear elasticity is valid for small ones only. It
+/// looks at every step, so what it finds does not depend on the outputs.
 ///
-/// Limits     only for reduced bodies with stored nodes
+/// Equation   displacements and shares of stiffness are computed where a bound
+///            on their change since the last time does not exclude a finding:
+///            |u(eta)| <= |u(eta_0)| + sum_k size_k |eta - eta_0|_k and
+///            mu(q) <= mu(q_0) + sum_i mu(e_i) |q - q_0|_i of q = w' w / 2
+/// Limits     only for reduced bodies with stored nodes; looks at the ends of
+///            steps
 class LinearLimit {
  public:
   explicit LinearLimit(const SystemModel& model);
 
-  /// Adds a warning, once per body, if its deformation exceeds 10 % of its
-  /// longest edge, or its spin the critical speed of linear elasticity; at
-  /// level nonlinear if an interface turns by more than 0.4 rad.
+  /// The end of a step. Adds a warning, once per body, if its deformation
+  /// exceeds 10 % of its longest edge, or its spin the critical speed of linear
+  /// elasticity; at level nonlinear if an interface turns by more than 0.4 rad.
   /// @throws NumericalError naming the body, the dominant mode and the time if
   /// the deformation exceeds 100 %, which is not a valid result.
   void check(const SystemState& state, std::vector<std::string>& warnings);
@@ -47,11 +53,21 @@ class LinearLimit {
  private:
   struct Body {
     std::size_t index = 0;
-    double size = 0.0;  // longest edge, 0: unknown [m]
+    double size = 0.0;             // longest edge, 0: unknown [m]
+    double harmless_square = 0.0;  // of its spin [rad^2/s^2]
     DisplacementMeasure measure;
+    std::optional<Vector6> unit_shares = {};  // if needed yet [s^2/rad^2]
     bool was_told_large = false;
     bool was_told_soft = false;
+    // The last ones that were computed.
+    VectorX eta = {};
+    double displacement = 0.0;           // [m]
+    Vector6 products = Vector6::Zero();  // half_square(w) [rad^2/s^2]
+    double softening = 0.0;
   };
+  [[nodiscard]] bool may_exceed(const SystemState& state, Body& body,
+                                double limit) const;
+  [[nodiscard]] bool may_soften(const SystemState& state, Body& body) const;
   void check_deformation(const SystemState& state, Body& body,
                          std::vector<std::string>& warnings) const;
   void check_speed(const SystemState& state, Body& body,

@@ -39,8 +39,11 @@ struct Simulator::Parts {
       : model(its_model),
         state(start),
         settings(check(model, state, asked, statistics)),
-        loop(model, settings, state, statistics, 1.0),
         limit(model),
+        loop(model, settings, state, statistics, 1.0, {},
+             [this](const SystemState& at) {
+               limit.check(at, statistics.warnings);
+             }),
         rounding(model) {
     show();
     rounding.check(shown(), statistics.warnings);
@@ -70,8 +73,8 @@ struct Simulator::Parts {
   SystemState framed;
   SimulationStatistics statistics;
   SimulationSettings settings;
-  TimeLoop loop;
   LinearLimit limit;
+  TimeLoop loop;
   RoundingLimit rounding;
 };
 
@@ -103,7 +106,6 @@ bool Simulator::advance_to(double t, const std::function<bool()>& stops) {
     throw;
   }
   parts_->show();
-  parts_->limit.check(parts_->state, parts_->statistics.warnings);
   parts_->rounding.check(parts_->shown(), parts_->statistics.warnings);
   if (parts_->state.t == end) parts_->judge();
   return is_there;

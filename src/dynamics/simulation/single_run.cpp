@@ -28,6 +28,7 @@ struct Job {
   const Continuation& continuation;
   const Followed& followed;
   RunRecord& record;
+  const TimeLoop::Check& check;
   double refinement;  // see StepControl [-]
 };
 
@@ -37,7 +38,7 @@ void integrate(const SystemModel& model, SystemState& state, const Job& job,
       limit_step(model, state, job.settings, job.statistics);
   add_period_warning(model, settings, state.t, job.statistics);
   TimeLoop loop(model, settings, state, job.statistics, job.refinement,
-                job.followed);
+                job.followed, job.check);
   if (job.continuation.from) loop.resume(*job.continuation.from, state);
   try {
     loop.run(state, visit, job.progress, job.continuation.keeper);
@@ -64,6 +65,7 @@ void pass_time(const SystemModel& model, SystemState& state,
   peaks.tell(job.record.peaks, job.record.places);
   for (const double t : times) {
     state.t = t;
+    job.check(state);
     visit(state, {});
   }
   state.t = job.settings.end_time;
@@ -144,9 +146,13 @@ void integrate_with_exact_modes(ExactModes& exact, SystemState& state,
       job.followed.spectator->include(seen);
     };
   }
-  const Job rest_job{job.settings,     job.progress, job.statistics,
-                     job.continuation, followed,     job.record,
-                     job.refinement};
+  const TimeLoop::Check check = [&](const SystemState& now) {
+    join(now);
+    job.check(seen);
+  };
+  const Job rest_job{
+      job.settings, job.progress, job.statistics, job.continuation,
+      followed,     job.record,   check,          job.refinement};
   try {
     if (exact.has_motion_left()) {
       integrate(exact.rest(), rest, rest_job, visit_whole);
@@ -195,7 +201,6 @@ void run_once(const SystemModel& model, SystemState& state,
   RoundingLimit rounding(model);
   const TimeLoop::Visit visit = [&](const SystemState& at,
                                     const Losses& losses) {
-    limit.check(at, statistics.warnings);
     if (!model.full_bodies.empty()) {
       framed = at;
       update_mean_frames(model, framed);
@@ -208,9 +213,12 @@ void run_once(const SystemModel& model, SystemState& state,
     balance.work = losses.work;
     observer(now, balance);
   };
+  const TimeLoop::Check check = [&](const SystemState& at) {
+    limit.check(at, statistics.warnings);
+  };
   const Continuation whole = add_memory(limit, rounding, continuation);
   const Job job{settings, progress, statistics, whole,
-                followed, record,   refinement};
+                followed, record,   check,      refinement};
   rounding.check(state, statistics.warnings);
   add_start_warnings(model, state, statistics);
   const double start = state.t;

@@ -50,7 +50,7 @@ ErrorBudget make_budget(const SimulationSettings& settings, double start) {
 
 TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
                    const SystemState& state, SimulationStatistics& statistics,
-                   double refinement, const Followed& followed)
+                   double refinement, const Followed& followed, Check check)
     : model_(model),
       settings_(settings),
       statistics_(statistics),
@@ -67,6 +67,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       peaks_(model, followed),
       audit_(model, settings.integrator),
       contacts_(model, settings.integrator),
+      check_(std::move(check)),
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
       jumps_(make_flows(model)),
@@ -184,6 +185,17 @@ void TimeLoop::inspect(const SystemState& state) {
                    is_early && !clash_.empty() ? clash_ : advice));
 }
 
+// Energies that blow up are the cause of other failures.
+void TimeLoop::check(const SystemState& state) {
+  if (!check_) return;
+  try {
+    check_(state);
+  } catch (const NumericalError&) {
+    if (has_started_) inspect(state);
+    throw;
+  }
+}
+
 void TimeLoop::count_step(const StepResult& since) {
   const StepResult& now = stepper_.totals();
   statistics_.newton_iterations += now.iterations - since.iterations;
@@ -289,6 +301,7 @@ void TimeLoop::visit_output(const SystemState& state, const Losses& losses,
 
 // Samples at the start, before the first step.
 void TimeLoop::begin(SystemState& state) {
+  check(state);
   sampling_.skip_until(state);
   take_samples(state);
   inputs_jump_ = false;
@@ -378,6 +391,7 @@ void TimeLoop::take_step(SystemState& state, const Visit& visit,
     return heed_within_step(state, progress);
   }
   if (is_look_due(state, ++statistics_.steps)) inspect(state);
+  check(state);
   if (part_ == parts_) leave_breakpoint(state, visit);
   tell_progress(state, progress);
   if (is_refresh_due()) {

@@ -41,12 +41,14 @@ class TimeLoop {
  public:
   /// Called with every output.
   using Visit = std::function<void(const SystemState&, const Losses&)>;
+  /// Called at the start and at the end of every step.
+  using Check = std::function<void(const SystemState&)>;
 
   /// @param state at the start
   /// @param refinement see StepControl, at most 1 [-]
   TimeLoop(const SystemModel& model, const SimulationSettings& settings,
            const SystemState& state, SimulationStatistics& statistics,
-           double refinement, const Followed& followed = {});
+           double refinement, const Followed& followed = {}, Check check = {});
 
   /// Resumes from a checkpoint: sets `state` and the history. Outputs before it
   /// are not visited again.
@@ -114,6 +116,7 @@ class TimeLoop {
   [[nodiscard]] bool is_look_due(const SystemState& state, long steps) const;
   void watch_step(const SystemState& state, std::size_t events_before);
   void inspect(const SystemState& state);
+  void check(const SystemState& state);
   [[nodiscard]] bool is_refresh_due() const;
   void refresh();
   [[nodiscard]] Checkpoint make_checkpoint(SystemState& state);
@@ -142,6 +145,7 @@ class TimeLoop {
   PeakWatch peaks_;
   StepAudit audit_;
   ContactLog contacts_;
+  Check check_;
   WorkBudget budget_;
   SystemTerms terms_;  // at the start
   EnergyFlows jumps_;  // between two steps

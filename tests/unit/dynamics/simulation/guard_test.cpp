@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/common/errors.hpp"
@@ -135,6 +136,50 @@ TEST(Guard, StopsAtADeformationAsLargeAsTheBody) {
   scene.state.eta[0] = 1e3;
   EXPECT_THAT(run_into_trouble(scene, make_settings(0.1, 1e-3)),
               HasSubstr("linear elasticity has no answer there"));
+}
+
+// In a period a mode swings to both sides and back to the start: outputs at
+// both ends see nothing.
+TEST(Guard, LooksAtDeformationsBetweenOutputs) {
+  for (const Fidelity fidelity : {Fidelity::coupled, Fidelity::uncoupled}) {
+    Scene scene = make_spinning_body(0.0, fidelity);
+    const flexbody::ReducedBody& body = *scene.model.bodies[0].reduced;
+    const double rate = std::sqrt(body.lambda[1]);
+    const double period = 2.0 * std::numbers::pi / rate;
+    const double size =
+        body.size.maxCoeff() /
+        DisplacementMeasure(scene.model.bodies[0]).mode_sizes()[1];
+    const SimulationSettings settings = make_settings(period, period / 200.0);
+    const auto swing = [&](double share) {
+      scene.state.etadot[1] = share * size * rate;
+      SystemState state = scene.state;
+      return simulate(scene.model, state, settings, {}).warnings;
+    };
+    EXPECT_TRUE(swing(0.09).empty());
+    const auto warnings = swing(0.12);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_THAT(warnings[0], HasSubstr("% of its size"));
+    scene.state.etadot[1] = 1.1 * size * rate;
+    EXPECT_THAT(run_into_trouble(scene, settings),
+                HasSubstr("linear elasticity has no answer there"));
+  }
+}
+
+// The bounds that save its evaluation leave it out at no speed.
+TEST(Guard, FindsTheStepAtWhichASpinBecomesCritical) {
+  const PointMassBody body = make_point_mass_body(24, 4, 4.0, 1.0, 60.0, 42);
+  const double critical = find_critical_speed(body, Vector3::UnitX());
+  Scene scene = make_spinning_body(0.0);
+  LinearLimit limit(scene.model);
+  std::vector<std::string> warnings;
+  for (double share = 0.3; share < 0.9995; share += 1e-3) {
+    scene.state.bodies[0].w_WB_B.x() = share * critical;
+    limit.check(scene.state, warnings);
+  }
+  EXPECT_TRUE(warnings.empty());
+  scene.state.bodies[0].w_WB_B.x() = 1.0001 * critical;
+  limit.check(scene.state, warnings);
+  EXPECT_EQ(warnings.size(), 1U);
 }
 
 TEST(Guard, StopsAnExplicitSchemeThatBlowsUpLongBeforeItOverflows) {
