@@ -17,12 +17,15 @@ constexpr double kPassedError = 1e-11;
 constexpr double kNoiseFactor = 10.0;
 // Factor on both that no run at rest exceeds; what blows up soon does.
 constexpr double kRestFactor = 1e6;
-// Least relative growth of an extreme before it is evaluated exactly; a drift
-// is relative to the throughput.
-constexpr double kGrowth = 1.01;
+// Of the throughput: smaller drifts are not evaluated exactly.
 constexpr double kNoteworthy = 1e-3;
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+// Of a row's energies in a frame of velocity `v` [m/s].
+double find_roundoff(const EnergyAccount& account, const Vector3& v) {
+  return kPassedError * (account.passed + account.rounded_in(v));
+}
 
 }  // namespace
 
@@ -123,7 +126,7 @@ void EnergyGroups::meet(Group& group, const Group& other) const {
   }
 }
 
-void EnergyGroups::connect(const PairTerms& pairs,
+bool EnergyGroups::connect(const PairTerms& pairs,
                            const std::vector<EnergyAccount>& accounts) {
   bool has_joined = false;
   for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
@@ -134,12 +137,13 @@ void EnergyGroups::connect(const PairTerms& pairs,
     join_body(row, model_.pairs[i].body_A);
     join_body(row, model_.pairs[i].body_B);
   }
-  if (!has_joined) return;
+  if (!has_joined) return false;
   settle_roots();
   sum_up(accounts);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     groups_[i].work = sums_[i].work;
   }
+  return true;
 }
 
 void EnergyGroups::start(const std::vector<EnergyAccount>& accounts) {
@@ -174,8 +178,7 @@ void EnergyGroups::sum_up(const std::vector<EnergyAccount>& accounts) {
     sums.dissipated += account.dissipated;
     sums.error += account.error_in(v);
     sums.rest += kRestFactor * (account.noise + account.jitter) +
-                 kPassedError * account.passed +
-                 kPassedError * account.rounded_in(v);
+                 find_roundoff(account, v);
   }
 }
 
@@ -187,11 +190,10 @@ void EnergyGroups::include_extremes(std::size_t root) {
                 std::abs(sums.work), std::abs(sums.dissipated)});
 }
 
-bool EnergyGroups::has_new_drift(const std::vector<EnergyAccount>& accounts) {
-  sum_up(accounts);
+bool EnergyGroups::has_new_drift() const {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     const double drift = std::abs(sums_[i].error);
-    if (drift > kGrowth * std::abs(groups_[i].drift.value) &&
+    if (drift > kLeastGrowth * std::abs(groups_[i].drift.value) &&
         drift > kNoteworthy * groups_[i].throughput) {
       return true;
     }
@@ -201,7 +203,6 @@ bool EnergyGroups::has_new_drift(const std::vector<EnergyAccount>& accounts) {
 
 void EnergyGroups::include(const std::vector<EnergyAccount>& accounts,
                            double t) {
-  sum_up(accounts);
   double drift = 0.0;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
@@ -228,10 +229,8 @@ void EnergyGroups::note_share(std::size_t root,
   }
 }
 
-std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(
-    const std::vector<EnergyAccount>& accounts, bool is_end) {
+std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(bool is_end) {
   std::optional<Excess> excess;
-  sum_up(accounts);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
     if (group.watch.is_blown_up(sums_[i].stored, is_end, sums_[i].rest) &&
@@ -242,8 +241,7 @@ std::optional<EnergyGroups::Excess> EnergyGroups::find_blow_up(
   return excess;
 }
 
-bool EnergyGroups::has_too_much(const std::vector<EnergyAccount>& accounts) {
-  sum_up(accounts);
+bool EnergyGroups::has_too_much() const {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (groups_[i].watch.is_too_much(sums_[i].stored, sums_[i].rest)) {
       return true;
@@ -264,8 +262,7 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
   for (std::size_t i = 0; i < accounts.size(); ++i) {
     const Vector3& v = groups_[group_of(i)].velocity;
     drifts[group_of(i)].roundoff += negligible[static_cast<Eigen::Index>(i)] +
-                                    kPassedError * accounts[i].passed +
-                                    kPassedError * accounts[i].rounded_in(v) +
+                                    find_roundoff(accounts[i], v) +
                                     walk * accounts[i].noise;
   }
   for (std::size_t i = 0; i < groups_.size(); ++i) {

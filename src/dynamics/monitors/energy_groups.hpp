@@ -12,6 +12,9 @@
 
 namespace limber::dynamics {
 
+/// Least relative growth of an extreme before it is evaluated exactly.
+inline constexpr double kLeastGrowth = 1.01;
+
 /// Energies judged by groups of bodies that are connected to each other, each
 /// beside what is at stake in it: neither what else moves in a scene nor a
 /// common velocity changes a verdict.
@@ -28,26 +31,27 @@ class EnergyGroups {
 
   /// Connects the bodies of pairs that touch.
   /// @param accounts last included
-  void connect(const PairTerms& pairs,
+  /// @returns whether groups became one: the sums are of `accounts` then
+  bool connect(const PairTerms& pairs,
                const std::vector<EnergyAccount>& accounts);
   /// Begins with the energies at the start.
   void start(const std::vector<EnergyAccount>& accounts);
-  /// The end of a step [s]. Call connect() before.
+  /// Sets each group's sums of accounts, which the functions below judge.
+  void sum_up(const std::vector<EnergyAccount>& accounts);
+  /// The end of a step [s]. Call connect() and sum_up() before.
   void include(const std::vector<EnergyAccount>& accounts, double t);
   /// Whether include() would find a new extreme of a drift that matters.
-  [[nodiscard]] bool has_new_drift(const std::vector<EnergyAccount>& accounts);
+  [[nodiscard]] bool has_new_drift() const;
 
   /// What a group stores and what its start and loads account for [J].
   struct Excess {
     double stored = 0.0;
     double accounted = 0.0;
   };
-  /// A group whose energy, at the accounts last included, can only be a
-  /// numerical artefact (EnergyWatch).
-  [[nodiscard]] std::optional<Excess> find_blow_up(
-      const std::vector<EnergyAccount>& accounts, bool is_end);
+  /// A group whose energy can only be a numerical artefact (EnergyWatch).
+  [[nodiscard]] std::optional<Excess> find_blow_up(bool is_end);
   /// Whether a group stores more than ten times what is accounted for.
-  [[nodiscard]] bool has_too_much(const std::vector<EnergyAccount>& accounts);
+  [[nodiscard]] bool has_too_much() const;
 
   /// Of the group of `row`, the velocity of its frame [m/s].
   [[nodiscard]] const Vector3& find_velocity(Eigen::Index row) const;
@@ -90,7 +94,6 @@ class EnergyGroups {
   void join_body(Eigen::Index row, BodyIndex body);
   void join_attachment(Eigen::Index row, AttachmentIndex attachment);
   void meet(Group& group, const Group& other) const;
-  void sum_up(const std::vector<EnergyAccount>& accounts);
   void include_extremes(std::size_t root);
   void note_share(std::size_t root, const std::vector<EnergyAccount>& accounts);
 

@@ -13,8 +13,6 @@ namespace limber::dynamics {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Least relative growth of an extreme before it is evaluated exactly.
-constexpr double kLeastGrowth = 1.01;
 
 // Wrench and stiffness times the round-off of a frame's motion.
 double find_noise(const CouplerTerms& coupler, double reach) {
@@ -52,7 +50,7 @@ EnergyLedger::EnergyLedger(const SystemModel& model, IntegratorKind integrator)
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const bool is_free = body.has_rigid_motion() || body.full >= 0;
-    accounts_[b].mass = next_[b].mass = is_free ? body.mass : 0.0;
+    accounts_[b].mass = is_free ? body.mass : 0.0;
   }
 }
 
@@ -226,6 +224,7 @@ void EnergyLedger::add(const SystemState& state, const SystemTerms& terms,
   const Sums sums = evaluate(state, terms);
   set_jitter(state, state.t - time_);
   advance(state.t, flows);
+  groups_.sum_up(next_);
   accept(sums, terms, state.t);
 }
 
@@ -234,14 +233,16 @@ bool EnergyLedger::try_add(const SystemState& state, const SystemTerms& terms,
   const Sums sums = evaluate(state, terms);
   set_jitter(state, state.t - time_);
   advance(state.t, flows);
-  if (is_remarkable(sums) || groups_.has_new_drift(next_)) return false;
+  if (is_remarkable(sums)) return false;
+  groups_.sum_up(next_);
+  if (groups_.has_new_drift()) return false;
   accept(sums, terms, state.t);
   return true;
 }
 
 void EnergyLedger::accept(const Sums& sums, const SystemTerms& terms,
                           double t) {
-  groups_.connect(terms.pairs, accounts_);
+  if (groups_.connect(terms.pairs, accounts_)) groups_.sum_up(next_);
   accounts_.swap(next_);
   time_ = t;
   ++steps_;
@@ -252,7 +253,10 @@ void EnergyLedger::accept(const Sums& sums, const SystemTerms& terms,
 bool EnergyLedger::has_too_much(const SystemState& state,
                                 const SystemTerms& terms) {
   evaluate(state, terms);
-  return groups_.has_too_much(next_);
+  groups_.sum_up(next_);
+  const bool is_much = groups_.has_too_much();
+  groups_.sum_up(accounts_);
+  return is_much;
 }
 
 EnergyRecord EnergyLedger::find_record(const VectorX& negligible) const {
@@ -285,6 +289,7 @@ void EnergyLedger::exchange_memory(Archive& archive) {
   archive(accounts_, time_, steps_, record_.stored, record_.kinetic,
           record_.elastic, record_.coupler);
   groups_.exchange_memory(archive);
+  if (archive.reads()) groups_.sum_up(accounts_);
 }
 
 }  // namespace limber::dynamics

@@ -48,11 +48,11 @@ class EnergyLedger {
 
   /// A group that blows up, at the last state added.
   [[nodiscard]] std::optional<EnergyGroups::Excess> find_blow_up(bool is_end) {
-    return groups_.find_blow_up(accounts_, is_end);
+    return groups_.find_blow_up(is_end);
   }
   /// Whether a group has more than ten times the energy that is accounted for
   /// (EnergyWatch) at the last state added, or at `state`, which is not added.
-  [[nodiscard]] bool has_too_much() { return groups_.has_too_much(accounts_); }
+  [[nodiscard]] bool has_too_much() { return groups_.has_too_much(); }
   [[nodiscard]] bool has_too_much(const SystemState& state,
                                   const SystemTerms& terms);
 
