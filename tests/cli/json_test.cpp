@@ -150,5 +150,27 @@ TEST(Json, OfInfoListsARobotsCouplers) {
   EXPECT_EQ(robot["tendons"], json({"t"}));
 }
 
+// Two folders that differ in such a byte keep different names.
+TEST(Json, ShowsBytesOfFileNamesThatAreNotUtf8) {
+  const Workspace place;
+  place.write("r.urdf",
+              "<robot name='r'><link name='a'><inertial><mass value='1'/>"
+              "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+              "</inertial></link></robot>");
+  for (const auto& [file, shown] : {std::pair{"\xfc.toml", "\\xfc.toml"},
+                                    {"\xe4.toml", "\\xe4.toml"},
+                                    {"\xc3\xa4.toml", "\xc3\xa4.toml"},
+                                    {"\\xfc.toml", "\\xfc.toml"}}) {
+    place.write(file,
+                "robot = 'r.urdf'\n[time]\nduration = 0.1\nstep = 0.1\n"
+                "[output]\npictures = false\n");
+    const std::string run = std::string("run '") + file + "' --out o";
+    EXPECT_EQ(parse(place.limber(run + " --json"))["scenario"], shown);
+    EXPECT_EQ(
+        json::parse(read_text(place.folder() / "o/summary.json"))["scenario"],
+        shown);
+  }
+}
+
 }  // namespace
 }  // namespace limber::test::json_test

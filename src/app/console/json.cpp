@@ -1,12 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/console/json.hpp"
 
+#include "limber/common/echo.hpp"
+#include "limber/common/utf8.hpp"
+
 namespace limber::app {
 namespace {
 
-std::string to_line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string escape_bytes(const std::string& text) {
+  return is_utf8(text) ? text : escape_controls(text);
 }
+
+Json escape_texts(const Json& json) {
+  if (json.is_string()) return escape_bytes(json.get<std::string>());
+  if (!json.is_structured()) return json;
+  Json escaped = json.is_array() ? Json::array() : Json::object();
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_array()) {
+      escaped.push_back(escape_texts(value));
+    } else {
+      escaped[escape_bytes(key)] = escape_texts(value);
+    }
+  }
+  return escaped;
+}
+
+std::string to_line(const Json& json) { return escape_texts(json).dump(); }
 
 void add_outline(const Json& json, int depth, std::string& out) {
   const std::string margin(static_cast<std::size_t>(2 * depth), ' ');
@@ -46,9 +65,7 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::string to_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
-}
+std::string to_text(const Json& json) { return escape_texts(json).dump(2); }
 
 std::string outline(const Json& object) {
   std::string out;

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 /// The number, or null where there is none.
 [[nodiscard]] Json or_null(const std::optional<double>& value);
 
-/// Indented, for files and --json. Bytes that are not UTF-8 are replaced.
+/// Indented, for files and --json. In texts with bytes that are
+/// not UTF-8, such as names of files, those are escaped ("\xff").
 [[nodiscard]] std::string to_text(const Json& json);
 
 /// An object as readable text: "key: value" lines, members indented.
