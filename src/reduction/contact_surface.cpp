@@ -13,7 +13,6 @@
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
 #include "limber/reduction/contact_patches.hpp"
-#include "limber/reduction/contact_radii.hpp"
 #include "limber/reduction/contact_residual.hpp"
 
 namespace limber::flexbody {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "limber/reduction/contact_groups.hpp"
-#include "limber/reduction/contact_radii.hpp"
+#include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_residual.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include "limber/common/dense/symmetric_eigen.hpp"
 #include "limber/fem/mesh/node_weights.hpp"
 #include "limber/reduction/contact_groups.hpp"
-#include "limber/reduction/contact_radii.hpp"
+#include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_surface.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "unit/reduction/bar.hpp"

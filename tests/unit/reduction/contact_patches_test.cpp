@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "limber/fem/mesh/mesh_reader.hpp"
-#include "limber/reduction/contact_radii.hpp"
 #include "support/temporary_folder.hpp"
 
 /// Patches on a plate of 8 x 6 x 2 cm in cells of 1 x 1 x 1 cm.

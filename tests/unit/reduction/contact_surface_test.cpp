@@ -10,7 +10,6 @@
 #include "limber/common/errors.hpp"
 #include "limber/reduction/contact_groups.hpp"
 #include "limber/reduction/contact_patches.hpp"
-#include "limber/reduction/contact_radii.hpp"
 #include "limber/reduction/contact_residual.hpp"
 #include "limber/reduction/reduce.hpp"
 #include "places.hpp"
