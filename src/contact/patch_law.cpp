@@ -10,6 +10,19 @@
 #include "limber/contact/law/cone_return.hpp"
 
 namespace limber::contact {
+namespace {
+
+Matrix6 find_pressure_matrix(const Patch& patch) {
+  const double N = patch.load();
+  const Vector3 n = patch.normal_W();
+  const Matrix3 turn = skew(n);
+  Matrix6 D = Matrix6::Zero();
+  D.topLeftCorner<3, 3>() = N * n * n.transpose();
+  D.bottomRightCorner<3, 3>() = N * turn * patch.spread_W * turn.transpose();
+  return D;
+}
+
+}  // namespace
 
 PatchLaw::PatchLaw(const ContactParameters& parameters, double tangential_ratio)
     : friction_(parameters.friction),
@@ -20,24 +33,27 @@ PatchLaw::PatchLaw(const ContactParameters& parameters, double tangential_ratio)
   factor_ = find_restitution_factor(parameters.restitution);
 }
 
+double PatchLaw::find_square(const Patch& patch, const Vector6& twist_W) {
+  return twist_W.dot(find_pressure_matrix(patch) * twist_W);
+}
+
 // -s D twist, D of pressure along the normal; with d = D twist and vv = d .
-// twist, ds = -s / (2 v^2) (d(vv / N) + 2 dW / m), d the change.
+// twist, ds = -s / (2 v^2) (d(vv / N) + 2 dW / m), d the change; that of other
+// patches is left out.
 void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
   const Patch& patch = in.patch;
-  const double N = patch.load();
+  const double N = in.all.load;
   const Vector3 n = patch.normal_W();
-  const Matrix3 turn = skew(n);
-  Matrix6 D = Matrix6::Zero();
-  D.topLeftCorner<3, 3>() = N * n * n.transpose();
-  D.bottomRightCorner<3, 3>() = N * turn * patch.spread_W * turn.transpose();
+  const Matrix6 D = find_pressure_matrix(patch);
   const Vector6 d = D * in.twist_W;
   const double square =
-      d.dot(in.twist_W) / N + 2.0 * patch.energy * in.inverse_mass;
+      in.all.square / N + 2.0 * in.all.energy * in.all.inverse_mass;
   if (factor_ == 0.0 || !(square > 0.0)) return;
   const double s = factor_ / std::sqrt(square);
   const double slope = -0.5 * s / square;
   const Vector6 load_by_motion = -patch.hessian_W.topRows<3>().transpose() * n;
-  const Vector6 s_by_motion = slope * 2.0 * in.inverse_mass * patch.gradient_W;
+  const Vector6 s_by_motion =
+      slope * 2.0 * in.all.inverse_mass * patch.gradient_W;
   const Vector6 s_by_twist = slope * 2.0 / N * d;
   const double normal = -s * n.dot(d.head<3>());
   // Nothing pulls.
@@ -45,7 +61,7 @@ void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
       out.normal_force + normal < 0.0 ? -out.normal_force / normal : 1.0;
   out.wrench.wrench_W -= share * s * d;
   out.wrench.stiffness_W +=
-      share * d * (s / N * load_by_motion + s_by_motion).transpose();
+      share * d * (s / patch.load() * load_by_motion + s_by_motion).transpose();
   out.wrench.damping_W += share * (s * D + d * s_by_twist.transpose());
   out.normal_force = std::max(out.normal_force + normal, 0.0);
   out.damped = share * s * d.dot(in.twist_W);
@@ -88,7 +104,7 @@ void PatchLaw::add_friction(const Input& in, PatchResponse& out) const {
        .velocity = velocity,
        .plane = plane,
        .stiffness = k,
-       .damping = find_bristle_damping(k, 1.0 / in.inverse_mass),
+       .damping = find_bristle_damping(k, 1.0 / in.all.inverse_mass),
        .limit = mu * out.normal_force});
   PatchWrench& wrench = out.wrench;
   const auto by_limit = E * (mu * cone.by_limit);

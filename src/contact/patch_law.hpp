@@ -16,6 +16,14 @@ struct PatchSlip {
   double turn = 0.0;                   ///< about n since [rad]
 };
 
+/// The speed of a pair's patches, one or more.
+struct PatchMotion {
+  double load = 0.0;          ///< sum N, elastic [N]
+  double square = 0.0;        ///< sum twist . D twist [N m^2/s^2]
+  double energy = 0.0;        ///< sum W [J]
+  double inverse_mass = 0.0;  ///< of all along their normals [1/kg]
+};
+
 /// What acts on B, about the centre of pressure.
 struct PatchResponse {
   PatchWrench wrench;
@@ -35,7 +43,8 @@ struct PatchResponse {
 /// potential.
 ///
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
-///            along the normal, s = beta / sqrt(twist . D twist / N + 2 W / m),
+///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
+///            sum W / m) over all patches of the pair,
 ///            the normal force >= 0; friction of one bristle of stiffness kappa
 ///            N^2 / (2 W) in two directions and about n, there times r_e^2,
 ///            within mu N (ConeReturn), its spring released with the stiffness;
@@ -55,13 +64,17 @@ class PatchLaw {
     const Patch& patch;  ///< that touches
     Vector6 elastic_W;   ///< wrench on B: -gradient, or the mean over a step
     Vector6 twist_W;     ///< of B against A about the centre
-    double inverse_mass = 0.0;  ///< along the normal there [1/kg]
+    PatchMotion all;     ///< of all patches, this one included
     PatchSlip slip;
     /// d way / d motion in the tangent: 2 over a step, whose motions are those
     /// of its middle [-].
     double way_by_motion = 1.0;
   };
   [[nodiscard]] PatchResponse evaluate(const Input& in) const;
+
+  /// twist . D twist of a patch [N m^2/s^2].
+  [[nodiscard]] static double find_square(const Patch& patch,
+                                          const Vector6& twist_W);
 
  private:
   void add_damping(const Input& in, PatchResponse& out) const;

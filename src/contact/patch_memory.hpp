@@ -25,6 +25,16 @@ struct PatchMemory {
 
 inline constexpr std::size_t kPatchNumbers = 20;
 
+/// Of one of several patches.
+[[nodiscard]] inline std::span<const double> find_slot(
+    std::span<const double> memory, std::size_t index) {
+  return memory.subspan(index * kPatchNumbers, kPatchNumbers);
+}
+[[nodiscard]] inline std::span<double> find_slot(std::span<double> memory,
+                                                 std::size_t index) {
+  return memory.subspan(index * kPatchNumbers, kPatchNumbers);
+}
+
 [[nodiscard]] PatchMemory load_patch(std::span<const double> memory);
 /// @param memory of kPatchNumbers at least
 void save_patch(const PatchMemory& patch, std::span<double> memory);

@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "limber/contact/contact_side.hpp"
-#include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/patch_law.hpp"
 #include "limber/contact/patch_memory.hpp"
-#include "limber/contact/potential/pair_potential.hpp"
+#include "limber/contact/patch_part.hpp"
+#include "limber/contact/patch_touches.hpp"
+#include "limber/contact/potential/series_potential.hpp"
+#include "limber/contact/solid_gap.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
 namespace limber::contact {
 
-/// Contact of two solids with flat faces, boxes or half spaces: one patch with
-/// one wrench, wherever they touch.
+/// Contact of two solids with flat faces, boxes or half spaces, or of flat
+/// surfaces of flexible bodies: a patch with one wrench for each pair of parts,
+/// of which a solid is one, wherever they touch.
 ///
-/// Equation   PairPotential, PatchLaw; over a step of the energy-conserving
+/// Equation   SeriesPotential of a part's flexibility and, where the solids are
+///            stiffer than that, of what is left of 2 R_res without their own;
+///            PatchLaw; over a step of the energy-conserving
 ///            scheme the elastic wrench w at its middle, corrected along the
 ///            relative motion m by -(W_1 - W_0 + w . m) N m / (m' N m), N =
 ///            diag(1, L^2) with the solids' size L
 /// Source     docs/theory/contact_laws.md
-/// Limits     two separate places of contact, as of a plate with feet, are one
-///            patch; the solids move with their bodies' frames
+/// Limits     two separate places of contact of one part, as of a plate with
+///            feet, are one patch; parts of a surface are springs side by side:
+///            n of them, pressed alike, are sqrt(n) times as stiff as one
 class PatchPair final : public joints::PairInteraction,
                         public joints::Touching {
  public:
@@ -32,11 +40,11 @@ class PatchPair final : public joints::PairInteraction,
   [[nodiscard]] std::string_view kind() const override { return "patch"; }
   void describe_parameters(Manifest& out) const override;
   [[nodiscard]] std::size_t most_points() const override {
-    return PatchPoints::kCount;
+    return PatchPoints::kCount * most_patches();
   }
   [[nodiscard]] bool couples_points() const override { return true; }
   [[nodiscard]] std::size_t memory_size() const override;
-  void check(int /*modes_A*/, int /*modes_B*/) const override {}
+  void check(int modes_A, int modes_B) const override;
   void evaluate(const joints::PairBodies& bodies, const Instant& now,
                 std::span<const double> memory,
                 joints::PairResponse& out) const override;
@@ -57,6 +65,8 @@ class PatchPair final : public joints::PairInteraction,
       const joints::PairBodies& bodies) const override;
   [[nodiscard]] joints::TouchReach find_reach_A() const override;
   [[nodiscard]] joints::TouchReach find_reach_B() const override;
+  /// At one time; of more that touch, those of the largest energies count.
+  [[nodiscard]] std::size_t most_patches() const;
   [[nodiscard]] double find_size() const override { return size_; }
   double begin_touch(const joints::PairBodies& bodies, double t,
                      std::span<double> memory,
@@ -69,29 +79,51 @@ class PatchPair final : public joints::PairInteraction,
       std::span<const double> memory,
       joints::PairResponse& scratch) const override;
 
-  /// Whether it holds for these: solids of which one has a material, and none
-  /// of the parameters of a point of contact.
+  /// Whether it holds for these: solids or surfaces with parts, of which one
+  /// has a material, and none of the parameters of a point of contact.
   [[nodiscard]] static bool suits(const ContactSide& A, const ContactSide& B,
                                   const ContactParameters& parameters);
 
  private:
+  struct Nearest;
+
+  [[nodiscard]] PatchFrames find_frames(const joints::PairBodies& bodies) const;
+  [[nodiscard]] PatchTouches find_patches(const joints::PairBodies& bodies,
+                                          bool has_derivatives) const;
+  [[nodiscard]] double find_energy(const joints::PairBodies& bodies) const;
+  // 0 of null [J].
+  [[nodiscard]] static double find_energy(const PatchTouch* touch);
+  [[nodiscard]] Vector6 correct(const Vector6& elastic_W, const Vector6& motion,
+                                double rise) const;
+  [[nodiscard]] SolidGap find_gap(std::size_t index,
+                                  const PatchFrames& frames) const;
+  [[nodiscard]] Nearest find_nearest_parts(
+      const joints::PairBodies& bodies) const;
   [[nodiscard]] PatchPoints place_points(const Patch& patch) const;
+  void add_points(const joints::PairBodies& bodies, const PatchTouch& touch,
+                  const PatchPoints& points, joints::PairResponse& out) const;
   [[nodiscard]] double find_inverse_mass(const joints::PairBodies& bodies,
-                                         const Patch& patch,
+                                         const PatchTouches& touches,
                                          std::span<const double> memory) const;
-  [[nodiscard]] PatchResponse respond(const joints::PairBodies& bodies,
-                                      const Patch& patch,
+  [[nodiscard]] PatchResponse respond(const PatchTouch& touch,
+                                      const PatchMotion& all,
                                       std::span<const double> memory) const;
+  [[nodiscard]] PatchMotion find_motion(const joints::PairBodies& bodies,
+                                        const PatchTouches& touches,
+                                        std::span<const double> memory) const;
   [[nodiscard]] double find_duration(const joints::PairBodies& bodies,
                                      const joints::PairTouch& touch,
                                      double inverse_mass) const;
 
   ContactSide A_;
   ContactSide B_;
+  VectorX reach_A_;
+  VectorX reach_B_;
   OpposedMass mass_;
   ContactParameters parameters_;
-  ShapePair shapes_;
-  PairPotential potential_;
+  std::vector<PatchPart> parts_A_;
+  std::vector<PatchPart> parts_B_;
+  std::vector<SeriesPotential> potentials_;  // of all pairs, those of A first
   PatchLaw law_;
   double size_;
 };

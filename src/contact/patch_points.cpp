@@ -7,16 +7,6 @@
 #include "limber/common/rotation.hpp"
 
 namespace limber::contact {
-namespace {
-
-// Of a body that moves as one piece, without modes.
-void set_rigid_place(const joints::PairBody& body, const Vector3& p_W,
-                     joints::PairPlace& out) {
-  out.x_B = body.R_WB.transpose() * (p_W - body.p_WB);
-}
-
-}  // namespace
-
 PatchPoints::PatchPoints(const Vector3& centre_W, const Vector3& normal_W,
                          double radius)
     : centre_W_(centre_W) {
@@ -35,18 +25,14 @@ PatchPoints::PatchPoints(const Vector3& centre_W, const Vector3& normal_W,
   }
 }
 
-void PatchPoints::add(const joints::PairBodies& bodies,
-                      joints::PairResponse& out) const {
-  for (const Vector3& arm_W : arms_W_) {
-    joints::PairPoint& point = out.add();
-    set_rigid_place(bodies.A, centre_W_ + arm_W, point.on_A);
-    set_rigid_place(bodies.B, centre_W_ + arm_W, point.on_B);
-  }
+std::array<Vector3, PatchPoints::kCount> PatchPoints::places_W() const {
+  std::array<Vector3, kCount> places;
+  for (std::size_t i = 0; i < kCount; ++i) places[i] = centre_W_ + arms_W_[i];
+  return places;
 }
 
-void PatchPoints::set(const PatchWrench& patch,
+void PatchPoints::set(const PatchWrench& patch, std::size_t first,
                       joints::PairResponse& out) const {
-  const std::size_t first = out.points().size() - kCount;
   for (std::size_t i = 0; i < kCount; ++i) {
     joints::PairPoint& point = out.points()[first + i];
     const auto Ti = motions_[i].transpose();

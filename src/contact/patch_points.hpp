@@ -34,10 +34,11 @@ class PatchPoints {
   /// @param radius of its corners from c > 0 [m]
   PatchPoints(const Vector3& centre_W, const Vector3& normal_W, double radius);
 
-  /// Adds the points, at places of both bodies' frames, without forces.
-  void add(const joints::PairBodies& bodies, joints::PairResponse& out) const;
-  /// Sets forces and tangents of the last three points.
-  void set(const PatchWrench& patch, joints::PairResponse& out) const;
+  /// Of the points.
+  [[nodiscard]] std::array<Vector3, kCount> places_W() const;
+  /// Sets forces and tangents of kCount points of a response, from `first` on.
+  void set(const PatchWrench& patch, std::size_t first,
+           joints::PairResponse& out) const;
   /// The motion about c of displacements of the points of B against A.
   [[nodiscard]] Vector6 find_motion(
       const std::array<Vector3, kCount>& displacements) const;

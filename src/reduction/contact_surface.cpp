@@ -12,6 +12,7 @@
 #include "limber/common/index.hpp"
 #include "limber/fem/mesh/surface.hpp"
 #include "limber/reduction/contact_groups.hpp"
+#include "limber/reduction/contact_parts.hpp"
 #include "limber/reduction/contact_patches.hpp"
 #include "limber/reduction/contact_residual.hpp"
 
@@ -217,6 +218,9 @@ ContactSurface make_contact_surface(const MeshedBody& body,
   if (is_flat(bare.surface, bare.normals)) {
     contact.pads =
         make_contact_pads(body, bare.surface, bare.normals, basis, Phi, center);
+    contact.parts =
+        make_contact_parts(body, bare.surface, contact.pads.normal_B, basis,
+                           Phi, center, contact.patch_radius.minCoeff());
   }
   return std::move(bare.contact);
 }

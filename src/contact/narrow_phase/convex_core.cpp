@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/narrow_phase/convex_core.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "limber/common/errors.hpp"
@@ -28,7 +29,22 @@ ConvexCore::ConvexCore(const PlacedShape& shape) : centre_(shape.X_WS.p) {
   }
 }
 
+ConvexCore::ConvexCore(std::span<const Vector3> corners, const Pose& X,
+                       double scale)
+    : count_(0), corners_(corners), R_(X.R), scale_(scale) {
+  LIMBER_EXPECT(!corners.empty());
+  Vector3 sum = Vector3::Zero();
+  for (const Vector3& corner : corners) sum += corner;
+  const Vector3 middle = sum / static_cast<double>(corners.size());
+  for (const Vector3& corner : corners) {
+    size_ = std::max(size_, scale * (corner - middle).norm());
+  }
+  centre_ = X * middle;
+  origin_ = X * ((1.0 - scale) * middle);
+}
+
 double ConvexCore::find_support(const Vector3& n) const {
+  if (!corners_.empty()) return n.dot(find_support_point(n) - centre_);
   double support = 0.0;
   for (const Segment& segment : segments()) {
     support += segment.half_length * std::abs(n.dot(segment.axis));
@@ -38,6 +54,15 @@ double ConvexCore::find_support(const Vector3& n) const {
 }
 
 Vector3 ConvexCore::find_support_point(const Vector3& n) const {
+  if (!corners_.empty()) {
+    const Vector3 way = R_.transpose() * n;
+    const auto farthest =
+        std::max_element(corners_.begin(), corners_.end(),
+                         [&way](const Vector3& a, const Vector3& b) {
+                           return way.dot(a) < way.dot(b);
+                         });
+    return origin_ + scale_ * (R_ * *farthest);
+  }
   Vector3 point = centre_;
   for (const Segment& segment : segments()) {
     const double side = n.dot(segment.axis) < 0.0 ? -1.0 : 1.0;

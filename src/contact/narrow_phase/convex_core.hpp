@@ -11,7 +11,8 @@
 namespace limber::contact {
 
 /// A capsule, a cylinder or a box in the world frame as a Minkowski sum of
-/// segments about its centre, a disc and a ball.
+/// segments about its centre, a disc and a ball; or a hull of corners, which
+/// has neither.
 ///
 /// Equation   support max n . x = n . c + sum_k h_k |n . u_k|
 ///            + R |n x u_0| + r, n of unit length
@@ -24,6 +25,10 @@ class ConvexCore {
 
   /// @throws ContractError for another kind of shape.
   explicit ConvexCore(const PlacedShape& shape);
+  /// The hull of corners in a frame at X. @param corners that outlive it
+  /// @param scale of its size about their middle [-]
+  ConvexCore(std::span<const Vector3> corners, const Pose& X,
+             double scale = 1.0);
 
   [[nodiscard]] const Vector3& centre() const { return centre_; }
   /// Three for a box, otherwise one.
@@ -49,6 +54,10 @@ class ConvexCore {
   Vector3 centre_;
   std::array<Segment, 3> segments_;
   std::size_t count_ = 1;
+  std::span<const Vector3> corners_;  // of a hull
+  Matrix3 R_ = Matrix3::Identity();   // of the corners' frame
+  Vector3 origin_ = Vector3::Zero();
+  double scale_ = 1.0;
   double disc_ = 0.0;
   double ball_ = 0.0;
   double size_ = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/potential/convex_solid.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <variant>
@@ -47,10 +48,14 @@ ConvexSolid::ConvexSolid(const ShapeKind& shape) {
       loops_.push_back(list_corners(axis, is_far));
     }
   }
-  // Also the opposite face, where the box is flat.
+  // Also to the opposite face, where the box is flat.
+  add_bisectors();
+}
+
+void ConvexSolid::add_bisectors() {
   for (std::size_t i = 0; i < faces_.size(); ++i) {
     for (std::size_t j = 0; j < faces_.size(); ++j) {
-      if (j == i) continue;
+      if (j == i || !faces_[i].presses || !faces_[j].presses) continue;
       const Plane& own = faces_[i].plane;
       const Plane& other = faces_[j].plane;
       faces_[i].nearest.push_back(
@@ -59,12 +64,45 @@ ConvexSolid::ConvexSolid(const ShapeKind& shape) {
   }
 }
 
-Polytope ConvexSolid::place(const Pose& X_WS) const {
+ConvexSolid ConvexSolid::make_slab(const Matrix3X& corners,
+                                   const std::vector<std::size_t>& rim,
+                                   double depth) {
+  LIMBER_EXPECT(corners.cols() >= 3 && depth > 0.0);
+  const auto count = static_cast<int>(corners.cols());
+  ConvexSolid slab;
+  std::vector<int> top;
+  std::vector<int> bottom;
+  for (int i = 0; i < count; ++i) {
+    const Vector3 corner = corners.col(i);
+    slab.corners_.push_back(corner);
+    slab.corners_.emplace_back(corner - depth * Vector3::UnitZ());
+    top.push_back(2 * i);
+    bottom.insert(bottom.begin(), 2 * i + 1);
+  }
+  slab.faces_ = {{{Vector3::UnitZ(), 0.0}, {}, true},
+                 {{-Vector3::UnitZ(), depth}, {}, false}};
+  slab.loops_ = {top, bottom};
+  for (int i = 0; i < count; ++i) {
+    const int next = (i + 1) % count;
+    const Vector3 corner = corners.col(i);
+    const Vector3 n = (Vector3(corners.col(next)) - corner)
+                          .cross(Vector3::UnitZ())
+                          .normalized();
+    const bool presses = std::find(rim.begin(), rim.end(),
+                                   static_cast<std::size_t>(i)) != rim.end();
+    slab.faces_.push_back({{n, n.dot(corner)}, {}, presses});
+    slab.loops_.push_back({2 * i, 2 * i + 1, 2 * next + 1, 2 * next});
+  }
+  slab.add_bisectors();
+  return slab;
+}
+
+Polytope ConvexSolid::place(const Pose& X_WS, int side) const {
   LIMBER_EXPECT(is_bounded());
   Polytope placed;
-  for (const std::vector<int>& loop : loops_) {
-    Facet facet;
-    for (const int corner : loop) {
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    Facet facet(tag_of(static_cast<int>(i), side));
+    for (const int corner : loops_[i]) {
       facet.add(X_WS * corners_[static_cast<std::size_t>(corner)]);
     }
     placed.add(facet);

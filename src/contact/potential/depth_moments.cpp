@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
 #include "limber/contact/potential/quadrature.hpp"
 
@@ -119,6 +120,55 @@ void add_cell(const CellSums& sums, const Cell& cell, DepthMoments& out) {
       normal.dot(a) * Matrix3::Identity();
 }
 
+// sum w (n, r x n) (m, r x m)'
+Matrix6 sum_products(const Weights& w, const Vector3& n, const Vector3& m) {
+  const Matrix3 N = skew(n);  // r x n = -N r
+  const Matrix3 M = skew(m);
+  Matrix6 sum;
+  sum.topLeftCorner<3, 3>() = w.zeroth * n * m.transpose();
+  sum.topRightCorner<3, 3>() = n * w.first.cross(m).transpose();
+  sum.bottomLeftCorner<3, 3>() = w.first.cross(n) * m.transpose();
+  sum.bottomRightCorner<3, 3>() = N * w.second * M.transpose();
+  return sum;
+}
+
+// int 4 t^3 (n, r x n) dS over a facet on which the depth ends without being
+// zero, n its normal.
+Vector6 integrate_end(const Facet& facet, const Plane& plane,
+                      const Vector3& normal) {
+  Weights weights;
+  const auto corners = facet.corners();
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+    const std::array<Vector3, 3> x{corners[0], corners[k], corners[k + 1]};
+    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    for (const auto& point : triangle_rule()) {
+      const Vector3 r = point.find_place(x);
+      const double t = std::max(plane.find_depth(r), 0.0);
+      weights.add(4.0 * area * point.weight * t * t * t, r);
+    }
+  }
+  return -sum_gradients(weights, normal);
+}
+
+// Of its derivative int 12 t^2 (g (n, r x n)' + (n, r x n) g') dS, without what
+// the facet's edges add.
+Matrix6 integrate_end_change(const Facet& facet, const Plane& plane,
+                             const Vector3& normal) {
+  Weights weights;
+  const auto corners = facet.corners();
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+    const std::array<Vector3, 3> x{corners[0], corners[k], corners[k + 1]};
+    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    for (const auto& point : triangle_rule()) {
+      const Vector3 r = point.find_place(x);
+      const double t = std::max(plane.find_depth(r), 0.0);
+      weights.add(12.0 * area * point.weight * t * t, r);
+    }
+  }
+  const Matrix6 half = -sum_products(weights, plane.n, normal);
+  return half + half.transpose();
+}
+
 // The part of the overlap that is nearest to a face.
 const Polytope* find_part(const ConvexSolid::Face& face, const Pose& X,
                           const Polytope& overlap,
@@ -136,21 +186,34 @@ const Polytope* find_part(const ConvexSolid::Face& face, const Pose& X,
   return part;
 }
 
+// The own face that has this tag and does not press, or -1.
+int find_end(const ConvexSolid& soft, int tag, int side) {
+  for (std::size_t i = 0; i < soft.faces().size(); ++i) {
+    if (soft.faces()[i].presses) continue;
+    if (tag == ConvexSolid::tag_of(static_cast<int>(i), side)) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
 }  // namespace
 
 DepthMoments find_depth_moments(const ConvexSolid& soft, const Pose& X,
-                                const Polytope& overlap, double sign,
+                                const Polytope& overlap, int side,
                                 bool has_derivatives) {
+  const double sign = side == 0 ? 1.0 : -1.0;
   DepthMoments out;
   std::array<Polytope, 2> scratch;
   std::array<CellSums, kMostFaces> cells;
-  LIMBER_EXPECT(soft.faces().size() <= cells.size());
   const auto place = [&](const Plane& plane) {
     const Vector3 n = X.R * plane.n;
     return Plane{n, plane.h + n.dot(X.p)};
   };
   for (std::size_t i = 0; i < soft.faces().size(); ++i) {
     const ConvexSolid::Face& face = soft.faces()[i];
+    if (!face.presses) continue;
+    LIMBER_EXPECT(i < cells.size());
     const Polytope* part = find_part(face, X, overlap, scratch);
     if (part == nullptr) continue;
     const Plane plane = place(face.plane);
@@ -162,6 +225,14 @@ DepthMoments find_depth_moments(const ConvexSolid& soft, const Pose& X,
       for (const Vector3& x : facet.corners()) {
         out.depth = std::max(out.depth, plane.find_depth(x));
       }
+      const int end = find_end(soft, facet.tag(), side);
+      if (end >= 0) {
+        const Vector3 n = X.R * soft.faces()[index(end)].plane.n;
+        out.m1 -= sign * integrate_end(facet, plane, n);
+        if (has_derivatives) {
+          out.m2 -= integrate_end_change(facet, plane, n);
+        }
+      }
       if (!has_derivatives || facet.tag() <= static_cast<int>(i)) continue;
       const Plane& other =
           soft.faces()[static_cast<std::size_t>(facet.tag())].plane;
@@ -171,6 +242,7 @@ DepthMoments find_depth_moments(const ConvexSolid& soft, const Pose& X,
   // Faces beside a flat that slides do not press.
   const Vector3 resultant = out.m1.head<3>().normalized();
   for (std::size_t i = 0; i < soft.faces().size(); ++i) {
+    if (!soft.faces()[i].presses) continue;
     const Vector3 n = sign * place(soft.faces()[i].plane).n;
     const double share = std::max(-n.dot(resultant), 0.0);
     out.pressure += share * cells[i].squared.zeroth;

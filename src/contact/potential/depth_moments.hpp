@@ -11,7 +11,9 @@ namespace limber::contact {
 /// of one of them, about a point o, in one set of axes. g is the derivative of
 /// t by a motion (u, theta) of B against A.
 ///
-/// Equation   M = int 4 t^3 dV, m1 = dM = int 12 t^2 g dV, m2 its derivative
+/// Equation   M = int 4 t^3 dV, m1 = dM = int 12 t^2 g dV - int 4 t^3 (n, r x
+///            n) dS over the faces of `soft` that do not press; m2 its
+///            derivative, without that of these faces,
 ///            along the motion exp(u, theta) but for terms of theta x u:
 ///            int 24 t g g' dV - sum over interfaces of faces i, j
 ///            int 12 t^2 dg dg' / |n_i - n_j| dS - sum_i rotation of the normal
@@ -30,12 +32,11 @@ struct DepthMoments {
 /// @param soft whose depth counts, placed by X
 /// @param overlap of both, relative to o in the axes of X
 /// @param X the pose of `soft` in these axes, o its origin
-/// @param sign 1 if B moves against `soft`, -1 if `soft` is B
+/// @param side 0 if `soft` is A, against which B moves, 1 if it is B
 /// @param has_derivatives whether m2 is filled
 [[nodiscard]] DepthMoments find_depth_moments(const ConvexSolid& soft,
                                               const Pose& X,
-                                              const Polytope& overlap,
-                                              double sign,
+                                              const Polytope& overlap, int side,
                                               bool has_derivatives);
 
 }  // namespace limber::contact

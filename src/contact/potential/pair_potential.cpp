@@ -67,15 +67,18 @@ Polytope move(const Polytope& polytope, const Vector3& by) {
   return moved;
 }
 
-// The part of `body` that lies in `solid`.
-Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X) {
+// The part of `body` that lies in `solid`, the pair's first or second one.
+Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X,
+             int side) {
   std::array<Polytope, 2> scratch;
   std::size_t next = 0;
   const Polytope* part = &body;
-  for (const ConvexSolid::Face& face : solid.faces()) {
-    const Vector3 n = X.R * face.plane.n;
+  for (std::size_t i = 0; i < solid.faces().size(); ++i) {
+    const Plane& plane = solid.faces()[i].plane;
+    const Vector3 n = X.R * plane.n;
     const Polytope& inside =
-        clip(*part, {n, face.plane.h + n.dot(X.p)}, -1, scratch[next]);
+        clip(*part, {n, plane.h + n.dot(X.p)},
+             ConvexSolid::tag_of(static_cast<int>(i), side), scratch[next]);
     if (&inside != part) next = 1 - next;
     part = &inside;
     if (part->facets().size() < 4) return {};
@@ -86,18 +89,28 @@ Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X) {
 }  // namespace
 
 PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
-    : A_(A.kind), B_(B.kind), X_AS_(A.X_BS), X_BS_(B.X_BS), modulus_(modulus) {
+    : PairPotential({ConvexSolid(A.kind), A.X_BS},
+                    {ConvexSolid(B.kind), B.X_BS}, modulus) {}
+
+PairPotential::PairPotential(const PlacedSolid& A, const PlacedSolid& B,
+                             double modulus)
+    : A_(A.solid),
+      B_(B.solid),
+      X_AS_(A.X_BS),
+      X_BS_(B.X_BS),
+      modulus_(modulus) {
   LIMBER_EXPECT(A_.is_bounded() || B_.is_bounded());
   LIMBER_EXPECT(modulus > 0.0);
 }
 
 Polytope PairPotential::find_overlap(const Pose& X_A, const Pose& X_B) const {
-  return B_.is_bounded() ? cut(B_.place(X_B), A_, X_A)
-                         : cut(A_.place(X_A), B_, X_B);
+  return B_.is_bounded() ? cut(B_.place(X_B, 1), A_, X_A, 0)
+                         : cut(A_.place(X_A, 0), B_, X_B, 1);
 }
 
 Patch PairPotential::evaluate(const joints::PairBodies& bodies,
-                              bool has_derivatives) const {
+                              bool has_derivatives,
+                              const Vector3& shift_W) const {
   Patch out;
   const Pose X_WA{bodies.A.R_WB, bodies.A.p_WB};
   const Pose X_WB{bodies.B.R_WB, bodies.B.p_WB};
@@ -110,6 +123,7 @@ Patch PairPotential::evaluate(const joints::PairBodies& bodies,
   };
   Pose X_A = place(X_WA, X_AS_, near);
   Pose X_B = place(X_WB, X_BS_, near);
+  X_B.p += shift_W;
   Polytope overlap = find_overlap(X_A, X_B);
   if (overlap.is_empty()) return out;
   const Vector3 middle = find_middle(overlap);
@@ -118,9 +132,9 @@ Patch PairPotential::evaluate(const joints::PairBodies& bodies,
   X_B.p -= middle;
   const Vector3 o = near + middle;
   const DepthMoments of_A =
-      find_depth_moments(A_, X_A, overlap, 1.0, has_derivatives);
+      find_depth_moments(A_, X_A, overlap, 0, has_derivatives);
   const DepthMoments of_B =
-      find_depth_moments(B_, X_B, overlap, -1.0, has_derivatives);
+      find_depth_moments(B_, X_B, overlap, 1, has_derivatives);
   if (!(of_A.M > 0.0) || !(of_B.M > 0.0)) return out;
   out.touches = true;
   out.depth = std::max(of_A.depth, of_B.depth);

@@ -43,10 +43,13 @@ class PairPotential {
   /// @param modulus E* > 0 [Pa]
   /// @throws ContractError unless both are solids, one of them bounded.
   PairPotential(const Shape& A, const Shape& B, double modulus);
+  PairPotential(const PlacedSolid& A, const PlacedSolid& B, double modulus);
 
   /// @param has_derivatives else hessian_W is zero
+  /// @param shift_W of B from its place [m]
   [[nodiscard]] Patch evaluate(const joints::PairBodies& bodies,
-                               bool has_derivatives) const;
+                               bool has_derivatives,
+                               const Vector3& shift_W = Vector3::Zero()) const;
 
   [[nodiscard]] double modulus() const { return modulus_; }
 

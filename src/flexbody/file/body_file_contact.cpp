@@ -35,6 +35,64 @@ ContactPads read_pads(const BodyFileReader& reader, const std::string& at,
   return pads;
 }
 
+// Only of a flat surface.
+void write_parts(Hdf5File& out, const std::string& at,
+                 const std::vector<ContactPart>& parts) {
+  out.write(at + "count", std::vector<std::int64_t>{std::ssize(parts)}, "1",
+            "convex parts that move as one piece");
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const ContactPart& part = parts[i];
+    const std::string of_part = fmt::format("{}{}/", at, i + 1);
+    out.write(of_part + "normal_B", MatrixX(part.normal_B), "1",
+              "outward normal");
+    out.write(of_part + "centre_B", MatrixX(part.centre_B), "m",
+              "centre of area, from the centre of mass");
+    out.write(of_part + "corners_B", part.corners_B, "m",
+              "corners, right-hand about the normal, 3 x k");
+    out.write(of_part + "rim",
+              std::vector<std::int64_t>(part.rim.begin(), part.rim.end()), "1",
+              "edges on the surface's rim, by their first corners");
+    out.write(of_part + "motion_B", part.motion_B, "kg^-1/2, kg^-1/2 / m",
+              "displacement of the centre and rotation by modes, 6 x m");
+    out.write(of_part + "depth", MatrixX::Constant(1, 1, part.depth), "m",
+              "of material under it");
+    out.write(of_part + "residual", MatrixX::Constant(1, 1, part.residual),
+              "m/N", "normal flexibility that the modes do not have");
+    out.write(of_part + "flexibility",
+              MatrixX::Constant(1, 1, part.flexibility), "m/N",
+              "normal flexibility that 'motion_B' does not have");
+  }
+}
+
+std::vector<ContactPart> read_parts(const BodyFileReader& reader,
+                                    const std::string& at,
+                                    Eigen::Index columns) {
+  if (!reader.in().has(at + "count")) {
+    reader.fail("lacks the parts of a flat surface, as of earlier versions");
+  }
+  const std::int64_t count = reader.integer(at + "count");
+  if (count < 0 || count > std::int64_t{kMostParts}) {
+    reader.fail(fmt::format("'{}count' is {}", at, count));
+  }
+  std::vector<ContactPart> parts;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::string of_part = fmt::format("{}{}/", at, i + 1);
+    const Eigen::Index k =
+        reader.in().read_matrix(of_part + "corners_B").cols();
+    ContactPart part;
+    part.normal_B = reader.matrix(of_part + "normal_B", 3, 1);
+    part.centre_B = reader.matrix(of_part + "centre_B", 3, 1);
+    part.corners_B = reader.matrix(of_part + "corners_B", 3, k);
+    part.rim = reader.sizes(of_part + "rim", -1);
+    part.motion_B = reader.matrix(of_part + "motion_B", 6, columns);
+    part.depth = reader.matrix(of_part + "depth", 1, 1)(0, 0);
+    part.residual = reader.matrix(of_part + "residual", 1, 1)(0, 0);
+    part.flexibility = reader.matrix(of_part + "flexibility", 1, 1)(0, 0);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 void write_surface(Hdf5File& out, const std::string& at,
                    const ContactSurface& surface) {
   out.write(at + "name", surface.name, "group, or skin");
@@ -60,6 +118,7 @@ void write_surface(Hdf5File& out, const std::string& at,
             "triangles, six indices of nodes each: corners, outward, middles "
             "of edges 01, 12, 20 or -1");
   write_pads(out, at + "pads/", surface.pads);
+  if (surface.pads.count() > 0) write_parts(out, at + "parts/", surface.parts);
   out.write(
       at + "material",
       MatrixX(Eigen::Vector2d(surface.youngs_modulus, surface.poisson_ratio)),
@@ -114,6 +173,9 @@ ContactSurface read_surface(const BodyFileReader& reader, const std::string& at,
   surface.patch_radius = reader.matrix(at + "patch_radius", n, 1);
   surface.faces = read_faces(reader, at + "faces", surface.tags.size());
   surface.pads = read_pads(reader, at + "pads/", columns);
+  if (surface.pads.count() > 0) {
+    surface.parts = read_parts(reader, at + "parts/", columns);
+  }
   const MatrixX material = reader.matrix(at + "material", 2, 1);
   surface.youngs_modulus = material(0, 0);
   surface.poisson_ratio = material(1, 0);

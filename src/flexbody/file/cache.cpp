@@ -19,7 +19,7 @@ namespace limber::flexbody {
 namespace {
 
 // Increment when the reduction changes, to invalidate old entries.
-constexpr int kReductionVersion = 5;
+constexpr int kReductionVersion = 6;
 // The same for contact surfaces, for bodies that have any.
 constexpr int kContactVersion = 2;
 // The same for second-order kinematics.

@@ -27,6 +27,31 @@ struct ContactPads {
   [[nodiscard]] Eigen::Index count() const { return x_B.cols(); }
 };
 
+/// Largest number of parts of a surface.
+inline constexpr std::size_t kMostParts = 8;
+
+/// A convex part of a flat surface that moves as one piece.
+///
+/// Equation   motion of its centre and rotation motion_B eta, without a part of
+///            the highest modes: s_k = sqrt(1 - u^4), u = omega_k (N + 1/2) /
+///            (N omega_N), N modes that move it along the normal; R = R_res +
+///            sum (1 - s_k^2) (n . phi_k)^2 / lambda_k
+/// Source     docs/theory/contact_surfaces.md
+struct ContactPart {
+  Vector3 normal_B = Vector3::Zero();  ///< unit, outward [-]
+  /// Of its area, undeformed, relative to the c.m. [m]
+  Vector3 centre_B = Vector3::Zero();
+  Matrix3X corners_B;  ///< 3 x k, right-hand about the normal [m]
+  /// Edges, from that corner to the next, on the rim of the surface; at the
+  /// others the next part begins.
+  std::vector<std::size_t> rim;
+  MatrixX motion_B;    ///< 6 x m [kg^-1/2, kg^-1/2 / m]
+  double depth = 0.0;  ///< of material under it [m]
+  /// R_res along the normal under uniform pressure, of all modes [m/N]
+  double residual = 0.0;
+  double flexibility = 0.0;  ///< R, of what motion_B lacks [m/N]
+};
+
 /// The part of a body's surface that may touch others: its nodes with the
 /// smoothed motion of a patch around each, and the residual flexibility of the
 /// basis there.
@@ -56,8 +81,9 @@ struct ContactSurface {
   /// Quadrilateral faces are split into triangles.
   std::vector<std::array<int, 6>> faces;
   ContactPads pads;  ///< none (count() 0) of a surface that is not flat
-  double youngs_modulus = 0.0;  ///< of the material under the surface [Pa]
-  double poisson_ratio = 0.0;   ///< of the same [-]
+  std::vector<ContactPart> parts;  ///< none unless it is flat and convex
+  double youngs_modulus = 0.0;     ///< of the material under the surface [Pa]
+  double poisson_ratio = 0.0;      ///< of the same [-]
 };
 
 }  // namespace limber::flexbody

@@ -51,10 +51,16 @@ constexpr auto fields_of(const ContactPads*) {
                      "flexibility [m/N]", "area [m^2]");
 }
 
+constexpr auto fields_of(const ContactPart*) {
+  return list_fields("contact part", "normal", "centre [m]", "corners [m]",
+                     "rim", "motion [kg^-1/2]", "depth [m]", "residual [m/N]",
+                     "flexibility [m/N]");
+}
+
 constexpr auto fields_of(const ContactSurface*) {
   return list_fields("contact surface", "name", "tags", "x_B [m]",
                      "Phi_B [kg^-1/2]", "residual [m/N]", "patch radius [m]",
-                     "faces", "pads", "Young's modulus [Pa]",
+                     "faces", "pads", "parts", "Young's modulus [Pa]",
                      "Poisson's ratio [-]");
 }
 

@@ -71,6 +71,13 @@ void make_rigid_pads(flexbody::ContactSurface& surface) {
       pads.x_B, pads.area, surface.youngs_modulus / (1.0 - nu * nu));
 }
 
+void make_rigid_parts(std::vector<flexbody::ContactPart>& parts) {
+  for (flexbody::ContactPart& part : parts) {
+    part.motion_B.resize(6, 0);
+    part.residual = part.flexibility = 0.0;
+  }
+}
+
 // Products of modes move the surface at level nonlinear alone.
 void take_columns(const flexbody::ReducedBody& body, bool has_products,
                   flexbody::ContactSurface& surface) {
@@ -89,6 +96,9 @@ void take_columns(const flexbody::ReducedBody& body, bool has_products,
   MatrixX& of_pads = surface.pads.Phi_B;
   if (of_pads.cols() > columns) {
     of_pads.conservativeResize(Eigen::NoChange, columns);
+  }
+  for (flexbody::ContactPart& part : surface.parts) {
+    part.motion_B.conservativeResize(Eigen::NoChange, columns);
   }
 }
 
@@ -223,6 +233,7 @@ std::shared_ptr<const contact::Skin> ContactAssembly::get_skin(
     copy.Phi_B.resize(copy.Phi_B.rows(), 0);
     copy.residual.setZero();
     make_rigid_pads(copy);
+    make_rigid_parts(copy.parts);
   }
   skin = std::make_shared<const contact::Skin>(std::move(copy));
   return skin;

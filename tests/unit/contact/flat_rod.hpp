@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "limber/contact/contact_pair.hpp"
+#include "limber/contact/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
@@ -39,7 +39,35 @@ inline double find_residual(int modes) {
   return sum * kLength / (kModulus * kArea);
 }
 
-/// The end that strikes: a square at x = -L / 2, of four pads.
+/// The part of the highest modes that contact has, of N: sqrt(1 - u^4).
+inline double roll_off(int n, int modes) {
+  return std::sqrt(1.0 - std::pow(n / (modes + 0.5), 4));
+}
+
+/// The end as one part.
+inline flexbody::ContactPart make_end_part(int modes) {
+  flexbody::ContactPart part;
+  part.normal_B = -Vector3::UnitX();
+  part.centre_B = -0.5 * kLength * Vector3::UnitX();
+  part.corners_B.resize(3, 4);
+  for (int i = 0; i < 4; ++i) {
+    part.corners_B.col(i) << -0.5 * kLength, (i / 2 ? 0.5 : -0.5) * kSide,
+        (i % 3 == 0 ? -0.5 : 0.5) * kSide;
+  }
+  part.motion_B = MatrixX::Zero(6, modes);
+  part.rim = {0, 1, 2, 3};
+  part.depth = 0.25 * kSide;
+  part.residual = part.flexibility = find_residual(modes);
+  for (int n = 1; n <= modes; ++n) {
+    const double share = roll_off(n, modes);
+    part.motion_B(0, n - 1) = share * mode_at(n, 0.0);
+    part.flexibility += (1.0 - share * share) * 2.0 * kLength /
+                        (n * n * kPi * kPi * kModulus * kArea);
+  }
+  return part;
+}
+
+/// The end that strikes: a square at x = -L / 2, of four pads and one part.
 inline flexbody::ContactSurface make_end(int modes) {
   flexbody::ContactSurface end;
   end.name = "end";
@@ -62,6 +90,7 @@ inline flexbody::ContactSurface make_end(int modes) {
   end.pads.area = VectorX::Constant(4, 0.25 * kArea);
   // A rod's section stays plane: what presses one corner moves all.
   end.pads.flexibility = MatrixX::Constant(4, 4, find_residual(modes));
+  end.parts = {make_end_part(modes)};
   end.youngs_modulus = kModulus;
   end.poisson_ratio = 0.0;
   return end;
@@ -123,7 +152,7 @@ inline RodScene make_rod_scene(int modes, Target target,
                                              dynamics::Fidelity::coupled, {});
   const auto add_pair = [&](dynamics::BodyIndex other, ContactSide side) {
     builder.add_pair("other/rod", other, rod,
-                     std::make_shared<ContactPair>(
+                     std::make_shared<PatchPair>(
                          std::move(side), make_rod_side(modes), parameters));
   };
   if (target == Target::wall) {

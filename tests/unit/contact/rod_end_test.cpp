@@ -10,7 +10,7 @@
 
 /// A rod that strikes a rigid wall, a heavy box or another rod flat at 1 m/s,
 /// against the wave solution, force E A v / c for 2 L / c, of two rods half of
-/// it. The prototype of this law gave peaks of 1.891, 1.856 and 1.848 of it.
+/// it. All its modes without roll-off give peaks of 1.85 to 1.89 of it.
 namespace limber::contact::rod_end_test {
 namespace {
 
@@ -44,15 +44,17 @@ class RodEnd : public ::testing::TestWithParam<
 
 TEST_P(RodEnd, StrikesOnceAsTheWaveSolutionSays) {
   const auto [target, known] = GetParam();
-  const auto [modes, peak] = known;
+  const auto [modes, longer] = known;
   const double force = target == Target::rod ? 0.5 * kForce : kForce;
   for (const auto scheme : {dynamics::IntegratorKind::generalized_alpha,
                             dynamics::IntegratorKind::energy_conserving}) {
     const Impact impact = strike(modes, target, scheme, kDuration / 2000.0);
     EXPECT_EQ(impact.count, 1U);
     EXPECT_EQ(impact.record.touches, 1);
-    EXPECT_NEAR(impact.record.peak_force / force, peak, 0.02);
-    EXPECT_NEAR(impact.record.duration / kDuration, 1.0, 0.01);
+    EXPECT_GE(impact.record.peak_force / force, 1.0);
+    EXPECT_LE(impact.record.peak_force / force, 1.1);
+    EXPECT_GE(impact.record.duration / kDuration, 1.0);
+    EXPECT_LE(impact.record.duration / kDuration, longer);
     EXPECT_NEAR(impact.record.impulse / (force * kDuration), 1.0, 0.002);
     EXPECT_GE(impact.record.restitution().value_or(0.0), 0.998);
   }
@@ -62,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
     TargetsAndModes, RodEnd,
     ::testing::Combine(
         ::testing::Values(Target::wall, Target::box, Target::rod),
-        ::testing::Values(std::pair{5, 1.891}, std::pair{10, 1.856},
-                          std::pair{20, 1.848})));
+        ::testing::Values(std::pair{5, 1.07}, std::pair{10, 1.045},
+                          std::pair{20, 1.025})));
 
 }  // namespace
 }  // namespace limber::contact::rod_end_test

@@ -42,6 +42,7 @@ inline std::filesystem::path write_bar(const Bar& bar) {
       "Recombine; }};\n"
       "Physical Surface(\"root\") = {{s[1]}};\n"
       "Physical Surface(\"tip\") = {{v[0]}};\n"
+      "Physical Surface(\"top\") = {{v[4]}};\n"
       "Physical Volume(\"bar\") = {{v[1]}};\n",
       a[0], a[1], a[2], s[1], s[2], s[0], bar.cells);
   return file;

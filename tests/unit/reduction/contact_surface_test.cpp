@@ -227,7 +227,7 @@ TEST(ContactGroups, WithoutFacesOnTheSurfaceAreRefusedBeforeLongWork) {
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("contact group 'bar' (dimension 3) has no "
                                 "faces on the body's surface"),
-                      HasSubstr("'root', 'tip', or 'skin'")));
+                      HasSubstr("'root', 'tip', 'top', or 'skin'")));
   }
 }
 

@@ -94,7 +94,7 @@ TEST(Pieces, ShareOutTheSurface) {
   const auto pieces = reduce_pieces(recipe, 2);
   EXPECT_EQ(pieces[0].triangles.size() + pieces[1].triangles.size(),
             whole.triangles.size());
-  EXPECT_EQ(pieces[0].groups.size(), 1U);  // the face at its end
+  EXPECT_EQ(pieces[0].groups.size(), 2U);  // the face at its end and the top
 }
 
 TEST(Pieces, AreCutBetweenTheLayersNearestToEqualVolumes) {

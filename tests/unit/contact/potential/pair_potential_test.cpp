@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limber/common/rotation.hpp"
+#include "limber/contact/potential/series_potential.hpp"
 
 /// Against closed forms of flats and corners, and against differences.
 namespace limber::contact::pair_potential_test {
@@ -31,6 +32,15 @@ Pose lower(const Vector3& by, double d) {
   const Matrix3 R = exp_rotation(by);
   const double reach = (R.transpose() * Vector3::UnitZ()).cwiseAbs().dot(kHalf);
   return {R, Vector3(0.01, -0.02, reach - d)};
+}
+
+// Of a box's corners.
+Vector3 find_lowest(const Pose& X) {
+  Vector3 lowest = X.p;
+  for (int k = 0; k < 3; ++k) {
+    lowest -= std::copysign(kHalf[k], X.R(2, k)) * X.R.col(k);
+  }
+  return lowest;
 }
 
 std::vector<Placing> make_placings() {
@@ -63,6 +73,14 @@ std::vector<Placing> make_placings() {
 
 PairPotential make_potential(const Placing& placing) {
   return {Shape{placing.A, {}}, Shape{placing.B, {}}, kModulus};
+}
+
+// A square of 2 a below z = 0, with these edges on a rim: 0 at y = -a, then
+// right-hand about z.
+PlacedSolid make_slab(double a, const std::vector<std::size_t>& rim) {
+  Matrix3X corners(3, 4);
+  corners << -a, a, a, -a, -a, -a, a, a, 0, 0, 0, 0;
+  return {ConvexSolid::make_slab(corners, rim, 0.02), {}};
 }
 
 Patch evaluate(const PairPotential& potential, const Pose& X_WA,
@@ -201,6 +219,107 @@ TEST(PairPotential, IsTheSameElsewhereAndTurned) {
     EXPECT_LT(
         (there.gradient_W.head<3>() - X.R * here.gradient_W.head<3>()).norm(),
         1e-7 * here.gradient_W.head<3>().norm());
+  }
+}
+
+// A box beyond the edge x = a of a slab, which ends there or goes on.
+TEST(PairPotential, OfAPartHasTheGradientOfItsEnergy) {
+  for (const std::size_t edges : {0U, 4U}) {
+    const std::vector<std::size_t> all{0, 1, 2, 3};
+    const PlacedSolid slab =
+        make_slab(0.2, {all.begin(), all.begin() + static_cast<long>(edges)});
+    for (const Vector3& tilt : {Vector3(0, 0, 0.3), Vector3(3e-4, 1e-4, 0.3),
+                                Vector3(0.6, 0.4, 0.2)}) {
+      Pose X = lower(tilt, 1e-4);
+      // The lowest corner next to the edge, or a side over it.
+      X.p.x() += 0.2 - 3e-5 - find_lowest(X).x();
+      if (tilt.norm() < 0.5) X.p.x() -= 0.01;
+      const PlacedSolid box{ConvexSolid(Box{kHalf}), {}};
+      for (const bool is_swapped : {false, true}) {
+        SCOPED_TRACE(::testing::Message() << edges << ", " << tilt.transpose()
+                                          << (is_swapped ? ", swapped" : ""));
+        const PairPotential potential =
+            is_swapped ? PairPotential(box, slab, kModulus)
+                       : PairPotential(slab, box, kModulus);
+        const auto find = [&](const Pose& X_WB) {
+          return is_swapped ? evaluate(potential, X_WB, {})
+                            : evaluate(potential, {}, X_WB);
+        };
+        const Patch patch = find(X);
+        ASSERT_TRUE(patch.touches);
+        for (int i = 0; i < 6; ++i) {
+          const double h = i < 3 ? 1e-8 : 1e-7;
+          const auto energy = [&](double s) {
+            return find(move(X, s * h * unit(i), patch.centre_W)).energy;
+          };
+          const double slope = (energy(1) - energy(-1)) / (2.0 * h);
+          EXPECT_NEAR(slope, (is_swapped ? -1.0 : 1.0) * patch.gradient_W[i],
+                      1e-6 * patch.gradient_W.head<3>().norm())
+              << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(PairPotential, OfAPartWithItsRimIsThatOfABox) {
+  const Box thick{Vector3(0.2, 0.2, 0.01)};
+  const PairPotential of_box(
+      Shape{thick, {Matrix3::Identity(), Vector3(0, 0, -0.01)}},
+      Shape{Box{kHalf}, {}}, kModulus);
+  const PairPotential of_part(make_slab(0.2, {0, 1, 2, 3}),
+                              {ConvexSolid(Box{kHalf}), {}}, kModulus);
+  Pose X = lower({0.3, 0.2, 0.3}, 1e-4);
+  for (const double x : {0.0, 0.15, 0.19, 0.23}) {
+    X.p.x() = x;
+    EXPECT_NEAR(evaluate(of_part, {}, X).energy, evaluate(of_box, {}, X).energy,
+                1e-12 * evaluate(of_box, {}, X).energy + 1e-20);
+  }
+}
+
+TEST(SeriesPotential, OfAFlatIsItsSpringInSeriesWithTheLayer) {
+  const PlacedSolid slab = make_slab(0.2, {0, 1, 2, 3});
+  const PlacedSolid plane{ConvexSolid(HalfSpace{}), {}};
+  const double k = 2.0 * kModulus * std::sqrt(0.16 / std::numbers::pi);
+  for (const double R : {0.0, 0.1 / k, 1.0 / k, 1e3 / k}) {
+    const SeriesPotential potential(plane, slab, kModulus, 0.0, R);
+    const double d = 1e-6;
+    // The slab's face looks down.
+    const joints::PairBody B{exp_rotation({std::numbers::pi, 0, 0}),
+                             Vector3(0, 0, -d)};
+    const Patch patch = potential.evaluate({{}, B}, true);
+    const double series = 1.0 / (1.0 / k + R);
+    EXPECT_NEAR(patch.energy / (0.5 * series * d * d), 1.0, 1e-3);
+    EXPECT_NEAR(patch.load() / (series * d), 1.0, 1e-3);
+    EXPECT_NEAR(patch.hessian_W(2, 2) / series, 1.0, 1e-3);
+  }
+}
+
+TEST(SeriesPotential, HasTheGradientOfItsEnergy) {
+  const PlacedSolid slab = make_slab(0.05, {0, 1, 2, 3});
+  const PlacedSolid table{ConvexSolid(Box{Vector3(0.2, 0.3, 0.1)}),
+                          {Matrix3::Identity(), Vector3(0, 0, -0.1)}};
+  for (const double R : {1e-12, 1e-10, 1e-8}) {
+    const SeriesPotential potential(slab, table, kModulus, R, 0.0);
+    for (const Vector3& tilt : {Vector3(1e-4, 0, 0), Vector3(0.2, 0.1, 0)}) {
+      const Matrix3 R_WA =
+          exp_rotation(tilt) * exp_rotation({std::numbers::pi, 0, 0});
+      const double reach = 0.05 * (std::abs(R_WA(2, 0)) + std::abs(R_WA(2, 1)));
+      const Pose X{R_WA, Vector3(0.0, 0.0, reach - 1e-5)};
+      const auto find = [&](const Pose& X_WA) {
+        return potential.evaluate({{X_WA.R, X_WA.p}, {}}, true);
+      };
+      const Patch patch = find(X);
+      ASSERT_TRUE(patch.touches);
+      for (int i = 0; i < 3; ++i) {
+        const auto energy = [&](double s) {
+          return find(move(X, s * 1e-9 * unit(i), patch.centre_W)).energy;
+        };
+        EXPECT_NEAR((energy(1) - energy(-1)) / 2e-9, -patch.gradient_W[i],
+                    1e-5 * patch.load())
+            << R << ", " << i;
+      }
+    }
   }
 }
 

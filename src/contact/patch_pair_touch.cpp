@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PatchPair as Touching: where it touches, begins and ends, and what it reads.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "limber/contact/patch_pair.hpp"
+#include "limber/contact/patch_slip.hpp"
+#include "limber/contact/shape_measures.hpp"
+#include "limber/contact/solid_gap.hpp"
+
+namespace limber::contact {
+namespace {
+
+using joints::PairBodies;
+using joints::PairBody;
+
+// Slower touches begin as one of this speed [m/s].
+constexpr double kLeastSpeed = 1e-5;
+// Depth of a patch whose normal may be round-off, of the solids' size [-].
+constexpr double kThin = 1e-10;
+
+}  // namespace
+
+struct PatchPair::Nearest {
+  joints::PairTouch touch;
+  std::size_t index = 0;  // of the pair of parts
+};
+
+// The deepest patch, or else the parts that are nearest to each other.
+PatchPair::Nearest PatchPair::find_nearest_parts(
+    const PairBodies& bodies) const {
+  const PatchTouches touches = find_patches(bodies, false);
+  const PatchTouch* deepest =
+      std::max_element(touches.begin(), touches.end(),
+                       [](const PatchTouch& a, const PatchTouch& b) {
+                         return a.patch.depth < b.patch.depth;
+                       });
+  Nearest nearest;
+  if (deepest != touches.end()) {
+    const Patch& patch = deepest->patch;
+    nearest.index = deepest->index;
+    nearest.touch.depth = patch.depth;
+    nearest.touch.normal_W = patch.normal_W();
+    nearest.touch.p_W = patch.centre_W;
+    if (patch.depth > kThin * size_) return nearest;
+    // The normal may be round-off.
+    const SolidGap gap = find_gap(nearest.index, find_frames(bodies));
+    if (gap.normal_W.isZero(0.0)) return nearest;
+    nearest.touch.normal_W = gap.normal_W;
+    nearest.touch.p_W = 0.5 * (gap.on_A + gap.on_B);
+    return nearest;
+  }
+  const PatchFrames frames = find_frames(bodies);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < potentials_.size(); ++i) {
+    const SolidGap gap = find_gap(i, frames);
+    if (!(gap.distance < least)) continue;
+    least = gap.distance;
+    nearest.index = i;
+    nearest.touch.depth = -std::max(gap.distance, 0.0);
+    nearest.touch.normal_W = gap.normal_W;
+    nearest.touch.p_W = 0.5 * (gap.on_A + gap.on_B);
+  }
+  return nearest;
+}
+
+SolidGap PatchPair::find_gap(std::size_t index,
+                             const PatchFrames& frames) const {
+  const std::size_t i = index / parts_B_.size();
+  const std::size_t j = index % parts_B_.size();
+  return contact::find_gap(parts_A_[i].placed(), parts_B_[j].placed(),
+                           {frames.A(i), frames.B(j)});
+}
+
+joints::PairTouch PatchPair::find_touch(
+    const PairBodies& bodies, joints::PairResponse& /*scratch*/) const {
+  Nearest nearest = find_nearest_parts(bodies);
+  const PatchFrames frames = find_frames(bodies);
+  joints::PairTouch& touch = nearest.touch;
+  const PairBodies parts{frames.A(nearest.index / parts_B_.size()),
+                         frames.B(nearest.index % parts_B_.size())};
+  touch.rate = -touch.normal_W.dot(find_twist(parts, touch.p_W).head<3>());
+  return touch;
+}
+
+double PatchPair::find_clearance(const PairBodies& bodies) const {
+  const PatchFrames frames = find_frames(bodies);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < potentials_.size(); ++i) {
+    least = std::min(least, find_gap(i, frames).distance);
+  }
+  return std::max(least, 0.0);
+}
+
+double PatchPair::find_speed_bound(const PairBodies& bodies) const {
+  return (bodies.B.v_WB_W - bodies.A.v_WB_W).norm() +
+         find_own_speed(A_.shape, reach_A_, bodies.A) +
+         find_own_speed(B_.shape, reach_B_, bodies.B);
+}
+
+joints::TouchReach PatchPair::find_reach_A() const {
+  return find_reach(A_.shape, reach_A_);
+}
+
+joints::TouchReach PatchPair::find_reach_B() const {
+  return find_reach(B_.shape, reach_B_);
+}
+
+// Three times the way in which the energy of both bodies is stored, over the
+// speed: 3.14 of a spring, 2.94 of a ball.
+double PatchPair::find_duration(const PairBodies& bodies,
+                                const joints::PairTouch& touch,
+                                double inverse_mass) const {
+  constexpr int kHalvings = 40;
+  const double speed = std::max(touch.rate, kLeastSpeed);
+  const double energy = 0.5 * speed * speed / inverse_mass;
+  PairBody B = bodies.B;
+  const auto store = [&](double way) {
+    B.p_WB = bodies.B.p_WB - way * touch.normal_W;
+    return find_energy(PairBodies{bodies.A, B});
+  };
+  double long_way = kThin * size_;
+  while (long_way < size_ && store(long_way) < energy) long_way *= 2.0;
+  double short_way = 0.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double way = 0.5 * (long_way + short_way);
+    (store(way) > energy ? long_way : short_way) = way;
+  }
+  return 3.0 * long_way / speed;
+}
+
+double PatchPair::begin_touch(const PairBodies& bodies, double t,
+                              std::span<double> memory,
+                              joints::PairResponse& scratch) const {
+  const joints::PairTouch touch = find_touch(bodies, scratch);
+  if (touch.normal_W.isZero(0.0))
+    return std::numeric_limits<double>::infinity();
+  NormalLoad load;
+  load.add(bodies, touch.p_W, touch.normal_W);
+  const Nearest nearest = find_nearest_parts(bodies);
+  const std::span<double> slot = find_slot(memory, nearest.index);
+  if (!load_patch(slot).is_touching) {
+    const PatchFrames frames = find_frames(bodies);
+    const PairBodies parts{frames.A(nearest.index / parts_B_.size()),
+                           frames.B(nearest.index % parts_B_.size())};
+    save_patch(remember(parts, touch.p_W, t, {}), slot);
+  }
+  return find_duration(bodies, touch,
+                       mass_.find_inverse(bodies, load, 1.0, memory));
+}
+
+void PatchPair::set_mobility(const joints::PairMobility& mobility,
+                             std::span<double> memory) const {
+  OpposedMass::keep(mobility, memory);
+}
+
+void PatchPair::end_touch(std::span<double> memory) const {
+  std::fill(memory.begin(), memory.end(), 0.0);
+}
+
+// Frequency of a spring with the same force and energy, k = N^2 / (2 W).
+joints::TouchReading PatchPair::read(const PairBodies& bodies,
+                                     const Instant& /*now*/,
+                                     std::span<const double> memory,
+                                     joints::PairResponse& /*scratch*/) const {
+  constexpr double kMostDamping = 4.0;
+  joints::TouchReading reading;
+  const PatchTouches touches = find_patches(bodies, false);
+  if (touches.is_empty()) return reading;
+  const PatchMotion all = find_motion(bodies, touches, memory);
+  Vector3 normals = Vector3::Zero();
+  Vector3 centres = Vector3::Zero();
+  const Vector3 near = touches.begin()->patch.centre_W;
+  for (const PatchTouch& touch : touches) {
+    const Patch& patch = touch.patch;
+    const PatchResponse response = respond(touch, all, memory);
+    const double elastic = patch.load();
+    reading.normal_force += response.normal_force;
+    reading.friction_W += response.friction_W;
+    reading.force_W += response.wrench.wrench_W.head<3>();
+    normals += elastic * response.normal_W;
+    centres += elastic * (patch.centre_W - near);
+    reading.depth = std::max(reading.depth, patch.depth);
+    // Of a flat with this force and energy.
+    const double depth = 2.0 * patch.energy / elastic;
+    const double modulus = potentials_[touch.index].modulus();
+    reading.area +=
+        std::numbers::pi * std::pow(elastic / (2.0 * modulus * depth), 2);
+    reading.energy += patch.energy + response.energy;
+    reading.slips = reading.slips || response.slips;
+    ++reading.points;
+  }
+  reading.friction_force = reading.friction_W.norm();
+  reading.normal_W = normals.normalized();
+  reading.p_W = near + centres / all.load;
+  // Root mean square of the pressure's rates along the normals.
+  reading.normal_speed = std::sqrt(std::max(all.square, 0.0) / all.load);
+  reading.elastic_speed = std::sqrt(2.0 * all.energy * all.inverse_mass);
+  reading.frequency = all.load * all.inverse_mass / reading.elastic_speed *
+                      std::clamp(law_.damping_factor(), 1.0, kMostDamping);
+  return reading;
+}
+
+}  // namespace limber::contact

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/contact/potential/convex_solid.hpp"
+#include "limber/flexbody/model/contact_surface.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+namespace limber::contact {
+
+/// A solid of one side of a contact, in a frame P of its own: that of its body,
+/// or of the part of a flexible surface that moves as one piece. Immutable.
+///
+/// Equation   p_P = p_B + R_B (c + u), R_P = R_B exp(theta), (u, theta) =
+///            motion_B eta
+class PatchPart {
+ public:
+  /// @throws ContractError unless is_solid(shape.kind).
+  explicit PatchPart(const Shape& shape);
+  explicit PatchPart(const flexbody::ContactPart& part);
+
+  /// In P.
+  [[nodiscard]] const PlacedSolid& placed() const { return placed_; }
+  /// Of a flexible part along its normal, the z axis of S; 0 of others [m/N].
+  [[nodiscard]] double residual() const { return residual_; }
+  [[nodiscard]] double flexibility() const { return flexibility_; }
+
+  [[nodiscard]] bool is_flexible() const { return motion_B_.cols() > 0; }
+  /// Of a flexible part [m^2].
+  [[nodiscard]] double area() const { return area_; }
+
+  /// P as a body without modes. @param body with the part's modes; at rest in
+  /// them without etadot
+  [[nodiscard]] joints::PairBody find_motion(
+      const joints::PairBody& body) const;
+  /// The material point of the part at a place of the world [m].
+  void set_place(const joints::PairBody& body, const Vector3& p_W,
+                 joints::PairPlace& out) const;
+  /// @throws InputError unless it fits a body of so many modes.
+  void check(int modes) const;
+
+ private:
+  // (u, theta) of modal coordinates or velocities.
+  [[nodiscard]] Vector6 move(const double* eta) const;
+
+  PlacedSolid placed_;
+  Vector3 centre_B_ = Vector3::Zero();
+  MatrixX motion_B_ = MatrixX(6, 0);
+  double area_ = 0.0;
+  double residual_ = 0.0;
+  double flexibility_ = 0.0;
+};
+
+}  // namespace limber::contact

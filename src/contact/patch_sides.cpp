@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/patch_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <variant>
+
+#include "limber/common/errors.hpp"
+#include "limber/contact/shapes/skin.hpp"
+
+namespace limber::contact {
+namespace {
+
+double find_modulus(const ContactSide& A, const ContactSide& B) {
+  const auto moduli = find_pair_moduli(A.material, B.material);
+  LIMBER_EXPECT(moduli);
+  return moduli->normal;
+}
+
+const Skin* find_skin(const ContactSide& side) {
+  const auto* skin = std::get_if<std::shared_ptr<const Skin>>(&side.shape.kind);
+  return skin == nullptr ? nullptr : skin->get();
+}
+
+// R, and what 2 R_res has above the compliance of the own half space, 1 / (2 E'
+// a), E' = E / (1 - nu^2) [m/N].
+double find_flexibility(const PatchPart& part,
+                        const std::optional<SurfaceMaterial>& material) {
+  if (!part.is_flexible()) return 0.0;
+  double own = 0.0;
+  if (material) {
+    const double nu = material->poisson_ratio;
+    const double a = std::sqrt(part.area() / std::numbers::pi);
+    own = (1.0 - nu * nu) / (2.0 * material->youngs_modulus * a);
+  }
+  return part.flexibility() + std::max(2.0 * part.residual() - own, 0.0);
+}
+
+}  // namespace
+
+bool has_parts(const ContactSide& side) {
+  const Skin* skin = find_skin(side);
+  return skin == nullptr ? is_solid(side.shape.kind)
+                         : !skin->surface().parts.empty();
+}
+
+std::vector<PatchPart> make_parts(const ContactSide& side) {
+  LIMBER_EXPECT(has_parts(side));
+  const Skin* skin = find_skin(side);
+  if (skin == nullptr) return {PatchPart(side.shape)};
+  std::vector<PatchPart> parts;
+  for (const flexbody::ContactPart& part : skin->surface().parts) {
+    parts.emplace_back(part);
+  }
+  return parts;
+}
+
+std::vector<SeriesPotential> make_potentials(
+    const ContactSide& side_A, const std::vector<PatchPart>& parts_A,
+    const ContactSide& side_B, const std::vector<PatchPart>& parts_B) {
+  const double modulus = find_modulus(side_A, side_B);
+  std::vector<SeriesPotential> potentials;
+  for (const PatchPart& A : parts_A) {
+    for (const PatchPart& B : parts_B) {
+      potentials.emplace_back(A.placed(), B.placed(), modulus,
+                              find_flexibility(A, side_A.material),
+                              find_flexibility(B, side_B.material));
+    }
+  }
+  return potentials;
+}
+
+}  // namespace limber::contact

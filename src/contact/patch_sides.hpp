@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/contact/contact_side.hpp"
+#include "limber/contact/patch_part.hpp"
+#include "limber/contact/potential/series_potential.hpp"
+
+namespace limber::contact {
+
+/// Whether a side is a solid, or a flexible surface with parts.
+[[nodiscard]] bool has_parts(const ContactSide& side);
+
+/// One of a solid. @throws ContractError unless has_parts(side).
+[[nodiscard]] std::vector<PatchPart> make_parts(const ContactSide& side);
+
+/// Of all pairs of parts, those of the first of A first.
+/// @throws ContractError if neither side has a material.
+[[nodiscard]] std::vector<SeriesPotential> make_potentials(
+    const ContactSide& side_A, const std::vector<PatchPart>& parts_A,
+    const ContactSide& side_B, const std::vector<PatchPart>& parts_B);
+
+}  // namespace limber::contact

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/contact/patch_law.hpp"
+#include "limber/contact/patch_memory.hpp"
+#include "limber/joints/pairs/pair_interaction.hpp"
+
+namespace limber::contact {
+
+/// The twist of B against A about a point of the world [m/s, rad/s].
+[[nodiscard]] Vector6 find_twist(const joints::PairBodies& parts,
+                                 const Vector3& about_W);
+
+/// What the bristle has done since the last commit: both places that were one.
+/// @param parts as bodies without modes
+[[nodiscard]] PatchSlip find_slip(const joints::PairBodies& parts,
+                                  const PatchMemory& memory,
+                                  const Vector3& normal_W);
+
+/// The memory of a patch about p_W at a commit.
+[[nodiscard]] PatchMemory remember(const joints::PairBodies& parts,
+                                   const Vector3& p_W, double t,
+                                   const PatchSlip& slip);
+
+/// Of the bristle's spring at the last commit [J].
+[[nodiscard]] double find_spring_energy(const PatchMemory& memory);
+
+}  // namespace limber::contact

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "limber/fem/mesh/surface.hpp"
+#include "limber/flexbody/modal/reduced_basis.hpp"
+#include "limber/flexbody/model/contact_surface.hpp"
+#include "limber/reduction/meshed_body.hpp"
+
+/// Flat surfaces as parts that move as one piece. Part of limber_reduction.
+namespace limber::flexbody {
+
+/// Share of the surface's modal flexibility along its normal that the parts'
+/// own deformation may have [-].
+inline constexpr double kMostDeformation = 1e-4;
+
+/// Divides a flat surface by an even grid, as coarse as its modes allow: until
+/// sum_k <(u_k - fit)^2> / lambda_k <= kMostDeformation sum_k <u_k^2> /
+/// lambda_k, with u_k the mode's displacement along the normal, or there are
+/// kMostParts.
+///
+/// Equation   fit: the least squares over the part's area; R as in ContactPads,
+///            of uniform pressure on the part
+/// Limits     none of a surface that is not convex, to half a percent of its
+///            area: such a surface has no parts
+/// @param normal of the surface, unit, outward
+/// @param basis on the free nodes; @param Phi its 3N x m rows of all nodes
+/// @param center of mass, mesh frame [m]
+/// @param depth of all parts [m]
+[[nodiscard]] std::vector<ContactPart> make_contact_parts(
+    const MeshedBody& body, const fem::Surface& surface, const Vector3& normal,
+    const ReducedBasis& basis, const MatrixX& Phi, const Vector3& center,
+    double depth);
+
+}  // namespace limber::flexbody
