@@ -105,6 +105,7 @@ Motion run(const ScenePlan& plan) {
   for (const BodyPlan& b : plan.bodies) motion.names.push_back(b.name);
   try {
     Scene scene = build(plan);
+    motion.has_jumps = has_break(scene);
     const dynamics::SimulationStatistics statistics = dynamics::simulate(
         scene.model, scene.state, scene.settings,
         [&](const dynamics::SystemState& state,
@@ -114,7 +115,6 @@ Motion run(const ScenePlan& plan) {
     motion.steps = statistics.steps;
     motion.has_halved_steps = statistics.halved_steps > 0;
     motion.has_events = !statistics.events.empty();
-    motion.has_jumps = has_break(scene);
   } catch (const InputError& error) {
     motion.refusal = error.what();
   } catch (const NumericalError& error) {
