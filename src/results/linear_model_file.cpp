@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/escape_texts.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/results/mat_file.hpp"
 #include "limber/results/npz_file.hpp"
@@ -81,7 +82,7 @@ class JsonFile {
     json_[name] = texts;
   }
   [[nodiscard]] std::string text() const {
-    return json_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return escape_texts(json_).dump(1) + "\n";
   }
 
  private:

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/escape_texts.hpp"
 #include "limber/common/files/whole_file.hpp"
 #include "limber/results/offset.hpp"
 #include "limber/results/solids.hpp"
@@ -359,8 +360,7 @@ class GltfWriter {
                       double(bytes_.size()) / double(1 << 30)));
     }
     std::string chunks;
-    add_chunk(chunks, 0x4E4F534A,
-              root_.dump(-1, ' ', false, json::error_handler_t::replace), ' ');
+    add_chunk(chunks, 0x4E4F534A, escape_texts(root_).dump(), ' ');
     add_chunk(chunks, 0x004E4942, bytes_, '\0');
     std::string file = "glTF";
     add_word(file, 2);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "limber/common/escape_texts.hpp"
 #include "limber/version.hpp"
 #include "limber/view/extremes.hpp"
 #include "limber/view/home.hpp"
@@ -55,8 +56,7 @@ class PageWriter {
   }
 
   [[nodiscard]] std::string finish(const json& header) const {
-    std::string text =
-        header.dump(-1, ' ', false, json::error_handler_t::replace);
+    const std::string text = escape_texts(header).dump();
     std::string bytes(4, '\0');
     const auto length = static_cast<std::uint32_t>(text.size());
     std::memcpy(bytes.data(), &length, 4);

@@ -1,29 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/app/console/json.hpp"
 
-#include "limber/common/echo.hpp"
-#include "limber/common/utf8.hpp"
+#include "limber/common/escape_texts.hpp"
 
 namespace limber::app {
 namespace {
-
-std::string escape_bytes(const std::string& text) {
-  return is_utf8(text) ? text : escape_controls(text);
-}
-
-Json escape_texts(const Json& json) {
-  if (json.is_string()) return escape_bytes(json.get<std::string>());
-  if (!json.is_structured()) return json;
-  Json escaped = json.is_array() ? Json::array() : Json::object();
-  for (const auto& [key, value] : json.items()) {
-    if (json.is_array()) {
-      escaped.push_back(escape_texts(value));
-    } else {
-      escaped[escape_bytes(key)] = escape_texts(value);
-    }
-  }
-  return escaped;
-}
 
 std::string to_line(const Json& json) { return escape_texts(json).dump(); }
 

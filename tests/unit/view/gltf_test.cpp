@@ -204,5 +204,16 @@ TEST(Gltf, OutputsTooCloseForSinglePrecisionAreRefused) {
   EXPECT_THROW(Scene{recording}, InputError);
 }
 
+// Names of scenarios are those of files, which may have any bytes.
+TEST(Gltf, BytesThatAreNotUtf8AreEscaped) {
+  Recording recording = make_flight({});
+  for (const auto& [name, shown] : {std::pair{"\xfc", "\\xfc"},
+                                    {"\xe4", "\\xe4"},
+                                    {"\xc3\xa4", "\xc3\xa4"}}) {
+    recording.name = name;
+    EXPECT_EQ(Scene(recording).root()["nodes"][0]["name"], shown);
+  }
+}
+
 }  // namespace
 }  // namespace limber::view::gltf_test

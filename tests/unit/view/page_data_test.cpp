@@ -125,5 +125,15 @@ TEST(PageData, TouchesCountFromTheOffsetAndTheCommonMotion) {
   }
 }
 
+TEST(PageData, BytesOfNamesThatAreNotUtf8AreEscaped) {
+  Recording recording = make_flight({});
+  for (const auto& [name, shown] : {std::pair{"\xfc", "\\xfc"},
+                                    {"\xe4", "\\xe4"},
+                                    {"\xc3\xa4", "\xc3\xa4"}}) {
+    recording.name = name;
+    EXPECT_EQ(Page(recording).result()["name"], shown);
+  }
+}
+
 }  // namespace
 }  // namespace limber::view::page_data_test
