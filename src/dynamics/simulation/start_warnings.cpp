@@ -5,35 +5,95 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/coupler_motion.hpp"
+#include "limber/dynamics/equations/relative_energy.hpp"
 #include "limber/dynamics/simulation/breakpoints.hpp"
+#include "limber/dynamics/system/linked_groups.hpp"
 #include "limber/dynamics/system/oscillation.hpp"
 
 namespace limber::dynamics {
 namespace {
 
-// Excess relative to the coordinate's size that counts as none [-].
+// Excess relative to the size of what moves that counts as none [-].
 constexpr double kOnStop = 1e-9;
 // Fixed steps in a period: with 8 the mean force in a step errs by up to 5 % of
 // the amplitude, with 16 by 1.3 %.
 constexpr double kFewestSteps = 8.0;
 constexpr double kGoodSteps = 16.0;
 
+// What an excess along a coordinate z is judged by.
+struct Measure {
+  double size = 0.0;   // of what moves [unit of z]
+  double noise = 0.0;  // of places [unit of z]
+};
+
 struct Start {
   double time = 0.0;  // [s]
   std::string name;
   joints::ScalarMotion motion;
+  Measure measure;
 };
+
+// Radius of gyration and arm of the larger body that moves [m].
+double find_moving_size(const SystemModel& model, const Coupler& coupler) {
+  double size = 0.0;
+  for (const AttachmentIndex f : {coupler.frame_F, coupler.frame_M}) {
+    const Attachment& frame = model.attachments[static_cast<std::size_t>(f)];
+    if (frame.body == kWorld) continue;
+    size = std::max(size, radius_of_gyration(model.bodies[index(frame.body)]) +
+                              frame.p_BF.norm());
+  }
+  return size;
+}
+
+// Round-off of the places of a coupler's bodies [m].
+double find_place_noise(const SystemModel& model, const SystemState& state,
+                        const Coupler& coupler) {
+  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+  double place = 0.0;
+  for (const BodyIndex b : find_joined_bodies(model, coupler)) {
+    if (b != kWorld)
+      place = std::max(place, state.bodies[index(b)].p_WB.norm());
+  }
+  return kRoundings * place;
+}
+
+Measure find_measure(const SystemModel& model, const SystemState& state,
+                     const Coupler& coupler, int coordinate) {
+  const auto& own = joints::coordinates_of(coupler.law)[index(coordinate)];
+  if (own.kind == joints::AxisCoordinate::Kind::angle) return {.size = 1.0};
+  return {.size = find_moving_size(model, coupler),
+          .noise = find_place_noise(model, state, coupler)};
+}
+
+// A path's size is its length, which its motion has.
+Measure find_measure(const SystemModel& model, const SystemState& state,
+                     const Transmission& transmission) {
+  Measure sum;
+  const auto* joints = std::get_if<JointSum>(&transmission.coordinate);
+  if (joints == nullptr) return sum;
+  for (const JointSum::Term& term : joints->terms) {
+    const Measure one = find_measure(
+        model, state, model.couplers[index(term.coupler)], term.coordinate);
+    sum.size += std::abs(term.factor) * one.size;
+    sum.noise += std::abs(term.factor) * one.noise;
+  }
+  return sum;
+}
 
 void check_bounds(const Start& start, const joints::ScalarLaw& law,
                   SimulationStatistics& statistics) {
   const auto beyond = joints::find_beyond_bound(law, start.motion);
   if (!beyond) return;
-  if (beyond->by <= kOnStop * std::max(1.0, std::abs(beyond->bound))) return;
+  const double size = std::max(
+      {start.measure.size, std::abs(beyond->bound), std::abs(start.motion.z)});
+  if (beyond->by <= kOnStop * size + start.measure.noise) return;
   statistics.events.push_back(
       {start.time, start.name, "starts beyond a stop", start.motion.rate});
   statistics.warnings.push_back(fmt::format(
@@ -65,7 +125,10 @@ void add_start_warnings(const SystemModel& model, const SystemState& state,
                                    element.coordinate);
       });
       if (!motion) continue;
-      check_bounds({state.t, coupler.name, *motion}, element.law, statistics);
+      const Start start{
+          state.t, coupler.name, *motion,
+          find_measure(model, state, coupler, element.coordinate)};
+      check_bounds(start, element.law, statistics);
     }
   }
   for (std::size_t i = 0; i < model.transmissions.size(); ++i) {
@@ -75,8 +138,10 @@ void add_start_warnings(const SystemModel& model, const SystemState& state,
                                    static_cast<TransmissionIndex>(i));
     });
     if (!motion) continue;
+    const Start start{state.t, transmission.name, *motion,
+                      find_measure(model, state, transmission)};
     for (const joints::ScalarLaw& law : transmission.laws) {
-      check_bounds({state.t, transmission.name, *motion}, law, statistics);
+      check_bounds(start, law, statistics);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/contact/meetings.hpp"
+#include "limber/contact/shape_measures.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
@@ -13,12 +14,16 @@ namespace limber::scene {
 namespace {
 
 constexpr double kMostShare = 0.03;  // of R_e [-]
-constexpr double kMostDepth = 1e-4;  // of flat surfaces [m]
+// Of the smaller shape's size a, where both are flat [-]. A face of 2 a x 2 a
+// pressed in by s a stores about s^2 E* a^3, with this 1e-4 E* a^3; a sphere at
+// the share above 8 / 15 0.03^2.5 E* R^3 = 0.8e-4 E* R^3.
+constexpr double kMostFlatShare = 0.01;
 constexpr std::size_t kMostTold = 10;
 
 double find_limit(const PlacedPair& pair, const contact::Meeting& meeting) {
   if (pair.radius) return kMostShare * *pair.radius;
-  return meeting.curvature > 0.0 ? kMostShare / meeting.curvature : kMostDepth;
+  if (meeting.curvature > 0.0) return kMostShare / meeting.curvature;
+  return kMostFlatShare * contact::find_size(pair.shapes.A(), pair.shapes.B());
 }
 
 /// The deepest overlap of two shapes; none if they do not overlap.

@@ -21,8 +21,9 @@ struct PlacedPair {
   dynamics::PairIndex pair;
 };
 
-/// Refuses bodies that overlap at the start by more than 3 % of R_e, or 0.1 mm
-/// where they are flat, since they would burst apart.
+/// Refuses bodies that overlap at the start by more than 3 % of R_e, or where
+/// they are flat 1 % of the smaller shape's size (contact::find_size), since
+/// they would burst apart.
 /// @returns a notice of each smaller overlap, with its initial
 /// force
 /// @throws InputError listing such pairs, with depth and place (10 at most).

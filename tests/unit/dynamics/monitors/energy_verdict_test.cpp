@@ -9,6 +9,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
+#include "limber/dynamics/simulation/start_warnings.hpp"
 #include "support/sliding_masses.hpp"
 
 namespace limber::dynamics::energy_verdict_test {
@@ -296,6 +297,26 @@ TEST(StartWarnings, TellWhatAStopStoresBeyondWhichAJointStarts) {
   ASSERT_FALSE(run.statistics.events.empty());
   EXPECT_EQ(run.statistics.events[0].what, "starts beyond a stop");
   EXPECT_EQ(run.statistics.events[0].time, 0.0);
+}
+
+// Of a body of any size, which starts by a share of it beyond a stop at zero.
+TEST(StartWarnings, CompareAnExcessWithTheSizeOfWhatMoves) {
+  SystemBuilder builder;
+  const testing::Mass mass = testing::add_mass(builder, "slider", 2.0);
+  testing::add_rail(
+      builder, mass, "rail",
+      {{0, joints::EndStop({.lower = -1e9, .upper = 0.0, .stiffness = 2e4})}});
+  SystemModel model = builder.build();
+  SystemState state = make_state(model);
+  for (const double size : {1e-6, 1e-3, 1.0, 1e3}) {
+    model.bodies[0].J0 = 2.0 * size * size * Matrix3::Identity();
+    for (const auto& [share, warns] : {std::pair{1e-8, 1U}, {1e-10, 0U}}) {
+      state.bodies[0].p_WB.x() = share * size;
+      SimulationStatistics statistics;
+      add_start_warnings(model, state, statistics);
+      EXPECT_EQ(statistics.warnings.size(), warns) << size << " " << share;
+    }
+  }
 }
 
 // A spring of a drive that pulls 10 N/m x 1 m at the start and may give 5 N:

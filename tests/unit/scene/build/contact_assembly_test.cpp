@@ -153,6 +153,29 @@ TEST(ContactAssembly, TakesSmallOverlapsForTouching) {
   EXPECT_THAT(build(-1.0, kOptions), HasSubstr("both overlap by 1.1 m"));
 }
 
+// Of a cube of 2 a on a plane 1 % of a, in whatever unit.
+TEST(ContactAssembly, TakesFlatOverlapsForTouchingByTheSizeOfBoth) {
+  const SceneFolder folder;
+  for (const double a : {1e-3, 0.1, 1.0, 1e3}) {
+    const std::string cube = fmt::format(
+        "<link name='cube'><inertial><mass value='1'/><inertia ixx='{0}' "
+        "iyy='{0}' izz='{0}' ixy='0' ixz='0' iyz='0'/></inertial><collision>"
+        "<geometry><box size='{1} {1} {1}'/></geometry></collision></link>\n",
+        2.0 / 3.0 * a * a, 2.0 * a);
+    const auto build = [&](double share) {
+      return input_error([&] {
+        (void)folder.build(cube, kTime + floor_at((share - 1.0) * a) +
+                                     contact("cube", "floor"));
+      });
+    };
+    EXPECT_EQ(build(0.009), "") << a;
+    EXPECT_THAT(
+        build(0.011),
+        HasSubstr(fmt::format("up to {:.2g} m is taken as touching", 0.01 * a)))
+        << a;
+  }
+}
+
 // Hertz's force of steel on steel at 1 um [@johnson1985, eq. 4.23].
 TEST(ContactAssembly, TellsTheForceOfASmallOverlap) {
   const SceneFolder folder;
