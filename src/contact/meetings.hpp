@@ -6,8 +6,8 @@
 #include <span>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/stack_array.hpp"
 #include "limber/contact/narrow_phase/meeting.hpp"
-#include "limber/contact/stack_array.hpp"
 
 namespace limber::contact {
 

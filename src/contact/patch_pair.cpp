@@ -47,11 +47,8 @@ bool PatchPair::suits(const ContactSide& A, const ContactSide& B,
                       const ContactParameters& parameters) {
   const bool has_own =
       parameters.radius || parameters.stiffness || parameters.damping;
-  const auto is_bounded = [](const ContactSide& side) {
-    return !std::holds_alternative<HalfSpace>(side.shape.kind);
-  };
-  return has_parts(A) && has_parts(B) && (is_bounded(A) || is_bounded(B)) &&
-         !has_own && find_pair_moduli(A.material, B.material).has_value();
+  return contact::suits(A, B) && !has_own &&
+         find_pair_moduli(A.material, B.material).has_value();
 }
 
 PatchPair::PatchPair(ContactSide A, ContactSide B,

@@ -14,9 +14,10 @@
 
 namespace limber::contact {
 
-/// Contact of two solids with flat faces, boxes or half spaces, or of flat
-/// surfaces of flexible bodies: a patch with one wrench for each pair of parts,
-/// of which a solid is one, wherever they touch.
+/// Contact of two bodies of which PairPotential has an energy, such as boxes,
+/// cylinders and half spaces, or of flat surfaces of flexible bodies: a patch
+/// with one wrench for each pair of parts, of which a solid is one, wherever
+/// they touch.
 ///
 /// Equation   SeriesPotential of a part's flexibility and, where the solids are
 ///            stiffer than that, of what is left of 2 R_res without their own;

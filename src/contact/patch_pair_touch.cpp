@@ -70,7 +70,7 @@ SolidGap PatchPair::find_gap(std::size_t index,
                              const PatchFrames& frames) const {
   const std::size_t i = index / parts_B_.size();
   const std::size_t j = index % parts_B_.size();
-  return contact::find_gap(parts_A_[i].placed(), parts_B_[j].placed(),
+  return contact::find_gap(parts_A_[i], parts_B_[j],
                            {frames.A(i), frames.B(j)});
 }
 

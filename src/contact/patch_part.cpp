@@ -33,14 +33,15 @@ double find_area(const flexbody::ContactPart& part) {
 
 }  // namespace
 
-PatchPart::PatchPart(const Shape& shape)
-    : placed_{ConvexSolid(shape.kind), shape.X_BS} {}
+PatchPart::PatchPart(const Shape& shape) : shape_(shape) {
+  if (is_solid(shape.kind)) placed_ = {ConvexSolid(shape.kind), shape.X_BS};
+}
 
 PatchPart::PatchPart(const flexbody::ContactPart& part)
-    : placed_{ConvexSolid::make_slab(
-                  find_corners(part, find_frame(part.normal_B)), part.rim,
-                  part.depth),
-              find_frame(part.normal_B)},
+    : placed_(PlacedSolid{
+          ConvexSolid::make_slab(find_corners(part, find_frame(part.normal_B)),
+                                 part.rim, part.depth),
+          find_frame(part.normal_B)}),
       centre_B_(part.centre_B),
       motion_B_(part.motion_B),
       area_(find_area(part)),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "limber/contact/potential/convex_solid.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
@@ -14,12 +16,15 @@ namespace limber::contact {
 ///            motion_B eta
 class PatchPart {
  public:
-  /// @throws ContractError unless is_solid(shape.kind).
   explicit PatchPart(const Shape& shape);
   explicit PatchPart(const flexbody::ContactPart& part);
 
-  /// In P.
-  [[nodiscard]] const PlacedSolid& placed() const { return placed_; }
+  /// In P; none of a round shape.
+  [[nodiscard]] const std::optional<PlacedSolid>& placed() const {
+    return placed_;
+  }
+  /// In P; of a flexible part nothing.
+  [[nodiscard]] const std::optional<Shape>& shape() const { return shape_; }
   /// Of a flexible part along its normal, the z axis of S; 0 of others [m/N].
   [[nodiscard]] double residual() const { return residual_; }
   [[nodiscard]] double flexibility() const { return flexibility_; }
@@ -42,7 +47,8 @@ class PatchPart {
   // (u, theta) of modal coordinates or velocities.
   [[nodiscard]] Vector6 move(const double* eta) const;
 
-  PlacedSolid placed_;
+  std::optional<PlacedSolid> placed_;
+  std::optional<Shape> shape_;
   Vector3 centre_B_ = Vector3::Zero();
   MatrixX motion_B_ = MatrixX(6, 0);
   double area_ = 0.0;

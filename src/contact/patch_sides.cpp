@@ -38,16 +38,24 @@ double find_flexibility(const PatchPart& part,
   return part.flexibility() + std::max(2.0 * part.residual() - own, 0.0);
 }
 
-}  // namespace
-
-bool has_parts(const ContactSide& side) {
+// A solid with flat faces, or a flexible surface with parts.
+bool is_flat(const ContactSide& side) {
   const Skin* skin = find_skin(side);
   return skin == nullptr ? is_solid(side.shape.kind)
                          : !skin->surface().parts.empty();
 }
 
+}  // namespace
+
+bool suits(const ContactSide& A, const ContactSide& B) {
+  const auto is_bounded = [](const ContactSide& side) {
+    return !std::holds_alternative<HalfSpace>(side.shape.kind);
+  };
+  return (is_flat(A) && is_flat(B) && (is_bounded(A) || is_bounded(B))) ||
+         PairPotential::suits(A.shape.kind, B.shape.kind);
+}
+
 std::vector<PatchPart> make_parts(const ContactSide& side) {
-  LIMBER_EXPECT(has_parts(side));
   const Skin* skin = find_skin(side);
   if (skin == nullptr) return {PatchPart(side.shape)};
   std::vector<PatchPart> parts;
@@ -64,9 +72,14 @@ std::vector<SeriesPotential> make_potentials(
   std::vector<SeriesPotential> potentials;
   for (const PatchPart& A : parts_A) {
     for (const PatchPart& B : parts_B) {
-      potentials.emplace_back(A.placed(), B.placed(), modulus,
-                              find_flexibility(A, side_A.material),
-                              find_flexibility(B, side_B.material));
+      if (A.placed() && B.placed()) {
+        potentials.emplace_back(*A.placed(), *B.placed(), modulus,
+                                find_flexibility(A, side_A.material),
+                                find_flexibility(B, side_B.material));
+      } else {
+        LIMBER_EXPECT(A.shape() && B.shape());
+        potentials.emplace_back(*A.shape(), *B.shape(), modulus);
+      }
     }
   }
   return potentials;

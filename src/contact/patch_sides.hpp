@@ -9,10 +9,11 @@
 
 namespace limber::contact {
 
-/// Whether a side is a solid, or a flexible surface with parts.
-[[nodiscard]] bool has_parts(const ContactSide& side);
+/// Whether both have a potential: as PairPotential, or flexible surfaces with
+/// parts and solids with flat faces, of which one is bounded.
+[[nodiscard]] bool suits(const ContactSide& A, const ContactSide& B);
 
-/// One of a solid. @throws ContractError unless has_parts(side).
+/// One of a shape, those of a flexible surface.
 [[nodiscard]] std::vector<PatchPart> make_parts(const ContactSide& side);
 
 /// Of all pairs of parts, those of the first of A first.

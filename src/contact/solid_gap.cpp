@@ -4,68 +4,93 @@
 #include <algorithm>
 #include <limits>
 
+#include "limber/contact/narrow_phase/lowest_point.hpp"
 #include "limber/contact/narrow_phase/nearest_cores.hpp"
 
 namespace limber::contact {
 namespace {
 
-// Heights that are equal, of the solid's size [-].
+using joints::PairBody;
+
+// Heights that are equal, of the solid's size, and angles [-].
 constexpr double kLevel = 1e-9;
 // Size of a solid that is apart from what it touches [-].
 constexpr double kSmaller = 1.0 - 1e-6;
 
-Pose find_pose(const PlacedSolid& solid, const joints::PairBody& body) {
-  return Pose{body.R_WB, body.p_WB} * solid.X_BS;
+bool is_plane(const PatchPart& part) {
+  return part.placed() && !part.placed()->solid.is_bounded();
 }
 
-SolidGap make_gap(const NearestOfCores& nearest, double distance) {
+Pose find_pose(const PlacedSolid& solid, const PairBody& frame) {
+  return Pose{frame.R_WB, frame.p_WB} * solid.X_BS;
+}
+
+ConvexCore make_core(const PatchPart& part, const PairBody& frame) {
+  if (!part.placed()) return ConvexCore(PlacedShape(*part.shape(), frame));
+  return {part.placed()->solid.corners(), find_pose(*part.placed(), frame)};
+}
+
+SolidGap make_gap(const ConvexCore& A, const ConvexCore& B, bool touches) {
+  const NearestOfCores nearest = find_nearest(A, B);
   const Vector3 way = nearest.on_B - nearest.on_A;
   if (nearest.overlap || way.isZero(0.0)) return {};
-  return {way.normalized(), nearest.on_A, nearest.on_B, distance};
+  const Vector3 n = way.normalized();
+  const double distance = way.norm() - A.ball() - B.ball();
+  return {n, nearest.on_A + A.ball() * n, nearest.on_B - B.ball() * n,
+          touches ? std::min(distance, 0.0) : distance};
 }
 
-// As A, and a half space.
-SolidGap find_gap_to_plane(const Pose& plane, const ConvexSolid& solid,
-                           const Pose& X) {
-  const Vector3 n = plane.R.col(2);
+// The middle of all corners that are as low as the lowest one.
+Vector3 find_lowest_corner(const ConvexSolid& solid, const Pose& X,
+                           const Vector3& up) {
   double lowest = std::numeric_limits<double>::infinity();
   double size = 0.0;
   for (const Vector3& corner : solid.corners()) {
-    lowest = std::min(lowest, n.dot(X * corner - plane.p));
+    lowest = std::min(lowest, up.dot(X.R * corner));
     size = std::max(size, corner.norm());
   }
   Vector3 sum = Vector3::Zero();
   double count = 0.0;
   for (const Vector3& corner : solid.corners()) {
-    const Vector3 x = X * corner;
-    if (n.dot(x - plane.p) > lowest + kLevel * size) continue;
-    sum += x;
+    if (up.dot(X.R * corner) > lowest + kLevel * size) continue;
+    sum += corner;
     count += 1.0;
   }
-  const Vector3 on_B = sum / count;
+  return X * Vector3(sum / count);
+}
+
+// As A, and a half space.
+SolidGap find_gap_to_plane(const Pose& plane, const PatchPart& part,
+                           const PairBody& frame) {
+  const Vector3 n = plane.R.col(2);
+  const Vector3 on_B =
+      part.placed()
+          ? find_lowest_corner(part.placed()->solid,
+                               find_pose(*part.placed(), frame), n)
+          : find_lowest_round(PlacedShape(*part.shape(), frame), n, kLevel);
   const double distance = n.dot(on_B - plane.p);
   return {n, on_B - distance * n, on_B, distance};
 }
 
 }  // namespace
 
-SolidGap find_gap(const PlacedSolid& A, const PlacedSolid& B,
-                  const joints::PairBodies& bodies) {
-  const Pose X_A = find_pose(A, bodies.A);
-  const Pose X_B = find_pose(B, bodies.B);
-  if (!A.solid.is_bounded()) return find_gap_to_plane(X_A, B.solid, X_B);
-  if (!B.solid.is_bounded()) {
-    const SolidGap gap = find_gap_to_plane(X_B, A.solid, X_A);
+SolidGap find_gap(const PatchPart& A, const PatchPart& B,
+                  const joints::PairBodies& frames) {
+  if (is_plane(A)) {
+    return find_gap_to_plane(find_pose(*A.placed(), frames.A), B, frames.B);
+  }
+  if (is_plane(B)) {
+    const SolidGap gap =
+        find_gap_to_plane(find_pose(*B.placed(), frames.B), A, frames.A);
     return {-gap.normal_W, gap.on_B, gap.on_A, gap.distance};
   }
-  const ConvexCore core_A(A.solid.corners(), X_A);
-  const auto nearest = find_nearest(core_A, ConvexCore(B.solid.corners(), X_B));
-  if (!nearest.overlap) {
-    return make_gap(nearest, (nearest.on_B - nearest.on_A).norm());
-  }
+  const ConvexCore core_A = make_core(A, frames.A);
+  ConvexCore core_B = make_core(B, frames.B);
+  const SolidGap gap = make_gap(core_A, core_B, false);
+  if (!gap.normal_W.isZero(0.0)) return gap;
   // Where they just touch, the way from A to a slightly smaller B.
-  return make_gap(
-      find_nearest(core_A, ConvexCore(B.solid.corners(), X_B, kSmaller)), 0.0);
+  core_B.scale(kSmaller);
+  return make_gap(core_A, core_B, true);
 }
 
 }  // namespace limber::contact

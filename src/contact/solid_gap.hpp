@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "limber/contact/potential/convex_solid.hpp"
+#include "limber/contact/patch_part.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
@@ -14,9 +14,10 @@ struct SolidGap {
   double distance = 0.0;               ///< <= 0 where they meet [m]
 };
 
-/// The nearest places of two solids, one of them bounded: in the middle of all
-/// corners that are as low as the lowest one above a plane.
-[[nodiscard]] SolidGap find_gap(const PlacedSolid& A, const PlacedSolid& B,
-                                const joints::PairBodies& bodies);
+/// The nearest places of two parts, one of them bounded: in the middle of all
+/// points that are as low as the lowest one above a plane.
+/// @param frames of the parts
+[[nodiscard]] SolidGap find_gap(const PatchPart& A, const PatchPart& B,
+                                const joints::PairBodies& frames);
 
 }  // namespace limber::contact

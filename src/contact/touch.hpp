@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <span>
 
+#include "limber/common/stack_array.hpp"
 #include "limber/contact/effective_mass.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/meetings.hpp"
-#include "limber/contact/stack_array.hpp"
 
 namespace limber::contact {
 

@@ -20,6 +20,8 @@ ConvexCore::ConvexCore(const PlacedShape& shape) : centre_(shape.X_WS.p) {
     segments_[0] = {R.col(2), rod->half_length};
     disc_ = rod->radius;
     size_ = std::hypot(rod->half_length, rod->radius);
+  } else if (const auto* ball = std::get_if<Sphere>(&shape.shape.kind)) {
+    ball_ = ball->radius;
   } else {
     const auto* capsule = std::get_if<Capsule>(&shape.shape.kind);
     LIMBER_EXPECT(capsule != nullptr);
@@ -29,18 +31,24 @@ ConvexCore::ConvexCore(const PlacedShape& shape) : centre_(shape.X_WS.p) {
   }
 }
 
-ConvexCore::ConvexCore(std::span<const Vector3> corners, const Pose& X,
-                       double scale)
-    : count_(0), corners_(corners), R_(X.R), scale_(scale) {
+ConvexCore::ConvexCore(std::span<const Vector3> corners, const Pose& X)
+    : count_(0), corners_(corners), R_(X.R), origin_(X.p) {
   LIMBER_EXPECT(!corners.empty());
   Vector3 sum = Vector3::Zero();
   for (const Vector3& corner : corners) sum += corner;
   const Vector3 middle = sum / static_cast<double>(corners.size());
   for (const Vector3& corner : corners) {
-    size_ = std::max(size_, scale * (corner - middle).norm());
+    size_ = std::max(size_, (corner - middle).norm());
   }
   centre_ = X * middle;
-  origin_ = X * ((1.0 - scale) * middle);
+}
+
+void ConvexCore::scale(double by) {
+  for (Segment& segment : segments_) segment.half_length *= by;
+  disc_ *= by;
+  size_ *= by;
+  origin_ += (1.0 - by) * (centre_ - origin_);
+  scale_ *= by;
 }
 
 double ConvexCore::find_support(const Vector3& n) const {

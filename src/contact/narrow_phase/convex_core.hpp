@@ -10,7 +10,7 @@
 
 namespace limber::contact {
 
-/// A capsule, a cylinder or a box in the world frame as a Minkowski sum of
+/// A ball, capsule, cylinder or box in the world frame as a Minkowski sum of
 /// segments about its centre, a disc and a ball; or a hull of corners, which
 /// has neither.
 ///
@@ -26,12 +26,13 @@ class ConvexCore {
   /// @throws ContractError for another kind of shape.
   explicit ConvexCore(const PlacedShape& shape);
   /// The hull of corners in a frame at X. @param corners that outlive it
-  /// @param scale of its size about their middle [-]
-  ConvexCore(std::span<const Vector3> corners, const Pose& X,
-             double scale = 1.0);
+  ConvexCore(std::span<const Vector3> corners, const Pose& X);
+
+  /// Changes its size about its centre, without the ball. @param by > 0 [-]
+  void scale(double by);
 
   [[nodiscard]] const Vector3& centre() const { return centre_; }
-  /// Three for a box, otherwise one.
+  /// Three for a box, otherwise one; of a ball its length is 0.
   [[nodiscard]] std::span<const Segment> segments() const {
     return std::span(segments_).first(count_);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <variant>
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
@@ -86,26 +87,78 @@ Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X,
   return *part;
 }
 
+// c of bodies that meet with flats, or of which one is round everywhere.
+double find_factor(const ShapeKind& A, const ShapeKind& B) {
+  // (8 / 15) sqrt(5 / 2): of a ball on a flat, M = 2 pi R d^5 / 5
+  const double round = 8.0 / 15.0 * std::sqrt(2.5);
+  const auto is_round = [](const ShapeKind& shape) {
+    return std::holds_alternative<Sphere>(shape) ||
+           std::holds_alternative<Capsule>(shape);
+  };
+  return is_round(A) || is_round(B) ? round : 1.0;
+}
+
 }  // namespace
 
+bool PairPotential::suits(const ShapeKind& A, const ShapeKind& B) {
+  const auto is_bounded = [](const ShapeKind& shape) {
+    return !std::holds_alternative<HalfSpace>(shape);
+  };
+  return (is_solid(A) && is_solid(B) && (is_bounded(A) || is_bounded(B))) ||
+         RoundPair::suits(A, B);
+}
+
 PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
-    : PairPotential({ConvexSolid(A.kind), A.X_BS},
-                    {ConvexSolid(B.kind), B.X_BS}, modulus) {}
+    : factor_(find_factor(A.kind, B.kind)),
+      is_B_bounded_(!std::holds_alternative<HalfSpace>(B.kind)),
+      X_AS_(A.X_BS),
+      X_BS_(B.X_BS),
+      modulus_(modulus) {
+  LIMBER_EXPECT(suits(A.kind, B.kind));
+  LIMBER_EXPECT(modulus > 0.0);
+  if (RoundPair::suits(A.kind, B.kind)) {
+    round_.emplace(A.kind, B.kind);
+    return;
+  }
+  A_.emplace(A.kind);
+  B_.emplace(B.kind);
+}
 
 PairPotential::PairPotential(const PlacedSolid& A, const PlacedSolid& B,
                              double modulus)
     : A_(A.solid),
       B_(B.solid),
+      is_B_bounded_(B.solid.is_bounded()),
       X_AS_(A.X_BS),
       X_BS_(B.X_BS),
       modulus_(modulus) {
-  LIMBER_EXPECT(A_.is_bounded() || B_.is_bounded());
+  LIMBER_EXPECT(A_->is_bounded() || B_->is_bounded());
   LIMBER_EXPECT(modulus > 0.0);
 }
 
 Polytope PairPotential::find_overlap(const Pose& X_A, const Pose& X_B) const {
-  return B_.is_bounded() ? cut(B_.place(X_B, 1), A_, X_A, 0)
-                         : cut(A_.place(X_A, 0), B_, X_B, 1);
+  return is_B_bounded_ ? cut(B_->place(X_B, 1), *A_, X_A, 0)
+                       : cut(A_->place(X_A, 0), *B_, X_B, 1);
+}
+
+std::optional<PairMoments> PairPotential::find_flat_moments(
+    Pose X_A, Pose X_B, bool has_derivatives) const {
+  Polytope overlap = find_overlap(X_A, X_B);
+  if (overlap.is_empty()) return {};
+  PairMoments out;
+  out.o = find_middle(overlap);
+  overlap = move(overlap, -out.o);
+  X_A.p -= out.o;
+  X_B.p -= out.o;
+  out.of_A = find_depth_moments(*A_, X_A, overlap, 0, has_derivatives);
+  out.of_B = find_depth_moments(*B_, X_B, overlap, 1, has_derivatives);
+  return out;
+}
+
+std::optional<PairMoments> PairPotential::find_moments(
+    const Pose& X_A, const Pose& X_B, bool has_derivatives) const {
+  return round_ ? round_->find_moments(X_A, X_B, has_derivatives)
+                : find_flat_moments(X_A, X_B, has_derivatives);
 }
 
 Patch PairPotential::evaluate(const joints::PairBodies& bodies,
@@ -116,34 +169,26 @@ Patch PairPotential::evaluate(const joints::PairBodies& bodies,
   const Pose X_WB{bodies.B.R_WB, bodies.B.p_WB};
   // Relative to a body's place, then to the overlap, so that the distance from
   // the world's origin takes no digits.
-  const Vector3 near = B_.is_bounded() ? X_WB.p : X_WA.p;
+  const Vector3 near = is_B_bounded_ ? X_WB.p : X_WA.p;
   const auto place = [](const Pose& X_WB_, const Pose& X_BS,
                         const Vector3& from) {
     return Pose{X_WB_.R * X_BS.R, (X_WB_.p - from) + X_WB_.R * X_BS.p};
   };
-  Pose X_A = place(X_WA, X_AS_, near);
+  const Pose X_A = place(X_WA, X_AS_, near);
   Pose X_B = place(X_WB, X_BS_, near);
   X_B.p += shift_W;
-  Polytope overlap = find_overlap(X_A, X_B);
-  if (overlap.is_empty()) return out;
-  const Vector3 middle = find_middle(overlap);
-  overlap = move(overlap, -middle);
-  X_A.p -= middle;
-  X_B.p -= middle;
-  const Vector3 o = near + middle;
-  const DepthMoments of_A =
-      find_depth_moments(A_, X_A, overlap, 0, has_derivatives);
-  const DepthMoments of_B =
-      find_depth_moments(B_, X_B, overlap, 1, has_derivatives);
-  if (!(of_A.M > 0.0) || !(of_B.M > 0.0)) return out;
+  const auto moments = find_moments(X_A, X_B, has_derivatives);
+  if (!moments || !(moments->of_A.M > 0.0) || !(moments->of_B.M > 0.0)) {
+    return out;
+  }
   out.touches = true;
-  out.depth = std::max(of_A.depth, of_B.depth);
-  const double c = modulus_ / std::sqrt(std::numbers::pi);
-  const Half A = weigh(of_A, c);
-  const Half B = weigh(of_B, c);
+  out.depth = std::max(moments->of_A.depth, moments->of_B.depth);
+  const double c = factor_ * modulus_ / std::sqrt(std::numbers::pi);
+  const Half A = weigh(moments->of_A, c);
+  const Half B = weigh(moments->of_B, c);
   const double load = A.load + B.load;
   const Vector3 centre = (A.moved + B.moved) / load;
-  out.centre_W = o + centre;
+  out.centre_W = near + moments->o + centre;
   out.spread_W = (A.spread + B.spread) / load - centre * centre.transpose();
   out.energy = 0.5 * (A.energy + B.energy);
   const Matrix6 T = shift(centre);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "limber/common/types.hpp"
 #include "limber/contact/potential/depth_moments.hpp"
+#include "limber/contact/potential/round_pair.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 
 namespace limber::contact {
@@ -28,20 +31,19 @@ struct Patch {
   [[nodiscard]] double load() const { return gradient_W.head<3>().norm(); }
 };
 
-/// Elastic contact of two convex solids as one potential of their relative
+/// Elastic contact of two convex bodies as one potential of their relative
 /// pose: no rule asks which feature is nearest.
 ///
-/// Equation   W = c sqrt(M), c = E* / sqrt(pi), of each body's depth; their
-/// mean.
+/// Equation   W = c E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
 ///            that of a round punch [@johnson1985]
-/// Limits     solids of flats; a ball or cone would be 1.19 or 1.22 times as
-///            stiff as Hertz's, two feet far apart as stiff as one of their
-///            area
+///            c = 1, with a ball or capsule 0.8433, exact where a ball meets a
+///            flat [@johnson1985, eq. 4.23]
+/// Limits     two feet far apart are as stiff as one of their area
 class PairPotential {
  public:
   /// @param modulus E* > 0 [Pa]
-  /// @throws ContractError unless both are solids, one of them bounded.
+  /// @throws ContractError unless suits(A.kind, B.kind).
   PairPotential(const Shape& A, const Shape& B, double modulus);
   PairPotential(const PlacedSolid& A, const PlacedSolid& B, double modulus);
 
@@ -53,12 +55,22 @@ class PairPotential {
 
   [[nodiscard]] double modulus() const { return modulus_; }
 
+  /// Two boxes, a box and a half space, or as RoundPair.
+  [[nodiscard]] static bool suits(const ShapeKind& A, const ShapeKind& B);
+
  private:
+  [[nodiscard]] std::optional<PairMoments> find_moments(
+      const Pose& X_A, const Pose& X_B, bool has_derivatives) const;
+  [[nodiscard]] std::optional<PairMoments> find_flat_moments(
+      Pose X_A, Pose X_B, bool has_derivatives) const;
   // Of both, in the world's axes, relative to `origin`.
   [[nodiscard]] Polytope find_overlap(const Pose& X_A, const Pose& X_B) const;
 
-  ConvexSolid A_;
-  ConvexSolid B_;
+  std::optional<ConvexSolid> A_;
+  std::optional<ConvexSolid> B_;
+  std::optional<RoundPair> round_;
+  double factor_ = 1.0;  // c [-]
+  bool is_B_bounded_;
   Pose X_AS_;
   Pose X_BS_;
   double modulus_;

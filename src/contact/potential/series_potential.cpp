@@ -24,6 +24,9 @@ SeriesPotential::SeriesPotential(const PlacedSolid& A, const PlacedSolid& B,
   LIMBER_EXPECT(R_A >= 0.0 && R_B >= 0.0);
 }
 
+SeriesPotential::SeriesPotential(const Shape& A, const Shape& B, double modulus)
+    : potential_(A, B, modulus) {}
+
 // Newton's method from d = 0, monotone where W's slope is convex along d, with
 // steps that do not raise the energy.
 Patch SeriesPotential::evaluate(const joints::PairBodies& bodies,

@@ -18,6 +18,9 @@ class SeriesPotential {
   SeriesPotential(const PlacedSolid& A, const PlacedSolid& B, double modulus,
                   double R_A, double R_B);
 
+  /// Without layers, as PairPotential. @throws ContractError likewise.
+  SeriesPotential(const Shape& A, const Shape& B, double modulus);
+
   /// As PairPotential's. @throws NumericalError if Newton's method fails.
   [[nodiscard]] Patch evaluate(const joints::PairBodies& bodies,
                                bool has_derivatives) const;
@@ -29,9 +32,9 @@ class SeriesPotential {
   [[nodiscard]] double find_layer_energy(const Eigen::Vector2d& d) const;
 
   PairPotential potential_;
-  Vector3 normal_A_;
-  Vector3 normal_B_;
-  Eigen::Vector2d R_;
+  Vector3 normal_A_ = Vector3::UnitZ();
+  Vector3 normal_B_ = Vector3::UnitZ();
+  Eigen::Vector2d R_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace limber::contact

@@ -10,6 +10,7 @@
 #include "limber/contact/patch_pair.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
+#include "limber/dynamics/system/system_state.hpp"
 #include "limber/flexbody/model/contact_surface.hpp"
 #include "limber/flexbody/model/reduced_body.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "limber/common/errors.hpp"
 
-namespace limber::contact {
+namespace limber {
 
 /// Up to kMost values on the stack, of which only those added are written.
 template <typename Value, std::size_t kMost>
@@ -36,4 +36,4 @@ class StackArray {
   std::size_t count_ = 0;
 };
 
-}  // namespace limber::contact
+}  // namespace limber

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/potential/depth_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <variant>
+
+#include "limber/common/errors.hpp"
+
+namespace limber::contact {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::max();
+
+double power4(double t) { return t * t * t * t; }
+
+Span intersect(const Span& a, const Span& b) {
+  return {std::max(a.first, b.first), std::min(a.last, b.last)};
+}
+
+// |p + v m| <= h
+Span find_slab(double p, double m, double h) {
+  if (m == 0.0) return std::abs(p) <= h ? Span{-kFar, kFar} : Span{};
+  const double middle = -p / m;
+  const double half = h / std::abs(m);
+  return {middle - half, middle + half};
+}
+
+// |o + v w| <= R, of vectors of two or three components
+template <typename Vector>
+Span find_chord(const Vector& o, const Vector& w, double radius) {
+  const double a = w.squaredNorm();
+  if (!(a > 0.0)) {
+    return o.norm() <= radius ? Span{-kFar, kFar} : Span{};
+  }
+  const double middle = -o.dot(w) / a;
+  const double square = radius * radius - (o + middle * w).squaredNorm();
+  if (!(square > 0.0)) return {};
+  const double half = std::sqrt(square / a);
+  return {middle - half, middle + half};
+}
+
+// v of the least |o + v w|
+template <typename Vector>
+double find_nearest_v(const Vector& o, const Vector& w) {
+  const double a = w.squaredNorm();
+  return a > 0.0 ? -o.dot(w) / a : 0.0;
+}
+
+double clamp_to(const Span& span, double v) {
+  return std::clamp(v, span.first, span.last);
+}
+
+// ---- z <= 0
+Depth find(const HalfSpace& /*shape*/, const Vector3& x) {
+  return {-x.z(), -Vector3::UnitZ(), power4(x.z())};
+}
+double deepest(const HalfSpace& /*shape*/, const StraightLine& line) {
+  return line.way.z() > 0.0 ? line.span.first : line.span.last;
+}
+Span part_within(const HalfSpace& /*shape*/, const StraightLine& line) {
+  const double m = line.way.z();
+  if (m == 0.0) return line.origin.z() < 0.0 ? line.span : Span{};
+  const double end = -line.origin.z() / m;
+  return intersect(line.span, m > 0.0 ? Span{-kFar, end} : Span{end, kFar});
+}
+void split(const HalfSpace& /*shape*/, const StraightLine& /*line*/,
+           const Span& part, LinePieces& out) {
+  out.add() = {0, part.last};
+}
+
+// ---- ball: phi = int 4 s^3 (R - s)^2 ds / (R - t)^2
+Depth find_round(const Vector3& from_middle, double R) {
+  const double rho = from_middle.norm();
+  const double t = R - rho;
+  return {
+      t, -from_middle / rho,
+      power4(t) * (R * R - 1.6 * R * t + (2.0 / 3.0) * t * t) / (rho * rho)};
+}
+Depth find(const Sphere& shape, const Vector3& x) {
+  return find_round(x, shape.radius);
+}
+double deepest(const Sphere& /*shape*/, const StraightLine& line) {
+  return clamp_to(line.span, find_nearest_v(line.origin, line.way));
+}
+Span part_within(const Sphere& shape, const StraightLine& line) {
+  return intersect(line.span, find_chord(line.origin, line.way, shape.radius));
+}
+void split(const Sphere& /*shape*/, const StraightLine& /*line*/,
+           const Span& part, LinePieces& out) {
+  out.add() = {0, part.last};
+}
+
+// ---- side of a cylinder: phi = int 4 s^3 (R - s) ds / (R - t)
+Depth find_side(const Vector3& x, double R) {
+  const Vector3 out(x.x(), x.y(), 0.0);
+  const double rho = out.norm();
+  const double t = R - rho;
+  return {t, -out / rho, power4(t) * (R - 0.8 * t) / rho};
+}
+
+// ---- capsule: its side and two balls
+Depth find(const Capsule& shape, const Vector3& x) {
+  const double end = std::clamp(x.z(), -shape.half_length, shape.half_length);
+  if (end == x.z()) return find_side(x, shape.radius);
+  return find_round(x - end * Vector3::UnitZ(), shape.radius);
+}
+double deepest(const Capsule& shape, const StraightLine& line) {
+  const Vector3& o = line.origin;
+  const Vector3& w = line.way;
+  const Vector3 end = shape.half_length * Vector3::UnitZ();
+  double best = clamp_to(
+      line.span, find_nearest_v<Eigen::Vector2d>(o.head<2>(), w.head<2>()));
+  double depth = find(shape, line.at(best)).t;
+  const auto consider = [&](double v) {
+    const double at = clamp_to(line.span, v);
+    const double t = find(shape, line.at(at)).t;
+    if (t > depth) {
+      depth = t;
+      best = at;
+    }
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    consider(find_nearest_v<Vector3>(o - sign * end, w));
+    if (w.z() != 0.0) consider((sign * shape.half_length - o.z()) / w.z());
+  }
+  return best;
+}
+Span part_within(const Capsule& shape, const StraightLine& line) {
+  const Vector3& o = line.origin;
+  const Vector3& w = line.way;
+  Span all{kFar, -kFar};
+  const auto unite = [&](const Span& part) {
+    if (part.is_empty()) return;
+    all = {std::min(all.first, part.first), std::max(all.last, part.last)};
+  };
+  unite(intersect(
+      find_chord<Eigen::Vector2d>(o.head<2>(), w.head<2>(), shape.radius),
+      find_slab(o.z(), w.z(), shape.half_length)));
+  const Vector3 end = shape.half_length * Vector3::UnitZ();
+  unite(find_chord<Vector3>(o - end, w, shape.radius));
+  unite(find_chord<Vector3>(o + end, w, shape.radius));
+  return intersect(line.span, all);
+}
+void split(const Capsule& shape, const StraightLine& line, const Span& part,
+           LinePieces& out) {
+  const Span side = find_slab(line.origin.z(), line.way.z(), shape.half_length);
+  if (line.way.z() != 0.0) {
+    for (const double v : {side.first, side.last}) {
+      if (v > part.first && v < part.last) out.add() = {0, v};
+    }
+  }
+  out.add() = {0, part.last};
+}
+
+// ---- cylinder: side 0, ends 1 and 2
+Depth find(const Cylinder& shape, const Vector3& x) {
+  const double end = shape.half_length - std::abs(x.z());
+  if (shape.radius - x.head<2>().norm() <= end) {
+    return find_side(x, shape.radius);
+  }
+  return {end, -std::copysign(1.0, x.z()) * Vector3::UnitZ(), power4(end)};
+}
+// Where side and end of the sign s are equally near.
+std::array<double, 2> find_rim_crossings(const Cylinder& shape,
+                                         const StraightLine& line, double s) {
+  const Eigen::Vector2d o = line.origin.head<2>();
+  const Eigen::Vector2d w = line.way.head<2>();
+  const double p = shape.radius - shape.half_length + s * line.origin.z();
+  const double m = s * line.way.z();  // rho = p + m v
+  const double a = w.squaredNorm() - m * m;
+  const double b = o.dot(w) - p * m;
+  const double c = o.squaredNorm() - p * p;
+  const double square = b * b - a * c;
+  if (!(square >= 0.0)) return {kFar, kFar};
+  const double q = -(b + std::copysign(std::sqrt(square), b));
+  const auto keep = [&](double v) {
+    return p + m * v >= 0.0 && s * (line.origin.z() + v * line.way.z()) >= 0.0
+               ? v
+               : kFar;
+  };
+  return {a != 0.0 ? keep(q / a) : kFar, q != 0.0 ? keep(c / q) : kFar};
+}
+double deepest(const Cylinder& shape, const StraightLine& line) {
+  const auto side = [&](double v) {
+    return shape.radius - line.at(v).head<2>().norm();
+  };
+  const auto end = [&](double v) {
+    return shape.half_length - std::abs(line.at(v).z());
+  };
+  const double v1 =
+      clamp_to(line.span, find_nearest_v<Eigen::Vector2d>(line.origin.head<2>(),
+                                                          line.way.head<2>()));
+  if (side(v1) <= end(v1)) return v1;
+  const double m = line.way.z();
+  const double v2 = clamp_to(line.span, m != 0.0 ? -line.origin.z() / m : v1);
+  if (end(v2) <= side(v2)) return v2;
+  // Side falls and the ends' depth rises between them.
+  double best = v1;
+  double depth = end(v1);
+  for (const double s : {-1.0, 1.0}) {
+    for (const double v : find_rim_crossings(shape, line, s)) {
+      if (!((v - v1) * (v - v2) <= 0.0)) continue;
+      const double t = std::min(side(v), end(v));
+      if (t > depth) {
+        depth = t;
+        best = v;
+      }
+    }
+  }
+  return best;
+}
+Span part_within(const Cylinder& shape, const StraightLine& line) {
+  return intersect(
+      line.span,
+      intersect(find_chord<Eigen::Vector2d>(line.origin.head<2>(),
+                                            line.way.head<2>(), shape.radius),
+                find_slab(line.origin.z(), line.way.z(), shape.half_length)));
+}
+int name_face(const Cylinder& shape, const Vector3& x) {
+  const double end = shape.half_length - std::abs(x.z());
+  if (shape.radius - x.head<2>().norm() <= end) return 0;
+  return x.z() > 0.0 ? 1 : 2;
+}
+void split(const Cylinder& shape, const StraightLine& line, const Span& part,
+           LinePieces& out) {
+  std::array<double, 6> ends;
+  std::size_t count = 0;
+  for (const double s : {-1.0, 1.0}) {
+    for (const double v : find_rim_crossings(shape, line, s)) {
+      if (v > part.first && v < part.last) ends[count++] = v;
+    }
+  }
+  ends[count++] = part.last;
+  std::sort(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count));
+  double first = part.first;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + 1 < count && ends[i] == first) continue;
+    out.add() = {name_face(shape, line.at(0.5 * (first + ends[i]))), ends[i]};
+    first = ends[i];
+  }
+}
+
+// ---- box: face 2 k or 2 k + 1 of axis k
+struct FaceAlong {
+  int face = 0;
+  double depth = 0.0;  // at v = 0
+  double slope = 0.0;
+};
+using FacesAlong = std::array<FaceAlong, 6>;
+
+Depth find(const Box& shape, const Vector3& x) {
+  Eigen::Index axis = 0;
+  const double t = (shape.half_size - x.cwiseAbs()).minCoeff(&axis);
+  return {t, -std::copysign(1.0, x[axis]) * Vector3::Unit(axis), power4(t)};
+}
+FacesAlong list_faces(const Box& shape, const StraightLine& line) {
+  FacesAlong all;
+  for (int k = 0; k < 3; ++k) {
+    const double h = shape.half_size[k];
+    const std::size_t i = 2 * static_cast<std::size_t>(k);
+    all[i] = {2 * k, h - line.origin[k], -line.way[k]};
+    all[i + 1] = {2 * k + 1, h + line.origin[k], line.way[k]};
+  }
+  return all;
+}
+// The nearest at v, of several the one that is nearest behind v.
+FaceAlong find_nearest_face(const FacesAlong& all, double v) {
+  FaceAlong best = all[0];
+  for (const FaceAlong& face : all) {
+    const double ahead =
+        (face.depth + face.slope * v) - (best.depth + best.slope * v);
+    if (ahead < 0.0 || (ahead == 0.0 && face.slope < best.slope)) best = face;
+  }
+  return best;
+}
+// The first face of less slope that becomes the nearest one, and where.
+LinePiece find_next_face(const FacesAlong& all, const FaceAlong& now) {
+  LinePiece next{-1, kFar};
+  double slope = 0.0;
+  for (const FaceAlong& face : all) {
+    if (!(face.slope < now.slope)) continue;
+    const double v = (face.depth - now.depth) / (now.slope - face.slope);
+    if (v < next.last || (v == next.last && face.slope < slope)) {
+      next = {face.face, v};
+      slope = face.slope;
+    }
+  }
+  return next;
+}
+double deepest(const Box& shape, const StraightLine& line) {
+  const FacesAlong all = list_faces(shape, line);
+  FaceAlong now = find_nearest_face(all, line.span.first);
+  double v = line.span.first;
+  while (now.slope > 0.0) {
+    const LinePiece next = find_next_face(all, now);
+    v = std::max(v, next.last);
+    if (v >= line.span.last) return line.span.last;
+    now = all[static_cast<std::size_t>(next.face)];
+  }
+  return v;
+}
+Span part_within(const Box& shape, const StraightLine& line) {
+  Span part = line.span;
+  for (int k = 0; k < 3; ++k) {
+    part = intersect(
+        part, find_slab(line.origin[k], line.way[k], shape.half_size[k]));
+  }
+  return part;
+}
+void split(const Box& shape, const StraightLine& line, const Span& part,
+           LinePieces& out) {
+  const FacesAlong all = list_faces(shape, line);
+  FaceAlong now = find_nearest_face(all, part.first);
+  while (true) {
+    const LinePiece next = find_next_face(all, now);
+    if (next.face < 0 || next.last >= part.last) break;
+    if (next.last > part.first) out.add() = {now.face, next.last};
+    now = all[static_cast<std::size_t>(next.face)];
+  }
+  out.add() = {now.face, part.last};
+}
+
+using SkinShape = std::shared_ptr<const Skin>;
+Depth find(const SkinShape& /*shape*/, const Vector3& /*x*/) { return {}; }
+double deepest(const SkinShape& /*shape*/, const StraightLine& /*line*/) {
+  return 0.0;
+}
+Span part_within(const SkinShape& /*shape*/, const StraightLine& /*line*/) {
+  return {};
+}
+void split(const SkinShape& /*shape*/, const StraightLine& /*line*/,
+           const Span& /*part*/, LinePieces& /*out*/) {}
+
+}  // namespace
+
+DepthField::DepthField(const ShapeKind& shape)
+    : shape_(shape),
+      is_flat_(std::holds_alternative<Box>(shape) ||
+               std::holds_alternative<HalfSpace>(shape)) {
+  LIMBER_EXPECT(!std::holds_alternative<SkinShape>(shape));
+}
+
+double DepthField::find_t(const Vector3& x) const { return find_depth(x).t; }
+
+Depth DepthField::find_depth(const Vector3& x) const {
+  return std::visit([&](const auto& shape) { return find(shape, x); }, shape_);
+}
+
+double DepthField::find_deepest(const StraightLine& line) const {
+  return std::visit([&](const auto& shape) { return deepest(shape, line); },
+                    shape_);
+}
+
+Span DepthField::cut(const StraightLine& line) const {
+  return std::visit([&](const auto& shape) { return part_within(shape, line); },
+                    shape_);
+}
+
+void DepthField::divide(const StraightLine& line, const Span& part,
+                        LinePieces& out) const {
+  std::visit([&](const auto& shape) { split(shape, line, part, out); }, shape_);
+}
+
+}  // namespace limber::contact

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/potential/surface_moments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "limber/contact/potential/line_rule.hpp"
+
+namespace limber::contact {
+namespace {
+
+using Weights10 = Eigen::Matrix<double, 10, 1>;
+using Slopes = Eigen::Matrix<double, 10, 6>;
+
+// 1, r and r r': xx, yy, zz, xy, xz, yz
+Weights10 find_powers(const Vector3& r) {
+  Weights10 powers;
+  powers << 1.0, r, r.cwiseAbs2(), r.x() * r.y(), r.x() * r.z(), r.y() * r.z();
+  return powers;
+}
+
+Matrix3 unfold(const Eigen::Matrix<double, 6, 1>& s) {
+  Matrix3 square;
+  square << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+  return square;
+}
+
+/// Of one line, whose normal is n, or of all, by components of n: with p the
+/// powers of r about o
+struct LineSums {
+  Weights10 cubed = Weights10::Zero();  ///< int 4 t^3 p
+  Slopes by_motion = Slopes::Zero();    ///< int 12 t^2 p g'
+  Vector3 flux = Vector3::Zero();       ///< int phi grad t
+
+  void add(const Depth& depth, const Vector3& r, double weight,
+           bool has_derivatives) {
+    const double t2 = depth.t * depth.t;
+    const Weights10 powers = find_powers(r);
+    flux += weight * depth.flux * depth.gradient;
+    cubed += (4.0 * weight * t2 * depth.t) * powers;
+    if (!has_derivatives) return;
+    Vector6 g;
+    g << depth.gradient, r.cross(depth.gradient);
+    by_motion += ((12.0 * weight * t2) * powers) * g.transpose();
+  }
+};
+
+/// Sums over the surface of `hard`.
+struct SurfaceSums {
+  double flux = 0.0;
+  std::array<Weights10, 3> cubed;   // int 4 t^3 n_k p dS
+  std::array<Slopes, 3> by_motion;  // int 12 t^2 n_k p g' dS
+
+  SurfaceSums() {
+    cubed.fill(Weights10::Zero());
+    by_motion.fill(Slopes::Zero());
+  }
+
+  void add(const LineSums& line, const Vector3& area, bool has_derivatives) {
+    flux += line.flux.dot(area);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double n = area[static_cast<Eigen::Index>(k)];
+      if (n == 0.0) continue;
+      cubed[k] += n * line.cubed;
+      if (has_derivatives) by_motion[k] += n * line.by_motion;
+    }
+  }
+
+  [[nodiscard]] Vector6 find_wrench() const {
+    Matrix3 first;  // by rows n r'
+    Vector6 wrench;
+    for (int k = 0; k < 3; ++k) {
+      const Weights10& sums = cubed[static_cast<std::size_t>(k)];
+      wrench[k] = sums[0];
+      first.row(k) = sums.segment<3>(1).transpose();
+    }
+    wrench.tail<3>() = find_moment(first);
+    return wrench;
+  }
+
+  // int 12 t^2 (n, r x n) g' dS
+  [[nodiscard]] Matrix6 find_stiffness() const {
+    Matrix6 all;
+    for (int i = 0; i < 6; ++i) {
+      Matrix3 first;
+      for (int k = 0; k < 3; ++k) {
+        const Slopes& sums = by_motion[static_cast<std::size_t>(k)];
+        all(k, i) = sums(0, i);
+        first.row(k) = sums.block<3, 1>(1, i).transpose();
+      }
+      all.col(i).tail<3>() = find_moment(first);
+    }
+    return all;
+  }
+
+  // r x n of n r'
+  [[nodiscard]] static Vector3 find_moment(const Matrix3& first) {
+    return {first(2, 1) - first(1, 2), first(0, 2) - first(2, 0),
+            first(1, 0) - first(0, 1)};
+  }
+};
+
+/// The quadrature of one part of a surface.
+class PartQuadrature {
+ public:
+  PartQuadrature(const RuledSurface& surface, const DepthField& soft,
+                 const Vector3& o, bool has_derivatives)
+      : surface_(surface),
+        soft_(soft),
+        o_(o),
+        has_derivatives_(has_derivatives) {}
+
+  void integrate(const Span& part, SurfaceSums& sums) const {
+    Cuts cuts;
+    find_cuts(surface_, soft_, part, cuts);
+    const auto ends = cuts.all();
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      add_lines({ends[i], ends[i + 1]}, sums);
+    }
+  }
+
+ private:
+  [[nodiscard]] double find_depth(double u) const {
+    const StraightLine line = surface_.find_line(u);
+    return soft_.find_t(line.at(soft_.find_deepest(line)));
+  }
+
+  // Whether lines of a flat end at the rim of a round body where that is deep,
+  // so that their lengths go with the root of the distance to the last one.
+  [[nodiscard]] bool is_blunt(const Span& u) const {
+    constexpr double kInside = 1e-3;
+    constexpr double kDeep = 0.03;
+    if (surface_.kind != RuledSurface::Kind::kFlat || soft_.is_flat()) {
+      return false;
+    }
+    const double least = kDeep * find_depth(u.middle());
+    return find_depth(u.first + kInside * u.length()) > least ||
+           find_depth(u.last - kInside * u.length()) > least;
+  }
+
+  // Of a blunt part by the sine of an angle.
+  void add_lines(const Span& u, SurfaceSums& sums) const {
+    if (u.is_empty()) return;
+    const auto& rule = line_rule<12>();
+    const bool by_angle = is_blunt(u);
+    for (std::size_t i = 0; i < rule.places.size(); ++i) {
+      double place = rule.places[i];
+      double weight = rule.weights[i] * u.length();
+      if (by_angle) {
+        const double angle = std::numbers::pi * (place - 0.5);
+        place = 0.5 * (1.0 + std::sin(angle));
+        weight *= 0.5 * std::numbers::pi * std::cos(angle);
+      }
+      add_line(u.first + place * u.length(), weight, sums);
+    }
+  }
+
+  void add_line(double u, double weight, SurfaceSums& sums) const {
+    const StraightLine line = surface_.find_line(u);
+    const Span part = soft_.cut(line);
+    if (part.is_empty()) return;
+    LinePieces pieces;
+    soft_.divide(line, part, pieces);
+    LineSums of_line;
+    double first = part.first;
+    for (const LinePiece& piece : pieces.all()) {
+      const Span span{first, piece.last};
+      // Polynomials of degree 5 below a flat.
+      if (soft_.is_flat()) {
+        add_points<3>(line, span, of_line);
+      } else {
+        add_points<6>(line, span, of_line);
+      }
+      first = piece.last;
+    }
+    sums.add(of_line, weight * surface_.find_area(u), has_derivatives_);
+  }
+
+  template <std::size_t count>
+  void add_points(const StraightLine& line, const Span& span,
+                  LineSums& sums) const {
+    const auto& rule = line_rule<count>();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector3 x = line.at(span.first + rule.places[i] * span.length());
+      const Depth depth = soft_.find_depth(x);
+      if (!(depth.t > 0.0)) continue;
+      sums.add(depth, x - o_, rule.weights[i] * span.length(),
+               has_derivatives_);
+    }
+  }
+
+  const RuledSurface& surface_;
+  const DepthField& soft_;
+  const Vector3& o_;
+  bool has_derivatives_;
+};
+
+// Out of both cells, over the part of the sheet within `hard`.
+double find_sheet_flux(const RuledSurface& sheet, const DepthField& hard) {
+  const auto part = find_touched_part(sheet, hard);
+  if (!part) return 0.0;
+  Cuts cuts;
+  find_cuts(sheet, hard, part->u, cuts);
+  const auto ends = cuts.all();
+  const auto& rule = line_rule<12>();
+  double flux = 0.0;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const double width = ends[k + 1] - ends[k];
+    for (std::size_t i = 0; i < rule.places.size(); ++i) {
+      const Span within =
+          hard.cut(sheet.find_line(ends[k] + rule.places[i] * width));
+      if (within.is_empty()) continue;
+      flux += rule.weights[i] * width * sheet.find_flux(within);
+    }
+  }
+  return flux;
+}
+
+}  // namespace
+
+SurfaceContact::SurfaceContact(const DepthField& soft, const DepthField& hard,
+                               const Pose& X)
+    : soft_(soft), hard_(hard), X_hs_(X.inverse()) {
+  RuledSurfaces surfaces;
+  list_surfaces(hard.shape(), X, soft.shape(), surfaces);
+  for (const RuledSurface& surface : surfaces.all()) {
+    const auto part = find_touched_part(surface, soft);
+    if (!part) continue;
+    Part& added = parts_.add();
+    added.surface = surface;
+    added.u = part->u;
+    if (part->depth > deepest_.depth) deepest_ = *part;
+  }
+}
+
+DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
+                                       bool has_derivatives) const {
+  SurfaceSums sums;
+  for (const Part& part : parts_.all()) {
+    PartQuadrature(part.surface, soft_, o, has_derivatives)
+        .integrate(part.u, sums);
+  }
+  DepthMoments out;
+  out.M = sums.flux;
+  RuledSurfaces sheets;
+  list_sheets(soft_.shape(), sheets);
+  for (const RuledSurface& sheet : sheets.all()) {
+    out.M += find_sheet_flux(sheet.place(X_hs_), hard_);
+  }
+  const Vector6 wrench = sums.find_wrench();
+  out.m1 = sign * wrench;
+  out.depth = deepest_.depth;
+  const Vector3 way = wrench.head<3>().normalized();
+  Weights10 pressure = Weights10::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    pressure += way[static_cast<Eigen::Index>(k)] * sums.cubed[k];
+  }
+  out.pressure = pressure[0];
+  out.first = pressure.segment<3>(1);
+  out.second = unfold(pressure.tail<6>());
+  if (!has_derivatives) return out;
+  const Matrix6 stiffness = sums.find_stiffness();
+  out.m2 = 0.5 * (stiffness + stiffness.transpose());
+  return out;
+}
+
+DepthMoments rotate(const DepthMoments& moments, const Matrix3& R) {
+  Matrix6 T = Matrix6::Zero();
+  T.topLeftCorner<3, 3>() = R;
+  T.bottomRightCorner<3, 3>() = R;
+  DepthMoments out = moments;
+  out.m1 = T * moments.m1;
+  out.m2 = T * moments.m2 * T.transpose();
+  out.first = R * moments.first;
+  out.second = R * moments.second * R.transpose();
+  return out;
+}
+
+}  // namespace limber::contact

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "limber/contact/potential/depth_moments.hpp"
+#include "limber/contact/potential/touched_part.hpp"
+
+namespace limber::contact {
+
+/// Where the surface of a rigid body, `hard`, lies within another, `soft`, and
+/// the moments of the depth below the surface of `soft`, in its frame.
+///
+/// Equation   M = int 4 t^3 dV = int over the surface of `hard` within `soft`
+///            of phi grad t . n dS + the same out of both cells over the sheets
+///            where two faces of `soft` are equally near, within `hard`; m1 =
+///            int 4 t^3 (n, r x n) dS, m2 along the motion exp(u, theta)
+///            the symmetric part of int 12 t^2 (n, r x n) g' dS, exact also
+///            where the nearest face changes; the pressure 4 t^3 n dS along the
+///            resultant
+/// Limits     one place of contact; quadrature of 12 lines in a part of which
+///            the lines' ends and faces are the same: about 1e-7 of M; sheets
+///            in the middle of a body, where two opposite faces are equally
+///            near, are left out
+class SurfaceContact {
+ public:
+  /// @param X the pose of `hard` in the frame of `soft`
+  /// @param hard a half space, box or cylinder; one of both bounded
+  SurfaceContact(const DepthField& soft, const DepthField& hard, const Pose& X);
+
+  [[nodiscard]] bool touches() const { return !parts_.all().empty(); }
+  [[nodiscard]] double depth() const { return deepest_.depth; }
+  [[nodiscard]] const Vector3& deepest_place() const { return deepest_.place; }
+
+  /// About o, in the axes of `soft`. @param sign 1 if B is `hard`, else -1
+  [[nodiscard]] DepthMoments integrate(const Vector3& o, double sign,
+                                       bool has_derivatives) const;
+
+ private:
+  struct Part {
+    RuledSurface surface;
+    Span u;
+  };
+
+  const DepthField& soft_;
+  const DepthField& hard_;
+  Pose X_hs_;  // of soft in the frame of hard
+  StackArray<Part, 24> parts_;
+  TouchedPart deepest_;
+};
+
+/// Of vectors in other axes, R of those from these.
+[[nodiscard]] DepthMoments rotate(const DepthMoments& moments,
+                                  const Matrix3& R);
+
+}  // namespace limber::contact

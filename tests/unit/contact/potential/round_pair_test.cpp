@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/potential/round_pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "limber/common/rotation.hpp"
+#include "limber/contact/potential/pair_potential.hpp"
+
+/// Cylinders, capsules and balls: against closed forms of the overlap, Hertz,
+/// the moments of polyhedra, and differences.
+namespace limber::contact::round_pair_test {
+namespace {
+
+constexpr double kModulus = 1e9;  // [Pa]
+constexpr double kPi = std::numbers::pi;
+const Cylinder kRod{0.02, 0.1};
+const Capsule kPill{0.02, 0.1};
+const Cylinder kLog{0.05, 0.6};
+const Sphere kBall{0.05};
+const Box kBox{Vector3(0.03, 0.02, 0.05)};
+const HalfSpace kPlane{};
+
+Matrix3 turn(double x, double y, double z) {
+  return exp_rotation(Vector3(x, y, z));
+}
+
+struct Placing {
+  std::string name;
+  ShapeKind A;  // at the origin
+  ShapeKind B;
+  Pose X_WB;
+};
+
+// Lowest point d below z = 0.
+Pose lower(const ShapeKind& shape, const Matrix3& R, double d) {
+  double reach = 0.0;
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    reach = (R.transpose() * Vector3::UnitZ()).cwiseAbs().dot(box->half_size);
+  } else if (const auto* pill = std::get_if<Capsule>(&shape)) {
+    reach = pill->radius + pill->half_length * std::abs(R(2, 2));
+  } else if (const auto* rod = std::get_if<Cylinder>(&shape)) {
+    reach = rod->half_length * std::abs(R(2, 2)) +
+            rod->radius * std::hypot(R(2, 0), R(2, 1));
+  }
+  return {R, Vector3(0.01, -0.02, reach - d)};
+}
+
+// A corner of the box 0.1 from the middle of the log, straight down on it.
+Pose stand_on_log(double d) {
+  const Matrix3 R = turn(0, 0, 0.2) * turn(0.3, 0.6, 0);
+  Vector3 corner = Vector3::Zero();
+  for (int i = 0; i < 8; ++i) {
+    const Vector3 signs((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
+                        (i & 4) != 0 ? 1 : -1);
+    const Vector3 x = R * kBox.half_size.cwiseProduct(signs);
+    if (x.x() < corner.x()) corner = x;
+  }
+  return {R, Vector3(kLog.radius - d, 0, 0.1) - corner};
+}
+
+std::vector<Placing> make_placings() {
+  const double d = 1e-4;
+  const auto on_plane = [&](std::string name, const ShapeKind& B,
+                            const Matrix3& R) {
+    return Placing{std::move(name), kPlane, B, lower(B, R, d)};
+  };
+  const auto on_log = [](std::string name, const ShapeKind& B, const Matrix3& R,
+                         const Vector3& p) {
+    return Placing{std::move(name), kLog, B, Pose{R, p}};
+  };
+  const double R = kLog.radius;
+  return {
+      on_plane("rod lying", kRod, turn(kPi / 2, 0, 0)),
+      on_plane("rod nearly lying", kRod, turn(kPi / 2 + 1e-3, 0, 0)),
+      on_plane("rim on plane", kRod, turn(0.3, 0.1, 0)),
+      on_plane("rod tilted by little", kRod, turn(1e-2, 0, 0)),
+      on_plane("pill lying", kPill, turn(kPi / 2, 0, 0)),
+      on_plane("pill nearly lying", kPill, turn(kPi / 2 - 1e-3, 0.2, 0)),
+      {"box corner on log", kLog, kBox, stand_on_log(d)},
+      on_log("box face on log", kBox, turn(0, 0, 0),
+             {R + kBox.half_size.x() - d, 0, 0.1}),
+      on_log("box edge across log", kBox, turn(0, kPi / 4, 0),
+             {R + 0.08 / std::sqrt(2.0) - d, 0, 0.1}),
+      on_log("rod across log", kRod, turn(kPi / 2, 0, 0),
+             {R + kRod.radius - d, 0, 0.1}),
+      on_log("rod askew over log's end", kRod, turn(1e-3, 2e-4, 0),
+             {R + kRod.radius - d, 0, 0.55}),
+      on_log("rod's rim on log's end", kRod, turn(0.2, 0.1, 0),
+             {0.01, 0, 0.6 + 0.1 * 0.975 + 0.02 * 0.223 - d}),
+      on_log("pill across log", kPill, turn(0.7, 0, 0), {R + 0.02 - d, 0, 0.1}),
+      on_log("ball on log", kBall, turn(0, 0, 0), {R + 0.05 - d, 0, 0.1}),
+      {"ball on box's edge",
+       kBox,
+       kBall,
+       {turn(0, 0, 0), {0.079, 0.021, 0.02}}},
+      {"pill on box's edge", kBox, kPill, {turn(0, 0, 0.3), {0.04, 0.03, 0.1}}},
+      {"rod over box's edge",
+       kBox,
+       kRod,
+       {turn(1e-3, 2e-4, 0), {0.025, 0.005, 0.15 - d}}},
+  };
+}
+
+PairPotential make_potential(const Placing& placing) {
+  return {Shape{placing.A, {}}, Shape{placing.B, {}}, kModulus};
+}
+
+Patch evaluate(const PairPotential& potential, const Pose& X_WA,
+               const Pose& X_WB) {
+  const joints::PairBody A{X_WA.R, X_WA.p};
+  const joints::PairBody B{X_WB.R, X_WB.p};
+  return potential.evaluate({A, B}, true);
+}
+
+Pose move(const Pose& X, const Vector6& by, const Vector3& about) {
+  const Matrix3 R = exp_rotation(by.tail<3>());
+  return {R * X.R, about + by.head<3>() + R * (X.p - about)};
+}
+
+DepthMoments find_moments(const ShapeKind& soft, const ShapeKind& hard,
+                          const Pose& X, const Vector3& o) {
+  const DepthField field(soft);
+  const DepthField other(hard);
+  return SurfaceContact(field, other, X).integrate(o, 1.0, true);
+}
+
+// ---- M of one body's depth
+
+TEST(SurfaceContact, OfALyingCylinderIsItsClosedForm) {
+  for (const double d : {1e-7, 1e-5}) {
+    const double M =
+        find_moments(kPlane, kRod, lower(kRod, turn(kPi / 2, 0, 0), d), {}).M;
+    const double L = 2.0 * kRod.half_length;
+    const double parabola =
+        L * std::sqrt(2.0 * kRod.radius) * 256.0 / 315.0 * std::pow(d, 4.5);
+    EXPECT_NEAR(M / parabola, 1.0, d / kRod.radius + 1e-7);
+  }
+}
+
+TEST(SurfaceContact, OfAStandingCylinderIsThatOfAPunch) {
+  const double d = 1e-5;
+  const double M =
+      find_moments(kPlane, kRod, lower(kRod, turn(0, 0, 0), d), {}).M;
+  EXPECT_NEAR(M / (kPi * kRod.radius * kRod.radius * std::pow(d, 4)), 1.0,
+              1e-9);
+}
+
+// Depth u = d - R s a^2 / 2 of the rim's point at the angle a, of slope s; u^5
+// / (5 s c) across, R da along: int (1 - x^2)^5 dx = 512 / 693.
+TEST(SurfaceContact, OfARimIsItsClosedForm) {
+  for (const double tilt : {0.1, 0.3, 0.8}) {
+    const double d = 1e-6;
+    const double M =
+        find_moments(kPlane, kRod, lower(kRod, turn(tilt, 0, 0), d), {}).M;
+    const double s = std::sin(tilt);
+    const double R = kRod.radius;
+    const double closed = R * std::sqrt(2.0 * d / (R * s)) * std::pow(d, 5) *
+                          (512.0 / 693.0) / (5.0 * s * std::cos(tilt));
+    EXPECT_NEAR(M / closed, 1.0, 1e-3) << tilt;
+  }
+}
+
+TEST(SurfaceContact, OfABallAndOfACapsuleAreTheirClosedForms) {
+  const double d = 1e-6;
+  const double ball =
+      find_moments(kBall, kPlane, Pose{turn(0, 0, 0), {0, 0, d - kBall.radius}},
+                   {})
+          .M;
+  EXPECT_NEAR(ball / (0.4 * kPi * kBall.radius * std::pow(d, 5)), 1.0, 1e-4);
+  const Pose lying = lower(kPill, turn(kPi / 2, 0, 0), d).inverse();
+  const double pill = find_moments(kPill, kPlane, lying, {}).M;
+  const double R = kPill.radius;
+  const double line = 2.0 * kPill.half_length * std::sqrt(2.0 * R) * 256.0 /
+                      315.0 * std::pow(d, 4.5);
+  EXPECT_NEAR(pill / (line + 0.4 * kPi * R * std::pow(d, 5)), 1.0, 1e-4);
+}
+
+// By tetrahedra: other code, which has the volume of each cell.
+TEST(SurfaceContact, OfBoxesIsThatOfPolyhedra) {
+  const double d = 1e-3;
+  const std::vector<Matrix3> turns{turn(0, 0, 0.3), turn(1e-2, 2e-2, 0.3),
+                                   turn(0.6, 0, 0), turn(0.6, 0.4, 0.2)};
+  const Box table{Vector3(0.2, 0.3, 0.1)};
+  for (const Matrix3& R : turns) {
+    Pose X = lower(kBox, R, d);
+    X.p += Vector3(0.18, 0.0, 0.1);
+    // The part of the placed box within the table.
+    Polytope overlap = ConvexSolid(kBox).place(X, 1);
+    const ConvexSolid solid(table);
+    for (const ConvexSolid::Face& face : solid.faces()) {
+      Polytope next;
+      overlap = Polytope(clip(overlap, face.plane, -1, next));
+    }
+    const DepthMoments found = find_moments(table, kBox, X, {});
+    const DepthMoments other =
+        find_depth_moments(solid, {}, overlap, 0, true);
+    EXPECT_NEAR(found.M / other.M, 1.0, 1e-9);
+    EXPECT_LT((found.m1 - other.m1).norm(), 1e-9 * other.m1.norm());
+    // Of polyhedra, the motion is u + exp(theta).
+    const Matrix3 turned = 0.5 * skew(Vector3(other.m1.head<3>()));
+    Matrix6 m2 = other.m2;
+    m2.topRightCorner<3, 3>() += turned;
+    m2.bottomLeftCorner<3, 3>() -= turned;
+    EXPECT_LT((found.m2 - m2).norm(), 1e-8 * m2.norm());
+  }
+}
+
+// ---- W of both
+
+TEST(RoundPair, OfABallOnABoxIsThatOfHertz) {
+  for (const double d : {1e-7, 1e-6}) {
+    const Placing placing{
+        "", kBox, kBall, {turn(0, 0, 0), {0.08 - d, 0, 0.01}}};
+    const Patch patch = evaluate(make_potential(placing), {}, placing.X_WB);
+    const double load =
+        4.0 / 3.0 * kModulus * std::sqrt(kBall.radius) * std::pow(d, 1.5);
+    EXPECT_NEAR(patch.gradient_W[0] / -load, 1.0, 1e-4);
+    EXPECT_NEAR(patch.energy / (0.4 * load * d), 1.0, 1e-4);
+    EXPECT_LT((patch.centre_W - Vector3(0.03, 0, 0.01)).norm(), 2.0 * d);
+    EXPECT_NEAR(patch.depth / d, 1.0, 1e-6);
+  }
+}
+
+TEST(RoundPair, OfAStandingCylinderIsThatOfARoundPunch) {
+  const double d = 1e-6;
+  const Placing placing{"", kPlane, kRod, lower(kRod, turn(0, 0, 0), d)};
+  const Patch patch = evaluate(make_potential(placing), {}, placing.X_WB);
+  const double k = 2.0 * kModulus * kRod.radius;
+  // Next to its rim the nearest face of the cylinder is its side.
+  const double rim = 3.0 * d / kRod.radius;
+  EXPECT_NEAR(patch.gradient_W[2] / (-k * d), 1.0, rim);
+  EXPECT_NEAR(patch.hessian_W(2, 2) / k, 1.0, rim);
+  EXPECT_NEAR(patch.spread_W.trace() / (0.5 * kRod.radius * kRod.radius), 1.0,
+              rim);
+}
+
+TEST(RoundPair, PressesACornerOnALongCylinderAtTheCorner) {
+  for (const double d : {1e-6, 1e-5, 1e-4}) {
+    const Placing placing{"", kLog, kBox, stand_on_log(d)};
+    const Patch patch = evaluate(make_potential(placing), {}, placing.X_WB);
+    ASSERT_TRUE(patch.touches);
+    const Vector3 touch(kLog.radius, 0.0, 0.1);
+    EXPECT_LT((patch.centre_W - touch).norm(), 2.0 * d);
+    EXPECT_LT(patch.gradient_W.tail<3>().norm(), 2.0 * d * patch.load());
+  }
+}
+
+TEST(RoundPair, HasTheGradientOfItsEnergy) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch patch = evaluate(potential, {}, placing.X_WB);
+    ASSERT_TRUE(patch.touches);
+    for (int i = 0; i < 6; ++i) {
+      const double h = i < 3 ? 1e-8 : 1e-7;
+      const auto energy = [&](double s) {
+        const Vector6 by = s * h * Vector6::Unit(i);
+        return evaluate(potential, {}, move(placing.X_WB, by, patch.centre_W))
+            .energy;
+      };
+      const double slope = (energy(1) - energy(-1)) / (2.0 * h);
+      EXPECT_NEAR(slope, patch.gradient_W[i], 1e-6 * patch.load()) << i;
+    }
+  }
+}
+
+// About the fixed centre; the unsymmetric part is that of axes which move half
+// with each body.
+TEST(RoundPair, HasTheHessianOfItsEnergy) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch patch = evaluate(potential, {}, placing.X_WB);
+    Matrix6 found = Matrix6::Zero();
+    for (int i = 0; i < 6; ++i) {
+      const double h = i < 3 ? 1e-8 : 1e-7;
+      const auto gradient = [&](double s) -> Vector6 {
+        const Vector6 by = s * h * Vector6::Unit(i);
+        const Patch at =
+            evaluate(potential, {}, move(placing.X_WB, by, patch.centre_W));
+        Vector6 g = at.gradient_W;
+        g.tail<3>() +=
+            (at.centre_W - patch.centre_W).cross(Vector3(g.head<3>()));
+        return g;
+      };
+      found.col(i) = (gradient(1) - gradient(-1)) / (2.0 * h);
+    }
+    const Matrix6& K = patch.hessian_W;
+    const Matrix6 rest = 0.5 * (found + found.transpose()) - K;
+    const auto size = [](const Matrix6& m, int i, int j) {
+      const Matrix3 block = m.block<3, 3>(3 * i, 3 * j);
+      return block.norm();
+    };
+    const double k = size(K, 0, 0);
+    const double turned = size(K, 1, 1);
+    EXPECT_LT(size(rest, 0, 0), 1e-5 * k);
+    EXPECT_LT(size(rest, 1, 1), 1e-5 * turned + 2e-4 * patch.load());
+    EXPECT_LT(size(rest, 0, 1),
+              1e-5 * std::sqrt(k * turned) + 1e-3 * patch.load());
+  }
+}
+
+TEST(RoundPair, IsTheSameWithNamesSwapped) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const Patch one = evaluate(make_potential(placing), {}, placing.X_WB);
+    const Patch other =
+        evaluate({Shape{placing.B, {}}, Shape{placing.A, {}}, kModulus},
+                 placing.X_WB, {});
+    EXPECT_NEAR(other.energy / one.energy, 1.0, 1e-9);
+    EXPECT_LT((other.centre_W - one.centre_W).norm(), 1e-9);
+    EXPECT_LT((other.gradient_W + one.gradient_W).norm(),
+              1e-9 * one.gradient_W.norm());
+    EXPECT_LT((other.hessian_W - one.hessian_W).norm(),
+              1e-7 * one.hessian_W.norm());
+  }
+}
+
+TEST(RoundPair, IsTheSameElsewhereAndTurned) {
+  const Pose X{turn(0.3, -1.0, 2.0), {1e3, -2e3, 5e2}};
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch here = evaluate(potential, {}, placing.X_WB);
+    const Patch there = evaluate(potential, X, X * placing.X_WB);
+    EXPECT_NEAR(there.energy / here.energy, 1.0, 1e-7);
+    EXPECT_LT(
+        (there.gradient_W.head<3>() - X.R * here.gradient_W.head<3>()).norm(),
+        1e-7 * here.load());
+    EXPECT_LT((X.inverse() * there.centre_W - here.centre_W).norm(), 1e-8);
+  }
+}
+
+ShapeKind scale(const ShapeKind& shape, double s) {
+  if (const auto* ball = std::get_if<Sphere>(&shape)) {
+    return Sphere{s * ball->radius};
+  }
+  if (const auto* pill = std::get_if<Capsule>(&shape)) {
+    return Capsule{s * pill->radius, s * pill->half_length};
+  }
+  if (const auto* rod = std::get_if<Cylinder>(&shape)) {
+    return Cylinder{s * rod->radius, s * rod->half_length};
+  }
+  if (const auto* box = std::get_if<Box>(&shape))
+    return Box{s * box->half_size};
+  return shape;
+}
+
+// W goes with the third power of all lengths.
+TEST(RoundPair, DoesNotDependOnTheUnitOfLength) {
+  for (const double s : {1e-3, 1e3}) {
+    for (const Placing& placing : make_placings()) {
+      SCOPED_TRACE(placing.name);
+      const Patch one = evaluate(make_potential(placing), {}, placing.X_WB);
+      const PairPotential scaled{Shape{scale(placing.A, s), {}},
+                                 Shape{scale(placing.B, s), {}}, kModulus};
+      const Pose X{placing.X_WB.R, s * placing.X_WB.p};
+      const Patch other = evaluate(scaled, {}, X);
+      EXPECT_NEAR(other.energy / (s * s * s * one.energy), 1.0, 1e-9);
+      EXPECT_NEAR(other.load() / (s * s * one.load()), 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(RoundPair, IsNothingApart) {
+  for (const Placing& placing : make_placings()) {
+    SCOPED_TRACE(placing.name);
+    const PairPotential potential = make_potential(placing);
+    const Patch patch = evaluate(potential, {}, placing.X_WB);
+    Pose X = placing.X_WB;
+    X.p += 0.01 * patch.normal_W();
+    EXPECT_FALSE(evaluate(potential, {}, X).touches);
+  }
+}
+
+TEST(RoundPair, LeavesSmoothPairsToHertz) {
+  EXPECT_FALSE(RoundPair::suits(kBall, kPlane));
+  EXPECT_FALSE(RoundPair::suits(kBall, kPill));
+  EXPECT_FALSE(RoundPair::suits(kPill, kPill));
+  EXPECT_FALSE(RoundPair::suits(kBox, kPlane));
+  EXPECT_TRUE(RoundPair::suits(kPill, kPlane));
+  EXPECT_TRUE(RoundPair::suits(kBall, kRod));
+}
+
+}  // namespace
+}  // namespace limber::contact::round_pair_test
