@@ -4,6 +4,7 @@
 #include "limber/common/types.hpp"
 #include "limber/contact/potential/convex_solid.hpp"
 #include "limber/contact/potential/polytope.hpp"
+#include "limber/contact/potential/shape_factor.hpp"
 
 namespace limber::contact {
 
@@ -27,6 +28,7 @@ struct DepthMoments {
   Vector3 first = Vector3::Zero();   ///< int 12 t^2 r dV [m^6]
   Matrix3 second = Matrix3::Zero();  ///< int 12 t^2 r r' dV [m^7]
   double depth = 0.0;                ///< largest [m]
+  Factor factor;                     ///< of W, 1 of polyhedra
 };
 
 /// @param soft whose depth counts, placed by X

@@ -24,18 +24,22 @@ struct Half {
   Matrix6 hessian = Matrix6::Zero();
 };
 
-// W = c sqrt(M), lambda = c / (2 sqrt(M))
-Half weigh(const DepthMoments& m, double c) {
+// W = c f sqrt(M), f the moments' factor
+Half weigh(const DepthMoments& m, double modulus_factor) {
+  const double c = modulus_factor * m.factor.value;
   const double root = std::sqrt(m.M);
   const double lambda = 0.5 * c / root;
+  const Vector6& rate = m.factor.rate;
   Half half;
   half.energy = c * root;
   half.load = lambda * m.pressure;
   half.moved = lambda * m.first;
   half.spread = lambda * m.second;
-  half.gradient = lambda * m.m1;
-  half.hessian =
-      lambda * m.m2 - (0.25 * c / (m.M * root)) * m.m1 * m.m1.transpose();
+  half.gradient = lambda * m.m1 + half.energy * rate;
+  half.hessian = lambda * m.m2 -
+                 (0.25 * c / (m.M * root)) * m.m1 * m.m1.transpose() +
+                 lambda * (m.m1 * rate.transpose() + rate * m.m1.transpose()) +
+                 half.energy * m.factor.second;
   return half;
 }
 
@@ -87,17 +91,6 @@ Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X,
   return *part;
 }
 
-// c of bodies that meet with flats, or of which one is round everywhere.
-double find_factor(const ShapeKind& A, const ShapeKind& B) {
-  // (8 / 15) sqrt(5 / 2): of a ball on a flat, M = 2 pi R d^5 / 5
-  const double round = 8.0 / 15.0 * std::sqrt(2.5);
-  const auto is_round = [](const ShapeKind& shape) {
-    return std::holds_alternative<Sphere>(shape) ||
-           std::holds_alternative<Capsule>(shape);
-  };
-  return is_round(A) || is_round(B) ? round : 1.0;
-}
-
 }  // namespace
 
 bool PairPotential::suits(const ShapeKind& A, const ShapeKind& B) {
@@ -109,8 +102,7 @@ bool PairPotential::suits(const ShapeKind& A, const ShapeKind& B) {
 }
 
 PairPotential::PairPotential(const Shape& A, const Shape& B, double modulus)
-    : factor_(find_factor(A.kind, B.kind)),
-      is_B_bounded_(!std::holds_alternative<HalfSpace>(B.kind)),
+    : is_B_bounded_(!std::holds_alternative<HalfSpace>(B.kind)),
       X_AS_(A.X_BS),
       X_BS_(B.X_BS),
       modulus_(modulus) {
@@ -183,7 +175,7 @@ Patch PairPotential::evaluate(const joints::PairBodies& bodies,
   }
   out.touches = true;
   out.depth = std::max(moments->of_A.depth, moments->of_B.depth);
-  const double c = factor_ * modulus_ / std::sqrt(std::numbers::pi);
+  const double c = modulus_ / std::sqrt(std::numbers::pi);
   const Half A = weigh(moments->of_A, c);
   const Half B = weigh(moments->of_B, c);
   const double load = A.load + B.load;

@@ -34,11 +34,10 @@ struct Patch {
 /// Elastic contact of two convex bodies as one potential of their relative
 /// pose: no rule asks which feature is nearest.
 ///
-/// Equation   W = c E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
+/// Equation   W = f E* / sqrt(pi) sqrt(M) of each body's depth; their mean.
 ///            A flat of area S pressed in by d has N = 2 E* sqrt(S / pi) d,
-///            that of a round punch [@johnson1985]
-///            c = 1, with a ball or capsule 0.8433, exact where a ball meets a
-///            flat [@johnson1985, eq. 4.23]
+///            that of a round punch [@johnson1985]; f = 1 of polyhedra, else of
+///            RoundPair
 /// Limits     two feet far apart are as stiff as one of their area
 class PairPotential {
  public:
@@ -47,7 +46,7 @@ class PairPotential {
   PairPotential(const Shape& A, const Shape& B, double modulus);
   PairPotential(const PlacedSolid& A, const PlacedSolid& B, double modulus);
 
-  /// @param has_derivatives else hessian_W is zero
+  /// @param has_derivatives else hessian_W of polyhedra is zero
   /// @param shift_W of B from its place [m]
   [[nodiscard]] Patch evaluate(const joints::PairBodies& bodies,
                                bool has_derivatives,
@@ -69,7 +68,6 @@ class PairPotential {
   std::optional<ConvexSolid> A_;
   std::optional<ConvexSolid> B_;
   std::optional<RoundPair> round_;
-  double factor_ = 1.0;  // c [-]
   bool is_B_bounded_;
   Pose X_AS_;
   Pose X_BS_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/contact/potential/round_pair.hpp"
 
+#include <cmath>
 #include <variant>
 
 #include "limber/common/errors.hpp"
@@ -40,6 +41,23 @@ RoundPair::RoundPair(const ShapeKind& A, const ShapeKind& B) : A_(A), B_(B) {
   LIMBER_EXPECT(suits(A, B));
 }
 
+Factor RoundPair::find_factor(const Pose& X_A, const Pose& X_B) const {
+  // (8 / 15) sqrt(5 / 2): of a ball on a flat, M = 2 pi R d^5 / 5
+  const double round = 8.0 / 15.0 * std::sqrt(2.5);
+  if (is_smooth(A_.shape()) || is_smooth(B_.shape())) return {.value = round};
+  if (is_solid(A_.shape()) || is_solid(B_.shape())) return {};
+  constexpr double kAligned = 0.01;
+  const Vector3 a = X_A.R.col(2);
+  const Vector3 b = X_B.R.col(2);
+  const double x = a.cross(b).squaredNorm();
+  const double slope =
+      -(1.0 - round) * kAligned / ((x + kAligned) * (x + kAligned));
+  Factor factor;
+  factor.value = 1.0 - (1.0 - round) * x / (x + kAligned);
+  factor.rate.tail<3>() = (-2.0 * a.dot(b) * slope / factor.value) * b.cross(a);
+  return factor;
+}
+
 std::optional<PairMoments> RoundPair::find_moments(const Pose& X_A,
                                                    const Pose& X_B,
                                                    bool has_derivatives) const {
@@ -64,6 +82,9 @@ std::optional<PairMoments> RoundPair::find_moments(const Pose& X_A,
   };
   if (soft_A) out.of_A = integrate(*soft_A, X_A, 1.0);
   if (soft_B) out.of_B = integrate(*soft_B, X_B, -1.0);
+  const Factor c = find_factor(X_A, X_B);
+  out.of_A.factor = out.of_A.factor * c;
+  out.of_B.factor = out.of_B.factor * c;
   if (!soft_A) out.of_A = out.of_B;
   if (!soft_B) out.of_B = out.of_A;
   return out;

@@ -35,13 +35,11 @@ struct LineSums {
   Slopes by_motion = Slopes::Zero();    ///< int 12 t^2 p g'
   Vector3 flux = Vector3::Zero();       ///< int phi grad t
 
-  void add(const Depth& depth, const Vector3& r, double weight,
-           bool has_derivatives) {
+  void add(const Depth& depth, const Vector3& r, double weight) {
     const double t2 = depth.t * depth.t;
     const Weights10 powers = find_powers(r);
     flux += weight * depth.flux * depth.gradient;
     cubed += (4.0 * weight * t2 * depth.t) * powers;
-    if (!has_derivatives) return;
     Vector6 g;
     g << depth.gradient, r.cross(depth.gradient);
     by_motion += ((12.0 * weight * t2) * powers) * g.transpose();
@@ -59,13 +57,14 @@ struct SurfaceSums {
     by_motion.fill(Slopes::Zero());
   }
 
-  void add(const LineSums& line, const Vector3& area, bool has_derivatives) {
+  [[nodiscard]] static LineSums begin_line() { return {}; }
+  void add(const LineSums& line, const Vector3& area) {
     flux += line.flux.dot(area);
     for (std::size_t k = 0; k < 3; ++k) {
       const double n = area[static_cast<Eigen::Index>(k)];
       if (n == 0.0) continue;
       cubed[k] += n * line.cubed;
-      if (has_derivatives) by_motion[k] += n * line.by_motion;
+      by_motion[k] += n * line.by_motion;
     }
   }
 
@@ -103,17 +102,44 @@ struct SurfaceSums {
   }
 };
 
+/// int 24 t (a . p) g g' dS, with the area along n.
+class BendSums {
+ public:
+  BendSums(const Weights10& a, const Vector3& n) : a_(a), n_(n) {}
+
+  struct Line {
+    Weights10 a;
+    Matrix6 bend = Matrix6::Zero();
+
+    void add(const Depth& depth, const Vector3& r, double weight) {
+      Vector6 g;
+      g << depth.gradient, r.cross(depth.gradient);
+      const double by = 24.0 * weight * depth.t * a.dot(find_powers(r));
+      bend += (by * g) * g.transpose();
+    }
+  };
+
+  [[nodiscard]] Line begin_line() const { return {a_}; }
+  void add(const Line& line, const Vector3& area) {
+    bend_ += n_.dot(area) * line.bend;
+  }
+  [[nodiscard]] const Matrix6& bend() const { return bend_; }
+
+ private:
+  Weights10 a_;
+  Vector3 n_;
+  Matrix6 bend_ = Matrix6::Zero();
+};
+
 /// The quadrature of one part of a surface.
+template <typename Sums>
 class PartQuadrature {
  public:
   PartQuadrature(const RuledSurface& surface, const DepthField& soft,
-                 const Vector3& o, bool has_derivatives)
-      : surface_(surface),
-        soft_(soft),
-        o_(o),
-        has_derivatives_(has_derivatives) {}
+                 const Vector3& o)
+      : surface_(surface), soft_(soft), o_(o) {}
 
-  void integrate(const Span& part, SurfaceSums& sums) const {
+  void integrate(const Span& part, Sums& sums) const {
     Cuts cuts;
     find_cuts(surface_, soft_, part, cuts);
     const auto ends = cuts.all();
@@ -142,7 +168,7 @@ class PartQuadrature {
   }
 
   // Of a blunt part by the sine of an angle.
-  void add_lines(const Span& u, SurfaceSums& sums) const {
+  void add_lines(const Span& u, Sums& sums) const {
     if (u.is_empty()) return;
     const auto& rule = line_rule<12>();
     const bool by_angle = is_blunt(u);
@@ -158,13 +184,13 @@ class PartQuadrature {
     }
   }
 
-  void add_line(double u, double weight, SurfaceSums& sums) const {
+  void add_line(double u, double weight, Sums& sums) const {
     const StraightLine line = surface_.find_line(u);
     const Span part = soft_.cut(line);
     if (part.is_empty()) return;
     LinePieces pieces;
     soft_.divide(line, part, pieces);
-    LineSums of_line;
+    auto of_line = sums.begin_line();
     double first = part.first;
     for (const LinePiece& piece : pieces.all()) {
       const Span span{first, piece.last};
@@ -176,26 +202,24 @@ class PartQuadrature {
       }
       first = piece.last;
     }
-    sums.add(of_line, weight * surface_.find_area(u), has_derivatives_);
+    sums.add(of_line, weight * surface_.find_area(u));
   }
 
-  template <std::size_t count>
+  template <std::size_t count, typename LineOf>
   void add_points(const StraightLine& line, const Span& span,
-                  LineSums& sums) const {
+                  LineOf& sums) const {
     const auto& rule = line_rule<count>();
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3 x = line.at(span.first + rule.places[i] * span.length());
       const Depth depth = soft_.find_depth(x);
       if (!(depth.t > 0.0)) continue;
-      sums.add(depth, x - o_, rule.weights[i] * span.length(),
-               has_derivatives_);
+      sums.add(depth, x - o_, rule.weights[i] * span.length());
     }
   }
 
   const RuledSurface& surface_;
   const DepthField& soft_;
   const Vector3& o_;
-  bool has_derivatives_;
 };
 
 // Out of both cells, over the part of the sheet within `hard`.
@@ -219,6 +243,67 @@ double find_sheet_flux(const RuledSurface& sheet, const DepthField& hard) {
   return flux;
 }
 
+/// ln u of the second moments of a pressure with the sums q over p, and its
+/// derivative by q.
+struct Form {
+  double u = 1.0;
+  Weights10 by_sums = Weights10::Zero();
+};
+
+// S = q_rr / q_0 - c c', c = q_r / q_0
+Form find_form(const Weights10& q, const Vector3& n) {
+  const double load = q[0];
+  const Vector3 centre = q.segment<3>(1) / load;
+  const Matrix3 square = unfold(q.tail<6>()) / load;
+  const Elongation form =
+      find_elongation(square - centre * centre.transpose(), n);
+  const Matrix3& B = form.by_moments;
+  const Vector3 by_centre = B * centre;
+  Form out;
+  out.u = form.u;
+  out.by_sums << 2.0 * centre.dot(by_centre) - B.cwiseProduct(square).sum(),
+      -2.0 * by_centre, B.diagonal(), 2.0 * B(0, 1), 2.0 * B(0, 2),
+      2.0 * B(1, 2);
+  out.by_sums /= load;
+  return out;
+}
+
+// d (d ln u / d q) by the motion, along the changes of q, by differences.
+Matrix6 find_bend_of_form(const Weights10& q, const Slopes& slopes,
+                          const Vector3& n, const Form& form) {
+  constexpr double kStep = 1e-5;
+  const double extent = q.segment<3>(4).sum() / q[0];  // square
+  Matrix6 bend;
+  for (int i = 0; i < 6; ++i) {
+    const Weights10 change = slopes.col(i);
+    const double rate = std::abs(change[0]) +
+                        change.segment<3>(1).norm() / std::sqrt(extent) +
+                        change.tail<6>().norm() / extent;
+    const double h = rate > 0.0 ? kStep * q[0] / rate : 0.0;
+    const Weights10 next = q + h * change;
+    if (!(h > 0.0) || !(next[0] > 0.0)) {
+      bend.col(i).setZero();
+      continue;
+    }
+    const Weights10 by_sums = (find_form(next, n).by_sums - form.by_sums) / h;
+    bend.col(i) = slopes.transpose() * by_sums;
+  }
+  return 0.5 * (bend + bend.transpose());
+}
+
+// `bend` of the sums' second derivatives, but for those of g; 0 if not wanted.
+Factor find_factor_of_form(const Form& form, const Slopes& slopes,
+                           const Matrix6& bend) {
+  constexpr double kStep = 1e-4;
+  const ShapeFactor factor = find_shape_factor(form.u);
+  const double slope_rate =
+      (find_shape_factor((1.0 + kStep) * form.u).slope - factor.slope) / kStep;
+  const Vector6 log_u = slopes.transpose() * form.by_sums;
+  return {factor.phi, factor.slope * log_u,
+          factor.slope * bend + (slope_rate + factor.slope * factor.slope) *
+                                    log_u * log_u.transpose()};
+}
+
 }  // namespace
 
 SurfaceContact::SurfaceContact(const DepthField& soft, const DepthField& hard,
@@ -236,32 +321,53 @@ SurfaceContact::SurfaceContact(const DepthField& soft, const DepthField& hard,
   }
 }
 
+template <typename Sums>
+void SurfaceContact::integrate_parts(const Vector3& o, Sums& sums) const {
+  for (const Part& part : parts_.all()) {
+    PartQuadrature<Sums>(part.surface, soft_, o).integrate(part.u, sums);
+  }
+}
+
 DepthMoments SurfaceContact::integrate(const Vector3& o, double sign,
                                        bool has_derivatives) const {
+  // Share of M next to an edge of `soft`, from which on ln u, whose second
+  // derivative jumps there, counts as ln (C / x) of the motion x.
+  constexpr double kEdged = 1e-2;
   SurfaceSums sums;
-  for (const Part& part : parts_.all()) {
-    PartQuadrature(part.surface, soft_, o, has_derivatives)
-        .integrate(part.u, sums);
-  }
+  integrate_parts(o, sums);
   DepthMoments out;
-  out.M = sums.flux;
+  double of_sheets = 0.0;
   RuledSurfaces sheets;
   list_sheets(soft_.shape(), sheets);
   for (const RuledSurface& sheet : sheets.all()) {
-    out.M += find_sheet_flux(sheet.place(X_hs_), hard_);
+    of_sheets += find_sheet_flux(sheet.place(X_hs_), hard_);
   }
+  out.M = sums.flux + of_sheets;
   const Vector6 wrench = sums.find_wrench();
   out.m1 = sign * wrench;
   out.depth = deepest_.depth;
   const Vector3 way = wrench.head<3>().normalized();
   Weights10 pressure = Weights10::Zero();
+  Slopes slopes = Slopes::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    pressure += way[static_cast<Eigen::Index>(k)] * sums.cubed[k];
+    const double share = way[static_cast<Eigen::Index>(k)];
+    pressure += share * sums.cubed[k];
+    slopes += share * sums.by_motion[k];
   }
   out.pressure = pressure[0];
   out.first = pressure.segment<3>(1);
   out.second = unfold(pressure.tail<6>());
-  if (!has_derivatives) return out;
+  const Form form = find_form(pressure, way);
+  Matrix6 bend = Matrix6::Zero();
+  if (has_derivatives && of_sheets > kEdged * out.M) {
+    const Vector6 log_u = slopes.transpose() * form.by_sums;
+    bend = log_u * log_u.transpose();
+  } else if (has_derivatives) {
+    BendSums of_sums(form.by_sums, way);
+    integrate_parts(o, of_sums);
+    bend = of_sums.bend() + find_bend_of_form(pressure, slopes, way, form);
+  }
+  out.factor = find_factor_of_form(form, sign * slopes, bend);
   const Matrix6 stiffness = sums.find_stiffness();
   out.m2 = 0.5 * (stiffness + stiffness.transpose());
   return out;
@@ -272,6 +378,7 @@ DepthMoments rotate(const DepthMoments& moments, const Matrix3& R) {
   T.topLeftCorner<3, 3>() = R;
   T.bottomRightCorner<3, 3>() = R;
   DepthMoments out = moments;
+  out.factor = moments.factor.transform(T);
   out.m1 = T * moments.m1;
   out.m2 = T * moments.m2 * T.transpose();
   out.first = R * moments.first;

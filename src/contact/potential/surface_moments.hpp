@@ -19,7 +19,8 @@ namespace limber::contact {
 /// Limits     one place of contact; quadrature of 12 lines in a part of which
 ///            the lines' ends and faces are the same: about 1e-7 of M; sheets
 ///            in the middle of a body, where two opposite faces are equally
-///            near, are left out
+///            near, are left out; the factor's derivatives leave out the turn
+///            of the resultant and of g, the second one is rough next to edges
 class SurfaceContact {
  public:
   /// @param X the pose of `hard` in the frame of `soft`
@@ -30,7 +31,10 @@ class SurfaceContact {
   [[nodiscard]] double depth() const { return deepest_.depth; }
   [[nodiscard]] const Vector3& deepest_place() const { return deepest_.place; }
 
-  /// About o, in the axes of `soft`. @param sign 1 if B is `hard`, else -1
+  /// About o, in the axes of `soft`; the factor is find_shape_factor of the
+  /// pressure's second moments seen along the resultant.
+  /// @param sign 1 if B is `hard`, else -1
+  /// @param has_derivatives whether the factor's second derivative is filled
   [[nodiscard]] DepthMoments integrate(const Vector3& o, double sign,
                                        bool has_derivatives) const;
 
@@ -39,6 +43,9 @@ class SurfaceContact {
     RuledSurface surface;
     Span u;
   };
+
+  template <typename Sums>
+  void integrate_parts(const Vector3& o, Sums& sums) const;
 
   const DepthField& soft_;
   const DepthField& hard_;
