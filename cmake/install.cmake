@@ -35,12 +35,10 @@ set(public_headers
   common/restitution.hpp
   common/rotation.hpp
   contact/contact_pair.hpp
-  contact/law/bristle_friction.hpp
   contact/law/contact_damping.hpp
   contact/law/hertz_law.hpp
   contact/law/impact_estimate.hpp
   contact/law/materials.hpp
-  contact/law/torsional_friction.hpp
   contact/narrow_phase/shape_pair.hpp
   contact/shapes/skin.hpp
   dynamics/analysis/balanced_truncation.hpp

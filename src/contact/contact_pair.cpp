@@ -25,6 +25,9 @@ using joints::PairBody;
 // as the corners of a box that lands flat, begin to touch together [-].
 constexpr double kTogether = 1e-9;
 
+// Of the couple of friction about the normal, over the shapes' size [-].
+constexpr double kTwistArm = 1e-3;
+
 SurfacePlace to_place(const PlaceMemory& memory) {
   return {memory.x_B, static_cast<int>(memory.face), memory.u, memory.v};
 }
@@ -58,38 +61,40 @@ ContactPair::ContactPair(ContactSide side_A, ContactSide side_B,
            check_masses(A_, B_), find_roundness(A_.shape, B_.shape)),
       pads_(PadContact::make(shapes_, {A_.shape, A_.material},
                              {B_.shape, B_.material}, parameters)),
-      twist_(make_twist(parameters)),
+      has_twist_(law_.has_friction() && (A_.material || B_.material) &&
+                 count_features() == 1),
       size_(contact::find_size(A_.shape, B_.shape)),
       mode_reach_A_(find_mode_reach(A_.shape)),
       mode_reach_B_(find_mode_reach(B_.shape)) {}
 
-std::optional<PointTwist> ContactPair::make_twist(
-    const ContactParameters& parameters) const {
-  const auto moduli = find_pair_moduli(A_.material, B_.material);
-  if (!moduli || !law_.has_friction() || count_features() > 1) {
-    return std::nullopt;
-  }
-  return PointTwist(parameters, *moduli, check_masses(A_, B_),
-                    find_roundness(A_.shape, B_.shape));
-}
-
-// Adds torsional friction as two more points.
+// Adds friction about the normal as two more points, on both sides of the
+// meeting's place.
 void ContactPair::add_twist(const PairBodies& bodies, const Meeting& meeting,
-                            const PointResponse& response, double h,
+                            const PointResponse& response, std::size_t point,
                             joints::PairResponse& out) const {
-  const double arm = twist_->find_arm(response.next);
-  if (!(arm > 0.0)) return;
-  const TwistResponse twist =
-      twist_->evaluate(bodies, {meeting, response.next, response.normal_force});
+  const double arm = kTwistArm * size_;
   const std::size_t first = out.points().size();
-  const Vector3 aside = arm * meeting.normal_W.unitOrthogonal();
+  const Vector3 aside_W = meeting.normal_W.unitOrthogonal();
   for (const double side : {1.0, -1.0}) {
-    const Vector3 p_W = meeting.p_W + side * aside;
-    joints::PairPoint& point = out.add();
-    set_place(bodies.A, A_.shape, meeting.on_A, p_W, point.on_A);
-    set_place(bodies.B, B_.shape, meeting.on_B, p_W, point.on_B);
+    const Vector3 p_W = meeting.p_W + side * arm * aside_W;
+    joints::PairPoint& next = out.add();
+    set_place(bodies.A, A_.shape, meeting.on_A, p_W, next.on_A);
+    set_place(bodies.B, B_.shape, meeting.on_B, p_W, next.on_B);
   }
-  add_couple(twist, meeting.normal_W, arm, h, first, out);
+  // The turn is along . (d_first - d_second) / (2 arm).
+  const Vector3 along_W = meeting.normal_W.cross(aside_W) / (2.0 * arm);
+  const Matrix3 K = -response.moment_by_turn * along_W * along_W.transpose();
+  for (const double side : {1.0, -1.0}) {
+    const std::size_t own = side > 0.0 ? first : first + 1;
+    const std::size_t other = side > 0.0 ? first + 1 : first;
+    out.points()[own].force_W = side * response.moment * along_W;
+    out.points()[own].stiffness = K;
+    out.coupling(own, other) = -K;
+    out.coupling(own, point) =
+        -side * along_W * response.moment_by_position.transpose();
+    out.coupling(point, own) =
+        -side * response.force_by_turn * along_W.transpose();
+  }
 }
 
 void ContactPair::describe_parameters(Manifest& out) const {
@@ -97,7 +102,7 @@ void ContactPair::describe_parameters(Manifest& out) const {
 }
 
 std::size_t ContactPair::most_points() const {
-  return count_features() + (twist_ ? 2 : 0);
+  return count_features() + (has_twist_ ? 2 : 0);
 }
 
 std::size_t ContactPair::memory_size() const {
@@ -126,8 +131,10 @@ PointMotion ContactPair::place(const PairBodies& bodies, const Meeting& meeting,
                      .residual = find_residual(A_.shape, meeting.on_A) +
                                  find_residual(B_.shape, meeting.on_B),
                      .share = meeting.share,
-                     .R_WB = bodies.B.R_WB,
+                     .turns = {bodies.A.R_WB, bodies.B.R_WB},
                      .time = t};
+  motion.spin = meeting.normal_W.dot(bodies.B.R_WB * bodies.B.w_WB_B -
+                                     bodies.A.R_WB * bodies.A.w_WB_B);
   // At the last commit both points coincided: their distance is the increment.
   if (law_.has_friction() && memory.is_touching()) {
     motion.increment_W =
@@ -158,20 +165,6 @@ void ContactPair::evaluate_pads(std::span<const Meeting> meetings,
   if (pads_) pads_->evaluate(meetings, out);
 }
 
-HertzLaw ContactPair::find_first_law(const Meeting& meeting,
-                                     std::size_t i) const {
-  if (!is_pad(i)) return find_law(meeting, 1.0);
-  const double stiffness = pads_->law().uniform_stiffness(static_cast<int>(i));
-  return HertzLaw({HertzLaw::kRigid, 1.0 / stiffness});
-}
-
-PointMemory ContactPair::recall(const PointMemory& memory,
-                                const Meeting& meeting, std::size_t i,
-                                double rate) const {
-  if (!is_pad(i) || memory.is_touching()) return memory;
-  return law_.begin(find_first_law(meeting, i), rate);
-}
-
 bool ContactPair::touches(const Meeting& meeting, std::size_t i,
                           const PadLaw::Response& pads) const {
   if (!is_pad(i)) return meeting.depth > 0.0;
@@ -193,16 +186,7 @@ void ContactPair::evaluate(const PairBodies& bodies, const Instant& now,
   Touch touch(memory);
   gather(bodies, now.t, memory, meetings.all(), touch, out);
   out.energy += touch.pads.energy;
-  respond(bodies, now.t, meetings.all(), touch, out);
-}
-
-void ContactPair::commit_twist(const PairBodies& bodies, const Meeting& meeting,
-                               double normal_force, PointMemory& next) const {
-  if (twist_->find_arm(next) > 0.0) {
-    next.twist =
-        twist_->evaluate(bodies, {meeting, next, normal_force}).next.twist;
-  }
-  next.turn = find_turn(bodies);
+  respond(bodies, meetings.all(), touch, out);
 }
 
 void ContactPair::commit(const PairBodies& bodies, double t,
@@ -221,9 +205,8 @@ void ContactPair::commit(const PairBodies& bodies, double t,
     const Meeting& meeting = meetings[at.feature];
     const joints::PairPoint& point = scratch.points()[at.point];
     const PointResponse response =
-        law_.evaluate(at.motion, at.elastic.force, damping, at.before);
+        law_.evaluate(at.motion, at.elastic, damping, at.before);
     PointMemory next = response.next;
-    if (twist_) commit_twist(bodies, meeting, response.normal_force, next);
     next.on_A = to_memory(meeting.on_A, point.on_A);
     next.on_B = to_memory(meeting.on_B, point.on_B);
     save_memory(next, numbers_of(at.feature, memory));
@@ -283,9 +266,10 @@ double ContactPair::begin_touch(const PairBodies& bodies, double t,
     scratch.clear();
     joints::PairPoint& point = scratch.add();
     const PointMotion motion = place(bodies, meeting, {}, t, point);
-    PointMemory next = law_.begin(find_first_law(meeting, i), motion.rate());
+    PointMemory next = law_.begin(motion.rate());
     next.time = t;
-    if (twist_) next.turn = find_turn(bodies);
+    next.friction =
+        keep_friction({}, FrictionFrame(meeting.normal_W), motion.turns);
     next.on_A = to_memory(meeting.on_A, point.on_A);
     next.on_B = to_memory(meeting.on_B, point.on_B);
     save_memory(next, numbers);
@@ -326,7 +310,7 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
   for (const TouchingPoint& at : touch.points.all()) {
     const Meeting& meeting = meetings[at.feature];
     const PointResponse response =
-        law_.evaluate(at.motion, at.elastic.force, damping, at.before);
+        law_.evaluate(at.motion, at.elastic, damping, at.before);
     ++reading.points;
     reading.normal_force += response.normal_force;
     reading.force_W += response.force_W;

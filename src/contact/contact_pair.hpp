@@ -7,7 +7,6 @@
 #include "limber/contact/law/point_law.hpp"
 #include "limber/contact/narrow_phase/shape_pair.hpp"
 #include "limber/contact/pad_contact.hpp"
-#include "limber/contact/point_twist.hpp"
 #include "limber/joints/pairs/pair_interaction.hpp"
 #include "limber/joints/pairs/touching.hpp"
 
@@ -21,11 +20,11 @@ struct Touch;
 /// Equation   on B at a feature f n + t, f = damp(HertzLaw(k, R)) at its depth
 ///            with one s of all features that touch (find_damping), k for 1/R_e
 ///            = the sum of both curvatures, R = R_A + R_B the residual
-///            flexibilities of both bases there; t of a bristle within mu f;
+///            flexibilities of both bases there; t of LoadShells within mu f;
 ///            for a flat surface of a flexible body on a plane, a face of a
 ///            box, an end of a cylinder or another flat surface the forces of
 ///            its pads (PadContact); for shapes that touch at one place also
-///            PointTwist, against rotation about the normal
+///            a friction moment about the normal, as a couple of two forces
 /// Source     docs/theory/contact_laws.md
 /// Limits     flexible bodies are damped as rigid ones, and as free ones where
 ///            no mobility of joints is set; the tangent takes the normal and
@@ -45,7 +44,7 @@ class ContactPair final : public joints::PairInteraction,
   void describe_parameters(Manifest& out) const override;
   [[nodiscard]] std::size_t most_points() const override;
   [[nodiscard]] bool couples_points() const override {
-    return pads_.has_value() || twist_.has_value();
+    return pads_.has_value() || has_twist_;
   }
   [[nodiscard]] std::size_t memory_size() const override;
   void check(int modes_A, int modes_B) const override;
@@ -87,13 +86,9 @@ class ContactPair final : public joints::PairInteraction,
   [[nodiscard]] std::size_t count_features() const {
     return shapes_.most_points();
   }
-  [[nodiscard]] std::optional<PointTwist> make_twist(
-      const ContactParameters& parameters) const;
   void add_twist(const joints::PairBodies& bodies, const Meeting& meeting,
-                 const PointResponse& response, double h,
+                 const PointResponse& response, std::size_t point,
                  joints::PairResponse& out) const;
-  void commit_twist(const joints::PairBodies& bodies, const Meeting& meeting,
-                    double normal_force, PointMemory& next) const;
   // Finds all meetings, in the order of the points' memories.
   void meet(const joints::PairBodies& bodies, double reach,
             std::span<const double> memory, std::span<Meeting> out) const;
@@ -106,13 +101,6 @@ class ContactPair final : public joints::PairInteraction,
   }
   void evaluate_pads(std::span<const Meeting> meetings,
                      PadLaw::Response& out) const;
-  // The normal force law of a feature at its first touch.
-  [[nodiscard]] HertzLaw find_first_law(const Meeting& meeting,
-                                        std::size_t i) const;
-  // The memory of a feature, or the one that it starts with.
-  [[nodiscard]] PointMemory recall(const PointMemory& memory,
-                                   const Meeting& meeting, std::size_t i,
-                                   double rate) const;
   [[nodiscard]] ElasticPoint find_elastic(const PointMotion& motion,
                                           std::size_t i,
                                           const PadLaw::Response& pads) const;
@@ -127,7 +115,7 @@ class ContactPair final : public joints::PairInteraction,
   [[nodiscard]] DampingRate find_damping(const joints::PairBodies& bodies,
                                          const Touch& touch) const;
   // Sets the forces and tangents of the touch's points.
-  void respond(const joints::PairBodies& bodies, double t,
+  void respond(const joints::PairBodies& bodies,
                std::span<const Meeting> meetings, const Touch& touch,
                joints::PairResponse& out) const;
   [[nodiscard]] bool touches(const Meeting& meeting, std::size_t i,
@@ -162,7 +150,7 @@ class ContactPair final : public joints::PairInteraction,
   ShapePair shapes_;
   PointLaw law_;
   std::optional<PadContact> pads_;
-  std::optional<PointTwist> twist_;
+  bool has_twist_;
   double size_;
   VectorX mode_reach_A_;
   VectorX mode_reach_B_;

@@ -117,7 +117,7 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
     at.elastic = find_step_force(step, at.motion, point, begin[i], end[i]);
     touch.sum(step.middle, middle[i].p_W, at);
   }
-  respond(step.middle, step.times.middle(), middle.all(), touch, out);
+  respond(step.middle, middle.all(), touch, out);
 }
 
 // As HertzLaw::evaluate_over_step for all pads together: the mean of the forces
@@ -163,12 +163,13 @@ void ContactPair::add_pads_over_step(const joints::PairStep& step,
     TouchingPoint& at = touch.points.add();
     at.feature = i;
     at.point = out.points().size();
-    const PointMemory known = load_memory(numbers_of(i, memory));
+    at.before = load_memory(numbers_of(i, memory));
     at.motion =
-        place(step.middle, middle, known, step.times.middle(), out.add());
-    at.before = recall(known, middle, i, at.motion.rate());
+        place(step.middle, middle, at.before, step.times.middle(), out.add());
     at.elastic.force = {mean.force[pad], mean.stiffness(pad, pad),
                         0.5 * end.force[pad]};
+    at.elastic.flat_stiffness =
+        pads_->law().uniform_stiffness(static_cast<int>(i));
     touch.sum(step.middle, middle.p_W, at);
   }
 }

@@ -14,8 +14,10 @@ ElasticPoint ContactPair::find_elastic(const PointMotion& motion, std::size_t i,
   if (!is_pad(i)) return law_.find_elastic(motion);
   const auto pad = static_cast<Eigen::Index>(i);
   const double force = pads.force[pad];
-  return {.force = {force, pads.stiffness(pad, pad), force},
-          .area = pads_->area(i)};
+  return {
+      .force = {force, pads.stiffness(pad, pad), force},
+      .area = pads_->area(i),
+      .flat_stiffness = pads_->law().uniform_stiffness(static_cast<int>(i))};
 }
 
 void ContactPair::gather(const joints::PairBodies& bodies, double t,
@@ -30,10 +32,9 @@ void ContactPair::gather(const joints::PairBodies& bodies, double t,
     TouchingPoint& at = touch.points.add();
     at.feature = i;
     at.point = out.points().size();
-    const PointMemory known = load_memory(numbers_of(i, memory));
-    at.motion = place(bodies, meeting, known, t, out.add());
+    at.before = load_memory(numbers_of(i, memory));
+    at.motion = place(bodies, meeting, at.before, t, out.add());
     at.elastic = find_elastic(at.motion, i, touch.pads);
-    at.before = recall(known, meeting, i, at.motion.rate());
     touch.sum(bodies, meeting.p_W, at);
   }
 }
@@ -67,7 +68,7 @@ void ContactPair::set_rates(const joints::PairBodies& bodies,
                       std::clamp(law_.damping_factor(), 1.0, kMostDamping);
 }
 
-void ContactPair::respond(const joints::PairBodies& bodies, double t,
+void ContactPair::respond(const joints::PairBodies& bodies,
                           std::span<const Meeting> meetings, const Touch& touch,
                           joints::PairResponse& out) const {
   const DampingRate damping = find_damping(bodies, touch);
@@ -75,13 +76,13 @@ void ContactPair::respond(const joints::PairBodies& bodies, double t,
   for (const TouchingPoint& at : touch.points.all()) {
     const Meeting& meeting = meetings[at.feature];
     const PointResponse response =
-        law_.evaluate(at.motion, at.elastic.force, damping, at.before);
+        law_.evaluate(at.motion, at.elastic, damping, at.before);
     set_response(response, out.points()[at.point], out);
     out.energy += at.elastic.energy + response.energy;
     if (is_pad(at.feature)) {
       pads.add(at.point, at.feature, response.by_elastic_W, meeting.normal_W);
     }
-    if (twist_) add_twist(bodies, meeting, response, t - at.before.time, out);
+    if (has_twist_) add_twist(bodies, meeting, response, at.point, out);
   }
   pads.couple(touch.pads, out);
 }

@@ -218,4 +218,8 @@ ShellResponse LoadShells::evaluate(const ShellMemory& memory,
   return out;
 }
 
+double find_spring_damping(double stiffness, double mass, double share) {
+  return 2.0 * share * std::sqrt(stiffness * mass);
+}
+
 }  // namespace limber::contact

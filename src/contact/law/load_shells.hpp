@@ -117,4 +117,8 @@ class LoadShells {
   Parameters parameters_;
 };
 
+/// c_t as a share [-] of the critical damping of `mass` on k_t [N s/m].
+[[nodiscard]] double find_spring_damping(double stiffness, double mass,
+                                         double share = 0.1);
+
 }  // namespace limber::contact

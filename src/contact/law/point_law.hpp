@@ -22,8 +22,9 @@ struct PointMotion {
   double share = 1.0;                     ///< factor on the force > 0 [-]
   Vector3 velocity_W = Vector3::Zero();   ///< [m/s]
   Vector3 increment_W = Vector3::Zero();  ///< since the last commit [m]
-  Matrix3 R_WB = Matrix3::Identity();     ///< of body B, the slave [-]
-  double time = 0.0;                      ///< [s]
+  BodyTurns turns;
+  double spin = 0.0;  ///< n . of B's rate of turn against A [rad/s]
+  double time = 0.0;  ///< [s]
 
   /// d' for a constant normal [m/s].
   [[nodiscard]] double rate() const { return -normal_W.dot(velocity_W); }
@@ -34,6 +35,8 @@ struct ElasticPoint {
   ElasticForce force;
   double energy = 0.0;  ///< [J]
   double area = 0.0;    ///< that touches, Hertz's [m^2]
+  /// Constant stiffness of the surface, 0 for Hertz's [N/m].
+  double flat_stiffness = 0.0;
 };
 
 /// Forces on B at one contact point.
@@ -46,6 +49,11 @@ struct PointResponse {
   double dissipation = 0.0;             ///< [W]
   Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
   Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]
+  double moment = 0.0;                  ///< of friction about n [N m]
+  /// d force / d turn [N], d moment / d turn [N m], d moment / d position [N].
+  Vector3 force_by_turn = Vector3::Zero();
+  double moment_by_turn = 0.0;
+  Vector3 moment_by_position = Vector3::Zero();
   /// d force_W / d elastic force, if that depends on other points [-].
   Vector3 by_elastic_W = Vector3::Zero();
   PointMemory next = {};  ///< but for its places
@@ -53,16 +61,17 @@ struct PointResponse {
 
 /// Normal force and friction of one contact point.
 ///
-/// Equation   f n + t: HertzLaw, damp and BristleFriction, with
-///            k of the materials and R_e, or of neither's material the default
-///            law; k_t = k_t/k_n of the materials times the normal stiffness of
-///            an impact at the speed of touch, at least at kReferenceSpeed
-/// Limits     k_t is found at first touch: a later load does not change it
+/// Equation   f n + t: HertzLaw, damp and LoadShells, with k of the materials
+///            and R_e, or of neither's material the default law; p = 3/2,
+///            dN/dd and R of Hertz's law; of a flat surface one shell with a
+///            tenth of the critical damping of the reduced mass. Materials
+///            have friction about n too: r_e = 3 pi a / 16 of full slip
+///            under Hertz's pressure, a = cbrt(3 N R_e / (4 E*)), and
+///            c = 512 / (27 pi^2) G_r / G*, with which an area that sticks
+///            turns with 16 a^3 G_r / 3
+/// Source     [@johnson1985, chs. 4 and 7]
 class PointLaw {
  public:
-  /// Slower touches use the k_t of this speed [m/s].
-  static constexpr double kReferenceSpeed = 0.01;
-
   /// @param moduli of both sides; none if neither has a material
   /// @param mass reduced mass of both bodies > 0 [kg]
   /// @param size largest R_e, for edges, corners and flat faces: half of the
@@ -83,7 +92,7 @@ class PointLaw {
 
   /// @param elastic at motion's depth, or the mean over a step
   [[nodiscard]] PointResponse evaluate(const PointMotion& motion,
-                                       const ElasticForce& elastic,
+                                       const ElasticPoint& elastic,
                                        const DampingRate& damping,
                                        const PointMemory& memory) const;
 
@@ -92,14 +101,18 @@ class PointLaw {
   [[nodiscard]] HertzLaw find_law(double curvature, double residual,
                                   double share = 1.0) const;
   /// Memory of a point after a first touch at this rate of depth [m/s].
-  /// @param law of a whole point, of share 1
-  [[nodiscard]] PointMemory begin(const HertzLaw& law, double rate) const;
+  [[nodiscard]] PointMemory begin(double rate) const;
   /// T_c of an impact of both bodies at a speed > 0 [s].
   [[nodiscard]] double find_duration(const HertzLaw& law, double speed) const;
 
  private:
-  void add_friction(const PointMotion& motion, const DampedForce& pressed,
-                    PointResponse& out) const;
+  void add_friction(const PointMotion& motion, const ElasticPoint& elastic,
+                    const DampedForce& pressed, PointResponse& out) const;
+  [[nodiscard]] LoadShells make_shells() const;
+  [[nodiscard]] ShellLoad find_shell_load(const PointMotion& motion,
+                                          const ElasticPoint& elastic) const;
+  [[nodiscard]] double find_spin_radius(const PointMotion& motion,
+                                        double force) const;
   // R_e [m]
   [[nodiscard]] double find_radius(double curvature) const;
 
@@ -108,8 +121,8 @@ class PointLaw {
   double mass_;  // [kg]
   double size_;  // [m]
   bool has_friction_;
-  double tangential_ratio_;  // k_t / k_n [-]
-  double factor_ = 0.0;      // beta of the restitution [-]
+  LoadShells shells_;
+  double factor_ = 0.0;  // beta of the restitution [-]
 };
 
 }  // namespace limber::contact

@@ -19,17 +19,10 @@ void visit_numbers(Memory& memory, const Visit& visit) {
     visit(place.v);
   };
   visit(memory.speed);
-  visit(memory.tangential_stiffness);
   visit(memory.time);
-  visit_vector(memory.bristle.s_S);
-  visit_vector(memory.bristle.normal_S);
   visit_place(memory.on_A);
   visit_place(memory.on_B);
-  visit(memory.twist);
-  visit(memory.turn.w);
-  visit(memory.turn.x);
-  visit(memory.turn.y);
-  visit(memory.turn.z);
+  visit_friction(memory.friction, visit);
 }
 
 }  // namespace

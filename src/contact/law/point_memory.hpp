@@ -4,7 +4,7 @@
 #include <span>
 
 #include "limber/common/types.hpp"
-#include "limber/contact/law/bristle_friction.hpp"
+#include "limber/contact/law/friction_memory.hpp"
 
 namespace limber::contact {
 
@@ -17,37 +17,21 @@ struct PlaceMemory {
   double v = 0.0;                 ///< [-]
 };
 
-/// Rotation of body B in A, as a quaternion [-]; all zero if not yet set.
-struct TurnMemory {
-  double w = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-
-  [[nodiscard]] bool is_set() const {
-    return w != 0.0 || x != 0.0 || y != 0.0 || z != 0.0;
-  }
-  [[nodiscard]] Quaternion quat_AB() const { return {w, x, y, z}; }
-};
-
 /// Memory of a contact point between steps; all zero while it does not
 /// touch.
 struct PointMemory {
   /// Approach speed at first touch, 0 before it [m/s].
   double speed = 0.0;
-  double tangential_stiffness = 0.0;  ///< k_t of that speed [N/m]
-  double time = 0.0;                  ///< of the last commit [s]
-  BristleMemory bristle = {};         ///< in the frame of body B
-  PlaceMemory on_A = {};              ///< at the last commit one point
+  double time = 0.0;      ///< of the last commit [s]
+  PlaceMemory on_A = {};  ///< at the last commit one point
   PlaceMemory on_B = {};
-  double twist = 0.0;    ///< of the bristle about the normal [rad]
-  TurnMemory turn = {};  ///< at the last commit
+  FrictionMemory friction = {};
 
   [[nodiscard]] bool is_touching() const { return speed > 0.0; }
 };
 
 /// Number of values in a point's memory.
-inline constexpr std::size_t kPointNumbers = 26;
+inline constexpr std::size_t kPointNumbers = 14 + kFrictionNumbers;
 
 /// @param numbers kPointNumbers of them
 [[nodiscard]] PointMemory load_memory(std::span<const double> numbers);

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks and spheres that bristles hold or slow down, against closed forms.
+// Blocks and spheres that shells hold or slow down, against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "limber/contact/law/bristle_friction.hpp"
-#include "unit/contact/law/make_friction.hpp"
+#include "limber/contact/law/load_shells.hpp"
 
 namespace limber::contact::friction_motion_test {
 namespace {
 
-using testing::make_friction;
+// One shell of a flat.
+struct Shells {
+  LoadShells law;
+  double stiffness;  // [N/m]
+  double damping;    // [N s/m]
+};
+
+Shells make_friction(double mu, double stiffness, double damping) {
+  return {LoadShells({.limit = {.sliding = mu}}), stiffness, damping};
+}
 
 // A point mass in a plane, by the trapezoidal rule and Newton's method with
 // the law's derivatives.
 class Slider {
  public:
-  Slider(const BristleFriction& friction, double mass, double speed)
+  Slider(const Shells& friction, double mass, double speed)
       : friction_(friction), mass_(mass), v_(speed, 0.0, 0.0) {}
 
   // Under a tangential force and a pressing one at the step's end [N].
@@ -28,12 +36,11 @@ class Slider {
     Vector3 v1 = v_;
     for (int i = 0; i < 50; ++i) {
       const Vector3 increment = 0.5 * h * (v_ + v1);
-      response_ = friction_.evaluate(memory_, {.normal_S = Vector3::UnitZ(),
-                                               .increment_S = increment,
-                                               .velocity_S = v1,
-                                               .normal_force = press});
+      response_ = friction_.law.evaluate(
+          memory_, {.force = press, .stiffness = friction_.stiffness},
+          {increment, v1}, friction_.damping);
       const Vector3 residual =
-          mass_ / h * (v1 - v_) - 0.5 * (sum0 + load + response_.force_S);
+          mass_ / h * (v1 - v_) - 0.5 * (sum0 + load + response_.force);
       const Matrix3 tangent =
           mass_ / h * Matrix3::Identity() -
           0.5 * (0.5 * h * response_.by_increment + response_.by_velocity);
@@ -42,11 +49,11 @@ class Slider {
       most_iterations = std::max(most_iterations, i + 1);
       if (change.norm() < 1e-14 + 1e-13 * v1.norm()) break;
     }
-    impulse += 0.5 * h * (force_ + response_.force_S).x();
+    impulse += 0.5 * h * (force_ + response_.force).x();
     x_ += 0.5 * h * (v_ + v1);
     v_ = v1;
     load_ = load;
-    force_ = response_.force_S;
+    force_ = response_.force;
     memory_ = response_.next;
     slip_work += response_.slip_work;
     damper_work += h * response_.damper_power;
@@ -54,7 +61,7 @@ class Slider {
 
   [[nodiscard]] double x() const { return x_.x(); }
   [[nodiscard]] double v() const { return v_.x(); }
-  [[nodiscard]] const BristleResponse& response() const { return response_; }
+  [[nodiscard]] const ShellResponse& response() const { return response_; }
 
   double slip_work = 0.0;
   double damper_work = 0.0;
@@ -62,14 +69,14 @@ class Slider {
   int most_iterations = 0;
 
  private:
-  BristleFriction friction_;
+  Shells friction_;
   double mass_;
   Vector3 x_ = Vector3::Zero();
   Vector3 v_;
   Vector3 load_ = Vector3::Zero();
   Vector3 force_ = Vector3::Zero();
-  BristleMemory memory_;
-  BristleResponse response_;
+  ShellMemory memory_;
+  ShellResponse response_;
 };
 
 constexpr double kGravity = 9.81;
@@ -79,7 +86,7 @@ constexpr double kStiffness = 8.2e5;
 enum class Shake { none, tangential, normal };
 
 // 10 s on the slope, which is tilted within 0.2 s; mass 1 kg.
-Slider hold(const BristleFriction& friction, double angle, Shake shake) {
+Slider hold(const Shells& friction, double angle, Shake shake) {
   const double h = 1e-4;
   const double press = kGravity * std::cos(angle);
   Slider block(friction, 1.0, 0.0);
@@ -93,9 +100,9 @@ Slider hold(const BristleFriction& friction, double angle, Shake shake) {
   return block;
 }
 
-TEST(BristleFriction, ABlockOnASlopeHoldsWithItsElasticDisplacementOnly) {
-  const BristleFriction friction =
-      make_friction(0.3, kStiffness, find_bristle_damping(kStiffness, 1.0));
+TEST(LoadShellMotion, ABlockOnASlopeHoldsWithItsElasticDisplacementOnly) {
+  const Shells friction =
+      make_friction(0.3, kStiffness, find_spring_damping(kStiffness, 1.0));
   const double elastic = kGravity * std::sin(10.0 * kDegree) / kStiffness;
   EXPECT_LT(elastic, 3e-6);
   for (const Shake shake : {Shake::none, Shake::tangential, Shake::normal}) {
@@ -108,9 +115,9 @@ TEST(BristleFriction, ABlockOnASlopeHoldsWithItsElasticDisplacementOnly) {
   }
 }
 
-TEST(BristleFriction, ABlockOnASteepSlopeSlidesAsCoulombSays) {
-  const BristleFriction friction =
-      make_friction(0.3, kStiffness, find_bristle_damping(kStiffness, 1.0));
+TEST(LoadShellMotion, ABlockOnASteepSlopeSlidesAsCoulombSays) {
+  const Shells friction =
+      make_friction(0.3, kStiffness, find_spring_damping(kStiffness, 1.0));
   const double angle = 20.0 * kDegree;
   const double h = 1e-4;
   Slider block(friction, 1.0, 0.0);
@@ -125,11 +132,12 @@ TEST(BristleFriction, ABlockOnASteepSlopeSlidesAsCoulombSays) {
   EXPECT_LE(block.most_iterations, 5);
 }
 
-TEST(BristleFriction, StaticFrictionHoldsWhatItDoesNotStop) {
-  const BristleFriction friction(
-      {.limit = {.sliding = 0.3, .excess = 0.2, .speed = 0.01},
+TEST(LoadShellMotion, StaticFrictionHoldsWhatItDoesNotStop) {
+  const Shells friction(
+      {.law = LoadShells(
+           {.limit = {.sliding = 0.3, .excess = 0.2, .speed = 0.01}}),
        .stiffness = kStiffness,
-       .damping = find_bristle_damping(kStiffness, 1.0)});
+       .damping = find_spring_damping(kStiffness, 1.0)});
   const double angle = 20.0 * kDegree;  // tan = 0.364
   const double h = 1e-4;
   EXPECT_EQ(hold(friction, angle, Shake::none).slip_work, 0.0);
@@ -146,11 +154,11 @@ TEST(BristleFriction, StaticFrictionHoldsWhatItDoesNotStop) {
 // A solid sphere of speed v0 without spin: the point of contact has the mass
 // 1 / (1/m + R^2/J) = 2 m / 7. It rolls from t = 2 v0 / (7 mu g) on with
 // 5 v0 / 7, whatever mu.
-TEST(BristleFriction, ASphereThatSlidesEndsRolling) {
+TEST(LoadShellMotion, ASphereThatSlidesEndsRolling) {
   const double m = 0.033;
   const double h = 1e-5;
   for (const double mu : {0.1, 0.3}) {
-    const double c = find_bristle_damping(1e4, m);
+    const double c = find_spring_damping(1e4, m);
     Slider slip(make_friction(mu, 1e4, c), 2.0 * m / 7.0, 1.0);
     double last_slip = 0.0;
     for (int i = 1; i <= 60000; ++i) {

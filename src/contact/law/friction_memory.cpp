@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limber/contact/law/friction_memory.hpp"
+
+#include <cmath>
+
+namespace limber::contact {
+namespace {
+
+Matrix3 to_matrix(const Eigen::Vector4d& turn) {
+  return Quaternion(turn).toRotationMatrix();
+}
+
+bool is_new(const FrictionMemory& memory) { return memory.turn_B.isZero(0.0); }
+
+}  // namespace
+
+FrictionFrame::FrictionFrame(const Vector3& normal) : normal_W(normal) {
+  plane_W.col(0) = normal.unitOrthogonal();
+  plane_W.col(1) = normal.cross(Vector3(plane_W.col(0)));
+}
+
+FrictionMemory keep_friction(const ShellMemory& shells,
+                             const FrictionFrame& frame,
+                             const BodyTurns& turns) {
+  FrictionMemory memory;
+  memory.lowest = shells.lowest;
+  for (std::size_t i = 0; i < kShells; ++i) {
+    const LoadShell& shell = shells.shells[i];
+    memory.springs[i] = {shell.stiffness,
+                         frame.plane_W * shell.spring.head<2>(),
+                         shell.spring[2]};
+  }
+  memory.turn_A = Quaternion(turns.R_WA).coeffs();
+  memory.turn_B = Quaternion(turns.R_WB).coeffs();
+  return memory;
+}
+
+ShellMemory recall_friction(const FrictionMemory& memory,
+                            const FrictionFrame& frame,
+                            const BodyTurns& turns) {
+  ShellMemory shells{.lowest = memory.lowest};
+  if (is_new(memory)) return shells;
+  const Matrix3 turn =
+      0.5 * (turns.R_WA * to_matrix(memory.turn_A).transpose() +
+             turns.R_WB * to_matrix(memory.turn_B).transpose());
+  for (std::size_t i = 0; i < kShells; ++i) {
+    const FrictionMemory::Spring& spring = memory.springs[i];
+    Eigen::Vector2d force = frame.plane_W.transpose() * (turn * spring.force_W);
+    const double length = force.norm();
+    if (length > 0.0) force *= spring.force_W.norm() / length;
+    shells.shells[i].stiffness = spring.stiffness;
+    shells.shells[i].spring << force, spring.spin;
+  }
+  return shells;
+}
+
+double find_turn(const FrictionMemory& memory, const FrictionFrame& frame,
+                 const BodyTurns& turns) {
+  if (is_new(memory)) return 0.0;
+  const Matrix3 before =
+      to_matrix(memory.turn_A).transpose() * to_matrix(memory.turn_B);
+  const Quaternion turn(
+      Matrix3(turns.R_WA.transpose() * turns.R_WB * before.transpose()));
+  const double sine = turn.vec().norm();
+  if (sine == 0.0) return 0.0;
+  const double angle = 2.0 * std::atan2(sine, std::abs(turn.w()));
+  const double share = std::copysign(angle / sine, turn.w());
+  return share * frame.normal_W.dot(turns.R_WA * turn.vec());
+}
+
+}  // namespace limber::contact
