@@ -8,7 +8,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
-#include "limber/dynamics/integrators/interpolation.hpp"
+#include "limber/dynamics/system/interpolation.hpp"
 
 namespace limber::dynamics {
 namespace {

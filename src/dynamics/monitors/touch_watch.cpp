@@ -11,7 +11,7 @@
 #include "limber/common/index.hpp"
 #include "limber/common/restitution.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
-#include "limber/dynamics/integrators/interpolation.hpp"
+#include "limber/dynamics/system/interpolation.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -10,10 +10,10 @@
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/equations.hpp"
 #include "limber/dynamics/equations/motion_fields.hpp"
-#include "limber/dynamics/integrators/interpolation.hpp"
 #include "limber/dynamics/monitors/event_fields.hpp"
 #include "limber/dynamics/simulation/failure_diagnosis.hpp"
 #include "limber/dynamics/simulation/interrupted.hpp"
+#include "limber/dynamics/system/interpolation.hpp"
 
 namespace limber::dynamics {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/integrators/integrator_kind.hpp"
-#include "limber/dynamics/integrators/interpolation.hpp"
 #include "limber/dynamics/integrators/make_integrator.hpp"
 #include "limber/dynamics/simulation/modal_loads.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/system/interpolation.hpp"
 #include "limber/dynamics/system/system_builder.hpp"
 #include "support/chain.hpp"
 #include "support/point_mass_body.hpp"

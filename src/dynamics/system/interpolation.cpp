@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limber/dynamics/integrators/interpolation.hpp"
+#include "limber/dynamics/system/interpolation.hpp"
 
 #include "limber/common/rotation.hpp"
 
