@@ -6,8 +6,6 @@
 
 #include "limber/common/restitution.hpp"
 #include "limber/common/rotation.hpp"
-#include "limber/contact/law/bristle_friction.hpp"
-#include "limber/contact/law/cone_return.hpp"
 
 namespace limber::contact {
 namespace {
@@ -22,12 +20,25 @@ Matrix6 find_pressure_matrix(const Patch& patch) {
   return D;
 }
 
+// Of Hertz's area, 2/3 (a / r_e)^2 with r_e = 0.943 sqrt(0.4) a.
+constexpr double kSpinRatio = 1.875;
+
+LoadShells make_patch_shells(const ContactParameters& parameters,
+                             const PairModuli& moduli) {
+  LoadShells::Parameters shells;
+  shells.limit = parameters.friction;
+  shells.tangential_ratio = moduli.tangential_ratio();
+  shells.spin_ratio = kSpinRatio * moduli.torsional / moduli.tangential;
+  return LoadShells(shells);
+}
+
 }  // namespace
 
-PatchLaw::PatchLaw(const ContactParameters& parameters, double tangential_ratio)
-    : friction_(parameters.friction),
-      tangential_ratio_(tangential_ratio),
-      has_friction_(friction_.sliding + friction_.excess > 0.0),
+PatchLaw::PatchLaw(const ContactParameters& parameters,
+                   const PairModuli& moduli)
+    : shells_(make_patch_shells(parameters, moduli)),
+      has_friction_(parameters.friction.sliding + parameters.friction.excess >
+                    0.0),
       factor_(0.0) {
   check(parameters);
   factor_ = find_restitution_factor(parameters.restitution);
@@ -68,63 +79,54 @@ void PatchLaw::add_damping(const Input& in, PatchResponse& out) const {
 }
 
 void PatchLaw::add_friction(const Input& in, PatchResponse& out) const {
-  const Vector3& n = out.normal_W;
+  const FrictionFrame frame(out.normal_W);
   const double elastic = in.elastic_W.head<3>().norm();
-  const double k =
-      tangential_ratio_ * elastic * elastic / (2.0 * in.patch.energy);
-  const double r_e = find_spin_radius(in.patch.spread_W, n);
+  const double k = elastic * elastic / (2.0 * in.patch.energy);
+  const double r_e = find_spin_radius(in.patch.spread_W, frame.normal_W);
   // Two directions and the turn times r_e.
   Eigen::Matrix<double, 6, 3> E = Eigen::Matrix<double, 6, 3>::Zero();
-  E.block<3, 1>(0, 0) = n.unitOrthogonal();
-  E.block<3, 1>(0, 1) = n.cross(Vector3(E.block<3, 1>(0, 0)));
-  E.block<3, 1>(3, 2) = r_e * n;
-  const auto tangent = E.topLeftCorner<3, 2>().transpose();
-  // The spring keeps its length in the tangent plane.
-  Eigen::Vector2d spring = tangent * in.slip.spring_W;
-  const double length = spring.norm();
-  if (length > 0.0) spring *= in.slip.spring_W.norm() / length;
-  Vector3 trial;
-  trial << spring, in.slip.spin;
-  // Springs that are let go with the load, or get company, lose energy.
-  const double last = in.slip.stiffness;
-  const double square = trial.squaredNorm();
-  const double stiffer = std::max(last, k);
-  double let_go = 0.0;
-  if (square > 0.0) {
-    let_go = 0.5 * square * (1.0 / last - k / (stiffer * stiffer));
-    trial /= stiffer;
-  }
-  trial.head<2>() += tangent * in.slip.way_W;
-  trial[2] += r_e * in.slip.turn;
-  const Vector3 velocity = E.transpose() * in.twist_W;
-  const double mu = find_coefficient(friction_, velocity.norm()).value;
-  const Matrix3 plane = Matrix3::Identity();
-  const auto cone = ConeReturn<3>::find(
-      {.trial = trial,
-       .velocity = velocity,
-       .plane = plane,
-       .stiffness = k,
-       .damping = find_bristle_damping(k, 1.0 / in.all.inverse_mass),
-       .limit = mu * out.normal_force});
+  E.topLeftCorner<3, 2>() = frame.plane_W;
+  E.bottomRightCorner<3, 1>() = r_e * frame.normal_W;
+  const PatchSlip& slip = in.slip;
+  ShellMotion motion;
+  motion.increment << frame.plane_W.transpose() * slip.way_W,
+      r_e * find_turn(slip.last, frame, slip.turns);
+  motion.velocity = E.transpose() * in.twist_W;
+  const double k_t = shells_.parameters().tangential_ratio * k;
+  const ShellResponse shells = shells_.evaluate(
+      recall_friction(slip.last, frame, slip.turns),
+      {.force = elastic, .stiffness = k, .grip = out.normal_force / elastic},
+      motion, find_spring_damping(k_t, 1.0 / in.all.inverse_mass));
   PatchWrench& wrench = out.wrench;
-  const auto by_limit = E * (mu * cone.by_limit);
+  // The load is the grip's times the elastic one: both in the normal force.
+  const auto by_normal = E * (shells.by_grip / elastic);
   const Vector6 normal_by_motion =
-      wrench.stiffness_W.topRows<3>().transpose() * n;
-  const Vector6 normal_by_twist = wrench.damping_W.topRows<3>().transpose() * n;
-  wrench.wrench_W += E * cone.force;
-  wrench.stiffness_W += by_limit * normal_by_motion.transpose() -
-                        in.way_by_motion * E * cone.by_trial * E.transpose();
-  wrench.damping_W += by_limit * normal_by_twist.transpose() -
-                      E * cone.by_velocity * E.transpose();
-  out.friction_W = E.topRows<3>() * cone.force;
-  out.slips = cone.slips;
-  out.energy = cone.energy;
-  out.slip_work = cone.slip_work + let_go;
-  out.rubbed = cone.damper_power;
-  out.friction_power = cone.force.dot(velocity);
-  out.next.spring_W = k * (E.topRows<3>() * cone.bristle);
-  out.next.spin = k * cone.bristle[2];
-  out.next.stiffness = k;
+      wrench.stiffness_W.topRows<3>().transpose() * frame.normal_W;
+  const Vector6 normal_by_twist =
+      wrench.damping_W.topRows<3>().transpose() * frame.normal_W;
+  wrench.wrench_W += E * shells.force;
+  wrench.stiffness_W +=
+      by_normal * normal_by_motion.transpose() -
+      in.way_by_motion * E * shells.by_increment * E.transpose();
+  wrench.damping_W += by_normal * normal_by_twist.transpose() -
+                      E * shells.by_velocity * E.transpose();
+  out.friction_W = frame.plane_W * shells.force.head<2>();
+  out.slips = shells.slips;
+  out.energy = shells.energy;
+  out.slip_work = shells.slip_work;
+  out.rubbed = shells.damper_power;
+  out.friction_power = shells.force.dot(motion.velocity);
+  out.next = keep_friction(shells.next, frame, slip.turns);
+}
+
+double PatchLaw::find_energy(const FrictionMemory& memory) const {
+  ShellMemory shells;
+  for (std::size_t i = 0; i < kShells; ++i) {
+    const FrictionMemory::Spring& spring = memory.springs[i];
+    shells.shells[i].stiffness = spring.stiffness;
+    shells.shells[i].spring = {spring.force_W.norm(), 0.0, spring.spin};
+  }
+  return shells_.find_energy(shells);
 }
 
 PatchResponse PatchLaw::evaluate(const Input& in) const {

@@ -2,18 +2,19 @@
 #pragma once
 
 #include "limber/contact/law/contact_parameters.hpp"
+#include "limber/contact/law/friction_memory.hpp"
+#include "limber/contact/law/load_shells.hpp"
+#include "limber/contact/law/materials.hpp"
 #include "limber/contact/patch_points.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 
 namespace limber::contact {
 
-/// The bristle of a patch: its spring, and its motion since then.
+/// What friction has been, and the motion since then.
 struct PatchSlip {
-  Vector3 spring_W = Vector3::Zero();  ///< k s at the last step's end [N]
-  double spin = 0.0;                   ///< likewise about n, over r_e [N]
-  double stiffness = 0.0;              ///< k_t then [N/m]
-  Vector3 way_W = Vector3::Zero();     ///< of B against A since [m]
-  double turn = 0.0;                   ///< about n since [rad]
+  FrictionMemory last;
+  BodyTurns turns;
+  Vector3 way_W = Vector3::Zero();  ///< of B against A since [m]
 };
 
 /// The speed of a pair's patches, one or more.
@@ -31,12 +32,12 @@ struct PatchResponse {
   double normal_force = 0.0;             ///< damping included, >= 0 [N]
   Vector3 friction_W = Vector3::Zero();  ///< force on B [N]
   bool slips = false;
-  double energy = 0.0;          ///< of the bristle [J]
+  double energy = 0.0;          ///< of friction [J]
   double slip_work = 0.0;       ///< lost by slip and release, >= 0 [J]
   double damped = 0.0;          ///< by the normal damping, >= 0 [W]
-  double rubbed = 0.0;          ///< by the bristle's damper, >= 0 [W]
+  double rubbed = 0.0;          ///< by the damper of friction, >= 0 [W]
   double friction_power = 0.0;  ///< of friction on both bodies [W]
-  PatchSlip next;               ///< spring, spin and stiffness after it
+  FrictionMemory next;          ///< what to commit
 };
 
 /// Damping and friction of a patch, whose elastic forces follow from its
@@ -45,17 +46,18 @@ struct PatchResponse {
 /// Equation   damping -s D twist, D = N (n n', -n x S n x) of the pressure
 ///            along the normal, s = beta / sqrt(sum twist . D twist / sum N + 2
 ///            sum W / m) over all patches of the pair,
-///            the normal force >= 0; friction of one bristle of stiffness kappa
-///            N^2 / (2 W) in two directions and about n, there times r_e^2,
-///            within mu N (ConeReturn), its spring released with the stiffness;
-///            r_e = 0.943 sqrt(tr S) of a round patch, 0.866 of a line
+///            the normal force >= 0; friction of LoadShells as of a flat, of
+///            stiffness kappa N^2 / (2 W), within mu N; r_e = 0.943 sqrt(tr S)
+///            of a round patch, 0.866 of a line; about n the stiffness is
+///            1.875 G_r / G* times as large, which is right under Hertz's
+///            pressure and 25 % high for a round flat
 /// Source     [@hunt1975] with find_restitution_factor; kappa of [@mindlin1949]
-/// Limits     one bristle: right for flats, whose stiffness is constant; mu's
-///            change with the speed is not in the tangent
+/// Limits     one shell: right for flats, whose stiffness is constant, which
+///            the tangent takes it to be
 class PatchLaw {
  public:
   /// @throws InputError as check(parameters).
-  PatchLaw(const ContactParameters& parameters, double tangential_ratio);
+  PatchLaw(const ContactParameters& parameters, const PairModuli& moduli);
 
   [[nodiscard]] bool has_friction() const { return has_friction_; }
   [[nodiscard]] double damping_factor() const { return factor_; }
@@ -76,12 +78,14 @@ class PatchLaw {
   [[nodiscard]] static double find_square(const Patch& patch,
                                           const Vector6& twist_W);
 
+  /// Of friction's springs [J].
+  [[nodiscard]] double find_energy(const FrictionMemory& memory) const;
+
  private:
   void add_damping(const Input& in, PatchResponse& out) const;
   void add_friction(const Input& in, PatchResponse& out) const;
 
-  FrictionLimit friction_;
-  double tangential_ratio_;  // kappa [-]
+  LoadShells shells_;
   bool has_friction_;
   double factor_;  // beta [-]
 };

@@ -8,13 +8,10 @@ namespace {
 template <typename Patch, typename Visit>
 void for_numbers(Patch& patch, const Visit& visit) {
   visit(patch.time);
-  for (auto* vector :
-       {&patch.x_A, &patch.x_B, &patch.spring_A, &patch.spring_B}) {
+  for (auto* vector : {&patch.x_A, &patch.x_B}) {
     for (Eigen::Index i = 0; i < 3; ++i) visit((*vector)[i]);
   }
-  for (Eigen::Index i = 0; i < 4; ++i) visit(patch.turn_AB.coeffs()[i]);
-  visit(patch.spin);
-  visit(patch.stiffness);
+  visit_friction(patch.friction, visit);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "limber/common/types.hpp"
+#include "limber/contact/law/friction_memory.hpp"
 
 namespace limber::contact {
 
@@ -15,15 +16,10 @@ struct PatchMemory {
   /// Material points of both bodies that were at one place then [m].
   Vector3 x_A = Vector3::Zero();
   Vector3 x_B = Vector3::Zero();
-  Quaternion turn_AB = Quaternion::Identity();  ///< R_AB then
-  /// The bristle's spring force, in A's axes and in B's [N].
-  Vector3 spring_A = Vector3::Zero();
-  Vector3 spring_B = Vector3::Zero();
-  double spin = 0.0;       ///< of the bristle's spring about n, over r_e [N]
-  double stiffness = 0.0;  ///< k_t then [N/m]
+  FrictionMemory friction;
 };
 
-inline constexpr std::size_t kPatchNumbers = 20;
+inline constexpr std::size_t kPatchNumbers = 8 + kFrictionNumbers;
 
 /// Of one of several patches.
 [[nodiscard]] inline std::span<const double> find_slot(

@@ -21,10 +21,6 @@ using joints::PairBody;
 // Least radius of the points that carry the wrench, of the solids' size [-].
 constexpr double kLeastRadius = 1e-2;
 
-double find_ratio(const ContactSide& A, const ContactSide& B) {
-  return find_pair_moduli(A.material, B.material)->tangential_ratio();
-}
-
 constexpr std::size_t kPoints = PatchPoints::kCount;
 
 // Of places of B against A over a step.
@@ -62,7 +58,7 @@ PatchPair::PatchPair(ContactSide A, ContactSide B,
       parts_A_(make_parts(A_)),
       parts_B_(make_parts(B_)),
       potentials_(make_potentials(A_, parts_A_, B_, parts_B_)),
-      law_(parameters, find_ratio(A_, B_)),
+      law_(parameters, *find_pair_moduli(A_.material, B_.material)),
       size_(contact::find_size(A_.shape, B_.shape)) {
   LIMBER_EXPECT(suits(A_, B_, parameters));
   (void)check_masses(A_, B_);
@@ -178,8 +174,7 @@ PatchResponse PatchPair::respond(const PatchTouch& touch,
        .elastic_W = -patch.gradient_W,
        .twist_W = find_twist(parts, patch.centre_W),
        .all = all,
-       .slip = find_slip(parts, load_patch(find_slot(memory, touch.index)),
-                         patch.normal_W())});
+       .slip = find_slip(parts, load_patch(find_slot(memory, touch.index)))});
 }
 
 void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
@@ -235,13 +230,13 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
          .elastic_W = correct(-touch.patch.gradient_W, motions[i], rise),
          .twist_W = motions[i] / step.times.h,
          .all = all,
-         .slip = find_slip(parts, before, touch.patch.normal_W()),
+         .slip = find_slip(parts, before),
          .way_by_motion = 2.0});
     place_points(touch.patch).set(response.wrench, kPoints * i++, out);
-    // What friction takes from the bodies and the bristle does not keep.
+    // What friction takes from the bodies and its springs do not keep.
     const double kept =
         last != nullptr ? respond(*last, of_end, memory).energy : 0.0;
-    const double lost = find_spring_energy(before) - kept -
+    const double lost = law_.find_energy(before.friction) - kept -
                         step.times.h * response.friction_power;
     out.dissipation += response.damped + std::max(lost, 0.0) / step.times.h;
   }

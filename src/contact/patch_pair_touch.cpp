@@ -145,7 +145,10 @@ double PatchPair::begin_touch(const PairBodies& bodies, double t,
     const PatchFrames frames = find_frames(bodies);
     const PairBodies parts{frames.A(nearest.index / parts_B_.size()),
                            frames.B(nearest.index % parts_B_.size())};
-    save_patch(remember(parts, touch.p_W, t, {}), slot);
+    save_patch(remember(parts, touch.p_W, t,
+                        keep_friction({}, FrictionFrame(touch.normal_W),
+                                      {parts.A.R_WB, parts.B.R_WB})),
+               slot);
   }
   return find_duration(bodies, touch,
                        mass_.find_inverse(bodies, load, 1.0, memory));

@@ -11,18 +11,14 @@ namespace limber::contact {
 [[nodiscard]] Vector6 find_twist(const joints::PairBodies& parts,
                                  const Vector3& about_W);
 
-/// What the bristle has done since the last commit: both places that were one.
+/// What friction has done since the last commit: both places that were one.
 /// @param parts as bodies without modes
 [[nodiscard]] PatchSlip find_slip(const joints::PairBodies& parts,
-                                  const PatchMemory& memory,
-                                  const Vector3& normal_W);
+                                  const PatchMemory& memory);
 
 /// The memory of a patch about p_W at a commit.
 [[nodiscard]] PatchMemory remember(const joints::PairBodies& parts,
                                    const Vector3& p_W, double t,
-                                   const PatchSlip& slip);
-
-/// Of the bristle's spring at the last commit [J].
-[[nodiscard]] double find_spring_energy(const PatchMemory& memory);
+                                   const FrictionMemory& friction);
 
 }  // namespace limber::contact

@@ -134,6 +134,61 @@ TEST(PatchPair, SlidesAsCoulombSays) {
   }
 }
 
+// The mean distance of a face's points from its middle: uniform pressure has
+// the moment mu N of it.
+double find_mean_arm() {
+  constexpr int kCount = 400;
+  double sum = 0.0;
+  for (int i = 0; i < kCount; ++i) {
+    for (int k = 0; k < kCount; ++k) {
+      sum += std::hypot(kHalf.x() * (i + 0.5) / kCount,
+                        kHalf.y() * (k + 0.5) / kCount);
+    }
+  }
+  return sum / (kCount * kCount);
+}
+
+TEST(PatchPair, StopsASpinAsUniformPressureDoes) {
+  const Block block;
+  const double mu = 0.3;
+  const double rate =
+      mu * block.mass * kGravity * find_mean_arm() / block.inertia()(2, 2);
+  for (const auto scheme :
+       {IntegratorKind::generalized_alpha, IntegratorKind::energy_conserving}) {
+    for (const double start : {5.0, -5.0}) {
+      Scene scene = make_resting(block, 0.0, {.friction = {.sliding = mu}});
+      scene.go(0.01, 5e-4, scheme);
+      scene.state.bodies[0].w_WB_B.z() = start;
+      const double lasts = std::abs(start) / rate;
+      scene.go(0.01 + 0.5 * lasts, 5e-4, scheme);
+      EXPECT_NEAR(scene.state.bodies[0].w_WB_B.z() / start, 0.5, 0.01);
+      scene.go(0.01 + 1.02 * lasts, 5e-4, scheme);
+      EXPECT_NEAR(scene.state.bodies[0].w_WB_B.z() / start, 0.0, 0.01);
+      EXPECT_LT(scene.state.bodies[0].v_WB_W.head<2>().norm(), 1e-6);
+    }
+  }
+}
+
+// One cone holds both: neither ends before the other.
+TEST(PatchPair, StopsSpinAndSlideTogether) {
+  Scene scene = make_resting({}, 0.0, {.friction = {.sliding = 0.3}});
+  scene.go(0.01, 5e-4);
+  scene.state.bodies[0].w_WB_B.z() = 10.0;
+  scene.state.bodies[0].v_WB_W.x() = 0.3;
+  double slides = 0.0;
+  double spins = 0.0;
+  for (int i = 1; i <= 200; ++i) {
+    const double t = 0.01 + 1e-3 * i;
+    scene.go(t, 5e-4);
+    if (scene.state.bodies[0].v_WB_W.head<2>().norm() > 3e-3) slides = t;
+    if (std::abs(scene.state.bodies[0].w_WB_B.z()) > 0.1) spins = t;
+  }
+  // Longer than the slide alone.
+  EXPECT_GT(slides, 0.01 + 0.3 / (0.3 * kGravity) + 5e-3);
+  EXPECT_LT(slides, 0.2);
+  EXPECT_NEAR(slides, spins, 5e-3);
+}
+
 // Two boxes that strike with an edge, a corner or a face, turning.
 Scene make_strike(const Vector3& turn, double friction, double e,
                   bool is_swapped, const Pose& X = {}) {

@@ -110,8 +110,7 @@ TEST(SurfaceContact, OfBoxesIsThatOfPolyhedra) {
       overlap = Polytope(clip(overlap, face.plane, -1, next));
     }
     const DepthMoments found = find_moments(table, kBox, X, {});
-    const DepthMoments other =
-        find_depth_moments(solid, {}, overlap, 0, true);
+    const DepthMoments other = find_depth_moments(solid, {}, overlap, 0, true);
     EXPECT_NEAR(found.M / other.M, 1.0, 1e-9);
     EXPECT_LT((found.m1 - other.m1).norm(), 1e-9 * other.m1.norm());
     // Of polyhedra, the motion is u + exp(theta).
