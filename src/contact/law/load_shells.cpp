@@ -159,7 +159,11 @@ void LoadShells::add_shell(const LoadShell& before, const Share& share,
   }
   next = {k, spring.value};
   out.force -= spring.value;
-  out.slips = out.slips && spring.is_cut;
+  // A spring on the cone slips as long as it is pulled outward.
+  constexpr double kOnCone = 1.0 - 1e-9;
+  const bool goes_on = trial.norm() >= kOnCone * limit_by_load * share.load &&
+                       ratios.cwiseProduct(motion.velocity).dot(trial) > 0.0;
+  out.slips = out.slips && (spring.is_cut || goes_on);
   out.energy += find_energy(next);
   out.slip_work +=
       spring.value.head<2>().dot((trial - spring.value).head<2>()) / k;

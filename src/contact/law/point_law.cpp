@@ -66,8 +66,10 @@ LoadShells PointLaw::make_shells() const {
         512.0 / (27.0 * kPi * kPi) * moduli_->torsional / moduli_->tangential;
   }
   // As of a depth as large as the shapes.
-  const double k = find_law(1.0 / size_, 0.0).parameters().stiffness;
-  shells.reference_stiffness = 1.5 * k * std::sqrt(size_);
+  const HertzLaw::Parameters law = find_law(1.0 / size_, 0.0).parameters();
+  shells.reference_stiffness = std::isfinite(law.stiffness)
+                                   ? 1.5 * law.stiffness * std::sqrt(size_)
+                                   : 1.0 / law.residual;
   return LoadShells(shells);
 }
 
