@@ -75,7 +75,7 @@ TEST(PatchPart, CarriesItsPlacesAlong) {
   const PatchPart part(make_part(0.0));
   const PairBody at = part.find_motion(now.view());
   const Vector3 p_W = at.p_WB + Vector3(0.003, -0.002, 0.004);
-  joints::PairPlace place{{}, Matrix3X::Zero(3, kModes)};
+  joints::PairPlace place{Vector3::Zero(), Matrix3X::Zero(3, kModes)};
   part.set_place(now.view(), p_W, place);
   EXPECT_LT((find_position(now.view(), place) - p_W).norm(), 1e-15);
   const Vector3 velocity =
@@ -104,8 +104,8 @@ TEST(PatchPair, ActsOnModesAsItsEnergyFalls) {
     const auto evaluate = [&](joints::PairResponse& out) {
       const PairBody B{exp_rotation({0.0, 2e-4, 1e-4}),
                        {0.1 + 0.5 * test::kLength - 2e-5, 0.0, 0.0},
-                       {},
-                       {},
+                       Vector3::Zero(),
+                       Vector3::Zero(),
                        kModes,
                        eta.data(),
                        etadot.data()};

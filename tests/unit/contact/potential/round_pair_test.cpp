@@ -47,7 +47,9 @@ DepthMoments find_moments(const ShapeKind& soft, const ShapeKind& hard,
 TEST(SurfaceContact, OfALyingCylinderIsItsClosedForm) {
   for (const double d : {1e-7, 1e-5}) {
     const double M =
-        find_moments(kPlane, kRod, lower(kRod, turn(kPi / 2, 0, 0), d), {}).M;
+        find_moments(kPlane, kRod, lower(kRod, turn(kPi / 2, 0, 0), d),
+                     Vector3::Zero())
+            .M;
     const double L = 2.0 * kRod.half_length;
     const double parabola =
         L * std::sqrt(2.0 * kRod.radius) * 256.0 / 315.0 * std::pow(d, 4.5);
@@ -58,7 +60,8 @@ TEST(SurfaceContact, OfALyingCylinderIsItsClosedForm) {
 TEST(SurfaceContact, OfAStandingCylinderIsThatOfAPunch) {
   const double d = 1e-5;
   const double M =
-      find_moments(kPlane, kRod, lower(kRod, turn(0, 0, 0), d), {}).M;
+      find_moments(kPlane, kRod, lower(kRod, turn(0, 0, 0), d), Vector3::Zero())
+          .M;
   EXPECT_NEAR(M / (kPi * kRod.radius * kRod.radius * std::pow(d, 4)), 1.0,
               1e-9);
 }
@@ -69,7 +72,9 @@ TEST(SurfaceContact, OfARimIsItsClosedForm) {
   for (const double tilt : {0.1, 0.3, 0.8}) {
     const double d = 1e-6;
     const double M =
-        find_moments(kPlane, kRod, lower(kRod, turn(tilt, 0, 0), d), {}).M;
+        find_moments(kPlane, kRod, lower(kRod, turn(tilt, 0, 0), d),
+                     Vector3::Zero())
+            .M;
     const double s = std::sin(tilt);
     const double R = kRod.radius;
     const double closed = R * std::sqrt(2.0 * d / (R * s)) * std::pow(d, 5) *
@@ -82,11 +87,11 @@ TEST(SurfaceContact, OfABallAndOfACapsuleAreTheirClosedForms) {
   const double d = 1e-6;
   const double ball =
       find_moments(kBall, kPlane, Pose{turn(0, 0, 0), {0, 0, d - kBall.radius}},
-                   {})
+                   Vector3::Zero())
           .M;
   EXPECT_NEAR(ball / (0.4 * kPi * kBall.radius * std::pow(d, 5)), 1.0, 1e-4);
   const Pose lying = lower(kPill, turn(kPi / 2, 0, 0), d).inverse();
-  const double pill = find_moments(kPill, kPlane, lying, {}).M;
+  const double pill = find_moments(kPill, kPlane, lying, Vector3::Zero()).M;
   const double R = kPill.radius;
   const double line = 2.0 * kPill.half_length * std::sqrt(2.0 * R) * 256.0 /
                       315.0 * std::pow(d, 4.5);
@@ -109,7 +114,7 @@ TEST(SurfaceContact, OfBoxesIsThatOfPolyhedra) {
       Polytope next;
       overlap = Polytope(clip(overlap, face.plane, -1, next));
     }
-    const DepthMoments found = find_moments(table, kBox, X, {});
+    const DepthMoments found = find_moments(table, kBox, X, Vector3::Zero());
     const DepthMoments other = find_depth_moments(solid, {}, overlap, 0, true);
     EXPECT_NEAR(found.M / other.M, 1.0, 1e-9);
     EXPECT_LT((found.m1 - other.m1).norm(), 1e-9 * other.m1.norm());
