@@ -26,11 +26,14 @@ constexpr double kThin = 1e-10;
 struct PatchPair::Nearest {
   joints::PairTouch touch;
   std::size_t index = 0;  // of the pair of parts
+  PairBody A;             // both parts, as bodies without modes
+  PairBody B;
 };
 
 // The deepest patch, or else the parts that are nearest to each other.
 PatchPair::Nearest PatchPair::find_nearest_parts(
     const PairBodies& bodies) const {
+  const PatchFrames frames = find_frames(bodies);
   const PatchTouches touches = find_patches(bodies, false);
   const PatchTouch* deepest =
       std::max_element(touches.begin(), touches.end(),
@@ -38,31 +41,36 @@ PatchPair::Nearest PatchPair::find_nearest_parts(
                          return a.patch.depth < b.patch.depth;
                        });
   Nearest nearest;
+  joints::PairTouch& touch = nearest.touch;
+  const auto take_gap = [&touch](const SolidGap& gap) {
+    touch.normal_W = gap.normal_W;
+    touch.p_W = 0.5 * (gap.on_A + gap.on_B);
+  };
   if (deepest != touches.end()) {
     const Patch& patch = deepest->patch;
     nearest.index = deepest->index;
-    nearest.touch.depth = patch.depth;
-    nearest.touch.normal_W = patch.normal_W();
-    nearest.touch.p_W = patch.centre_W;
-    if (patch.depth > kThin * size_) return nearest;
-    // The normal may be round-off.
-    const SolidGap gap = find_gap(nearest.index, find_frames(bodies));
-    if (gap.normal_W.isZero(0.0)) return nearest;
-    nearest.touch.normal_W = gap.normal_W;
-    nearest.touch.p_W = 0.5 * (gap.on_A + gap.on_B);
-    return nearest;
+    touch.depth = patch.depth;
+    touch.normal_W = patch.normal_W();
+    touch.p_W = patch.centre_W;
+    if (patch.depth <= kThin * size_) {  // the normal may be round-off
+      const SolidGap gap = find_gap(nearest.index, frames);
+      if (!gap.normal_W.isZero(0.0)) take_gap(gap);
+    }
+  } else {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < potentials_.size(); ++i) {
+      const SolidGap gap = find_gap(i, frames);
+      if (!(gap.distance < least)) continue;
+      least = gap.distance;
+      nearest.index = i;
+      touch.depth = -std::max(gap.distance, 0.0);
+      take_gap(gap);
+    }
   }
-  const PatchFrames frames = find_frames(bodies);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < potentials_.size(); ++i) {
-    const SolidGap gap = find_gap(i, frames);
-    if (!(gap.distance < least)) continue;
-    least = gap.distance;
-    nearest.index = i;
-    nearest.touch.depth = -std::max(gap.distance, 0.0);
-    nearest.touch.normal_W = gap.normal_W;
-    nearest.touch.p_W = 0.5 * (gap.on_A + gap.on_B);
-  }
+  nearest.A = frames.A(nearest.index / parts_B_.size());
+  nearest.B = frames.B(nearest.index % parts_B_.size());
+  touch.rate = -touch.normal_W.dot(
+      find_twist({nearest.A, nearest.B}, touch.p_W).head<3>());
   return nearest;
 }
 
@@ -76,13 +84,7 @@ SolidGap PatchPair::find_gap(std::size_t index,
 
 joints::PairTouch PatchPair::find_touch(
     const PairBodies& bodies, joints::PairResponse& /*scratch*/) const {
-  Nearest nearest = find_nearest_parts(bodies);
-  const PatchFrames frames = find_frames(bodies);
-  joints::PairTouch& touch = nearest.touch;
-  const PairBodies parts{frames.A(nearest.index / parts_B_.size()),
-                         frames.B(nearest.index % parts_B_.size())};
-  touch.rate = -touch.normal_W.dot(find_twist(parts, touch.p_W).head<3>());
-  return touch;
+  return find_nearest_parts(bodies).touch;
 }
 
 double PatchPair::find_clearance(const PairBodies& bodies) const {
@@ -133,18 +135,16 @@ double PatchPair::find_duration(const PairBodies& bodies,
 
 double PatchPair::begin_touch(const PairBodies& bodies, double t,
                               std::span<double> memory,
-                              joints::PairResponse& scratch) const {
-  const joints::PairTouch touch = find_touch(bodies, scratch);
+                              joints::PairResponse& /*scratch*/) const {
+  const Nearest nearest = find_nearest_parts(bodies);
+  const joints::PairTouch& touch = nearest.touch;
   if (touch.normal_W.isZero(0.0))
     return std::numeric_limits<double>::infinity();
   NormalLoad load;
   load.add(bodies, touch.p_W, touch.normal_W);
-  const Nearest nearest = find_nearest_parts(bodies);
   const std::span<double> slot = find_slot(memory, nearest.index);
   if (!load_patch(slot).is_touching) {
-    const PatchFrames frames = find_frames(bodies);
-    const PairBodies parts{frames.A(nearest.index / parts_B_.size()),
-                           frames.B(nearest.index % parts_B_.size())};
+    const PairBodies parts{nearest.A, nearest.B};
     save_patch(remember(parts, touch.p_W, t,
                         keep_friction({}, FrictionFrame(touch.normal_W),
                                       {parts.A.R_WB, parts.B.R_WB})),

@@ -89,9 +89,11 @@ void integrate(const Polytope& part, const Cell& cell, CellSums& sums) {
   }
 }
 
-// int 12 t^2 dg dg' / |n_i - n_j| dS, dg = -sign (dn, r x dn)
-Matrix6 integrate_interface(const Facet& facet, const Plane& plane,
-                            const Vector3& dn) {
+// Of a facet's points, t their depth below a plane.
+// @param density (area, t) of a point
+template <class Density>
+Weights weigh_facet(const Facet& facet, const Plane& plane,
+                    const Density& density) {
   Weights weights;
   const auto corners = facet.corners();
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
@@ -100,9 +102,22 @@ Matrix6 integrate_interface(const Facet& facet, const Plane& plane,
     for (const auto& point : triangle_rule()) {
       const Vector3 r = point.find_place(x);
       const double t = std::max(plane.find_depth(r), 0.0);
-      weights.add(12.0 * area * point.weight * t * t, r);
+      weights.add(density(area * point.weight, t), r);
     }
   }
+  return weights;
+}
+
+// By 12 t^2.
+Weights weigh_square(const Facet& facet, const Plane& plane) {
+  return weigh_facet(facet, plane,
+                     [](double area, double t) { return 12.0 * area * t * t; });
+}
+
+// int 12 t^2 dg dg' / |n_i - n_j| dS, dg = -sign (dn, r x dn)
+Matrix6 integrate_interface(const Facet& facet, const Plane& plane,
+                            const Vector3& dn) {
+  const Weights weights = weigh_square(facet, plane);
   return sum_squares(weights, dn) / dn.norm();
 }
 
@@ -136,17 +151,9 @@ Matrix6 sum_products(const Weights& w, const Vector3& n, const Vector3& m) {
 // zero, n its normal.
 Vector6 integrate_end(const Facet& facet, const Plane& plane,
                       const Vector3& normal) {
-  Weights weights;
-  const auto corners = facet.corners();
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-    const std::array<Vector3, 3> x{corners[0], corners[k], corners[k + 1]};
-    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-    for (const auto& point : triangle_rule()) {
-      const Vector3 r = point.find_place(x);
-      const double t = std::max(plane.find_depth(r), 0.0);
-      weights.add(4.0 * area * point.weight * t * t * t, r);
-    }
-  }
+  const Weights weights = weigh_facet(facet, plane, [](double area, double t) {
+    return 4.0 * area * t * t * t;
+  });
   return -sum_gradients(weights, normal);
 }
 
@@ -154,17 +161,7 @@ Vector6 integrate_end(const Facet& facet, const Plane& plane,
 // the facet's edges add.
 Matrix6 integrate_end_change(const Facet& facet, const Plane& plane,
                              const Vector3& normal) {
-  Weights weights;
-  const auto corners = facet.corners();
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-    const std::array<Vector3, 3> x{corners[0], corners[k], corners[k + 1]};
-    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-    for (const auto& point : triangle_rule()) {
-      const Vector3 r = point.find_place(x);
-      const double t = std::max(plane.find_depth(r), 0.0);
-      weights.add(12.0 * area * point.weight * t * t, r);
-    }
-  }
+  const Weights weights = weigh_square(facet, plane);
   const Matrix6 half = -sum_products(weights, plane.n, normal);
   return half + half.transpose();
 }
