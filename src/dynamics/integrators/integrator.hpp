@@ -10,9 +10,10 @@ namespace limber::dynamics {
 
 /// What becomes of motion that steps do not resolve.
 enum class UnresolvedMotion {
-  kept,    ///< damped as the scheme is asked to
-  calmed,  ///< halved by each step at least, as of stiff contacts at rest
-  ended,   ///< as by implicit Euler, for impacts much shorter than a step
+  kept,       ///< damped as the scheme is asked to
+  conserved,  ///< not damped, for impacts that steps resolve
+  calmed,     ///< halved by each step at least, as of stiff contacts at rest
+  ended,      ///< as by implicit Euler, for impacts much shorter than a step
 };
 
 /// A time integration scheme. It is constructed from a SystemModel and

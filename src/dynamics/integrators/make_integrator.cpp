@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/dynamics/integrators/make_integrator.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/integrators/central_differences.hpp"
 #include "limber/dynamics/integrators/energy_conserving.hpp"
 #include "limber/dynamics/integrators/explicit_euler.hpp"
 #include "limber/dynamics/integrators/generalized_alpha.hpp"
+#include "limber/dynamics/integrators/impact_integrator.hpp"
 #include "limber/dynamics/integrators/runge_kutta.hpp"
 #include "limber/dynamics/integrators/splitting.hpp"
 
@@ -24,14 +28,26 @@ EnergyConserving::Settings read_conserving(const SimulationSettings& settings) {
 
 }  // namespace
 
+bool conserves_impacts(const SystemModel& model,
+                       const SimulationSettings& settings) {
+  return traits_of(settings.integrator).is_implicit &&
+         settings.integrator != IntegratorKind::energy_conserving &&
+         settings.tolerance == 0.0 && model.full_bodies.empty() &&
+         std::any_of(model.pairs.begin(), model.pairs.end(),
+                     [](const Pair& pair) { return pair.law->touching(); });
+}
+
 std::unique_ptr<Integrator> make_integrator(
     const SystemModel& model, const SimulationSettings& settings) {
-  const auto make_alpha = [&](bool is_euler) {
-    return std::make_unique<GeneralizedAlpha>(
+  const auto make_alpha = [&](bool is_euler) -> std::unique_ptr<Integrator> {
+    auto own = std::make_unique<GeneralizedAlpha>(
         model,
         GeneralizedAlpha::Settings{settings.rho_inf, settings.newton_tolerance,
                                    settings.newton_iterations, is_euler,
                                    settings.tolerance > 0.0});
+    if (!conserves_impacts(model, settings)) return own;
+    return std::make_unique<ImpactIntegrator>(model, std::move(own),
+                                              read_conserving(settings));
   };
   switch (settings.integrator) {
     case IntegratorKind::generalized_alpha:

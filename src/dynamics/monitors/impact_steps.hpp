@@ -15,12 +15,14 @@ namespace limber::dynamics {
 ///
 /// Equation   omega h <= pi / n while a pair is struck, omega the frequency of
 ///            its touch at the step's end (TouchReading), n steps a half
-///            period; a touch begins with T_c / n. Struck: approaching or
-///            parting at more than max(|g| h, v / 20), h the step of the run
-///            and v the speed whose kinetic energy is the touch's elastic
-///            energy; what is slower rests, as a body on the ground, or in a
-///            grip that tightens. After a step one longer by a quarter is
-///            tried.
+///            period; a touch begins with T_c / n, an impact
+///            in an ongoing touch with a fiftieth of a part. Struck:
+///            approaching or parting, before the step or after it, at more
+///            than v / 20, v the speed whose kinetic energy is the touch's
+///            elastic energy, and both together at more than |g| h, h the step
+///            of the run; what is slower, for longer than a turn takes, rests,
+///            as a body on the ground, or in a grip that tightens. After a step
+///            one longer by a quarter is tried.
 /// Limits     a longer step gets at most 1000 parts; the rest of it is taken at
 ///            once
 class ImpactSteps {
@@ -40,6 +42,12 @@ class ImpactSteps {
   /// Whether bodies rest on each other, after the last step, that vibrate
   /// faster than steps of h [s] resolve.
   [[nodiscard]] bool rests_stiffly(double h) const;
+  /// Whether the next step, or the last one that was shortened, is part of an
+  /// impact that it resolves.
+  [[nodiscard]] bool is_struck() const { return is_struck_; }
+  /// Whether the step last asked about is, and did not count as that before;
+  /// from here on it does.
+  [[nodiscard]] bool take_onset();
   /// Accepts the step last asked about.
   void accept(double h);
 
@@ -51,12 +59,23 @@ class ImpactSteps {
 
  private:
   [[nodiscard]] double find_slow() const;
+  [[nodiscard]] bool is_fast(double speed, double elastic_speed) const;
+  [[nodiscard]] bool turns_back(const joints::TouchReading& now,
+                                double h) const;
+  [[nodiscard]] double find_approach(std::size_t touch,
+                                     const SystemState& before,
+                                     const SystemState& after,
+                                     TouchWatch& touches);
 
   const SystemModel& model_;
   double steps_;
-  double longest_;     // next step [s]
-  double step_ = 0.0;  // of the run, without impacts [s]
-  int parts_ = 0;      // of it, so far
+  SystemState approach_;  // after a step, with the velocities before it
+  double longest_;        // next step [s]
+  double step_ = 0.0;     // of the run, without impacts [s]
+  int parts_ = 0;         // of it, so far
+  bool is_struck_ = false;
+  double quiet_ = 0.0;     // since a pair approached or parted that fast [s]
+  bool is_quiet_ = false;  // the last step asked about
   // The last step asked about: of its touches the largest omega that counts
   // [rad/s], and their pair.
   double frequency_ = 0.0;

@@ -56,6 +56,7 @@ EventStepper::EventStepper(const SystemModel& model,
   }
   keeps_before_ =
       settings.tolerance > 0.0 || !watch_.is_empty() || !touches_.is_empty();
+  conserves_impacts_ = conserves_impacts(model, settings);
   is_implicit_ = traits_of(settings.integrator).is_implicit;
 }
 
@@ -92,19 +93,28 @@ void EventStepper::add_between_steps(const EnergyFlows& flows) {
   flows_ += flows;
 }
 
+UnresolvedMotion EventStepper::choose_motion(
+    double h, const TouchWatch::Impact& impact) const {
+  const bool rests = impacts_.rests_stiffly(h);
+  if (conserves_impacts_ && impacts_.is_struck() && !rests) {
+    return UnresolvedMotion::conserved;
+  }
+  if (impact.steps < TouchWatch::kFewestSteps) return UnresolvedMotion::ended;
+  return rests ? UnresolvedMotion::calmed : UnresolvedMotion::kept;
+}
+
 // An impact that the step does not resolve is damped, since it would gain
 // energy; the loss counts as dissipated. If it still gains energy, or a badly
 // resolved one does, the step fails; so does a step longer than an impact in an
 // ongoing touch.
 StepResult EventStepper::take_step(SystemState& state, double h, double end) {
   TouchWatch::Impact impact = touches_.find_impact(h, state.t);
-  UnresolvedMotion motion = UnresolvedMotion::kept;
-  if (impacts_.rests_stiffly(h)) motion = UnresolvedMotion::calmed;
-  if (impact.steps < TouchWatch::kFewestSteps) motion = UnresolvedMotion::ended;
+  const UnresolvedMotion motion = choose_motion(h, impact);
   const bool damps = integrator_->damp(motion);
   const bool is_impact = impact.steps < TouchWatch::kSureSteps;
   if (!is_impact) impact = touches_.find_touch_in(h);
-  if (!is_impact && !(impact.steps < 1.0)) {
+  if (motion == UnresolvedMotion::conserved ||
+      (!is_impact && !(impact.steps < 1.0))) {
     const StepResult result = integrator_->step(state, h, end);
     last_flows_ = integrator_->flows();
     return result;
@@ -173,12 +183,21 @@ void EventStepper::attempt(SystemState& state, double h, double end) {
   if (keeps_before_) before_ = state;
   last_ = {};
   advance(state, h_, h_ < h ? state.t + h_ : end);
-  while (const auto shorter =
-             impacts_.find_shorter(before_, state, h_, touches_)) {
+  while (const auto other = find_other_length(state)) {
     take_back(state);
-    h_ = *shorter;
-    advance(state, h_, state.t + h_);
+    h_ = *other;
+    advance(state, h_, h_ < h ? state.t + h_ : end);
   }
+}
+
+// Of the attempted step, if it is to be repeated: shorter, or as long by the
+// scheme for impacts [s].
+std::optional<double> EventStepper::find_other_length(
+    const SystemState& state) {
+  const auto shorter = impacts_.find_shorter(before_, state, h_, touches_);
+  if (shorter) return shorter;
+  if (conserves_impacts_ && impacts_.take_onset()) return h_;
+  return std::nullopt;
 }
 
 void EventStepper::take_back(SystemState& state) {

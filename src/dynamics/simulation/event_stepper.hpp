@@ -99,6 +99,9 @@ class EventStepper {
     std::size_t coordinate;
   };
   void advance(SystemState& state, double h, double end);
+  std::optional<double> find_other_length(const SystemState& state);
+  [[nodiscard]] UnresolvedMotion choose_motion(
+      double h, const TouchWatch::Impact& impact) const;
   StepResult take_step(SystemState& state, double h, double end);
   [[nodiscard]] double find_touch_energy(std::size_t pair,
                                          const SystemState& state) const;
@@ -127,6 +130,7 @@ class EventStepper {
   PairCommit commit_pairs_;
   std::vector<Event>& events_;
   bool is_implicit_ = false;
+  bool conserves_impacts_ = false;
   bool keeps_before_ = false;
   SystemState before_;
   double h_ = 0.0;  // of the attempted step [s]

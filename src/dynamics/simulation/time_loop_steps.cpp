@@ -97,7 +97,9 @@ void TimeLoop::take_planned_step(SystemState& state, const Progress& progress) {
     });
     is_whole = is_whole && !has_moved;
     if (has_moved) watch_step(state, events);
-    if (has_moved && !is_last) count_share(state);
+    // Parts of impacts have limits of their own.
+    const bool is_share = !is_last && !(stepper_.length() < h);
+    if (has_moved && is_share) count_share(state);
     if (end - state.t > kSameTime * h_) heed_within_step(state, progress);
   }
   state.t = end;

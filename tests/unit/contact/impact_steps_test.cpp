@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
+#include <memory>
 
+#include "limber/contact/patch_pair.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
 #include "unit/contact/ball_on_floor.hpp"
@@ -85,6 +88,80 @@ TEST(ImpactSteps, MakeTheOutcomeFreeOfTheStep) {
     EXPECT_NEAR(bounce(0.8, part * find_duration(), 48.0).restitution, first,
                 2e-3)
         << part;
+  }
+}
+
+/// Energy that a block gains or loses, without an account of it, while it turns
+/// about an edge on the floor, without friction, and lands on a face; relative
+/// to its kinetic energy before [-].
+double topple(double restitution, double step) {
+  const Vector3 half(0.05, 0.04, 0.03);
+  constexpr double kMass = 10.0;
+  constexpr double kTilt = 0.02;  // [rad]
+  constexpr double kSpin = 2.0;   // [rad/s]
+  const Vector3 q = half.cwiseProduct(half);
+  const Vector3 moments(q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
+  const Matrix3 inertia = kMass / 3.0 * moments.asDiagonal();
+  const SurfaceMaterial soft{1e10, 0.3};
+  constexpr double kFixed = std::numeric_limits<double>::infinity();
+  dynamics::SystemBuilder builder;
+  const auto block = builder.add_rigid_body("block", {kMass, inertia});
+  builder.add_pair("floor/block", dynamics::kWorld, block,
+                   std::make_shared<PatchPair>(
+                       ContactSide{Shape{HalfSpace{}, {}}, soft, kFixed},
+                       ContactSide{Shape{Box{half}, {}}, soft, kMass, inertia},
+                       ContactParameters{.restitution = restitution}));
+  dynamics::SystemModel model = builder.build();
+  model.gravity_W = {0.0, 0.0, -9.81};
+  dynamics::SystemState state = dynamics::make_state(model);
+  dynamics::BodyState& body = state.bodies[0];
+  // The edge at +x is the lowest; it does not move up or down.
+  body.quat_WB = Eigen::AngleAxisd(kTilt, Vector3::UnitY());
+  body.p_WB.z() =
+      half.x() * std::sin(kTilt) + half.z() * std::cos(kTilt) - 1e-7;
+  body.w_WB_B = {0.0, -kSpin, 0.0};
+  body.v_WB_W.z() =
+      -kSpin * (half.x() * std::cos(kTilt) - half.z() * std::sin(kTilt));
+  const double kinetic =
+      0.5 * (kMass * body.v_WB_W.squaredNorm() + inertia(1, 1) * kSpin * kSpin);
+  dynamics::SimulationStatistics statistics;
+  dynamics::RunRecord record;
+  dynamics::simulate(model, state, {.end_time = 0.02, .step = step}, {}, {},
+                     statistics, {}, {}, record);
+  EXPECT_FALSE(record.contacts.empty());
+  return record.energy.worst.drift.value / kinetic;
+}
+
+// Implicit Euler alone would lose most of it, generalized-alpha some percent.
+TEST(ImpactSteps, BalanceTheEnergyInAnyStep) {
+  for (const IntegratorKind kind :
+       {IntegratorKind::generalized_alpha, IntegratorKind::implicit_euler}) {
+    for (const double e : {1.0, 0.8, 0.3}) {
+      for (const double part : {0.01, 3.0, 300.0}) {
+        const Outcome out = bounce(e, part * find_duration(), 20.0, kind);
+        const double kinetic = 0.5 * test::kBallMass * kSpeed * kSpeed;
+        EXPECT_LT(std::abs(out.drift), 1e-9 * kinetic) << e << ' ' << part;
+        EXPECT_NEAR(out.restitution, e, 0.01) << e << ' ' << part;
+      }
+    }
+  }
+}
+
+// A bounce of an elastic ball, whose energy the parts keep.
+TEST(ImpactSteps, KeepTheSpeedOfAnElasticBall) {
+  for (const double part : {0.3, 7.0, 100.0}) {
+    const Outcome out = bounce(1.0, part * find_duration(), 20.0);
+    EXPECT_NEAR(out.restitution, 1.0, 1e-10) << part;
+  }
+}
+
+// Of a face that lands while its edge already touches: there is no event where
+// the impact begins, and a step that does not resolve it would end it.
+TEST(ImpactSteps, ResolveAFaceThatLandsOnItsEdge) {
+  for (const double e : {1.0, 0.5, 0.0}) {
+    for (const double step : {1e-3, 1e-4}) {
+      EXPECT_LT(std::abs(topple(e, step)), 1e-4) << e << ' ' << step;
+    }
   }
 }
 
