@@ -11,6 +11,7 @@
 #include "limber/contact/patch_pair.hpp"
 #include "limber/dynamics/simulation/run_record.hpp"
 #include "limber/dynamics/simulation/simulation.hpp"
+#include "limber/dynamics/simulation/simulator.hpp"
 #include "unit/contact/ball_on_floor.hpp"
 
 namespace limber::contact::impact_steps_test {
@@ -161,6 +162,35 @@ TEST(ImpactSteps, ResolveAFaceThatLandsOnItsEdge) {
   for (const double e : {1.0, 0.5, 0.0}) {
     for (const double step : {1e-3, 1e-4}) {
       EXPECT_LT(std::abs(topple(e, step)), 1e-4) << e << ' ' << step;
+    }
+  }
+}
+
+// Within the impact, whose steps are not those of the run's scheme, and after.
+TEST(ImpactSteps, GoOnToTheBitFromACheckpointInAnImpact) {
+  for (const IntegratorKind kind :
+       {IntegratorKind::generalized_alpha, IntegratorKind::implicit_euler}) {
+    for (const double part : {0.04, 0.3}) {
+      const BallOnFloor scene(
+          {.friction = {.sliding = 0.3}, .restitution = 0.8},
+          {0.2, 0.0, -kSpeed});
+      dynamics::SimulationSettings settings;
+      settings.integrator = kind;
+      settings.step = part * find_duration();
+      settings.end_time = 3.0 * find_duration();
+      dynamics::Simulator first(scene.model, scene.state, settings);
+      first.advance_to(0.6 * find_duration());
+      ASSERT_GT(first.calc_energy().coupler, 0.0);
+      const dynamics::Checkpoint checkpoint = first.save();
+      first.advance_to(settings.end_time);
+      dynamics::Simulator second(scene.model, scene.state, settings);
+      second.restore(checkpoint);
+      second.advance_to(settings.end_time);
+      EXPECT_EQ(first.state().bodies[0].p_WB, second.state().bodies[0].p_WB);
+      EXPECT_EQ(first.state().bodies[0].v_WB_W,
+                second.state().bodies[0].v_WB_W);
+      EXPECT_EQ(first.state().bodies[0].w_WB_B,
+                second.state().bodies[0].w_WB_B);
     }
   }
 }
