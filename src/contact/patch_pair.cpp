@@ -177,10 +177,24 @@ PatchResponse PatchPair::respond(const PatchTouch& touch,
        .slip = find_slip(parts, load_patch(find_slot(memory, touch.index)))});
 }
 
+// What friction's springs had where bodies no longer touch, since then [W].
+double PatchPair::find_released(const PatchTouches& touches, double t,
+                                std::span<const double> memory) const {
+  double power = 0.0;
+  for (std::size_t i = 0; i < potentials_.size(); ++i) {
+    if (touches.find(i) != nullptr) continue;
+    const PatchMemory last = load_patch(find_slot(memory, i));
+    if (!last.is_touching || !(t > last.time)) continue;
+    power += law_.find_energy(last.friction) / (t - last.time);
+  }
+  return power;
+}
+
 void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
                          std::span<const double> memory,
                          joints::PairResponse& out) const {
   const PatchTouches touches = find_patches(bodies, true);
+  out.mean_dissipation += find_released(touches, now.t, memory);
   if (touches.is_empty()) return;
   const PatchMotion all = find_motion(bodies, touches, memory);
   for (const PatchTouch& touch : touches) {
@@ -191,7 +205,7 @@ void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
     out.energy += touch.patch.energy + response.energy;
     out.dissipation += response.damped + response.rubbed;
     const double h = now.t - load_patch(find_slot(memory, touch.index)).time;
-    if (h > 0.0) out.dissipation += response.slip_work / h;
+    if (h > 0.0) out.mean_dissipation += response.slip_work / h;
   }
 }
 
@@ -199,6 +213,7 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
                                    std::span<const double> memory,
                                    joints::PairResponse& out) const {
   const PatchTouches touches = find_patches(step.middle, true);
+  out.mean_dissipation += find_released(touches, step.times.end, memory);
   if (touches.is_empty()) return;
   PatchMotion all;
   all.inverse_mass = find_inverse_mass(step.middle, touches, memory);

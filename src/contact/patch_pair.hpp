@@ -103,6 +103,8 @@ class PatchPair final : public joints::PairInteraction,
   [[nodiscard]] PatchPoints place_points(const Patch& patch) const;
   void add_points(const joints::PairBodies& bodies, const PatchTouch& touch,
                   const PatchPoints& points, joints::PairResponse& out) const;
+  [[nodiscard]] double find_released(const PatchTouches& touches, double t,
+                                     std::span<const double> memory) const;
   [[nodiscard]] double find_inverse_mass(const joints::PairBodies& bodies,
                                          const PatchTouches& touches,
                                          std::span<const double> memory) const;

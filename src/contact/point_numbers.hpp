@@ -24,6 +24,7 @@ inline void set_response(const PointResponse& response,
   point.stiffness = response.stiffness;
   point.damping = response.damping;
   out.dissipation += response.dissipation;
+  out.mean_dissipation += response.slip_power;
 }
 
 }  // namespace limber::contact

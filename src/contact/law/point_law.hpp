@@ -45,8 +45,9 @@ struct PointResponse {
   double normal_force = 0.0;             ///< [N]
   Vector3 friction_W = Vector3::Zero();  ///< [N]
   bool slips = false;
-  double energy = 0.0;                  ///< stored by friction [J]
-  double dissipation = 0.0;             ///< [W]
+  double energy = 0.0;       ///< stored by friction [J]
+  double dissipation = 0.0;  ///< of both dampers [W]
+  double slip_power = 0.0;   ///< of slip and release, mean since the commit [W]
   Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
   Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]
   double moment = 0.0;                  ///< of friction about n [N m]

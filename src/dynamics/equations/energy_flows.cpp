@@ -60,7 +60,7 @@ void add_powers(const SystemTerms& terms, double duration, EnergyFlows& flows) {
     add(transmission.response.supplied, transmission.response.dissipation);
   }
   for (const joints::PairResponse& pair : terms.pairs.responses) {
-    add(0.0, pair.dissipation);
+    add(0.0, pair.dissipation + pair.mean_dissipation);
   }
 }
 

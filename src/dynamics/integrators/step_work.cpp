@@ -4,7 +4,8 @@
 namespace limber::dynamics {
 
 StepWork::StepWork(const SystemModel& model)
-    : dampers_(model),
+    : pairs_(EnergyRows(model).pairs),
+      dampers_(model),
       supplies_(model),
       power_(make_flows(model)),
       last_power_(power_),
@@ -13,6 +14,10 @@ StepWork::StepWork(const SystemModel& model)
 void StepWork::set_powers(const SystemTerms& terms) {
   power_.clear();
   add_powers(terms, 1.0, power_);
+  Eigen::Index row = pairs_;
+  for (const joints::PairResponse& pair : terms.pairs.responses) {
+    power_.dissipated[row++] = pair.dissipation;
+  }
 }
 
 void StepWork::start(const SystemState& state, const SystemTerms& terms) {
@@ -29,6 +34,10 @@ void StepWork::advance(const SystemState& from, const SystemState& to,
   const StepPower end = sum(power_);
   flows_.supplied = 0.5 * h * (last_power_.supplied + power_.supplied);
   flows_.dissipated = 0.5 * h * (last_power_.dissipated + power_.dissipated);
+  Eigen::Index row = pairs_;
+  for (const joints::PairResponse& pair : terms.pairs.responses) {
+    flows_.dissipated[row++] += h * pair.mean_dissipation;
+  }
   supplies_.advance(to, terms, h, flows_.supplied);
   dampers_.advance(from, to, terms, h, flows_.dissipated);
   set_work(flows_, result);

@@ -10,7 +10,7 @@ namespace limber::dynamics {
 
 /// Work and dissipation of a step: the trapezoidal rule applied to the powers
 /// at both ends, with the corrections of DamperWork and SuppliedWork, which go
-/// by paths.
+/// by paths, as do the means that pairs tell.
 class StepWork {
  public:
   explicit StepWork(const SystemModel& model);
@@ -33,6 +33,7 @@ class StepWork {
  private:
   void set_powers(const SystemTerms& terms);
 
+  Eigen::Index pairs_;  // first of their rows
   DamperWork dampers_;
   SuppliedWork supplies_;
   EnergyFlows power_;       // at the last state [W]

@@ -130,6 +130,9 @@ TEST(PatchPair, SlidesAsCoulombSays) {
       const double right = kGravity * (std::sin(slope) - mu * std::cos(slope));
       EXPECT_NEAR(found / right, 1.0, 1e-6) << mu << ", e " << e;
       EXPECT_LT(scene.state.bodies[0].quat_WB.vec().norm(), 1e-3);
+      const dynamics::EnergyDrift& energy = scene.record.energy.worst;
+      EXPECT_LT(std::abs(energy.drift.value), 1e-7 * energy.throughput)
+          << mu << ", e " << e;
     }
   }
 }
