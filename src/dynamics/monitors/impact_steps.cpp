@@ -13,8 +13,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 // Of a part to the next: generalized-alpha carries a part of the last
 // acceleration on, which must not grow with the steps [-].
 constexpr double kPartGrowth = 1.25;
-constexpr int kMostParts = 1000;  // of a step of the run
-constexpr double kMargin = 1.1;   // of a step's length without a repeat [-]
+constexpr double kMargin = 1.1;  // of a step's length without a repeat [-]
 // Least and largest reduction of a step that is repeated [-].
 constexpr double kLeastCut = 0.5;
 constexpr double kMostCut = 0.1;
@@ -27,9 +26,10 @@ constexpr double kLeastSpeed = 1e-9;  // of an impact [m/s]
 
 }  // namespace
 
-ImpactSteps::ImpactSteps(const SystemModel& model, double steps)
+ImpactSteps::ImpactSteps(const SystemModel& model, double steps, int most_parts)
     : model_(model),
       steps_(steps),
+      most_parts_(most_parts),
       approach_(make_state(model)),
       longest_(kUnlimited) {}
 
@@ -47,7 +47,7 @@ double ImpactSteps::limit(double h, const TouchWatch& touches) {
     parts_ = 0;
     return h;
   }
-  if (++parts_ > kMostParts) {
+  if (++parts_ > most_parts_) {
     has_excess_ = true;
     is_struck_ = false;
     return h;
@@ -88,7 +88,7 @@ std::optional<double> ImpactSteps::find_shorter(const SystemState& before,
                                                 double h, TouchWatch& touches) {
   frequency_ = rest_frequency_ = 0.0;
   is_quiet_ = true;
-  if (parts_ > kMostParts) return std::nullopt;
+  if (parts_ > most_parts_) return std::nullopt;
   for (std::size_t i = 0; i < touches.count(); ++i) {
     if (!touches.is_touching(i)) continue;
     const joints::TouchReading now = touches.read(i, after);
@@ -109,7 +109,7 @@ std::optional<double> ImpactSteps::find_shorter(const SystemState& before,
   const double angle = frequency_ * h;
   const double most = (is_struck_ ? 1.0 : kOnset) * std::numbers::pi / steps_;
   if (!(angle > kMargin * most)) return std::nullopt;
-  if (++parts_ > kMostParts) {
+  if (++parts_ > most_parts_) {
     has_excess_ = true;
     return std::nullopt;
   }

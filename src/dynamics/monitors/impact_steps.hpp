@@ -23,13 +23,14 @@ namespace limber::dynamics {
 ///            of the run; what is slower, for longer than a turn takes, rests,
 ///            as a body on the ground, or in a grip that tightens. After a step
 ///            one longer by a quarter is tried.
-/// Limits     a longer step gets at most 1000 parts; the rest of it is taken at
-///            once
+/// Limits     a longer step gets at most so many parts; the rest of it is taken
+///            at once
 class ImpactSteps {
  public:
   /// @param steps n, of half a period of a touch > 0 [-]
+  /// @param most_parts of a step
   /// @param model stored by reference
-  ImpactSteps(const SystemModel& model, double steps);
+  ImpactSteps(const SystemModel& model, double steps, int most_parts);
 
   /// Length of the next step, at most h [s].
   [[nodiscard]] double limit(double h, const TouchWatch& touches);
@@ -69,6 +70,7 @@ class ImpactSteps {
 
   const SystemModel& model_;
   double steps_;
+  int most_parts_;
   SystemState approach_;  // after a step, with the velocities before it
   double longest_;        // next step [s]
   double step_ = 0.0;     // of the run, without impacts [s]

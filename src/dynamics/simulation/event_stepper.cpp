@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "limber/common/errors.hpp"
 #include "limber/dynamics/equations/energy.hpp"
@@ -21,6 +22,10 @@ constexpr double kSameEvent = 1e-9;
 // least reduction of its length from one to the next [-].
 constexpr int kMostRepeats = 12;
 constexpr double kLeastReduction = 0.999;
+// Parts of a step for the impacts in it; most_steps bounds those to a
+// tolerance.
+constexpr int kMostParts = 1000;
+constexpr int kUnlimited = std::numeric_limits<int>::max();
 // Largest gain of a step in an impact that it does not resolve, and in an
 // ongoing touch, relative to the energy of the pair and of its bodies' relative
 // motion before it, and the work on these [-].
@@ -37,7 +42,8 @@ EventStepper::EventStepper(const SystemModel& model,
       terms_(make_terms(model)),
       watch_(model),
       touches_(model),
-      impacts_(model, settings.impact_steps / refinement),
+      impacts_(model, settings.impact_steps / refinement,
+               settings.tolerance > 0.0 ? kUnlimited : kMostParts),
       limits_(model),
       ends_at_limits_(settings.tolerance > 0.0 && !limits_.is_empty()),
       commit_pairs_(model),

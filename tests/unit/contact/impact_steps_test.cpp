@@ -225,5 +225,20 @@ TEST(ImpactSteps, AreBoundedWithAWarning) {
               ::testing::Contains(HasSubstr("a step got 1000 parts")));
 }
 
+// Its steps are bounded by most_steps.
+TEST(ImpactSteps, HaveNoBoundWithATolerance) {
+  BallOnFloor scene({.restitution = 1.0}, {0.0, 0.0, -kSpeed});
+  dynamics::SimulationSettings settings;
+  settings.step = find_duration();
+  settings.tolerance = 1e-4;
+  settings.end_time = 20.0 * find_duration();
+  settings.impact_steps = 2000.0;
+  dynamics::SimulationStatistics statistics;
+  dynamics::simulate(scene.model, scene.state, settings, {}, {}, statistics);
+  EXPECT_GT(statistics.steps, 1000);
+  EXPECT_THAT(statistics.warnings, IsEmpty());
+  EXPECT_NEAR(scene.state.bodies[0].v_WB_W.z(), kSpeed, 1e-4 * kSpeed);
+}
+
 }  // namespace
 }  // namespace limber::contact::impact_steps_test
