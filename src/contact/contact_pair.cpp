@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -46,6 +47,12 @@ void set_place(const PairBody& body, const Shape& shape,
   set_shape_functions(shape, surface, out.Phi_B);
   out.x_B.setZero();
   out.x_B = body.R_WB.transpose() * (p_W - body.p_WB) - find_arm(body, out);
+}
+
+// Second moments of Hertz's pressure on a round area.
+Matrix3 find_spread(double area, const Vector3& normal_W) {
+  return 0.2 * area / std::numbers::pi *
+         (Matrix3::Identity() - normal_W * normal_W.transpose());
 }
 
 }  // namespace
@@ -307,6 +314,10 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
   set_rates(bodies, touch, reading);
   reading.energy = touch.pads.energy;
   double largest = -1.0;
+  Vector3 centre = Vector3::Zero();  // from the first
+  const Vector3 near = touch.points.all().empty()
+                           ? Vector3(Vector3::Zero())
+                           : meetings[touch.points.all().front().feature].p_W;
   for (const TouchingPoint& at : touch.points.all()) {
     const Meeting& meeting = meetings[at.feature];
     const PointResponse response =
@@ -319,12 +330,21 @@ joints::TouchReading ContactPair::read(const PairBodies& bodies,
     reading.area += at.elastic.area;
     reading.depth = std::max(reading.depth, meeting.depth);
     reading.slips = reading.slips || response.slips;
+    const Vector3 place = meeting.p_W - near;
+    centre += response.normal_force * place;
+    reading.spread_W += response.normal_force *
+                        (find_spread(at.elastic.area, meeting.normal_W) +
+                         place * place.transpose());
     if (response.normal_force <= largest) continue;
     largest = response.normal_force;
     reading.friction_force = response.friction_W.norm();
     reading.normal_W = meeting.normal_W;
     reading.p_W = meeting.p_W;
   }
+  if (!(reading.normal_force > 0.0)) return reading;
+  centre /= reading.normal_force;
+  reading.spread_W =
+      reading.spread_W / reading.normal_force - centre * centre.transpose();
   return reading;
 }
 

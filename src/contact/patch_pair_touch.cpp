@@ -184,7 +184,10 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
     reading.friction_W += response.friction_W;
     reading.force_W += response.wrench.wrench_W.head<3>();
     normals += elastic * response.normal_W;
-    centres += elastic * (patch.centre_W - near);
+    const Vector3 centre = patch.centre_W - near;
+    centres += elastic * centre;
+    reading.spread_W +=
+        elastic * (patch.spread_W + centre * centre.transpose());
     reading.depth = std::max(reading.depth, patch.depth);
     // Of a flat with this force and energy.
     const double depth = 2.0 * patch.energy / elastic;
@@ -197,7 +200,10 @@ joints::TouchReading PatchPair::read(const PairBodies& bodies,
   }
   reading.friction_force = reading.friction_W.norm();
   reading.normal_W = normals.normalized();
-  reading.p_W = near + centres / all.load;
+  centres /= all.load;
+  reading.p_W = near + centres;
+  reading.spread_W =
+      reading.spread_W / all.load - centres * centres.transpose();
   // Root mean square of the pressure's rates along the normals.
   reading.normal_speed = std::sqrt(std::max(all.square, 0.0) / all.load);
   reading.elastic_speed = std::sqrt(2.0 * all.energy * all.inverse_mass);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -138,12 +139,41 @@ void write_loads(Hdf5File& out, const SystemModel& model,
   }
 }
 
-/// Place and force on B of a pair at each output; zero while apart.
-MatrixX read_touches(const SystemModel& model, const dynamics::Pair& pair,
-                     const History& history) {
+// Two half axes of the ellipse whose uniform pressure has the second moments of
+// the touch's, in its plane [m].
+Eigen::Matrix<double, 3, 2> find_axes(const joints::TouchReading& touch) {
+  const Vector3 u = touch.normal_W.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> plane;
+  plane << u, touch.normal_W.cross(u);
+  const Eigen::Matrix2d S = plane.transpose() * touch.spread_W * plane;
+  // The principal directions of a symmetric 2 x 2 matrix.
+  const double angle = 0.5 * std::atan2(2.0 * S(0, 1), S(0, 0) - S(1, 1));
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  Eigen::Matrix2d turn;
+  turn << c, -s, s, c;
+  for (int i = 0; i < 2; ++i) {
+    const double square = turn.col(i).dot(S * turn.col(i));
+    turn.col(i) *= 2.0 * std::sqrt(std::max(square, 0.0));
+  }
+  return plane * turn;
+}
+
+constexpr Eigen::Index kTouchNumbers = 6;
+constexpr Eigen::Index kPatchNumbers = 10;
+
+struct TouchCourse {
+  MatrixX touch;  // place and force on B, T x 6; zero while apart
+  MatrixX patch;  // half axes, friction on B, whether it slips, T x 10
+};
+
+TouchCourse read_touches(const SystemModel& model, const dynamics::Pair& pair,
+                         const History& history) {
   joints::PairResponse scratch = dynamics::make_response(model, pair);
-  MatrixX values = MatrixX::Zero(std::ssize(history.states), 6);
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+  const Eigen::Index rows = std::ssize(history.states);
+  TouchCourse course{MatrixX::Zero(rows, kTouchNumbers),
+                     MatrixX::Zero(rows, kPatchNumbers)};
+  for (Eigen::Index i = 0; i < rows; ++i) {
     const dynamics::SystemState& state =
         history.states[static_cast<std::size_t>(i)];
     const dynamics::PairMotion motion = find_pair_motion(model, pair, state);
@@ -152,12 +182,18 @@ MatrixX read_touches(const SystemModel& model, const dynamics::Pair& pair,
           pair.law->touching()->read(motion.bodies(), dynamics::now_of(state),
                                      memory_of(pair, state), scratch);
       if (reading.points == 0) continue;
-      values.row(i) << reading.p_W.transpose(), reading.force_W.transpose();
+      const Eigen::Matrix<double, 3, 2> axes = find_axes(reading);
+      course.touch.row(i) << reading.p_W.transpose(),
+          reading.force_W.transpose();
+      course.patch.row(i) << axes.col(0).transpose(), axes.col(1).transpose(),
+          reading.friction_W.transpose(), reading.slips ? 1.0 : 0.0;
     } catch (const NumericalError&) {
-      values.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      const double gap = std::numeric_limits<double>::quiet_NaN();
+      course.touch.row(i).setConstant(gap);
+      course.patch.row(i).setConstant(gap);
     }
   }
-  return values;
+  return course;
 }
 
 void write_contacts(Hdf5File& out, const SystemModel& model,
@@ -169,9 +205,14 @@ void write_contacts(Hdf5File& out, const SystemModel& model,
     out.write(at + "name", pair.name, "contact");
     out.write(at + "A", name_body(model, pair.body_A), "empty: the world");
     out.write(at + "B", name_body(model, pair.body_B), "empty: the world");
-    out.write(at + "touch", read_touches(model, pair, history), "m, N",
+    const TouchCourse course = read_touches(model, pair, history);
+    out.write(at + "touch", course.touch, "m, N",
               "place and force on B at each output, world; zero while apart, "
               "NaN where it cannot be computed");
+    out.write(at + "patch", course.patch, "m, m, N, 1",
+              "two half axes of the ellipse of uniform pressure with the "
+              "touch's second moments, friction on B, 1 where it slips, world; "
+              "zero while apart, NaN where it cannot be computed");
   }
 }
 

@@ -189,7 +189,8 @@ class PageWriter {
     for (const Contact& contact : recording.contacts) {
       result["contacts"].push_back(
           {{"name", contact.name},
-           {"touch", arrays_.add(find_touch(contact, home))}});
+           {"touch", arrays_.add(find_touch(contact, home))},
+           {"patch", arrays_.add(contact.patch)}});
     }
     for (const Event& event : recording.events) {
       result["events"].push_back({{"time", event.time},

@@ -364,9 +364,12 @@ class RecordingReader {
   void read_contacts() {
     for (const std::string& step : in_.list("scene/contacts")) {
       const std::string at = "scene/contacts/" + step + "/";
+      // Files of older versions have no patches.
       recording_.contacts.push_back(
           {in_.read_text(at + "name"),
-           matrix_with_gaps(at + "touch", outputs(), 6)});
+           matrix_with_gaps(at + "touch", outputs(), 6),
+           in_.has(at + "patch") ? matrix_with_gaps(at + "patch", outputs(), 10)
+                                 : MatrixX()});
     }
   }
 

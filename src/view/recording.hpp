@@ -81,6 +81,9 @@ struct Load {
 struct Contact {
   std::string name;
   MatrixX touch;  ///< T x 6: place [m], force on the second body [N], world
+  /// T x 10: half axes of its ellipse [m], friction on the second body [N],
+  /// 1 where it slips, world. Empty: not in the file.
+  MatrixX patch;
 };
 
 struct Event {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "limber/common/files/hdf5_file.hpp"
 
 namespace limber::test::shapes_contact_test {
 namespace {
@@ -49,6 +50,42 @@ TEST(BlockOnABox, HoldsOnASlope) {
   EXPECT_LT(std::abs(p["final"].get<double>()), 1e-5);
   ASSERT_EQ(run["contacts"].size(), 1U);
   EXPECT_NEAR(run["contacts"][0]["impulse"].get<double>(), 2.0 * 9.66136, 0.05);
+}
+
+/// The last row of the patch that the results hold.
+Eigen::VectorXd read_patch(const Workspace& place) {
+  const Hdf5File file = Hdf5File::open(place.folder() / "o/results.h5");
+  const MatrixX rows = file.read_matrix("scene/contacts/0000/patch");
+  return rows.row(rows.rows() - 1).transpose();
+}
+
+// A pressure that is linear across 0.1 x 0.1 m has second moments of 0.1^2 / 12
+// about its centre, less its distance e from the middle squared along the
+// slope: friction, 50 mm below the block's centre, shifts it.
+TEST(BlockOnABox, ShowsTheEllipseAndTheFrictionOfItsPatch) {
+  const Workspace place;
+  for (const double mu : {0.3, 0.1}) {
+    (void)run_block(place, kBox, 1e-6,
+                    "friction = " + std::to_string(mu) +
+                        "\nrestitution = 0.2\n[gravity]\n"
+                        "acceleration = [1.70354, 0.0, -9.66136]\n"
+                        "[time]\nduration = 0.3\nstep = 1e-3\n");
+    const Eigen::VectorXd patch = read_patch(place);
+    const Vector3 u = patch.head<3>();
+    const Vector3 v = patch.segment<3>(3);
+    const bool slips = mu < 0.2;
+    const double friction = 2.0 * (slips ? mu * 9.66136 : 1.70354);
+    const double e = 0.05 * friction / (2.0 * 9.66136);
+    const double across = 2.0 * std::sqrt(0.01 / 12.0);
+    const double along = 2.0 * std::sqrt(0.01 / 12.0 - e * e);
+    EXPECT_NEAR(u.norm(), across, 0.01 * across);
+    EXPECT_NEAR(v.norm(), along, 0.02 * along);
+    EXPECT_LT(std::abs(u.dot(v)), 1e-9);
+    EXPECT_LT(std::abs(u.z()) + std::abs(v.z()), 1e-6);
+    // On the table.
+    EXPECT_NEAR(patch[6], friction, 0.01 * friction);
+    EXPECT_EQ(patch[9], slips ? 1.0 : 0.0);
+  }
 }
 
 TEST(BlockOnABox, SlidesAsCoulombSays) {

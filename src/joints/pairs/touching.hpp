@@ -46,6 +46,8 @@ struct TouchReading {
   bool slips = false;  ///< whether one does
   /// The part of force_W that is friction [N].
   Vector3 friction_W = Vector3::Zero();
+  /// Second moments of all points' pressure about their centre [m^2].
+  Matrix3 spread_W = Matrix3::Zero();
 };
 
 /// What a pair interaction offers if its bodies touch and part: the times at

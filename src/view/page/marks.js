@@ -1,11 +1,14 @@
 // Couplers, tendons, loads and contacts.
 import * as THREE from 'three';
+import { makeMap } from './colours.js';
 import { factorAt, locate, rotate } from './motion.js';
 
 const kColours = {
   joint: 0x333333, bushing: 0x7f7f7f, spring: 0x2ca02c, latch: 0x9467bd, tendon: 0x8c564b,
-  load: 0xd62728, contact: 0xff7f0e,
+  load: 0xd62728, contact: 0xff7f0e, stick: 0x1f77b4, slip: 0xd62728,
 };
+const kTouch = 6;  // numbers of an output
+const kPatch = 10;
 
 // In front of all bodies: most of it is inside of one, or behind.
 function makeArrow(colour) {
@@ -28,6 +31,16 @@ function makeTwist(colour) {
   return arrow;
 }
 
+// The ellipse of a touch, a disc of radius 1 that is moved into place.
+function makePatch() {
+  const material = new THREE.MeshBasicMaterial({
+    depthTest: false, transparent: true, opacity: 0.8, side: THREE.DoubleSide });
+  const patch = new THREE.Mesh(new THREE.CircleGeometry(1, 48), material);
+  patch.renderOrder = 1;
+  patch.matrixAutoUpdate = false;
+  return patch;
+}
+
 const kUp = new THREE.Vector3(0, 1, 0);
 
 // Points at `p` if `towards`, else away from it.
@@ -40,6 +53,19 @@ function aim(arrow, p, vector, length, towards) {
   arrow.scale.setScalar(length);
   arrow.position.set(...p);
   if (towards) arrow.position.addScaledVector(direction, -length);
+}
+
+// The normal force over the ellipse's area [Pa]; 0 where there is none.
+function pressureOf(touch, patch, i) {
+  const p = patch.subarray(kPatch * i, kPatch * (i + 1));
+  if (p.length === 0) return 0;
+  const u = new THREE.Vector3(...p.subarray(0, 3));
+  const v = new THREE.Vector3(...p.subarray(3, 6));
+  const normal = new THREE.Vector3().crossVectors(u, v);
+  const area = Math.PI * normal.length();
+  if (!(area > 0)) return 0;
+  const force = new THREE.Vector3(...touch.subarray(kTouch * i + 3, kTouch * i + 6));
+  return Math.abs(force.dot(normal.normalize())) / area;
 }
 
 const largestFactor = (course) => {
@@ -102,17 +128,49 @@ export class Marks {
 
   addContacts({ contacts }) {
     let most = 0;
-    for (const { touch } of contacts) {
-      for (let i = 0; i < touch.length; i += 6) {
-        const size = Math.hypot(touch[i + 3], touch[i + 4], touch[i + 5]);
-        if (Number.isFinite(size)) most = Math.max(most, size);
+    let mostPressure = 0;
+    for (const { touch, patch } of contacts) {
+      for (let i = 0; i < touch.length / kTouch; ++i) {
+        const force = Math.hypot(...touch.subarray(kTouch * i + 3, kTouch * i + 6));
+        if (Number.isFinite(force)) most = Math.max(most, force);
+        const pressure = pressureOf(touch, patch, i);
+        if (Number.isFinite(pressure)) mostPressure = Math.max(mostPressure, pressure);
       }
     }
-    return contacts.map(({ touch }) => {
+    this.mostPressure = mostPressure;
+    this.map = makeMap().image.data;
+    return contacts.map(({ touch, patch }) => {
       const arrow = makeArrow(kColours.contact);
-      this.contacts.add(arrow);
-      return { touch, arrow, scale: most > 0 ? 1 / most : 0 };
+      const friction = makeArrow(kColours.stick);
+      const area = makePatch();
+      this.contacts.add(area, arrow, friction);
+      return { touch, patch, arrow, friction, area, scale: most > 0 ? 1 / most : 0 };
     });
+  }
+
+  updateContact({ touch, patch, arrow, friction, area, scale }, i, home) {
+    const { map } = this;
+    const row = touch.subarray(kTouch * i, kTouch * (i + 1));
+    const force = row.subarray(3);
+    const place = home.map((value, c) => value + row[c]);
+    aim(arrow, place, force, this.length(scale * Math.hypot(...force)), false);
+    const numbers = patch.subarray(kPatch * i, kPatch * (i + 1));
+    const pressure = pressureOf(touch, patch, i);
+    area.visible = pressure > 0 && Number.isFinite(pressure);
+    if (area.visible) {
+      const u = new THREE.Vector3(...numbers.subarray(0, 3));
+      const v = new THREE.Vector3(...numbers.subarray(3, 6));
+      const n = new THREE.Vector3().crossVectors(u, v).normalize();
+      area.matrix.makeBasis(u, v, n).setPosition(...place);
+      const at = 4 * Math.round(255 * (pressure / this.mostPressure));
+      area.material.color.setRGB(
+        map[at] / 255, map[at + 1] / 255, map[at + 2] / 255, THREE.SRGBColorSpace);
+    }
+    const along = numbers.subarray(6, 9);
+    const share = numbers.length > 0 ? scale * Math.hypot(...along) : 0;
+    aim(friction, place, along, this.length(share), false);
+    const colour = numbers[9] > 0 ? kColours.slip : kColours.stick;
+    for (const part of friction.children) part.material.color.setHex(colour);
   }
 
   update(t, magnification) {
@@ -129,12 +187,7 @@ export class Marks {
     }
     for (const item of this.forces) this.updateLoad(item, t, at, magnification);
     const home = this.motion.home(at);
-    for (const { touch, arrow, scale } of this.touches) {
-      const row = touch.subarray(6 * at.i, 6 * at.i + 6);
-      const force = row.subarray(3);
-      const place = home.map((value, c) => value + row[c]);
-      aim(arrow, place, force, this.length(scale * Math.hypot(...force)), false);
-    }
+    for (const touch of this.touches) this.updateContact(touch, at.i, home);
   }
 
   updateLoad({ load, force, moment, forceScale, momentScale }, t, at, magnification) {

@@ -79,7 +79,16 @@ function marksSection(view) {
   const rows = [];
   if (marks.marks.length > 0) rows.push(row(' joints, couplers, tendons', marks.couplers));
   if (marks.forces.length > 0) rows.push(row(' loads', marks.loads));
-  if (marks.touches.length > 0) rows.push(row(' contacts', marks.contacts));
+  if (marks.touches.length > 0) {
+    rows.push(row(' contacts', marks.contacts));
+    if (marks.mostPressure > 0) {
+      rows.push(make('p', {
+        className: 'hint',
+        textContent: `mean pressure in the ellipses, red: ${format(marks.mostPressure, 'Pa')}; ` +
+          'friction blue: sticks, red: slips',
+      }));
+    }
+  }
   return rows.length > 0 ? [section('Marks', rows)] : [];
 }
 

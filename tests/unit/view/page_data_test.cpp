@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "limber/view/page_data.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <zlib.h>
 
 #include <cstring>
@@ -109,9 +109,12 @@ TEST(PageData, TouchesCountFromTheOffsetAndTheCommonMotion) {
     for (const Body& body : recording.bodies) mean += 0.5 * body.p_WB;
     touch.leftCols(3) = mean.rowwise() + beside.transpose();
     touch.rightCols(3).setConstant(5.0);
-    recording.contacts = {{"pair", touch}};
+    const MatrixX patch = MatrixX::Constant(kFlightOutputs, 10, 0.25);
+    recording.contacts = {{"pair", touch, patch}};
     const Page page(recording);
     const auto values = page.read<float>(page.result()["contacts"][0]["touch"]);
+    EXPECT_THAT(page.read<float>(page.result()["contacts"][0]["patch"]),
+                ::testing::Each(0.25F));
     const Vector3 offset = to_vector(page.result()["offset"]);
     const double rounding = 0x1p-51 * mean.cwiseAbs().maxCoeff() + 1e-7;
     for (Eigen::Index i = 0; i < kFlightOutputs; ++i) {
