@@ -23,10 +23,17 @@ namespace {
 constexpr double kRoundoff = 4.0 * std::numeric_limits<double>::epsilon();
 // Small inertias and nearly constant coordinates amplify it by up to this [-].
 constexpr double kNoise = 100.0;
-// Contraction above which to factor again, since many iterations are needed to
-// reach round-off; the second one applies to fresh factors [-].
-constexpr double kPoorStepContraction = 0.05;
+// Contraction above which to factor again: by factors of an earlier step, which
+// then take three corrections or more to reach round-off, and by those of this
+// step [-].
+constexpr double kPoorStepContraction = 0.003;
 constexpr double kPoorFreshContraction = 0.1;
+// Contraction above which corrections that reverse alternate [-].
+constexpr double kAlternating = 0.25;
+// Change of the contraction that only round-off causes [-].
+constexpr double kStalled = 2.0;
+// Largest factor by which a change of velocities is extrapolated [-].
+constexpr double kLongestTrend = 2.0;
 // Share of a correction that undoes the last one [-].
 constexpr double kDamped = 0.5;
 
@@ -62,13 +69,45 @@ EnergyConserving::EnergyConserving(const SystemModel& model,
       residual_(VectorX::Zero(count_unknowns(model))),
       x_(VectorX::Zero(count_unknowns(model))),
       step_(make_rates(model)),
+      courses_{Course{make_rates(model), 0.0}, Course{make_rates(model), 0.0}},
+      left_(make_state(model)),
       progress_(model) {
   LIMBER_EXPECT(model.full_bodies.empty());
 }
 
-// Predicts unchanged velocities of bodies, free vibration of modes and
-// unchanged wrenches of couplers.
+// Predicts mean velocities that change as between the last two steps: those of
+// motion that the steps do not resolve are near zero, and remain so.
 void EnergyConserving::predict(const SystemState& from, double h) {
+  const Course& last = courses_[0];
+  const Course& before = courses_[1];
+  const double growth = (last.h + h) / (last.h + before.h);
+  const bool has_trend = last.h > 0.0 && before.h > 0.0 &&
+                         growth <= kLongestTrend && continues(from);
+  if (!has_trend) return start(from, h);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Vector3& v = last.mean.translation[b];
+    const Vector3& w = last.mean.rotation[b];
+    middle_.bodies[b].v_WB_W = v + growth * (v - before.mean.translation[b]);
+    middle_.bodies[b].w_WB_B = w + growth * (w - before.mean.rotation[b]);
+  }
+  middle_.etadot =
+      last.mean.modes + growth * (last.mean.modes - before.mean.modes);
+}
+
+// Whether a step begins where the last one ended, at its velocities.
+bool EnergyConserving::continues(const SystemState& from) const {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (from.bodies[b].v_WB_W != left_.bodies[b].v_WB_W ||
+        from.bodies[b].w_WB_B != left_.bodies[b].w_WB_B) {
+      return false;
+    }
+  }
+  return from.t == left_.t && from.etadot == left_.etadot;
+}
+
+// Predicts unchanged velocities of bodies, free vibration of modes and the
+// wrenches of couplers at the begin.
+void EnergyConserving::start(const SystemState& from, double h) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     middle_.bodies[b].v_WB_W = from.bodies[b].v_WB_W;
@@ -90,7 +129,7 @@ void EnergyConserving::predict(const SystemState& from, double h) {
                            0.25 * h * h * stiffness * lambda[k]);
     }
   }
-  if (has_wrenches_) return;
+  if (courses_[0].h > 0.0) return;
   for (std::size_t c = 0; c < mean_.couplers.size(); ++c) {
     mean_.couplers[c].applied = 2.0 * begin_.couplers[c].response.wrench;
   }
@@ -98,7 +137,18 @@ void EnergyConserving::predict(const SystemState& from, double h) {
     mean_.transmissions[i].applied =
         2.0 * begin_.transmissions[i].response.force;
   }
-  has_wrenches_ = true;
+}
+
+void EnergyConserving::keep_course(const SystemState& end, double h) {
+  std::swap(courses_[0], courses_[1]);
+  Course& last = courses_[0];
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    last.mean.translation[b] = middle_.bodies[b].v_WB_W;
+    last.mean.rotation[b] = middle_.bodies[b].w_WB_B;
+  }
+  last.mean.modes = middle_.etadot;
+  last.h = h;
+  left_ = end;
 }
 
 // The step's end that the mean velocities imply.
@@ -222,6 +272,7 @@ bool EnergyConserving::reverses_last() const {
   return std::any_of(progress_.groups().begin(), progress_.groups().end(),
                      [](const GroupProgress& g) {
                        return g.now.value > g.roundoff.rigid &&
+                              g.contraction() > kAlternating &&
                               g.reversal.is_backward();
                      });
 }
@@ -254,13 +305,15 @@ double EnergyConserving::find_noise(const GroupProgress& group) const {
                   settings_.tolerance * group.motion);
 }
 
-// Whether a sixteenth of round-off is left; corrections that no longer shrink
-// are round-off.
+// Whether a quarter of round-off is left; corrections that no longer shrink, or
+// less than the one before did, are round-off.
 void EnergyConserving::judge() {
   for (GroupProgress& g : progress_.groups()) {
     const double roundoff = std::max(kRoundoff * g.motion, g.roundoff.step);
     const bool stays = g.before.value > 0.0 && g.contraction() > 0.5;
-    g.is_done = 16.0 * g.rest() <= roundoff ||
+    const bool stalls = g.contraction() > kStalled * g.contraction_before &&
+                        g.now.value <= settings_.tolerance * g.motion;
+    g.is_done = 4.0 * g.rest() <= roundoff || stalls ||
                 ((g.was_done || stays) && g.now.value <= find_noise(g));
   }
 }
@@ -283,8 +336,7 @@ bool EnergyConserving::contracts_poorly(double poor) const {
 
 void EnergyConserving::fail(double end, const char* what) {
   const CorrectionSize& worst = progress_.find_worst().now;
-  factored_step_ = 0.0;
-  has_wrenches_ = false;
+  refresh();
   throw NumericalError(fmt::format(
       "body '{}' at t = {:.9g} s: {} (last correction {:.3g} m, tolerance "
       "{:.3g} of the step's motion); a smaller step may help",
@@ -343,6 +395,7 @@ StepResult EnergyConserving::step(SystemState& state, double h, double end) {
   flows_.clear();
   add_powers(mean_, h, flows_);
   set_work(flows_, result);
+  keep_course(next_, h);
   std::swap(state, next_);
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "limber/dynamics/integrators/integrator.hpp"
@@ -38,8 +39,9 @@ namespace limber::dynamics {
 class EnergyConserving final : public Integrator {
  public:
   struct Settings {
-    /// Newton's method iterates to round-off; it fails if the correction is
-    /// still larger than this after max_iterations, relative to the step's
+    /// Newton's method iterates to round-off. Corrections below this that
+    /// shrink less than the one before are round-off; it fails if the
+    /// correction is still larger after max_iterations. Relative to the step's
     /// motion [-].
     double tolerance = 1e-12;
     int max_iterations = 20;  ///< count, per step
@@ -48,13 +50,13 @@ class EnergyConserving final : public Integrator {
   EnergyConserving(const SystemModel& model, const Settings& settings);
 
   StepResult step(SystemState& state, double h, double end) override;
-  /// Does nothing: the scheme has no history.
+  /// Does nothing: the last steps only predict the next.
   void exchange_memory(Archive& /*archive*/,
                        const SystemState& /*state*/) override {}
-  /// Discards factors and the initial guess of the wrenches.
+  /// Discards factors and the last steps, which predict the next.
   void refresh() override {
     factored_step_ = 0.0;
-    has_wrenches_ = false;
+    courses_[0].h = courses_[1].h = 0.0;
   }
   [[nodiscard]] long take_solves() override { return matrix_.take_solves(); }
   [[nodiscard]] const SystemTerms& terms() const override { return end_; }
@@ -62,6 +64,9 @@ class EnergyConserving final : public Integrator {
 
  private:
   void predict(const SystemState& from, double h);
+  void start(const SystemState& from, double h);
+  [[nodiscard]] bool continues(const SystemState& from) const;
+  void keep_course(const SystemState& end, double h);
   void advance(const SystemState& from, double h, double end);
   void calc_residual(const SystemState& from, double h);
   void calc_body_residual(const SystemState& from, double h, std::size_t b);
@@ -86,9 +91,8 @@ class EnergyConserving final : public Integrator {
   SystemTerms begin_;
   SystemTerms end_;
   // Forces over the step. The wrenches of the last step are the initial guess
-  // of the next; without a last step, those of the laws are.
+  // of the next.
   SystemTerms mean_;
-  bool has_wrenches_ = false;
   StepMotion motion_;
   EnergyFlows flows_;
   MaxwellMotion maxwell_;
@@ -99,6 +103,13 @@ class EnergyConserving final : public Integrator {
   VectorX residual_;
   VectorX x_;
   Rates step_;  // of velocities over the step
+  // The last two steps, the last one first; they predict the next.
+  struct Course {
+    Rates mean;      // velocities
+    double h = 0.0;  // 0: there is none [s]
+  };
+  std::array<Course, 2> courses_;
+  SystemState left_;  // where the last one ended
   NewtonProgress progress_;
 };
 

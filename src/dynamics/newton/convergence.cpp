@@ -83,6 +83,7 @@ void NewtonProgress::include(const VectorX& increments, bool compares) {
   is_compared_ = compares;
   if (compares) last_ = increments;
   for (std::size_t g = 0; g < progress_.size(); ++g) {
+    progress_[g].contraction_before = progress_[g].contraction();
     progress_[g].before = progress_[g].now;
     progress_[g].now = sizes_[g];
     progress_[g].reversal = reversals_[g];

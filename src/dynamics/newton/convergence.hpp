@@ -46,8 +46,9 @@ struct GroupProgress {
   Reversal reversal;      ///< from one to the other, if they were compared
   CorrectionSize limit;   ///< largest error allowed
   Roundoff roundoff;
-  double motion = 0.0;    ///< the step's [m]
-  bool was_done = false;  ///< before the last correction
+  double motion = 0.0;              ///< the step's [m]
+  double contraction_before = 1.0;  ///< at the correction before the last [-]
+  bool was_done = false;            ///< before the last correction
   bool is_done = false;
 
   /// Of the last correction by the one before; 1 if there was none [-].

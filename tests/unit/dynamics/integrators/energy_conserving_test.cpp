@@ -107,6 +107,27 @@ TEST_P(EnergyConservingLink, ClosesTheBalanceAndKeepsMomentumToRoundOff) {
   }
 }
 
+long count_iterations(const testing::LinkedBodies& bodies, double h,
+                      int steps) {
+  EnergyConserving scheme(bodies.model, {});
+  SystemState state = bodies.state;
+  long count = 0;
+  for (int i = 0; i < steps; ++i) {
+    count += scheme.step(state, h, state.t + h).iterations;
+  }
+  return count;
+}
+
+// As the other implicit schemes do: without the last step as a prediction it is
+// seven to ten.
+TEST_P(EnergyConservingLink, TakesFiveIterationsAStepAtMost) {
+  const auto link = testing::make_all_links(0.5).at(GetParam());
+  const auto bodies =
+      testing::make_linked_bodies(link, std::array{true, true, true}, 3, 1.0);
+  constexpr int kSteps = 200;
+  EXPECT_LE(count_iterations(bodies, 2e-4, kSteps), 5 * kSteps);
+}
+
 // Interfaces and inertia of second order in the modes.
 TEST_P(EnergyConservingLink, ClosesTheBalanceOfNonlinearBodies) {
   const auto link = testing::make_all_links(0.5).at(GetParam());
