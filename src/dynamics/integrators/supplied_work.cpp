@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "limber/dynamics/integrators/rotation_path.hpp"
+
 namespace limber::dynamics {
 namespace {
 
@@ -22,6 +24,8 @@ SuppliedWork::SuppliedWork(const SystemModel& model)
   list_rows();
   now_.resize(row_of_.size());
   before_ = now_;
+  turned_.resize(moments_.size());
+  turned_before_ = turned_;
 }
 
 void SuppliedWork::list_loads() {
@@ -29,12 +33,14 @@ void SuppliedWork::list_loads() {
     const Load& load = model_.loads[i];
     const auto at = static_cast<std::size_t>(load.where);
     const BodyIndex b = model_.attachments[at].body;
-    if (b == kWorld || !load.in_world || load.force.isZero(0.0)) continue;
+    if (b == kWorld) continue;
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(b)];
     const bool is_undeformed =
         body.modes > 0 && body.fidelity < Fidelity::coupled;
     if (is_undeformed || body.full >= 0) continue;
-    loads_.push_back(i);
+    if (load.in_world && !load.force.isZero(0.0)) loads_.push_back(i);
+    if (load.moment.isZero(0.0)) continue;
+    if (load.in_world || body.modes == 0) moments_.push_back(i);
   }
 }
 
@@ -45,13 +51,15 @@ void SuppliedWork::list_rows() {
         (drive.is_transmission ? rows.transmissions : rows.couplers) +
         static_cast<Eigen::Index>(drive.index));
   }
-  for (const std::size_t i : loads_) {
+  const auto add_load = [&](std::size_t i) {
     const auto at = static_cast<std::size_t>(model_.loads[i].where);
     row_of_.push_back(model_.attachments[at].body);
-  }
+  };
+  for (const std::size_t i : loads_) add_load(i);
   for (const std::size_t b : bodies_) {
     row_of_.push_back(static_cast<Eigen::Index>(b));
   }
+  for (const std::size_t i : moments_) add_load(i);
 }
 
 void SuppliedWork::read(const SystemState& state, const SystemTerms& terms,
@@ -79,6 +87,37 @@ void SuppliedWork::read(const SystemState& state, const SystemTerms& terms,
     now_[n++] = {1.0, weight.dot(body.p_WB), weight.dot(body.v_WB_W),
                  weight.norm() * body.p_WB.norm()};
   }
+  read_moments(terms, now);
+}
+
+// All but the places, which are those of a step.
+void SuppliedWork::read_moments(const SystemTerms& terms, const Instant& now) {
+  const std::size_t first = now_.size() - moments_.size();
+  for (std::size_t m = 0; m < moments_.size(); ++m) {
+    const Load& load = model_.loads[moments_[m]];
+    const AttachmentMotion& at =
+        terms.attachments[static_cast<std::size_t>(load.where)];
+    turned_[m] = load.in_world
+                     ? Turned{at.R_WF, at.w_WF_W}
+                     : Turned{at.R_WB, at.R_WB.transpose() * at.w_WF_W};
+    now_[first + m] = {evaluate(load.function, now), 0.0,
+                       load.moment.dot(turned_[m].w), load.moment.norm()};
+  }
+}
+
+void SuppliedWork::set_moment_paths(double h) {
+  const std::size_t first = now_.size() - moments_.size();
+  for (std::size_t m = 0; m < moments_.size(); ++m) {
+    const Load& load = model_.loads[moments_[m]];
+    const Turned& from = turned_before_[m];
+    const Turned& to = turned_[m];
+    before_[first + m].place = 0.0;
+    const Matrix3 R = load.in_world ? Matrix3(to.R_WF * from.R_WF.transpose())
+                                    : Matrix3(from.R_WF.transpose() * to.R_WF);
+    const Vector3 path = integrate_rotation(
+        R, from.w, to.w, h, load.in_world ? Axes::fixed : Axes::rotating);
+    now_[first + m].place = load.moment.dot(path);
+  }
 }
 
 void SuppliedWork::start(const SystemState& state, const SystemTerms& terms) {
@@ -101,7 +140,9 @@ double SuppliedWork::find_correction(const Path& first, const Path& last,
 void SuppliedWork::advance(const SystemState& to, const SystemTerms& terms,
                            double h, VectorX& work) {
   now_.swap(before_);
+  turned_.swap(turned_before_);
   read(to, terms, Side::left);
+  set_moment_paths(h);
   for (std::size_t i = 0; i < now_.size(); ++i) {
     work[row_of_[i]] += find_correction(before_[i], now_[i], h);
   }
