@@ -29,7 +29,7 @@ FramePlan at_end(int body, const BodyPlan& plan, bool is_far,
 
 class PlanDraw {
  public:
-  explicit PlanDraw(unsigned seed) : draw_(seed) {}
+  explicit PlanDraw(unsigned seed) : seed_(seed), draw_(seed) {}
 
   ScenePlan draw() {
     size_ = draw_.log_uniform(0.1, 10.0);
@@ -49,6 +49,7 @@ class PlanDraw {
                         draw_.log_uniform(1e-2, 0.5) * draw_.direction();
     }
     plan_.settings = draw_settings();
+    add_more();
     return std::move(plan_);
   }
 
@@ -219,6 +220,35 @@ class PlanDraw {
     plan_.loads.push_back(std::move(load));
   }
 
+  // Of seeds that draw nothing for it, so that other scenes stay as they are.
+  void add_more() {
+    if (seed_ % 5 == 2) {
+      for (BodyPlan& body : plan_.bodies) {
+        if (body.modes > 0 && draw_.chance(0.7)) {
+          body.level = dynamics::Fidelity::nonlinear;
+        }
+      }
+    }
+    if (seed_ % 7 == 4 || seed_ % 7 == 6) {
+      const auto last = static_cast<int>(plan_.bodies.size()) - 1;
+      const int controllers = draw_.integer(1, 2);
+      for (int i = 0; i < controllers; ++i) add_controller(i, last);
+    }
+  }
+
+  void add_controller(int number, int last_body) {
+    ControllerPlan controller;
+    controller.name = "brake" + std::to_string(number);
+    controller.where.body = draw_.integer(0, last_body);
+    controller.axis = draw_.direction();
+    controller.gain = frequency_ * draw_.log_uniform(0.003, 0.1);
+    controller.period =
+        draw_.log_uniform(2.0, 20.0) * plan_.settings.end_time / 96.0;
+    controller.hold = draw_.chance(0.5) ? dynamics::InputHold::held
+                                        : dynamics::InputHold::linear;
+    plan_.controllers.push_back(controller);
+  }
+
   dynamics::SimulationSettings draw_settings() {
     using dynamics::IntegratorKind;
     dynamics::SimulationSettings settings;
@@ -246,6 +276,7 @@ class PlanDraw {
     return settings;
   }
 
+  unsigned seed_;
   RandomDraw draw_;
   ScenePlan plan_;
   double size_ = 1.0;

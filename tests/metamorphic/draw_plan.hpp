@@ -11,9 +11,9 @@ inline constexpr double kNewtonTolerance = 1e-15;
 /// Draws a scene that an integrator can follow in some 100 steps: one to six
 /// bodies, rigid or flexible, held or free, on joints of all kinds with
 /// springs, friction, stops and drives, on latches, cables, tendons and gears,
-/// with loads and gravity. The same seed gives the same scene everywhere.
-/// (testing::draw_scene draws extremes, and systems that cannot be changed any
-/// more.)
+/// with loads, gravity and controllers. The same seed gives the same scene
+/// everywhere. (testing::draw_scene draws extremes, and systems that cannot be
+/// changed any more.)
 [[nodiscard]] ScenePlan draw_plan(unsigned seed);
 
 }  // namespace limber::metamorphic

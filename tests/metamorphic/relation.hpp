@@ -16,6 +16,9 @@ namespace limber::metamorphic {
 /// A scene changed in a way that cannot matter.
 struct Changed {
   ScenePlan plan;
+  /// The changed scene with ten times the flexibility that it has beyond the
+  /// first: differs from it by more than it differs from the first.
+  std::optional<ScenePlan> softer = {};
   /// Turns what the changed scene does into what the first one should do.
   std::function<void(Output&)> undo = [](Output&) {};
   /// Where and how fast its bodies are at most, beyond the first scene's:

@@ -35,6 +35,7 @@ std::optional<Changed> reorder(const ScenePlan& plan, RandomDraw& draw) {
   });
   shuffle(p.couplers, draw);
   shuffle(p.loads, draw);
+  shuffle(p.controllers, draw);
   return changed;
 }
 
@@ -89,6 +90,7 @@ std::optional<Changed> add_twin(const ScenePlan& plan, RandomDraw&) {
   append(p.paths, twin.paths);
   append(p.gears, twin.gears);
   append(p.loads, twin.loads);
+  append(p.controllers, twin.controllers);
   return changed;
 }
 
@@ -135,6 +137,78 @@ std::optional<Changed> add_probes(const ScenePlan& plan, RandomDraw& draw) {
   return changed;
 }
 
+// Every rigid body in two halves on a stiff joint, which have its mass, centre
+// and inertia together.
+ScenePlan split(const ScenePlan& plan, double stiffness, double step) {
+  ScenePlan halves = plan;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const BodyPlan& whole = plan.bodies[b];
+    if (whole.modes > 0) continue;
+    const auto upper = static_cast<int>(halves.bodies.size());
+    const double arm = kHalfArm * whole.length;
+    const auto make_half = [&](int half) {
+      BodyPlan body = whole;
+      const Vector3 place(0.0, 0.0, half * arm);
+      body.half = half;
+      body.mass = 0.5 * whole.mass;
+      body.X_WB.p = whole.X_WB * place;
+      body.v_WB_W += whole.X_WB.R * whole.w_WB_B.cross(place);
+      return body;
+    };
+    halves.bodies[b] = make_half(-1);
+    halves.bodies.push_back(make_half(1));
+    halves.bodies.back().name += "_upper";
+    for_each_frame(halves, [&](FramePlan& f) {
+      if (f.body != static_cast<int>(b)) return;
+      const bool is_upper = f.X.p.z() > 0.0;
+      if (is_upper) f.body = upper;
+      f.X.p.z() += is_upper ? -arm : arm;
+    });
+    for (ControllerPlan& c : halves.controllers) {
+      if (c.where.body == static_cast<int>(b)) c.gain *= 2.0;  // per mass
+    }
+    CouplerPlan joint;
+    joint.name = whole.name + "_joint";
+    joint.F = {static_cast<int>(b), "", {Matrix3::Identity(), {0, 0, arm}}};
+    joint.M = {upper, "", {Matrix3::Identity(), {0, 0, -arm}}};
+    const double k = stiffness * whole.mass;
+    const double c = 2.0 * step * k;  // explicit Euler needs as much
+    joint.law = [=,
+                 l = 0.2 * whole.length](const Manner&) -> joints::CouplerLaw {
+      return joints::make_joint(joints::JointKind::fixed, Vector3::UnitZ(),
+                                Vector3::UnitX(),
+                                {.translational_stiffness = k,
+                                 .rotational_stiffness = k * l * l,
+                                 .translational_damping = c,
+                                 .rotational_damping = c * l * l});
+    };
+    halves.couplers.push_back(std::move(joint));
+  }
+  return halves;
+}
+
+std::optional<Changed> split_links(const ScenePlan& plan, RandomDraw&) {
+  const auto is_rigid = [](const BodyPlan& b) { return b.modes == 0; };
+  if (std::none_of(plan.bodies.begin(), plan.bodies.end(), is_rigid)) return {};
+  const double step = plan.settings.tolerance > 0.0
+                          ? plan.settings.end_time / 96.0
+                          : plan.settings.step;
+  const double stiffness = 0.1 / (step * step);
+  Changed changed{.plan = split(plan, stiffness, step)};
+  changed.softer = split(plan, 0.1 * stiffness, step);
+  changed.steps = Changed::Steps::others;
+  changed.undo = [plan](Output& output) {
+    for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+      if (plan.bodies[b].modes > 0) continue;
+      BodyMotion& body = output.bodies[b];
+      const Vector3 place(0.0, 0.0, kHalfArm * plan.bodies[b].length);
+      body.p_WB += body.R_WB * place;
+      body.v_WB_W += body.R_WB * body.w_WB_B.cross(place);
+    }
+  };
+  return changed;
+}
+
 std::optional<Changed> halve_outputs(const ScenePlan& plan, RandomDraw&) {
   Changed changed{.plan = plan};
   changed.steps = Changed::Steps::same_without_marks;
@@ -153,7 +227,8 @@ std::vector<Relation> relations_of_company() {
           {"Stranger", add_stranger(10.0)},
           {"FastStranger", add_stranger(5000.0)},
           {"Probed", add_probes},
-          {"HalfTheOutputs", halve_outputs}};
+          {"HalfTheOutputs", halve_outputs},
+          {"SplitLinks", split_links}};
 }
 
 }  // namespace limber::metamorphic

@@ -37,7 +37,8 @@ bool has_break(const std::vector<double>& times, const Scene& scene) {
 
 bool has_break(const Scene& scene) {
   const dynamics::SystemModel& model = scene.model;
-  return std::any_of(model.loads.begin(), model.loads.end(),
+  return !model.controllers.empty() ||
+         std::any_of(model.loads.begin(), model.loads.end(),
                      [&](const dynamics::Load& load) {
                        return has_break(break_times(load.function), scene);
                      }) ||

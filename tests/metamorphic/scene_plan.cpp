@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "metamorphic/second_order.hpp"
 #include "support/point_mass_body.hpp"
 
 namespace limber::metamorphic {
@@ -43,6 +44,10 @@ std::shared_ptr<const flexbody::ReducedBody> make_points(const BodyPlan& plan,
   };
   add("near", 0, 5);
   add("far", 5, 10);
+  if (plan.level == dynamics::Fidelity::nonlinear) {
+    add_second_order(points.reduced, find_reflection(manner), length,
+                     plan.variant);
+  }
   return testing::share(points);
 }
 
@@ -60,6 +65,7 @@ class Building {
     for (const PathPlan& p : plan_.paths) add(p);
     for (const GearPlan& g : plan_.gears) add(g);
     for (const LoadPlan& l : plan_.loads) add(l);
+    for (const ControllerPlan& c : plan_.controllers) add(c);
     for (const FramePlan& f : plan_.probes) attach("probe", f);
     builder_.set_gravity(L_ * M_ * plan_.gravity_W);
     Scene scene;
@@ -78,8 +84,9 @@ class Building {
     reduced_.emplace_back();
     if (plan.modes == 0) {
       const double l = L_ * plan.length;
-      const Matrix3 J = plan.mass * l * l *
-                        Vector3(0.09, 0.08, 0.02).asDiagonal().toDenseMatrix();
+      Vector3 square(0.09, 0.08, 0.02);  // of the radii of gyration
+      if (plan.half != 0) square.head<2>().array() -= kHalfArm * kHalfArm;
+      const Matrix3 J = (plan.mass * l * l * square).asDiagonal();
       bodies_.push_back(builder_.add_rigid_body(plan.name, {plan.mass, J}));
       return;
     }
@@ -130,6 +137,38 @@ class Building {
     builder_.add_load(plan.name, attach(plan.name, plan.where),
                       L_ * M_ * plan.force, turn * L_ * L_ * M_ * plan.moment,
                       plan.frame, plan.function(manner_.delay));
+  }
+
+  void add(const ControllerPlan& plan) {
+    const Vector3 axis = M_.determinant() * M_ * plan.axis;
+    const auto input =
+        static_cast<int>(builder_.add_input(plan.name, 0.0, plan.hold));
+    const BodyPlan& body = plan_.bodies[index(plan.where.body)];
+    const double l = L_ * body.length;
+    builder_.add_load(plan.name, attach(plan.name, plan.where), Vector3::Zero(),
+                      plan.gain * body.mass * l * l * axis,
+                      dynamics::LoadFrame::body,
+                      dynamics::InputFunction{input});
+    const auto b = index(plan.where.body);
+    dynamics::ControllerModel controller;
+    controller.name = plan.name;
+    controller.period = plan.period;
+    controller.offset = manner_.delay;
+    controller.writes = {input};
+    controller.measures.push_back(
+        {"spin", plan.name,
+         [=](const dynamics::SystemModel&, const dynamics::SystemState& state) {
+           return axis.dot(state.bodies[b].w_WB_B);
+         }});
+    controller.memory = {0.0};
+    controller.law = std::make_shared<dynamics::FunctionController>(
+        "proportional and filtered",
+        [](const dynamics::ControllerView& view, std::span<double> memory,
+           std::span<double> written) {
+          memory[0] += 0.2 * (view.measured[0] - memory[0]);
+          written[0] = -view.measured[0] - 0.5 * memory[0];
+        });
+    builder_.add_controller(controller);
   }
 
   dynamics::SystemState make_start(const dynamics::SystemModel& model) const {

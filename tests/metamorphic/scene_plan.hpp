@@ -31,6 +31,9 @@ struct Manner {
 /// The reflection of a mirrored manner, y reversed; else the identity.
 [[nodiscard]] Matrix3 find_reflection(const Manner& manner);
 
+/// Distance of a half's centre from that of the whole, of its length [-].
+inline constexpr double kHalfArm = 0.1;
+
 struct BodyPlan {
   std::string name;
   dynamics::Fidelity level = dynamics::Fidelity::rigid;
@@ -40,6 +43,9 @@ struct BodyPlan {
   double lowest = 0.0;   ///< eigenfrequency [rad/s]
   double damping = 0.0;  ///< ratio of all modes [-]
   unsigned variant = 0;  ///< of shapes
+  /// Of a rigid body: -1 and 1 are the halves of a whole of twice the mass,
+  /// with their centres `kHalfArm` lengths below and above its own along z.
+  int half = 0;
   Pose X_WB = {};
   Vector3 v_WB_W = Vector3::Zero();  ///< [m/s]
   Vector3 w_WB_B = Vector3::Zero();  ///< [rad/s]
@@ -88,6 +94,16 @@ struct LoadPlan {
   std::function<dynamics::TimeFunction(double delay)> function;
 };
 
+/// Brakes a body's spin about an axis by samples of it.
+struct ControllerPlan {
+  std::string name;
+  FramePlan where;
+  Vector3 axis = Vector3::UnitZ();  ///< unit, body frame [-]
+  double gain = 0.0;                ///< per mass and length^2 [1/s]
+  double period = 0.0;              ///< [s]
+  dynamics::InputHold hold = dynamics::InputHold::held;
+};
+
 /// A scene as data, in metres.
 struct ScenePlan {
   std::vector<BodyPlan> bodies;
@@ -95,6 +111,7 @@ struct ScenePlan {
   std::vector<PathPlan> paths;
   std::vector<GearPlan> gears;
   std::vector<LoadPlan> loads;
+  std::vector<ControllerPlan> controllers;
   std::vector<FramePlan> probes;
   Vector3 gravity_W = Vector3::Zero();  ///< [m/s^2]
   /// Of a run that starts at 0.
@@ -114,7 +131,8 @@ struct Scene {
 /// Whether anything in the world holds the bodies.
 [[nodiscard]] bool is_held(const ScenePlan& plan);
 
-/// Calls `change` with all frames of couplers, paths, loads and probes.
+/// Calls `change` with all frames of couplers, paths, loads, controllers and
+/// probes.
 template <typename Change>
 void for_each_frame(ScenePlan& plan, const Change& change) {
   for (CouplerPlan& c : plan.couplers) {
@@ -125,6 +143,7 @@ void for_each_frame(ScenePlan& plan, const Change& change) {
     for (FramePlan& f : p.points) change(f);
   }
   for (LoadPlan& l : plan.loads) change(l.where);
+  for (ControllerPlan& c : plan.controllers) change(c.where);
   for (FramePlan& f : plan.probes) change(f);
 }
 
