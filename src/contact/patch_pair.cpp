@@ -194,7 +194,7 @@ void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
                          std::span<const double> memory,
                          joints::PairResponse& out) const {
   const PatchTouches touches = find_patches(bodies, true);
-  out.mean_dissipation += find_released(touches, now.t, memory);
+  out.slip_power += find_released(touches, now.t, memory);
   if (touches.is_empty()) return;
   const PatchMotion all = find_motion(bodies, touches, memory);
   for (const PatchTouch& touch : touches) {
@@ -203,9 +203,10 @@ void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
     add_points(bodies, touch, points, out);
     points.set(response.wrench, out.points().size() - kPoints, out);
     out.energy += touch.patch.energy + response.energy;
-    out.dissipation += response.damped + response.rubbed;
     const double h = now.t - load_patch(find_slot(memory, touch.index)).time;
-    if (h > 0.0) out.mean_dissipation += response.slip_work / h;
+    if (h > 0.0) out.slip_power += response.slip_work / h;
+    out.rubbed += response.rubbed;
+    out.dissipation += response.damped + response.rubbed;
   }
 }
 
@@ -213,7 +214,7 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
                                    std::span<const double> memory,
                                    joints::PairResponse& out) const {
   const PatchTouches touches = find_patches(step.middle, true);
-  out.mean_dissipation += find_released(touches, step.times.end, memory);
+  out.slip_power += find_released(touches, step.times.end, memory);
   if (touches.is_empty()) return;
   PatchMotion all;
   all.inverse_mass = find_inverse_mass(step.middle, touches, memory);
@@ -253,7 +254,9 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
         last != nullptr ? respond(*last, of_end, memory).energy : 0.0;
     const double lost = law_.find_energy(before.friction) - kept -
                         step.times.h * response.friction_power;
-    out.dissipation += response.damped + std::max(lost, 0.0) / step.times.h;
+    const double rubbed = std::max(lost, 0.0) / step.times.h;
+    out.rubbed += rubbed;
+    out.dissipation += response.damped + rubbed;
   }
 }
 

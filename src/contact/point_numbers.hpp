@@ -24,7 +24,8 @@ inline void set_response(const PointResponse& response,
   point.stiffness = response.stiffness;
   point.damping = response.damping;
   out.dissipation += response.dissipation;
-  out.mean_dissipation += response.slip_power;
+  out.rubbed += response.rubbed;
+  out.slip_power += response.slip_power;
 }
 
 }  // namespace limber::contact

@@ -75,6 +75,16 @@ TEST_P(Bounces, KeepTheirRestitutionAndTheTimesOfFreeFall) {
     // Impacts add 0.13 ms each.
     EXPECT_NEAR(contacts[i]["time"].get<double>(), times[i],
                 5e-3 + 2e-4 * static_cast<double>(i));
+    const json& energy = contacts[i]["energy"];
+    const double in = 0.26 * kGravity * kHeight *
+                      std::pow(kRestitution, 2.0 * static_cast<double>(i));
+    EXPECT_NEAR(energy["in"].get<double>() / in, 1.0, 0.02);
+    EXPECT_NEAR(energy["returned"].get<double>() / in,
+                kRestitution * kRestitution, 0.02);
+    EXPECT_NEAR(energy["damping"].get<double>() / in,
+                1.0 - kRestitution * kRestitution, 0.02);
+    EXPECT_EQ(energy["friction"].get<double>(), 0.0);
+    EXPECT_LT(std::abs(energy["error"].get<double>()), 0.01 * in);
   }
 }
 

@@ -14,7 +14,8 @@ namespace limber::app {
 
 /// Every impact: between, time, touches, impulse, peak_force, peak_time,
 /// peak_depth, duration, touch_speed, restitution (null while they touch at
-/// the end), all in SI units.
+/// the end, or if no impact brought them together) and energy (ImpactEnergy),
+/// all in SI units.
 [[nodiscard]] Json to_json(const std::vector<dynamics::ContactRecord>& records);
 
 /// A table with one line per impact; if there are more than twenty, those with

@@ -172,7 +172,8 @@ void PointLaw::add_friction(const PointMotion& motion,
   out.moment = r_e * shells.force[2];
   out.slips = shells.slips;
   out.energy = shells.energy;
-  out.dissipation += shells.damper_power;
+  out.rubbed = shells.damper_power;
+  out.dissipation += out.rubbed;
   out.slip_power = h > 0.0 ? shells.slip_work / h : 0.0;
   out.next.friction = keep_friction(shells.next, frame, motion.turns);
   // Tangents; r_e is that of the load.

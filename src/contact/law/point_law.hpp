@@ -47,6 +47,7 @@ struct PointResponse {
   bool slips = false;
   double energy = 0.0;       ///< stored by friction [J]
   double dissipation = 0.0;  ///< of both dampers [W]
+  double rubbed = 0.0;       ///< the part of it by friction's damper [W]
   double slip_power = 0.0;   ///< of slip and release, mean since the commit [W]
   Matrix3 stiffness = Matrix3::Zero();  ///< -d force / d position [N/m]
   Matrix3 damping = Matrix3::Zero();    ///< -d force / d velocity [N s/m]

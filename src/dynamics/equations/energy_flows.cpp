@@ -31,17 +31,34 @@ std::string name_energy_row(const SystemModel& model, Eigen::Index row) {
 void EnergyFlows::clear() {
   supplied.setZero();
   dissipated.setZero();
+  damped.setZero();
+  rubbed.setZero();
 }
 
 EnergyFlows& EnergyFlows::operator+=(const EnergyFlows& other) {
   supplied += other.supplied;
   dissipated += other.dissipated;
+  damped += other.damped;
+  rubbed += other.rubbed;
   return *this;
+}
+
+EnergyFlows& EnergyFlows::operator*=(double factor) {
+  supplied *= factor;
+  dissipated *= factor;
+  damped *= factor;
+  rubbed *= factor;
+  return *this;
+}
+
+void exchange(Archive& archive, EnergyFlows& flows) {
+  archive(flows.supplied, flows.dissipated, flows.damped, flows.rubbed);
 }
 
 EnergyFlows make_flows(const SystemModel& model) {
   const VectorX none = VectorX::Zero(EnergyRows(model).count);
-  return {none, none};
+  const VectorX of_pairs = VectorX::Zero(std::ssize(model.pairs));
+  return {none, none, of_pairs, of_pairs};
 }
 
 void add_powers(const SystemTerms& terms, double duration, EnergyFlows& flows) {
@@ -59,8 +76,11 @@ void add_powers(const SystemTerms& terms, double duration, EnergyFlows& flows) {
   for (const TransmissionTerms& transmission : terms.transmissions) {
     add(transmission.response.supplied, transmission.response.dissipation);
   }
+  Eigen::Index i = 0;
   for (const joints::PairResponse& pair : terms.pairs.responses) {
-    add(0.0, pair.dissipation + pair.mean_dissipation);
+    add(0.0, pair.dissipation + pair.slip_power);
+    flows.damped[i] += duration * (pair.dissipation - pair.rubbed);
+    flows.rubbed[i++] += duration * (pair.rubbed + pair.slip_power);
   }
 }
 

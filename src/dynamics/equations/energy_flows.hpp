@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "limber/common/records/archive.hpp"
 #include "limber/dynamics/equations/workspace.hpp"
 
 namespace limber::dynamics {
@@ -28,10 +29,17 @@ struct EnergyRows {
 struct EnergyFlows {
   VectorX supplied;    ///< by loads, gravity and drives [J]
   VectorX dissipated;  ///< by dampers, friction and modes [J]
+  /// Of each pair the parts of `dissipated` by its damping and by its friction;
+  /// a rest is what steps do not resolve [J].
+  VectorX damped;
+  VectorX rubbed;
 
   void clear();
   EnergyFlows& operator+=(const EnergyFlows& other);
+  EnergyFlows& operator*=(double factor);
 };
+
+void exchange(Archive& archive, EnergyFlows& flows);
 
 [[nodiscard]] EnergyFlows make_flows(const SystemModel& model);
 

@@ -271,7 +271,7 @@ void set_pair_bodies(const SystemModel& model, const SystemState& state,
 void check_finite(const joints::PairResponse& response) {
   bool is_finite = std::isfinite(response.energy) &&
                    std::isfinite(response.dissipation) &&
-                   std::isfinite(response.mean_dissipation);
+                   std::isfinite(response.slip_power);
   for (const joints::PairPoint& point : response.points()) {
     is_finite = is_finite && point.force_W.allFinite() &&
                 point.stiffness.allFinite() && point.damping.allFinite();

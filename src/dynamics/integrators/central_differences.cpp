@@ -29,7 +29,7 @@ void CentralDifferences::start(const SystemState& state, double /*h*/) {
 
 void CentralDifferences::exchange_memory(Archive& archive,
                                          const SystemState& state) {
-  archive(a_, power_.supplied, power_.dissipated);
+  archive(a_, power_);
   if (archive.reads()) next_ = state;
 }
 
@@ -72,8 +72,8 @@ StepResult CentralDifferences::step(SystemState& state, double h, double end) {
   next_.etadot += 0.5 * h * (a_next_.etaddot - a_.etaddot);
   next_.udot_H += 0.5 * h * (a_next_.uddot_H - a_.uddot_H);
   StepResult result;
-  flows_.supplied = 0.5 * h * power_.supplied;
-  flows_.dissipated = 0.5 * h * power_.dissipated;
+  flows_ = power_;
+  flows_ *= 0.5 * h;
   add_powers(terms_, 0.5 * h, flows_);
   set_work(flows_, result);
   power_.clear();

@@ -11,13 +11,21 @@ StepWork::StepWork(const SystemModel& model)
       last_power_(power_),
       flows_(power_) {}
 
+// What friction loses is known as a mean over the step.
+void StepWork::add_slip(const SystemTerms& terms, double duration,
+                        EnergyFlows& flows) const {
+  Eigen::Index i = 0;
+  for (const joints::PairResponse& pair : terms.pairs.responses) {
+    const double lost = duration * pair.slip_power;
+    flows.dissipated[pairs_ + i] += lost;
+    flows.rubbed[i++] += lost;
+  }
+}
+
 void StepWork::set_powers(const SystemTerms& terms) {
   power_.clear();
   add_powers(terms, 1.0, power_);
-  Eigen::Index row = pairs_;
-  for (const joints::PairResponse& pair : terms.pairs.responses) {
-    power_.dissipated[row++] = pair.dissipation;
-  }
+  add_slip(terms, -1.0, power_);
 }
 
 void StepWork::start(const SystemState& state, const SystemTerms& terms) {
@@ -32,12 +40,10 @@ void StepWork::advance(const SystemState& from, const SystemState& to,
   set_powers(terms);
   const StepPower begin = sum(last_power_);
   const StepPower end = sum(power_);
-  flows_.supplied = 0.5 * h * (last_power_.supplied + power_.supplied);
-  flows_.dissipated = 0.5 * h * (last_power_.dissipated + power_.dissipated);
-  Eigen::Index row = pairs_;
-  for (const joints::PairResponse& pair : terms.pairs.responses) {
-    flows_.dissipated[row++] += h * pair.mean_dissipation;
-  }
+  flows_ = last_power_;
+  flows_ += power_;
+  flows_ *= 0.5 * h;
+  add_slip(terms, h, flows_);
   supplies_.advance(to, terms, h, flows_.supplied);
   dampers_.advance(from, to, terms, h, flows_.dissipated);
   set_work(flows_, result);
@@ -55,7 +61,7 @@ void StepWork::undo() {
 }
 
 void StepWork::exchange_memory(Archive& archive) {
-  archive(power_.supplied, power_.dissipated);
+  archive(power_);
   dampers_.exchange_memory(archive);
   supplies_.exchange_memory(archive);
 }

@@ -32,6 +32,8 @@ class StepWork {
 
  private:
   void set_powers(const SystemTerms& terms);
+  void add_slip(const SystemTerms& terms, double duration,
+                EnergyFlows& flows) const;
 
   Eigen::Index pairs_;  // first of their rows
   DamperWork dampers_;

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "limber/dynamics/equations/motion_fields.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"
 #include "limber/dynamics/integrators/stable_step.hpp"
+#include "limber/dynamics/monitors/energy_verdict.hpp"
 #include "limber/dynamics/monitors/impact_spectrum.hpp"
 #include "limber/dynamics/monitors/joint_response.hpp"
 
@@ -22,10 +24,41 @@ Vector3 find_rigid_velocity(const joints::PairBody& body, const Vector3& p_W) {
   return body.v_WB_W + w_W.cross(p_W - body.p_WB);
 }
 
+constexpr double kLeastImpactSpeed = 1e-9;  // [m/s]
+
+// Of a pair since the start; the error is what steps lose that no law does.
+ImpactEnergy find_energies(const EnergyLedger::PairStep& step,
+                           const EnergyFlows& flows, Eigen::Index pair) {
+  const Eigen::Index row =
+      std::ssize(flows.dissipated) - std::ssize(flows.damped) + pair;
+  const double damped = flows.damped[pair];
+  const double rubbed = flows.rubbed[pair];
+  return {.returned = step.returned,
+          .stored = step.stored,
+          .damped = damped,
+          .rubbed = rubbed,
+          .error = damped + rubbed - flows.dissipated[row]};
+}
+
+// What two sums agree on.
+double find_common(double a, double b) {
+  if ((a < 0.0) != (b < 0.0)) return 0.0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+const char* advise_on_impacts(IntegratorKind scheme) {
+  return scheme == IntegratorKind::implicit_euler
+             ? "take shorter steps or generalized-alpha"
+             : "take shorter steps, more impact_steps or energy-conserving";
+}
+
 }  // namespace
 
-ContactLog::ContactLog(const SystemModel& model, IntegratorKind scheme)
-    : model_(model), scheme_(scheme) {}
+ContactLog::ContactLog(const SystemModel& model, IntegratorKind scheme,
+                       double h)
+    : model_(model),
+      scheme_(scheme),
+      rest_speed_(std::max(h * model.gravity_W.norm(), kLeastImpactSpeed)) {}
 
 double ContactLog::find_approach(const Pair& pair, const SystemState& state,
                                  const Vector3& p_W,
@@ -52,7 +85,9 @@ void ContactLog::begin(std::size_t i, const SystemState& state,
   const joints::PairTouch touch = touches.find_touch(i, state);
   pair.most_force = {};
   pair.most_depth = {};
+  pair.own_error = pair.group_error = 0.0;
   record = {.pair = of.name, .time = state.t, .touches = 1};
+  record.rest_speed = rest_speed_;
   record.impact_duration = touches.impact_duration(i);
   record.touch_speed = find_approach(of, state, touch.p_W, touch.normal_W);
 }
@@ -69,6 +104,10 @@ void ContactLog::include(std::size_t i, const SystemState& state,
   if (!touched) begin(i, state, touches);
   if (touched) {
     record.impulse += 0.5 * h * (pair.force + now.normal_force);
+  }
+  if (now.normal_force > 0.0) {
+    pair.normal_W = now.normal_W;
+    pair.p_W = now.p_W;
   }
   const bool is_strongest = now.normal_force > record.peak_force;
   pair.most_force.include(now.normal_force, state.t);
@@ -88,15 +127,42 @@ void ContactLog::include(std::size_t i, const SystemState& state,
   record.duration = state.t - record.time;
   if (touches_now) return;
   pair.left = state.t;
-  const joints::PairTouch touch = touches.find_touch(i, state);
   record.parting_speed = -find_approach(model_.pairs[touches.pair_of(i)], state,
-                                        touch.p_W, touch.normal_W);
+                                        pair.p_W, pair.normal_W);
 }
 
-void ContactLog::include(const SystemState& state, TouchWatch& touches) {
+void ContactLog::balance(std::size_t i, std::size_t of, bool touched, double t,
+                         const StepAudit& audit, const EnergyFlows& flows) {
+  OngoingContact& pair = pairs_[i];
+  ImpactEnergy& energy = pair.record.energy;
+  const EnergyLedger::PairStep step = audit.find_pair_step(of);
+  const ImpactEnergy now =
+      find_energies(step, flows, static_cast<Eigen::Index>(of));
+  const bool is_new = !touched && pair.record.touches == 1;
+  if (is_new) pair.before = now;
+  if (touched && step.time == t) {
+    pair.own_error += step.own_error;
+    pair.group_error += step.group_error;
+  }
+  energy.returned = now.returned - pair.before.returned;
+  energy.stored = now.stored - pair.before.stored;
+  energy.damped = now.damped - pair.before.damped;
+  energy.rubbed = now.rubbed - pair.before.rubbed;
+  energy.error = now.error - pair.before.error +
+                 find_common(pair.own_error, pair.group_error);
+  energy.roundoff = step.roundoff;
+  energy.in = energy.stored + energy.returned + energy.damped + energy.rubbed -
+              energy.error;
+}
+
+void ContactLog::include(const SystemState& state, TouchWatch& touches,
+                         const StepAudit& audit, const EnergyFlows& flows) {
   pairs_.resize(touches.count());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const bool touched = pairs_[i].is_touching;
     include(i, state, touches, state.t - time_);
+    if (!touched && !pairs_[i].is_touching) continue;
+    balance(i, touches.pair_of(i), touched, state.t, audit, flows);
   }
   time_ = state.t;
 }
@@ -130,6 +196,7 @@ void ContactLog::add_warnings(std::vector<std::string>& warnings) const {
     if (!joint.is_enough()) warnings.push_back(describe(joint));
   }
   add_deep(records, warnings);
+  add_unbalanced(records, warnings);
   add_unmet(records, warnings);
   add_stable_step(warnings);
 }
@@ -150,6 +217,40 @@ void ContactLog::add_deep(const std::vector<ContactRecord>& records,
         record.pair, record.time, record.peak_depth,
         is_round ? over_radius : over_extent,
         is_round ? "radius of curvature" : "smaller body's extent", kDeepest));
+  }
+}
+
+// Once per pair, of its worst impact.
+void ContactLog::add_unbalanced(const std::vector<ContactRecord>& records,
+                                std::vector<std::string>& warnings) const {
+  struct Worst {
+    const ContactRecord* record = nullptr;
+    int impacts = 0;
+    int open = 0;
+  };
+  std::map<std::string, Worst> pairs;
+  for (const ContactRecord& record : records) {
+    if (!record.is_impact()) continue;
+    Worst& worst = pairs[record.pair];
+    const double share = record.energy.open_share();
+    ++worst.impacts;
+    if (!(share > kToldDrift)) continue;
+    ++worst.open;
+    if (worst.record == nullptr || share > worst.record->energy.open_share()) {
+      worst.record = &record;
+    }
+  }
+  for (const auto& [name, worst] : pairs) {
+    if (worst.record == nullptr) continue;
+    const ImpactEnergy& energy = worst.record->energy;
+    warnings.push_back(fmt::format(
+        "contact '{}': in the impact at t = {:.6g} s steps {} {:.3g} J that "
+        "nothing accounts for, {:.3g} % of its {:.3g} J, so that its "
+        "restitution is not kept; {} of {} impacts have more than {:g} %; {}",
+        name, worst.record->time, energy.error < 0.0 ? "lose" : "gain",
+        std::abs(energy.error), 100.0 * energy.open_share(),
+        std::max(energy.in, energy.returned), worst.open, worst.impacts,
+        100.0 * kToldDrift, advise_on_impacts(scheme_)));
   }
 }
 

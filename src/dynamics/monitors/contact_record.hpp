@@ -1,12 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
 #include "limber/common/records/fields.hpp"
 
 namespace limber::dynamics {
+
+/// What became of the energy of an impact, or of a rest, from its first touch
+/// to its end: of both bodies' motion, and of their deformation without that
+/// at the contact. Neither what else moves nor a common velocity matters.
+///
+/// Equation   in = stored + returned + damped + rubbed - error
+/// Limits     `returned` is that of the powers at the ends of steps. Where
+///            other forces act on the bodies, as of joints, `error` is the
+///            lesser of that of the bodies with the contact and that of all
+///            connected bodies.
+struct ImpactEnergy {
+  double in = 0.0;        ///< from both bodies [J]
+  double returned = 0.0;  ///< to them [J]
+  double stored = 0.0;    ///< change, 0 if they part [J]
+  double damped = 0.0;    ///< lost by the normal damping [J]
+  double rubbed = 0.0;    ///< lost by friction [J]
+  double error = 0.0;     ///< gained by the steps, or lost if < 0 [J]
+  double roundoff = 0.0;  ///< of the error, at most [J]
+
+  /// Error over the energy of the impact [-]; 0 if it may be round-off.
+  [[nodiscard]] double open_share() const {
+    const double all = std::max(std::abs(in), std::abs(returned));
+    return std::abs(error) > roundoff && all > 0.0 ? std::abs(error) / all
+                                                   : 0.0;
+  }
+};
+
+constexpr auto fields_of(const ImpactEnergy*) {
+  return list_fields("impact energy", "in [J]", "returned [J]", "stored [J]",
+                     "damped [J]", "rubbed [J]", "error [J]", "round-off [J]");
+}
 
 /// An impact of two bodies, or one body resting on another: all touches of a
 /// pair with gaps shorter than the contact has lasted so far.
@@ -27,12 +60,17 @@ struct ContactRecord {
   double parting_speed = 0.0;    ///< at the last leave [m/s]
   bool has_parted = false;       ///< false: they touch at the end
   double impact_duration = 0.0;  ///< T_c of a free impact, expected [s]
+  double rest_speed = 0.0;       ///< approach up to which it is no impact [m/s]
+  ImpactEnergy energy = {};
+
+  /// Whether both approached each other faster than a contact at rest does.
+  [[nodiscard]] bool is_impact() const { return touch_speed > rest_speed; }
 
   /// Of both bodies' rigid motions, along the normals of the first touch and
   /// the last leave, without vibration [-]. None if they touch at the end, or
-  /// did not approach each other.
+  /// no impact brought them together.
   [[nodiscard]] std::optional<double> restitution() const {
-    if (!has_parted || !(touch_speed > 0.0)) return std::nullopt;
+    if (!has_parted || !is_impact()) return std::nullopt;
     return parting_speed / touch_speed;
   }
 };
@@ -42,7 +80,7 @@ constexpr auto fields_of(const ContactRecord*) {
                      "peak force [N]", "peak time [s]", "peak depth [m]",
                      "peak depth over radius", "duration [s]",
                      "touch speed [m/s]", "parting speed [m/s]", "has parted",
-                     "impact duration [s]");
+                     "impact duration [s]", "rest speed [m/s]", "energy");
 }
 
 }  // namespace limber::dynamics

@@ -49,6 +49,11 @@ struct EnergyAccount {
   [[nodiscard]] double rounded_in(const Vector3& v) const {
     return kinetic + 0.5 * mass * v.squaredNorm();
   }
+  /// Of its energies there, and the tolerance of Newton's method, at most.
+  [[nodiscard]] double roundoff_in(const Vector3& v) const {
+    constexpr double kPassedError = 1e-11;  // [-]
+    return kPassedError * (passed + rounded_in(v));
+  }
   /// What nothing accounts for.
   [[nodiscard]] double error_in(const Vector3& v) const {
     return stored - initial - received - supplied + dissipated -

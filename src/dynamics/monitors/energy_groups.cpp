@@ -8,10 +8,6 @@
 namespace limber::dynamics {
 namespace {
 
-// Error relative to the energy that passed through rows, and to that which a
-// change of the frame subtracts: round-off, and the tolerance of Newton's
-// method.
-constexpr double kPassedError = 1e-11;
 // Factor on the noise of couplers at one state, which accumulates as a random
 // walk.
 constexpr double kNoiseFactor = 10.0;
@@ -21,11 +17,6 @@ constexpr double kRestFactor = 1e6;
 constexpr double kNoteworthy = 1e-3;
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
-// Of a row's energies in a frame of velocity `v` [m/s].
-double find_roundoff(const EnergyAccount& account, const Vector3& v) {
-  return kPassedError * (account.passed + account.rounded_in(v));
-}
 
 }  // namespace
 
@@ -177,8 +168,8 @@ void EnergyGroups::sum_up(const std::vector<EnergyAccount>& accounts) {
     sums.work += account.work_in(v);
     sums.dissipated += account.dissipated;
     sums.error += account.error_in(v);
-    sums.rest += kRestFactor * (account.noise + account.jitter) +
-                 find_roundoff(account, v);
+    sums.rest +=
+        kRestFactor * (account.noise + account.jitter) + account.roundoff_in(v);
   }
 }
 
@@ -250,6 +241,10 @@ bool EnergyGroups::has_too_much() const {
   return false;
 }
 
+bool EnergyGroups::is_same(Eigen::Index row, Eigen::Index other) const {
+  return parents_[at(row)] == parents_[at(other)];
+}
+
 const Vector3& EnergyGroups::find_velocity(Eigen::Index row) const {
   return groups_[group_of(at(row))].velocity;
 }
@@ -262,7 +257,7 @@ std::vector<EnergyDrift> EnergyGroups::find_drifts(
   for (std::size_t i = 0; i < accounts.size(); ++i) {
     const Vector3& v = groups_[group_of(i)].velocity;
     drifts[group_of(i)].roundoff += negligible[static_cast<Eigen::Index>(i)] +
-                                    find_roundoff(accounts[i], v) +
+                                    accounts[i].roundoff_in(v) +
                                     walk * accounts[i].noise;
   }
   for (std::size_t i = 0; i < groups_.size(); ++i) {

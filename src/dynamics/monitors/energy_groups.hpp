@@ -53,6 +53,8 @@ class EnergyGroups {
   /// Whether a group stores more than ten times what is accounted for.
   [[nodiscard]] bool has_too_much() const;
 
+  /// Whether two rows are of one group.
+  [[nodiscard]] bool is_same(Eigen::Index row, Eigen::Index other) const;
   /// Of the group of `row`, the velocity of its frame [m/s].
   [[nodiscard]] const Vector3& find_velocity(Eigen::Index row) const;
   /// Of all groups together.

@@ -259,6 +259,42 @@ bool EnergyLedger::has_too_much(const SystemState& state,
   return is_much;
 }
 
+Vector3 EnergyLedger::find_mean_velocity(const Pair& pair) const {
+  double mass = 0.0;
+  Vector3 momentum = Vector3::Zero();
+  for (const BodyIndex b : {pair.body_A, pair.body_B}) {
+    if (b == kWorld) return Vector3::Zero();
+    const EnergyAccount& account = accounts_[index(b)];
+    if (account.mass == 0.0) return Vector3::Zero();
+    mass += account.mass;
+    momentum += account.momentum;
+  }
+  return momentum / mass;
+}
+
+EnergyLedger::PairStep EnergyLedger::find_pair_step(std::size_t i) const {
+  const Pair& pair = model_.pairs[i];
+  const Eigen::Index row = rows_.pairs + static_cast<Eigen::Index>(i);
+  const EnergyAccount& account = accounts_[static_cast<std::size_t>(row)];
+  const Vector3 v = find_mean_velocity(pair);
+  const double walk = 10.0 * std::sqrt(steps_);
+  PairStep step{
+      .time = time_, .stored = account.stored, .returned = account.out};
+  for (std::size_t k = 0; k < accounts_.size(); ++k) {
+    const auto other = static_cast<Eigen::Index>(k);
+    if (!groups_.is_same(row, other)) continue;
+    const double error = accounts_[k].error_in(v) - next_[k].error_in(v);
+    step.group_error += error;
+    const bool is_body =
+        k < model_.bodies.size() &&
+        (BodyIndex(other) == pair.body_A || BodyIndex(other) == pair.body_B);
+    if (other != row && !is_body) continue;
+    step.own_error += error;
+    step.roundoff += accounts_[k].roundoff_in(v) + walk * accounts_[k].noise;
+  }
+  return step;
+}
+
 EnergyRecord EnergyLedger::find_record(const VectorX& negligible) const {
   EnergyRecord record = record_;
   record.drift = groups_.drift();

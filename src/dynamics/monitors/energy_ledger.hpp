@@ -56,6 +56,21 @@ class EnergyLedger {
   [[nodiscard]] bool has_too_much(const SystemState& state,
                                   const SystemTerms& terms);
 
+  /// What the last step added did to the energy of a pair.
+  struct PairStep {
+    double time = 0.0;      ///< at its end [s]
+    double stored = 0.0;    ///< in the pair, then [J]
+    double returned = 0.0;  ///< to the bodies by then, since the start [J]
+    /// Errors of the rows of the pair and its bodies, and of all bodies that
+    /// are connected with them, in the step [J].
+    double own_error = 0.0;
+    double group_error = 0.0;
+    double roundoff = 0.0;  ///< of the first since the start, at most [J]
+  };
+  /// In the frame of the mean velocity of both bodies then, of the world where
+  /// it is one of them: free of what else moves. Call after add() or try_add().
+  [[nodiscard]] PairStep find_pair_step(std::size_t pair) const;
+
   /// @param negligible losses of rows that nothing accounts for [J]
   [[nodiscard]] EnergyRecord find_record(const VectorX& negligible) const;
 
@@ -80,6 +95,7 @@ class EnergyLedger {
   // Sets next_ to the accounts after a step with what was evaluated.
   void advance(double t, const EnergyFlows& flows);
   [[nodiscard]] bool is_remarkable(const Sums& sums) const;
+  [[nodiscard]] Vector3 find_mean_velocity(const Pair& pair) const;
   void accept(const Sums& sums, const SystemTerms& terms, double t);
   void include_energies(const Sums& sums, double t);
 
@@ -90,9 +106,9 @@ class EnergyLedger {
   EnergyRows rows_;
   EnergyGroups groups_;
   std::vector<EnergyAccount> accounts_;
-  std::vector<EnergyAccount> next_;
-  std::vector<Matrix3X> scratch_;  // of unreduced bodies
-  double time_ = 0.0;              // of accounts_ [s]
+  std::vector<EnergyAccount> next_;  // or those of the step before
+  std::vector<Matrix3X> scratch_;    // of unreduced bodies
+  double time_ = 0.0;                // of accounts_ [s]
   double steps_ = 0.0;
   EnergyRecord record_;
 };

@@ -47,6 +47,10 @@ class StepAudit {
     return ledger_.has_too_much(state, evaluate(state, Side::right));
   }
 
+  /// As of EnergyLedger.
+  [[nodiscard]] EnergyLedger::PairStep find_pair_step(std::size_t pair) const {
+    return ledger_.find_pair_step(pair);
+  }
   [[nodiscard]] EnergyRecord find_energy() const;
   void add_warnings(std::vector<std::string>& warnings) const;
 

@@ -354,7 +354,7 @@ void EventStepper::exchange_memory(Archive& archive, const SystemState& state) {
   touches_.exchange_memory(archive);
   impacts_.exchange_memory(archive);
   archive(cut_, totals_.iterations, totals_.factorizations, totals_.load_work,
-          totals_.dissipated, flows_.supplied, flows_.dissipated);
+          totals_.dissipated, flows_);
   if (keeps_before_) before_ = state;
 }
 

@@ -66,7 +66,7 @@ TimeLoop::TimeLoop(const SystemModel& model, const SimulationSettings& settings,
       control_(make_budget(settings, state.t), settings.step, refinement),
       peaks_(model, followed),
       audit_(model, settings.integrator),
-      contacts_(model, settings.integrator),
+      contacts_(model, settings.integrator, settings.step),
       check_(std::move(check)),
       budget_(model.bodies.size()),
       terms_(make_terms(model)),
@@ -209,11 +209,11 @@ bool TimeLoop::is_look_due(const SystemState& state, long steps) const {
 
 void TimeLoop::watch_step(const SystemState& state, std::size_t events_before) {
   peaks_.include(state);
-  contacts_.include(state, stepper_.touches());
   const SystemTerms* smooth =
       statistics_.events.size() == events_before ? &stepper_.terms() : nullptr;
   audit_.include(state, smooth, stepper_.flows(),
                  is_look_due(state, statistics_.steps + 1), statistics_.events);
+  contacts_.include(state, stepper_.touches(), audit_, stepper_.flows());
 }
 
 void TimeLoop::tell(RunRecord& record) {
@@ -252,8 +252,8 @@ void TimeLoop::enter_breakpoint(SystemState& state) {
       calc_terms(model_, state, Side::right, terms_);
       clash_ = find_start_clash(model_, state, terms_, h_);
       peaks_.start(state);
-      contacts_.include(state, stepper_.touches());
       audit_.start(state, terms_, statistics_.events);
+      contacts_.include(state, stepper_.touches(), audit_, stepper_.flows());
     }
     if (at_jump_) {
       stepper_.cross_jump(state, h_);

@@ -44,7 +44,7 @@ PairResponse::PairResponse(std::size_t most_points, int modes_A, int modes_B,
 
 void PairResponse::clear() {
   count_ = 0;
-  energy = dissipation = mean_dissipation = 0.0;
+  energy = dissipation = rubbed = slip_power = 0.0;
 }
 
 PairPoint& PairResponse::add() {

@@ -122,9 +122,9 @@ class PairResponse {
 
   double energy = 0.0;       ///< stored [J]
   double dissipation = 0.0;  ///< power turned to heat, >= 0 [W]
-  /// Besides it, of what goes by paths, as friction: the mean since the last
-  /// commit [W].
-  double mean_dissipation = 0.0;
+  double rubbed = 0.0;       ///< the part of it by friction [W]
+  /// Of friction, besides it: the mean since the last commit [W].
+  double slip_power = 0.0;
 
  private:
   [[nodiscard]] std::size_t check_coupling(std::size_t i, std::size_t j) const;
