@@ -9,6 +9,7 @@
 #include "limber/contact/point_numbers.hpp"
 #include "limber/contact/shape_measures.hpp"
 #include "limber/contact/touch.hpp"
+#include "limber/joints/pairs/step_place.hpp"
 
 namespace limber::contact {
 namespace {
@@ -114,10 +115,15 @@ void ContactPair::evaluate_over_step(const joints::PairStep& step,
     at.before = load_memory(numbers_of(i, memory));
     at.motion =
         place(step.middle, middle[i], at.before, step.times.middle(), point);
+    centre_over_step(step, point);
     at.elastic = find_step_force(step, at.motion, point, begin[i], end[i]);
     touch.sum(step.middle, middle[i].p_W, at);
   }
+  const std::size_t placed = out.points().size();
   respond(step.middle, middle.all(), touch, out);
+  for (joints::PairPoint& point : out.points().subspan(placed)) {
+    centre_over_step(step, point);  // of a twist
+  }
 }
 
 // As HertzLaw::evaluate_over_step for all pads together: the mean of the forces
@@ -142,6 +148,7 @@ void ContactPair::add_pads_over_step(const joints::PairStep& step,
     if (middle.depth == Meeting{}.depth) continue;
     const PointMotion motion =
         place(step.middle, middle, {}, step.times.middle(), scratch);
+    centre_over_step(step, scratch);
     const Vector3 way = (find_position(step.end.B, scratch.on_B) -
                          find_position(step.begin.B, scratch.on_B)) -
                         (find_position(step.end.A, scratch.on_A) -
@@ -164,8 +171,10 @@ void ContactPair::add_pads_over_step(const joints::PairStep& step,
     at.feature = i;
     at.point = out.points().size();
     at.before = load_memory(numbers_of(i, memory));
+    joints::PairPoint& point = out.add();
     at.motion =
-        place(step.middle, middle, at.before, step.times.middle(), out.add());
+        place(step.middle, middle, at.before, step.times.middle(), point);
+    centre_over_step(step, point);
     at.elastic.force = {mean.force[pad], mean.stiffness(pad, pad),
                         0.5 * end.force[pad]};
     at.elastic.flat_stiffness =

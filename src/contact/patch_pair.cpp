@@ -11,6 +11,7 @@
 #include "limber/contact/patch_sides.hpp"
 #include "limber/contact/patch_slip.hpp"
 #include "limber/contact/shape_measures.hpp"
+#include "limber/joints/pairs/step_place.hpp"
 
 namespace limber::contact {
 namespace {
@@ -35,6 +36,18 @@ std::array<Vector3, kPoints> find_ways(
                find_position(step.begin.A, points[i].on_A));
   }
   return ways;
+}
+
+// Against the slip of a step, so that friction's springs do not keep more than
+// their motion gave; at most the friction itself.
+Vector3 find_force_of_gain(const PatchResponse& response, const Vector6& motion,
+                           double gain) {
+  const Vector3& n = response.normal_W;
+  const Vector3 way = motion.head<3>();
+  const Vector3 slip = way - n.dot(way) * n;
+  const double most = response.friction_W.norm() * slip.norm();
+  if (!(gain > 0.0) || gain > most) return Vector3::Zero();
+  return -gain / slip.squaredNorm() * slip;
 }
 
 }  // namespace
@@ -223,6 +236,9 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
   for (const PatchTouch& touch : touches) {
     const PatchPoints points = place_points(touch.patch);
     add_points(step.middle, touch, points, out);
+    for (joints::PairPoint& point : out.points().last<kPoints>()) {
+      centre_over_step(step, point);
+    }
     const Vector6 motion =
         points.find_motion(find_ways(step, out.points().last<kPoints>()));
     all.load += touch.patch.load();
@@ -241,19 +257,21 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     const double rise = find_energy(last) - find_energy(first);
     const PatchMemory before = load_patch(find_slot(memory, touch.index));
     const PairBodies parts{last ? last->A : touch.A, last ? last->B : touch.B};
-    const PatchResponse response = law_.evaluate(
+    PatchResponse response = law_.evaluate(
         {.patch = touch.patch,
          .elastic_W = correct(-touch.patch.gradient_W, motions[i], rise),
          .twist_W = motions[i] / step.times.h,
          .all = all,
          .slip = find_slip(parts, before),
          .way_by_motion = 2.0});
-    place_points(touch.patch).set(response.wrench, kPoints * i++, out);
     // What friction takes from the bodies and its springs do not keep.
     const double kept =
         last != nullptr ? respond(*last, of_end, memory).energy : 0.0;
     const double lost = law_.find_energy(before.friction) - kept -
                         step.times.h * response.friction_power;
+    response.wrench.wrench_W.head<3>() +=
+        find_force_of_gain(response, motions[i], -lost);
+    place_points(touch.patch).set(response.wrench, kPoints * i++, out);
     const double rubbed = std::max(lost, 0.0) / step.times.h;
     out.rubbed += rubbed;
     out.dissipation += response.damped + rubbed;
