@@ -16,8 +16,8 @@
 #include "limber/joints/coupler_law.hpp"
 
 /// Metamorphic tests: random scenes run twice, once changed in a way that
-/// cannot matter to their motion. Contact's own relations belong here, too: a
-/// plan has no shapes and pairs yet.
+/// cannot matter to their motion. Strikes of two bodies have plans of their own
+/// (contact_plan.hpp).
 namespace limber::metamorphic {
 
 /// How a plan becomes a system: what cannot be changed once a body or a law is
