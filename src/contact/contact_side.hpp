@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "limber/common/records/manifest.hpp"
 #include "limber/contact/effective_mass.hpp"
 #include "limber/contact/law/contact_parameters.hpp"
 #include "limber/contact/law/materials.hpp"
+#include "limber/contact/potential/convex_solid.hpp"
 #include "limber/contact/shapes/shape.hpp"
 
 namespace limber::contact {
@@ -21,6 +23,8 @@ struct ContactSide {
   /// Of the body, about Bo, its centre of mass; zero of the world, and of
   /// bodies that no contact turns, such as a sphere at Bo [kg m^2].
   Matrix3 inertia_B = Matrix3::Zero();
+  /// Convex parts of a rigid mesh, in its frame; none of others.
+  std::vector<ConvexSolid> solids = {};
 };
 
 /// Both sides and the law between them: all that forces depend on.

@@ -112,12 +112,12 @@ PatchTouches PatchPair::find_patches(const PairBodies& bodies,
                                      bool has_derivatives) const {
   const PatchFrames frames = find_frames(bodies);
   PatchTouches touches;
-  for (std::size_t i = 0; i < potentials_.size(); ++i) {
-    PatchTouch touch{
-        i, frames.A(i / parts_B_.size()), frames.B(i % parts_B_.size()), {}};
-    touch.patch = potentials_[i].evaluate({touch.A, touch.B}, has_derivatives);
+  frames.visit_near(0.0, [&](std::size_t i, std::size_t j, double /*gap*/) {
+    const std::size_t k = i * parts_B_.size() + j;
+    PatchTouch touch{k, frames.A[i], frames.B[j], {}};
+    touch.patch = potentials_[k].evaluate({touch.A, touch.B}, has_derivatives);
     if (touch.patch.touches) touches.add(touch);
-  }
+  });
   return touches;
 }
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "limber/contact/contact_side.hpp"
+#include "limber/contact/patch_frames.hpp"
 #include "limber/contact/patch_law.hpp"
 #include "limber/contact/patch_memory.hpp"
-#include "limber/contact/patch_part.hpp"
 #include "limber/contact/patch_touches.hpp"
 #include "limber/contact/potential/series_potential.hpp"
 #include "limber/contact/solid_gap.hpp"
@@ -87,6 +87,10 @@ class PatchPair final : public joints::PairInteraction,
 
  private:
   struct Nearest;
+  struct NearestGap {
+    std::size_t index = 0;  // of the pair of parts
+    SolidGap gap;
+  };
 
   [[nodiscard]] PatchFrames find_frames(const joints::PairBodies& bodies) const;
   [[nodiscard]] PatchTouches find_patches(const joints::PairBodies& bodies,
@@ -98,6 +102,7 @@ class PatchPair final : public joints::PairInteraction,
                                 double rise) const;
   [[nodiscard]] SolidGap find_gap(std::size_t index,
                                   const PatchFrames& frames) const;
+  [[nodiscard]] NearestGap find_nearest_gap(const PatchFrames& frames) const;
   [[nodiscard]] Nearest find_nearest_parts(
       const joints::PairBodies& bodies) const;
   [[nodiscard]] PatchPoints place_points(const Patch& patch) const;

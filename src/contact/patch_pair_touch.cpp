@@ -57,18 +57,13 @@ PatchPair::Nearest PatchPair::find_nearest_parts(
       if (!gap.normal_W.isZero(0.0)) take_gap(gap);
     }
   } else {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < potentials_.size(); ++i) {
-      const SolidGap gap = find_gap(i, frames);
-      if (!(gap.distance < least)) continue;
-      least = gap.distance;
-      nearest.index = i;
-      touch.depth = -std::max(gap.distance, 0.0);
-      take_gap(gap);
-    }
+    const NearestGap apart = find_nearest_gap(frames);
+    nearest.index = apart.index;
+    touch.depth = -std::max(apart.gap.distance, 0.0);
+    take_gap(apart.gap);
   }
-  nearest.A = frames.A(nearest.index / parts_B_.size());
-  nearest.B = frames.B(nearest.index % parts_B_.size());
+  nearest.A = frames.A[nearest.index / parts_B_.size()];
+  nearest.B = frames.B[nearest.index % parts_B_.size()];
   touch.rate = -touch.normal_W.dot(
       find_twist({nearest.A, nearest.B}, touch.p_W).head<3>());
   return nearest;
@@ -79,7 +74,31 @@ SolidGap PatchPair::find_gap(std::size_t index,
   const std::size_t i = index / parts_B_.size();
   const std::size_t j = index % parts_B_.size();
   return contact::find_gap(parts_A_[i], parts_B_[j],
-                           {frames.A(i), frames.B(j)});
+                           {frames.A[i], frames.B[j]});
+}
+
+// Of the parts whose balls are nearest, then of all that may be nearer.
+PatchPair::NearestGap PatchPair::find_nearest_gap(
+    const PatchFrames& frames) const {
+  NearestGap nearest;
+  double least = std::numeric_limits<double>::infinity();
+  frames.visit_near(least, [&](std::size_t i, std::size_t j, double distance) {
+    if (distance > least) return;
+    least = distance;
+    nearest.index = i * parts_B_.size() + j;
+  });
+  const std::size_t first = nearest.index;
+  nearest.gap = find_gap(first, frames);
+  frames.visit_near(nearest.gap.distance,
+                    [&](std::size_t i, std::size_t j, double distance) {
+                      const std::size_t k = i * parts_B_.size() + j;
+                      if (k == first || !(distance < nearest.gap.distance))
+                        return;
+                      const SolidGap gap = find_gap(k, frames);
+                      if (gap.distance < nearest.gap.distance)
+                        nearest = {k, gap};
+                    });
+  return nearest;
 }
 
 joints::PairTouch PatchPair::find_touch(
@@ -88,12 +107,7 @@ joints::PairTouch PatchPair::find_touch(
 }
 
 double PatchPair::find_clearance(const PairBodies& bodies) const {
-  const PatchFrames frames = find_frames(bodies);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < potentials_.size(); ++i) {
-    least = std::min(least, find_gap(i, frames).distance);
-  }
-  return std::max(least, 0.0);
+  return std::max(find_nearest_gap(find_frames(bodies)).gap.distance, 0.0);
 }
 
 double PatchPair::find_speed_bound(const PairBodies& bodies) const {

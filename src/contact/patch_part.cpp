@@ -5,6 +5,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/contact/shapes/shape_properties.hpp"
 
 namespace limber::contact {
 namespace {
@@ -33,20 +34,26 @@ double find_area(const flexbody::ContactPart& part) {
 
 }  // namespace
 
-PatchPart::PatchPart(const Shape& shape) : shape_(shape) {
+PatchPart::PatchPart(const Shape& shape)
+    : ball_{shape.X_BS.p, find_extent({shape.kind, {}}, {})}, shape_(shape) {
   if (is_solid(shape.kind)) placed_ = {ConvexSolid(shape.kind), shape.X_BS};
 }
 
+PatchPart::PatchPart(const PlacedSolid& solid)
+    : ball_{solid.X_BS * solid.solid.ball().centre, solid.solid.ball().radius},
+      placed_(solid) {}
+
 PatchPart::PatchPart(const flexbody::ContactPart& part)
-    : placed_(PlacedSolid{
+    : PatchPart(PlacedSolid{
           ConvexSolid::make_slab(find_corners(part, find_frame(part.normal_B)),
                                  part.rim, part.depth),
-          find_frame(part.normal_B)}),
-      centre_B_(part.centre_B),
-      motion_B_(part.motion_B),
-      area_(find_area(part)),
-      residual_(part.residual),
-      flexibility_(part.flexibility) {}
+          find_frame(part.normal_B)}) {
+  centre_B_ = part.centre_B;
+  motion_B_ = part.motion_B;
+  area_ = find_area(part);
+  residual_ = part.residual;
+  flexibility_ = part.flexibility;
+}
 
 void PatchPart::check(int modes) const {
   if (!is_flexible() || motion_B_.cols() == modes) return;

@@ -17,8 +17,11 @@ namespace limber::contact {
 class PatchPart {
  public:
   explicit PatchPart(const Shape& shape);
+  explicit PatchPart(const PlacedSolid& solid);
   explicit PatchPart(const flexbody::ContactPart& part);
 
+  /// About it, in P; of a half space the radius is infinite.
+  [[nodiscard]] const ConvexSolid::Ball& ball() const { return ball_; }
   /// In P; none of a round shape.
   [[nodiscard]] const std::optional<PlacedSolid>& placed() const {
     return placed_;
@@ -47,6 +50,7 @@ class PatchPart {
   // (u, theta) of modal coordinates or velocities.
   [[nodiscard]] Vector6 move(const double* eta) const;
 
+  ConvexSolid::Ball ball_;
   std::optional<PlacedSolid> placed_;
   std::optional<Shape> shape_;
   Vector3 centre_B_ = Vector3::Zero();

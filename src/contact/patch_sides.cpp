@@ -13,6 +13,9 @@
 namespace limber::contact {
 namespace {
 
+// Of parts.
+constexpr std::size_t kMostPairs = 4096;
+
 double find_modulus(const ContactSide& A, const ContactSide& B) {
   const auto moduli = find_pair_moduli(A.material, B.material);
   LIMBER_EXPECT(moduli);
@@ -38,11 +41,16 @@ double find_flexibility(const PatchPart& part,
   return part.flexibility() + std::max(2.0 * part.residual() - own, 0.0);
 }
 
-// A solid with flat faces, or a flexible surface with parts.
+// A solid with flat faces or several, or a flexible surface with parts.
 bool is_flat(const ContactSide& side) {
+  if (!side.solids.empty()) return true;
   const Skin* skin = find_skin(side);
   return skin == nullptr ? is_solid(side.shape.kind)
                          : !skin->surface().parts.empty();
+}
+
+std::size_t count_parts(const ContactSide& side) {
+  return std::max(side.solids.size(), std::size_t{1});
 }
 
 }  // namespace
@@ -51,14 +59,19 @@ bool suits(const ContactSide& A, const ContactSide& B) {
   const auto is_bounded = [](const ContactSide& side) {
     return !std::holds_alternative<HalfSpace>(side.shape.kind);
   };
+  if (count_parts(A) * count_parts(B) > kMostPairs) return false;
   return (is_flat(A) && is_flat(B) && (is_bounded(A) || is_bounded(B))) ||
          PairPotential::suits(A.shape.kind, B.shape.kind);
 }
 
 std::vector<PatchPart> make_parts(const ContactSide& side) {
+  std::vector<PatchPart> parts;
+  for (const ConvexSolid& solid : side.solids) {
+    parts.emplace_back(PlacedSolid{solid, side.shape.X_BS});
+  }
+  if (!parts.empty()) return parts;
   const Skin* skin = find_skin(side);
   if (skin == nullptr) return {PatchPart(side.shape)};
-  std::vector<PatchPart> parts;
   for (const flexbody::ContactPart& part : skin->surface().parts) {
     parts.emplace_back(part);
   }

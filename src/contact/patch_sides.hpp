@@ -10,10 +10,11 @@
 namespace limber::contact {
 
 /// Whether both have a potential: as PairPotential, or flexible surfaces with
-/// parts and solids with flat faces, of which one is bounded.
+/// parts, rigid meshes with solids and solids with flat faces, of which one is
+/// bounded; with 4096 pairs of parts at most.
 [[nodiscard]] bool suits(const ContactSide& A, const ContactSide& B);
 
-/// One of a shape, those of a flexible surface.
+/// One of a shape, those of a flexible surface or of a rigid mesh.
 [[nodiscard]] std::vector<PatchPart> make_parts(const ContactSide& side);
 
 /// Of all pairs of parts, those of the first of A first.

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
 
-#include "limber/contact/patch_part.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 
 /// The patches of a pair at one time, without allocation.
@@ -21,27 +19,6 @@ struct PatchTouch {
   joints::PairBody A;     ///< both parts, as bodies without modes
   joints::PairBody B;
   Patch patch;
-};
-
-/// The frames of all parts of both sides.
-class PatchFrames {
- public:
-  PatchFrames(const std::vector<PatchPart>& parts_A,
-              const std::vector<PatchPart>& parts_B,
-              const joints::PairBodies& bodies) {
-    for (std::size_t i = 0; i < parts_A.size(); ++i) {
-      A_[i] = parts_A[i].find_motion(bodies.A);
-    }
-    for (std::size_t i = 0; i < parts_B.size(); ++i) {
-      B_[i] = parts_B[i].find_motion(bodies.B);
-    }
-  }
-  [[nodiscard]] const joints::PairBody& A(std::size_t i) const { return A_[i]; }
-  [[nodiscard]] const joints::PairBody& B(std::size_t i) const { return B_[i]; }
-
- private:
-  std::array<joints::PairBody, flexbody::kMostParts> A_;
-  std::array<joints::PairBody, flexbody::kMostParts> B_;
 };
 
 /// Up to kMostPatches, those of the largest energies, by their indices.

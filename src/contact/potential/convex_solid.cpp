@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <variant>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/index.hpp"
 
 namespace limber::contact {
 namespace {
+
+using Face = ConvexSolid::Face;
 
 // A face of a box: normal along `axis` at one side of it.
 std::vector<int> list_corners(int axis, bool is_far) {
@@ -22,6 +26,59 @@ std::vector<int> list_corners(int axis, bool is_far) {
   return loop;
 }
 
+/// Gives the same number to points that nearly coincide.
+class Merged {
+ public:
+  explicit Merged(double same) : same_(same) {}
+
+  int find(const Vector3& x) {
+    const auto from = by_x_.lower_bound(x.x() - same_);
+    for (auto at = from; at != by_x_.end() && at->first <= x.x() + same_;
+         ++at) {
+      if ((points[index(at->second)] - x).norm() <= same_) return at->second;
+    }
+    points.push_back(x);
+    by_x_.emplace(x.x(), static_cast<int>(points.size()) - 1);
+    return static_cast<int>(points.size()) - 1;
+  }
+
+  std::vector<Vector3> points;
+
+ private:
+  double same_;
+  std::multimap<double, int> by_x_;
+};
+
+void find_neighbours(std::vector<Face>& faces) {
+  std::map<std::pair<int, int>, int> owners;
+  const auto visit = [](const Face& face, const auto& use) {
+    for (std::size_t i = 0; i < face.corners.size(); ++i) {
+      use(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
+    }
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    visit(faces[f], [&](int a, int b) {
+      owners[{a, b}] = static_cast<int>(f);
+    });
+  }
+  for (Face& face : faces) {
+    visit(face, [&](int a, int b) {
+      const auto other = owners.find({b, a});
+      if (other != owners.end()) face.neighbours.push_back(other->second);
+    });
+  }
+}
+
+std::vector<int> list_loop(const Facet& facet, Merged& merged) {
+  std::vector<int> loop;
+  for (const Vector3& x : facet.corners) {
+    const int corner = merged.find(x);
+    if (loop.empty() || loop.back() != corner) loop.push_back(corner);
+  }
+  while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+  return loop;
+}
+
 }  // namespace
 
 bool is_solid(const ShapeKind& shape) {
@@ -29,39 +86,76 @@ bool is_solid(const ShapeKind& shape) {
          std::holds_alternative<HalfSpace>(shape);
 }
 
-ConvexSolid::ConvexSolid(const ShapeKind& shape) {
-  LIMBER_EXPECT(is_solid(shape));
-  const auto* box = std::get_if<Box>(&shape);
-  if (box == nullptr) {
-    faces_.push_back({{Vector3::UnitZ(), 0.0}, {}});
-    return;
-  }
-  for (int i = 0; i < 8; ++i) {
-    const Vector3 signs((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
-                        (i & 4) != 0 ? 1.0 : -1.0);
-    corners_.emplace_back(box->half_size.cwiseProduct(signs));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const bool is_far : {false, true}) {
-      const Vector3 n = (is_far ? 1.0 : -1.0) * Vector3::Unit(axis);
-      faces_.push_back({{n, box->half_size[axis]}, {}});
-      loops_.push_back(list_corners(axis, is_far));
+ConvexSolid::ConvexSolid(Data data) {
+  if (!data.corners.empty()) {
+    find_neighbours(data.faces);
+    data.by_axis.resize(3, std::ssize(data.corners));
+    Vector3 low = data.corners.front();
+    Vector3 high = low;
+    Eigen::Index i = 0;
+    for (const Vector3& x : data.corners) {
+      data.by_axis.col(i++) = x;
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    data.ball.centre = 0.5 * (low + high);
+    for (const Vector3& x : data.corners) {
+      data.ball.radius =
+          std::max(data.ball.radius, (x - data.ball.centre).norm());
     }
   }
-  // Also to the opposite face, where the box is flat.
-  add_bisectors();
+  data_ = std::make_shared<const Data>(std::move(data));
 }
 
-void ConvexSolid::add_bisectors() {
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    for (std::size_t j = 0; j < faces_.size(); ++j) {
-      if (j == i || !faces_[i].presses || !faces_[j].presses) continue;
-      const Plane& own = faces_[i].plane;
-      const Plane& other = faces_[j].plane;
-      faces_[i].nearest.push_back(
-          {static_cast<int>(j), {other.n - own.n, other.h - own.h}});
-    }
+ConvexSolid::ConvexSolid(const ShapeKind& shape)
+    : ConvexSolid([&shape] {
+        LIMBER_EXPECT(is_solid(shape));
+        Data data;
+        const auto* box = std::get_if<Box>(&shape);
+        if (box == nullptr) {
+          data.faces.push_back({{Vector3::UnitZ(), 0.0}});
+          return data;
+        }
+        for (int i = 0; i < 8; ++i) {
+          const Vector3 signs((i & 1) != 0 ? 1.0 : -1.0,
+                              (i & 2) != 0 ? 1.0 : -1.0,
+                              (i & 4) != 0 ? 1.0 : -1.0);
+          data.corners.emplace_back(box->half_size.cwiseProduct(signs));
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+          for (const bool is_far : {false, true}) {
+            const Vector3 n = (is_far ? 1.0 : -1.0) * Vector3::Unit(axis);
+            data.faces.push_back(
+                {{n, box->half_size[axis]}, true, list_corners(axis, is_far)});
+          }
+        }
+        return data;
+      }()) {}
+
+std::optional<ConvexSolid> ConvexSolid::make_bounded(
+    std::span<const Face> faces, const Ball& within) {
+  LIMBER_EXPECT(faces.size() <= kMostFaces);
+  constexpr double kSame = 1e-9;  // of the size [-]
+  const Vector3 reach = Vector3::Constant(1.1 * within.radius);
+  Polytope region;
+  make_box(Matrix3::Identity(), within.centre - reach, within.centre + reach,
+           -1, region);
+  std::array<Polytope, 2> scratch;
+  Cutter cutter(region, scratch);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (!cutter.cut(faces[i].plane, static_cast<int>(i))) return {};
   }
+  Merged merged(kSame * within.radius);
+  Data data;
+  for (const Facet& facet : cutter.part().facets()) {
+    if (facet.tag < 0) return {};
+    Face face = faces[index(facet.tag)];
+    face.corners = list_loop(facet, merged);
+    if (face.corners.size() >= 3) data.faces.push_back(std::move(face));
+  }
+  if (data.faces.size() < 4) return {};
+  data.corners = std::move(merged.points);
+  return ConvexSolid(std::move(data));
 }
 
 ConvexSolid ConvexSolid::make_slab(const Matrix3X& corners,
@@ -69,19 +163,18 @@ ConvexSolid ConvexSolid::make_slab(const Matrix3X& corners,
                                    double depth) {
   LIMBER_EXPECT(corners.cols() >= 3 && depth > 0.0);
   const auto count = static_cast<int>(corners.cols());
-  ConvexSolid slab;
+  Data slab;
   std::vector<int> top;
   std::vector<int> bottom;
   for (int i = 0; i < count; ++i) {
     const Vector3 corner = corners.col(i);
-    slab.corners_.push_back(corner);
-    slab.corners_.emplace_back(corner - depth * Vector3::UnitZ());
+    slab.corners.push_back(corner);
+    slab.corners.emplace_back(corner - depth * Vector3::UnitZ());
     top.push_back(2 * i);
     bottom.insert(bottom.begin(), 2 * i + 1);
   }
-  slab.faces_ = {{{Vector3::UnitZ(), 0.0}, {}, true},
-                 {{-Vector3::UnitZ(), depth}, {}, false}};
-  slab.loops_ = {top, bottom};
+  slab.faces = {{{Vector3::UnitZ(), 0.0}, true, top},
+                {{-Vector3::UnitZ(), depth}, false, bottom}};
   for (int i = 0; i < count; ++i) {
     const int next = (i + 1) % count;
     const Vector3 corner = corners.col(i);
@@ -90,24 +183,31 @@ ConvexSolid ConvexSolid::make_slab(const Matrix3X& corners,
                           .normalized();
     const bool presses = std::find(rim.begin(), rim.end(),
                                    static_cast<std::size_t>(i)) != rim.end();
-    slab.faces_.push_back({{n, n.dot(corner)}, {}, presses});
-    slab.loops_.push_back({2 * i, 2 * i + 1, 2 * next + 1, 2 * next});
+    slab.faces.push_back({{n, n.dot(corner)},
+                          presses,
+                          {2 * i, 2 * i + 1, 2 * next + 1, 2 * next}});
   }
-  slab.add_bisectors();
-  return slab;
+  return ConvexSolid(std::move(slab));
 }
 
-Polytope ConvexSolid::place(const Pose& X_WS, int side) const {
-  LIMBER_EXPECT(is_bounded());
-  Polytope placed;
-  for (std::size_t i = 0; i < loops_.size(); ++i) {
-    Facet facet(tag_of(static_cast<int>(i), side));
-    for (const int corner : loops_[i]) {
-      facet.add(X_WS * corners_[static_cast<std::size_t>(corner)]);
+double ConvexSolid::find_volume() const {
+  double volume = 0.0;
+  for (const Face& face : faces()) {
+    const auto at = [&](std::size_t k) -> Vector3 {
+      return corners()[index(face.corners[k])] - ball().centre;
+    };
+    for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
+      volume += at(0).dot(at(k).cross(at(k + 1))) / 6.0;
     }
-    placed.add(facet);
   }
-  return placed;
+  return volume;
 }
+
+double ConvexSolid::find_low(const Vector3& n) const {
+  const auto& x = data_->by_axis;
+  return (n.x() * x.row(0) + n.y() * x.row(1) + n.z() * x.row(2)).minCoeff();
+}
+
+double ConvexSolid::find_high(const Vector3& n) const { return -find_low(-n); }
 
 }  // namespace limber::contact

@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
 
-#include "limber/common/errors.hpp"
 #include "limber/common/index.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/common/stack_array.hpp"
 #include "limber/contact/potential/quadrature.hpp"
 
 namespace limber::contact {
 namespace {
-
-constexpr std::size_t kMostFaces = 16;
 
 /// Sums of weights times 1, r and r r'.
 struct Weights {
@@ -70,9 +71,9 @@ struct Cell {
 
 // By tetrahedra over the facets that do not contain their apex.
 void integrate(const Polytope& part, const Cell& cell, CellSums& sums) {
-  const Vector3 apex = part.facets().front().corners().front();
+  const Vector3 apex = part.corners().front();
   for (const Facet& facet : part.facets()) {
-    const auto corners = facet.corners();
+    const auto corners = facet.corners;
     if (std::find(corners.begin(), corners.end(), apex) != corners.end()) {
       continue;
     }
@@ -95,7 +96,7 @@ template <class Density>
 Weights weigh_facet(const Facet& facet, const Plane& plane,
                     const Density& density) {
   Weights weights;
-  const auto corners = facet.corners();
+  const auto corners = facet.corners;
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
     const std::array<Vector3, 3> x{corners[0], corners[k], corners[k + 1]};
     const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
@@ -166,87 +167,172 @@ Matrix6 integrate_end_change(const Facet& facet, const Plane& plane,
   return half + half.transpose();
 }
 
-// The part of the overlap that is nearest to a face.
-const Polytope* find_part(const ConvexSolid::Face& face, const Pose& X,
-                          const Polytope& overlap,
-                          std::array<Polytope, 2>& scratch) {
-  const Polytope* part = &overlap;
-  std::size_t next = 0;
-  for (const ConvexSolid::Bisector& bisector : face.nearest) {
-    const Vector3 n = X.R * bisector.plane.n;
-    const Polytope& cut = clip(*part, {n, bisector.plane.h + n.dot(X.p)},
-                               bisector.other, scratch[next]);
-    if (&cut != part) next = 1 - next;
-    part = &cut;
-    if (part->facets().size() < 4) return nullptr;
-  }
-  return part;
-}
+/// A face to which a part of the overlap is nearest.
+struct PressedFace {
+  int face = 0;
+  Weights squared;  ///< of its part, by 12 t^2
+};
 
-// The own face that has this tag and does not press, or -1.
-int find_end(const ConvexSolid& soft, int tag, int side) {
-  for (std::size_t i = 0; i < soft.faces().size(); ++i) {
-    if (soft.faces()[i].presses) continue;
-    if (tag == ConvexSolid::tag_of(static_cast<int>(i), side)) {
-      return static_cast<int>(i);
+/// A ball about corners.
+struct Around {
+  Vector3 centre = Vector3::Zero();
+  double radius = 0.0;
+
+  explicit Around(std::span<const Vector3> corners) {
+    for (const Vector3& x : corners) centre += x;
+    centre /= static_cast<double>(corners.size());
+    for (const Vector3& x : corners) {
+      radius = std::max(radius, (x - centre).norm());
     }
   }
-  return -1;
-}
+};
+
+class Integration {
+ public:
+  Integration(const ConvexSolid& soft, const Pose& X, const Polytope& overlap,
+              int side, bool has_derivatives)
+      : soft_(soft),
+        X_(X),
+        overlap_(overlap),
+        side_(side),
+        sign_(side == 0 ? 1.0 : -1.0),
+        has_derivatives_(has_derivatives) {
+    choose_faces();
+  }
+
+  [[nodiscard]] DepthMoments run() {
+    for (PressedFace& pressed : near_.all()) add_face(pressed);
+    add_pressure();
+    return out_;
+  }
+
+ private:
+  [[nodiscard]] const ConvexSolid::Face& face(int i) const {
+    return soft_.faces()[index(i)];
+  }
+  [[nodiscard]] Plane place(const Plane& plane) const {
+    const Vector3 n = X_.R * plane.n;
+    return {n, plane.h + n.dot(X_.p)};
+  }
+
+  // Those that may be nearest to a point of the overlap: nowhere deeper below
+  // them than everywhere below another one.
+  void choose_faces() {
+    const Around around(overlap_.corners());
+    const Vector3 centre = X_.R.transpose() * (around.centre - X_.p);
+    double most = std::numeric_limits<double>::infinity();
+    const auto visit = [&](const auto& use) {
+      for (std::size_t i = 0; i < soft_.faces().size(); ++i) {
+        const ConvexSolid::Face& at = soft_.faces()[i];
+        if (at.presses) use(static_cast<int>(i), at.plane.find_depth(centre));
+      }
+    };
+    visit(
+        [&](int /*i*/, double t) { most = std::min(most, t + around.radius); });
+    visit([&](int i, double t) {
+      if (t - around.radius > most) return;
+      const Plane plane = place(face(i).plane);
+      double highest = -std::numeric_limits<double>::infinity();
+      for (const Vector3& x : overlap_.corners()) {
+        highest = std::max(highest, plane.find_depth(x));
+      }
+      most = std::min(most, highest);
+    });
+    visit([&](int i, double t) {
+      if (t - around.radius > most) return;
+      const Plane plane = place(face(i).plane);
+      for (const Vector3& x : overlap_.corners()) {
+        if (plane.find_depth(x) > most) continue;
+        near_.add().face = i;
+        return;
+      }
+    });
+  }
+
+  // Below it: nearer to face i than to face j.
+  [[nodiscard]] Plane find_bisector(int i, int j) const {
+    const Plane& own = face(i).plane;
+    const Plane& other = face(j).plane;
+    return place({other.n - own.n, other.h - own.h});
+  }
+
+  // By the faces beside it, which leave little of it, and then by others.
+  [[nodiscard]] bool cut_part(int i, Cutter& cutter) const {
+    const std::vector<int>& beside = face(i).neighbours;
+    for (const int j : beside) {
+      if (face(j).presses && !cutter.cut(find_bisector(i, j), j)) return false;
+    }
+    Around around(cutter.part().corners());
+    for (const PressedFace& other : near_.all()) {
+      const int j = other.face;
+      if (j == i || std::ranges::find(beside, j) != beside.end()) continue;
+      const Plane plane = find_bisector(i, j);
+      const double reach = around.radius * plane.n.norm();
+      if (plane.find_depth(around.centre) > reach) continue;
+      if (!cutter.cut(plane, j)) return false;
+    }
+    return true;
+  }
+
+  void add_face(PressedFace& pressed) {
+    const int i = pressed.face;
+    Cutter cutter(overlap_, scratch_);
+    if (!cut_part(i, cutter)) return;
+    const Plane plane = place(face(i).plane);
+    const Cell cell{plane, sign_, has_derivatives_};
+    CellSums sums;
+    integrate(cutter.part(), cell, sums);
+    add_cell(sums, cell, out_);
+    pressed.squared = sums.squared;
+    for (const Vector3& x : cutter.part().corners()) {
+      out_.depth = std::max(out_.depth, plane.find_depth(x));
+    }
+    for (const Facet& facet : cutter.part().facets()) {
+      add_facet(i, plane, facet);
+    }
+  }
+
+  void add_facet(int i, const Plane& plane, const Facet& facet) {
+    const int end = ConvexSolid::face_of(facet.tag, side_);
+    if (end >= 0 && !face(end).presses) {
+      const Vector3 n = X_.R * face(end).plane.n;
+      out_.m1 -= sign_ * integrate_end(facet, plane, n);
+      if (has_derivatives_) out_.m2 -= integrate_end_change(facet, plane, n);
+    }
+    if (!has_derivatives_ || facet.tag <= i) return;
+    out_.m2 -= integrate_interface(facet, plane,
+                                   plane.n - X_.R * face(facet.tag).plane.n);
+  }
+
+  // Faces beside a flat that slides do not press.
+  void add_pressure() {
+    const Vector3 resultant = out_.m1.head<3>().normalized();
+    for (const PressedFace& pressed : near_.all()) {
+      const Vector3 n = sign_ * (X_.R * face(pressed.face).plane.n);
+      const double share = std::max(-n.dot(resultant), 0.0);
+      out_.pressure += share * pressed.squared.zeroth;
+      out_.first += share * pressed.squared.first;
+      out_.second += share * pressed.squared.second;
+    }
+  }
+
+  const ConvexSolid& soft_;
+  const Pose& X_;
+  const Polytope& overlap_;
+  int side_;
+  double sign_;
+  bool has_derivatives_;
+  StackArray<PressedFace, ConvexSolid::kMostFaces> near_;
+  std::array<Polytope, 2> scratch_;
+  DepthMoments out_;
+};
 
 }  // namespace
 
 DepthMoments find_depth_moments(const ConvexSolid& soft, const Pose& X,
                                 const Polytope& overlap, int side,
                                 bool has_derivatives) {
-  const double sign = side == 0 ? 1.0 : -1.0;
-  DepthMoments out;
-  std::array<Polytope, 2> scratch;
-  std::array<CellSums, kMostFaces> cells;
-  const auto place = [&](const Plane& plane) {
-    const Vector3 n = X.R * plane.n;
-    return Plane{n, plane.h + n.dot(X.p)};
-  };
-  for (std::size_t i = 0; i < soft.faces().size(); ++i) {
-    const ConvexSolid::Face& face = soft.faces()[i];
-    if (!face.presses) continue;
-    LIMBER_EXPECT(i < cells.size());
-    const Polytope* part = find_part(face, X, overlap, scratch);
-    if (part == nullptr) continue;
-    const Plane plane = place(face.plane);
-    const Cell cell{plane, sign, has_derivatives};
-    CellSums& sums = cells[i];
-    integrate(*part, cell, sums);
-    add_cell(sums, cell, out);
-    for (const Facet& facet : part->facets()) {
-      for (const Vector3& x : facet.corners()) {
-        out.depth = std::max(out.depth, plane.find_depth(x));
-      }
-      const int end = find_end(soft, facet.tag(), side);
-      if (end >= 0) {
-        const Vector3 n = X.R * soft.faces()[index(end)].plane.n;
-        out.m1 -= sign * integrate_end(facet, plane, n);
-        if (has_derivatives) {
-          out.m2 -= integrate_end_change(facet, plane, n);
-        }
-      }
-      if (!has_derivatives || facet.tag() <= static_cast<int>(i)) continue;
-      const Plane& other =
-          soft.faces()[static_cast<std::size_t>(facet.tag())].plane;
-      out.m2 -= integrate_interface(facet, plane, plane.n - X.R * other.n);
-    }
-  }
-  // Faces beside a flat that slides do not press.
-  const Vector3 resultant = out.m1.head<3>().normalized();
-  for (std::size_t i = 0; i < soft.faces().size(); ++i) {
-    if (!soft.faces()[i].presses) continue;
-    const Vector3 n = sign * place(soft.faces()[i].plane).n;
-    const double share = std::max(-n.dot(resultant), 0.0);
-    out.pressure += share * cells[i].squared.zeroth;
-    out.first += share * cells[i].squared.first;
-    out.second += share * cells[i].squared.second;
-  }
-  return out;
+  return Integration(soft, X, overlap, side, has_derivatives).run();
 }
 
 }  // namespace limber::contact

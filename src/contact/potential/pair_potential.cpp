@@ -10,6 +10,7 @@
 
 #include "limber/common/errors.hpp"
 #include "limber/common/rotation.hpp"
+#include "limber/contact/potential/solid_overlap.hpp"
 
 namespace limber::contact {
 namespace {
@@ -52,43 +53,8 @@ Matrix6 shift(const Vector3& d) {
 
 Vector3 find_middle(const Polytope& polytope) {
   Vector3 sum = Vector3::Zero();
-  double count = 0.0;
-  for (const Facet& facet : polytope.facets()) {
-    for (const Vector3& x : facet.corners()) {
-      sum += x;
-      count += 1.0;
-    }
-  }
-  return sum / count;
-}
-
-Polytope move(const Polytope& polytope, const Vector3& by) {
-  Polytope moved;
-  for (const Facet& facet : polytope.facets()) {
-    Facet copy(facet.tag());
-    for (const Vector3& x : facet.corners()) copy.add(x + by);
-    moved.add(copy);
-  }
-  return moved;
-}
-
-// The part of `body` that lies in `solid`, the pair's first or second one.
-Polytope cut(const Polytope& body, const ConvexSolid& solid, const Pose& X,
-             int side) {
-  std::array<Polytope, 2> scratch;
-  std::size_t next = 0;
-  const Polytope* part = &body;
-  for (std::size_t i = 0; i < solid.faces().size(); ++i) {
-    const Plane& plane = solid.faces()[i].plane;
-    const Vector3 n = X.R * plane.n;
-    const Polytope& inside =
-        clip(*part, {n, plane.h + n.dot(X.p)},
-             ConvexSolid::tag_of(static_cast<int>(i), side), scratch[next]);
-    if (&inside != part) next = 1 - next;
-    part = &inside;
-    if (part->facets().size() < 4) return {};
-  }
-  return *part;
+  for (const Vector3& x : polytope.corners()) sum += x;
+  return sum / static_cast<double>(polytope.corners().size());
 }
 
 }  // namespace
@@ -128,18 +94,14 @@ PairPotential::PairPotential(const PlacedSolid& A, const PlacedSolid& B,
   LIMBER_EXPECT(modulus > 0.0);
 }
 
-Polytope PairPotential::find_overlap(const Pose& X_A, const Pose& X_B) const {
-  return is_B_bounded_ ? cut(B_->place(X_B, 1), *A_, X_A, 0)
-                       : cut(A_->place(X_A, 0), *B_, X_B, 1);
-}
-
 std::optional<PairMoments> PairPotential::find_flat_moments(
     Pose X_A, Pose X_B, bool has_derivatives) const {
-  Polytope overlap = find_overlap(X_A, X_B);
+  Polytope overlap;
+  find_overlap(*A_, X_A, *B_, X_B, overlap);
   if (overlap.is_empty()) return {};
   PairMoments out;
   out.o = find_middle(overlap);
-  overlap = move(overlap, -out.o);
+  overlap.move(-out.o);
   X_A.p -= out.o;
   X_B.p -= out.o;
   out.of_A = find_depth_moments(*A_, X_A, overlap, 0, has_derivatives);

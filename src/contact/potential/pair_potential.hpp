@@ -62,8 +62,6 @@ class PairPotential {
       const Pose& X_A, const Pose& X_B, bool has_derivatives) const;
   [[nodiscard]] std::optional<PairMoments> find_flat_moments(
       Pose X_A, Pose X_B, bool has_derivatives) const;
-  // Of both, in the world's axes, relative to `origin`.
-  [[nodiscard]] Polytope find_overlap(const Pose& X_A, const Pose& X_B) const;
 
   std::optional<ConvexSolid> A_;
   std::optional<ConvexSolid> B_;

@@ -7,26 +7,18 @@
 #include <utility>
 
 #include "limber/common/errors.hpp"
+#include "limber/common/stack_array.hpp"
 
 namespace limber::contact {
 namespace {
 
-struct Extent {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
-};
+constexpr std::size_t kMostOfRim = 1024;
+using Rim = StackArray<Vector3, kMostOfRim>;
 
-// Of depths below a plane.
-Extent find_extent_of(const Polytope& polytope, const Plane& plane) {
-  Extent extent;
-  for (const Facet& facet : polytope.facets()) {
-    for (const Vector3& x : facet.corners()) {
-      const double depth = plane.find_depth(x);
-      extent.least = std::min(extent.least, depth);
-      extent.most = std::max(extent.most, depth);
-    }
-  }
-  return extent;
+void check_room(std::size_t count, std::size_t most) {
+  if (count < most) return;
+  throw NumericalError(
+      "contact: too many faces of meshes are in one place of contact");
 }
 
 // From the inside, so that both facets of an edge get the same bits and agree
@@ -37,73 +29,132 @@ Vector3 cross(const Vector3& inside, double depth, const Vector3& outside,
 }
 
 // The part of a facet inside, whose corner where it leaves goes to `rim`.
-Facet cut(const Facet& facet, const Plane& plane, Facet& rim) {
-  Facet inside(facet.tag());
-  const std::span<const Vector3> corners = facet.corners();
-  Vector3 last = corners.back();
-  double last_depth = plane.find_depth(last);
-  for (const Vector3& x : corners) {
-    const double depth = plane.find_depth(x);
+void cut(const Facet& facet, const double* depths, Polytope& out, Rim& rim) {
+  const std::span<const Vector3> corners = facet.corners;
+  out.begin_facet(facet.tag);
+  std::size_t last = corners.size() - 1;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double depth = depths[i];
+    const double last_depth = depths[last];
     if ((depth >= 0.0) != (last_depth >= 0.0)) {
-      const Vector3 crossing = depth < 0.0 ? cross(last, last_depth, x, depth)
-                                           : cross(x, depth, last, last_depth);
-      inside.add(crossing);
-      if (depth < 0.0) rim.add(crossing);
+      const Vector3 crossing =
+          depth < 0.0 ? cross(corners[last], last_depth, corners[i], depth)
+                      : cross(corners[i], depth, corners[last], last_depth);
+      out.add_corner(crossing);
+      if (depth < 0.0) {
+        check_room(rim.all().size(), kMostOfRim);
+        rim.add() = crossing;
+      }
     }
-    if (depth >= 0.0) inside.add(x);
-    last = x;
-    last_depth = depth;
+    if (depth >= 0.0) out.add_corner(corners[i]);
+    last = i;
   }
-  return inside;
 }
 
-// The same corners in the order of their angles about their middle.
-Facet close(const Facet& rim, const Plane& plane) {
-  const std::span<const Vector3> corners = rim.corners();
+// Adds the same corners in the order of their angles about their middle.
+void close(const Rim& rim, const Plane& plane, int tag, Polytope& out) {
+  const std::span<const Vector3> corners = rim.all();
   Vector3 middle = Vector3::Zero();
   for (const Vector3& x : corners) middle += x;
   middle /= static_cast<double>(corners.size());
   const Vector3 u = plane.n.unitOrthogonal();
   const Vector3 v = plane.n.normalized().cross(u);
-  std::array<std::pair<double, Vector3>, Facet::kMost> sorted;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector3 r = corners[i] - middle;
-    sorted[i] = {std::atan2(v.dot(r), u.dot(r)), corners[i]};
+  StackArray<std::pair<double, const Vector3*>, kMostOfRim> sorted;
+  for (const Vector3& x : corners) {
+    const Vector3 r = x - middle;
+    sorted.add() = {std::atan2(v.dot(r), u.dot(r)), &x};
   }
-  const auto end = sorted.begin() + std::ssize(corners);
-  std::sort(sorted.begin(), end,
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  Facet facet(rim.tag());
-  std::for_each(sorted.begin(), end,
-                [&](const auto& corner) { facet.add(corner.second); });
-  return facet;
+  std::ranges::sort(sorted.all(), {}, [](const auto& at) { return at.first; });
+  out.begin_facet(tag);
+  for (const auto& at : sorted.all()) out.add_corner(*at.second);
 }
 
 }  // namespace
 
-void Facet::add(const Vector3& corner) {
-  LIMBER_EXPECT(count_ < kMost);
-  corners_[count_++] = corner;
+Polytope& Polytope::operator=(const Polytope& other) {
+  facet_count_ = other.facet_count_;
+  corner_count_ = other.corner_count_;
+  std::copy_n(other.ranges_.begin(), facet_count_, ranges_.begin());
+  std::copy_n(other.corners_.begin(), corner_count_, corners_.begin());
+  return *this;
 }
 
-void Polytope::add(const Facet& facet) {
-  LIMBER_EXPECT(count_ < kMost);
-  facets_[count_++] = facet;
+void Polytope::begin_facet(int tag) {
+  end_facets();
+  check_room(facet_count_, kMostFacets);
+  ranges_[facet_count_++] = {tag, corner_count_, 0};
+}
+
+void Polytope::add_corner(const Vector3& corner) {
+  check_room(corner_count_, kMostCorners);
+  corners_[corner_count_++] = corner;
+  ++ranges_[facet_count_ - 1].count;
+}
+
+void Polytope::end_facets() {
+  if (facet_count_ == 0 || ranges_[facet_count_ - 1].count >= 3) return;
+  corner_count_ = ranges_[--facet_count_].first;
+}
+
+void Polytope::move(const Vector3& by) {
+  for (std::size_t i = 0; i < corner_count_; ++i) corners_[i] += by;
 }
 
 const Polytope& clip(const Polytope& in, const Plane& plane, int tag,
                      Polytope& scratch) {
-  const Extent extent = find_extent_of(in, plane);
-  if (extent.least >= 0.0) return in;
-  scratch.clear();
-  if (!(extent.most > 0.0)) return scratch;
-  Facet rim(tag);
-  for (const Facet& facet : in.facets()) {
-    const Facet inside = cut(facet, plane, rim);
-    if (inside.corners().size() >= 3) scratch.add(inside);
+  std::array<double, Polytope::kMostCorners> depths;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  double largest = 0.0;
+  const std::span<const Vector3> corners = in.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    depths[i] = plane.find_depth(corners[i]);
+    least = std::min(least, depths[i]);
+    most = std::max(most, depths[i]);
+    largest = std::max(largest, corners[i].squaredNorm());
   }
-  if (rim.corners().size() >= 3) scratch.add(close(rim, plane));
+  const double round_off =
+      4.0 * std::numeric_limits<double>::epsilon() *
+      (std::sqrt(largest * plane.n.squaredNorm()) + std::abs(plane.h));
+  if (least >= -round_off) return in;
+  scratch.clear();
+  if (!(most > 0.0)) return scratch;
+  Rim rim;
+  const double* of_facet = depths.data();
+  for (const Facet& facet : in.facets()) {
+    cut(facet, of_facet, scratch, rim);
+    of_facet += facet.corners.size();
+  }
+  if (rim.all().size() >= 3) close(rim, plane, tag, scratch);
+  scratch.end_facets();
   return scratch;
+}
+
+bool Cutter::cut(const Plane& plane, int tag) {
+  const std::size_t next = part_ == scratch_.data() ? 1 : 0;
+  part_ = &clip(*part_, plane, tag, scratch_[next]);
+  return part_->facet_count() >= 4;
+}
+
+void make_box(const Matrix3& axes, const Vector3& low, const Vector3& high,
+              int tag, Polytope& out) {
+  out.clear();
+  const auto add = [&](int axis, bool is_far, bool next_far, bool last_far) {
+    Vector3 at;
+    at[axis] = (is_far ? high : low)[axis];
+    at[(axis + 1) % 3] = (next_far ? high : low)[(axis + 1) % 3];
+    at[(axis + 2) % 3] = (last_far ? high : low)[(axis + 2) % 3];
+    out.add_corner(axes * at);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool is_far : {false, true}) {
+      out.begin_facet(tag);
+      add(axis, is_far, false, false);
+      add(axis, is_far, is_far, !is_far);
+      add(axis, is_far, true, true);
+      add(axis, is_far, !is_far, is_far);
+    }
+  }
 }
 
 }  // namespace limber::contact

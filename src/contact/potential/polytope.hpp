@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <ranges>
 #include <span>
 
 #include "limber/common/types.hpp"
@@ -21,49 +22,84 @@ struct Plane {
   }
 };
 
-/// A face; corners counterclockwise, seen from outside.
-class Facet {
- public:
-  static constexpr std::size_t kMost = 24;
-
-  explicit Facet(int tag = -1) : tag_(tag) {}
-
-  /// Of the plane that it lies in.
-  [[nodiscard]] int tag() const { return tag_; }
-  [[nodiscard]] std::span<const Vector3> corners() const {
-    return {corners_.data(), count_};
-  }
-  /// @throws ContractError beyond kMost.
-  void add(const Vector3& corner);
-
- private:
-  int tag_;
-  std::size_t count_ = 0;
-  std::array<Vector3, kMost> corners_;
+/// A face of a Polytope; corners counterclockwise, seen from outside.
+struct Facet {
+  int tag = -1;  ///< of the plane that it lies in
+  std::span<const Vector3> corners;
 };
 
 class Polytope {
  public:
-  static constexpr std::size_t kMost = 32;
+  static constexpr std::size_t kMostFacets = 2064;
+  static constexpr std::size_t kMostCorners = 6 * kMostFacets;
 
-  [[nodiscard]] std::span<const Facet> facets() const {
-    return {facets_.data(), count_};
+  Polytope() {}  // NOLINT: its arrays stay as they are
+  Polytope(const Polytope& other) : Polytope() { *this = other; }
+  Polytope& operator=(const Polytope& other);
+
+  [[nodiscard]] auto facets() const {
+    return std::views::transform(
+        std::span(ranges_).first(facet_count_), [this](const Range& range) {
+          return Facet{range.tag,
+                       std::span(corners_).subspan(range.first, range.count)};
+        });
   }
-  [[nodiscard]] bool is_empty() const { return count_ == 0; }
-  void clear() { count_ = 0; }
-  /// @throws ContractError beyond kMost.
-  void add(const Facet& facet);
+  [[nodiscard]] std::size_t facet_count() const { return facet_count_; }
+  /// Of all facets, each once for every facet that it belongs to.
+  [[nodiscard]] std::span<const Vector3> corners() const {
+    return {corners_.data(), corner_count_};
+  }
+  [[nodiscard]] bool is_empty() const { return facet_count_ == 0; }
+  void clear() { facet_count_ = corner_count_ = 0; }
+
+  /// Adds a facet without corners, unless the last one has fewer than three:
+  /// then it takes its place. @throws NumericalError beyond kMostFacets.
+  void begin_facet(int tag);
+  /// To the last facet. @throws NumericalError beyond kMostCorners.
+  void add_corner(const Vector3& corner);
+  /// Drops the last facet if it has fewer than three corners.
+  void end_facets();
+  void move(const Vector3& by);
 
  private:
-  std::size_t count_ = 0;
-  std::array<Facet, kMost> facets_;
+  struct Range {
+    int tag;
+    std::size_t first;
+    std::size_t count;
+  };
+
+  std::size_t facet_count_ = 0;
+  std::size_t corner_count_ = 0;
+  std::array<Range, kMostFacets> ranges_;
+  std::array<Vector3, kMostCorners> corners_;
 };
 
 /// The part of `in` inside of a plane, whose facet there gets `tag`; empty
 /// where nothing is inside.
 /// @param scratch not `in`
-/// @return `in` if all of it is inside, else `scratch`
+/// @return `in` if all of it is inside but for round-off, else `scratch`
 [[nodiscard]] const Polytope& clip(const Polytope& in, const Plane& plane,
                                    int tag, Polytope& scratch);
+
+/// Cuts one polytope by planes, in turn from one memory into another.
+class Cutter {
+ public:
+  /// @param from that outlives it @param scratch neither of them `from`
+  Cutter(const Polytope& from, std::array<Polytope, 2>& scratch)
+      : part_(&from), scratch_(scratch) {}
+
+  /// @return whether anything is left
+  bool cut(const Plane& plane, int tag);
+  [[nodiscard]] const Polytope& part() const { return *part_; }
+
+ private:
+  const Polytope* part_;
+  std::array<Polytope, 2>& scratch_;
+};
+
+/// A box. @param axes its directions by columns, of a right-handed frame
+/// @param low, high along these, of all its points [m] @param tag of all facets
+void make_box(const Matrix3& axes, const Vector3& low, const Vector3& high,
+              int tag, Polytope& out);
 
 }  // namespace limber::contact

@@ -13,6 +13,7 @@
 #include "limber/common/names.hpp"
 #include "limber/contact/law/pad_law.hpp"
 #include "limber/contact/patch_pair.hpp"
+#include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/shapes/skin.hpp"
 #include "limber/scene/contacts/collision_mesh.hpp"
 #include "limber/scene/contacts/contact_shapes.hpp"
@@ -111,6 +112,14 @@ contact::Shape make_rigid_shape(const Geometry& geometry, const Pose& X_BS) {
       Pose{}};
 }
 
+std::vector<contact::ConvexSolid> find_solids(const contact::Shape& shape) {
+  const auto* skin =
+      std::get_if<std::shared_ptr<const contact::Skin>>(&shape.kind);
+  if (skin == nullptr) return {};
+  const flexbody::ContactSurface& surface = (*skin)->surface();
+  return contact::split_mesh(surface.x_B, surface.faces);
+}
+
 std::shared_ptr<const joints::PairInteraction> make_law(
     const contact::ContactSide& A, const contact::ContactSide& B,
     const contact::ContactParameters& parameters) {
@@ -181,6 +190,7 @@ ContactAssembly::Sides ContactAssembly::make_rigid(int link) const {
     sides.push_back(
         {source.name + number, site.body,
          make_side(shape, source.contact.material, sites_.plan_of(link))});
+    sides.back().side.solids = find_solids(shape);
   }
   return sides;
 }

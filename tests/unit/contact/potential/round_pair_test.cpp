@@ -10,6 +10,7 @@
 
 #include "limber/common/rotation.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
+#include "limber/contact/potential/solid_overlap.hpp"
 #include "unit/contact/potential/round_placings.hpp"
 
 /// Cylinders, capsules and balls: against closed forms of the overlap, Hertz,
@@ -107,13 +108,9 @@ TEST(SurfaceContact, OfBoxesIsThatOfPolyhedra) {
   for (const Matrix3& R : turns) {
     Pose X = lower(kBox, R, d);
     X.p += Vector3(0.18, 0.0, 0.1);
-    // The part of the placed box within the table.
-    Polytope overlap = ConvexSolid(kBox).place(X, 1);
     const ConvexSolid solid(table);
-    for (const ConvexSolid::Face& face : solid.faces()) {
-      Polytope next;
-      overlap = Polytope(clip(overlap, face.plane, -1, next));
-    }
+    Polytope overlap;
+    find_overlap(solid, {}, ConvexSolid(kBox), X, overlap);
     const DepthMoments found = find_moments(table, kBox, X, Vector3::Zero());
     const DepthMoments other = find_depth_moments(solid, {}, overlap, 0, true);
     EXPECT_NEAR(found.M / other.M, 1.0, 1e-9);
