@@ -215,37 +215,36 @@ class Integration {
     return {n, plane.h + n.dot(X_.p)};
   }
 
-  // Those that may be nearest to a point of the overlap: nowhere deeper below
-  // them than everywhere below another one.
+  // Those that may be nearest to a point of the overlap: all of it is at most
+  // as deep as its deepest point below one of them.
   void choose_faces() {
     const Around around(overlap_.corners());
     const Vector3 centre = X_.R.transpose() * (around.centre - X_.p);
-    double most = std::numeric_limits<double>::infinity();
     const auto visit = [&](const auto& use) {
       for (std::size_t i = 0; i < soft_.faces().size(); ++i) {
         const ConvexSolid::Face& at = soft_.faces()[i];
         if (at.presses) use(static_cast<int>(i), at.plane.find_depth(centre));
       }
     };
-    visit(
-        [&](int /*i*/, double t) { most = std::min(most, t + around.radius); });
+    double least = std::numeric_limits<double>::infinity();
     visit([&](int i, double t) {
-      if (t - around.radius > most) return;
-      const Plane plane = place(face(i).plane);
-      double highest = -std::numeric_limits<double>::infinity();
-      for (const Vector3& x : overlap_.corners()) {
-        highest = std::max(highest, plane.find_depth(x));
-      }
-      most = std::min(most, highest);
+      if (!(t < least)) return;
+      least = t;
+      shallowest_ = i;
     });
+    if (shallowest_ < 0) return;
+    const Plane shallow = place(face(shallowest_).plane);
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vector3& x : overlap_.corners()) {
+      most = std::max(most, shallow.find_depth(x));
+    }
     visit([&](int i, double t) {
       if (t - around.radius > most) return;
       const Plane plane = place(face(i).plane);
-      for (const Vector3& x : overlap_.corners()) {
-        if (plane.find_depth(x) > most) continue;
-        near_.add().face = i;
-        return;
-      }
+      const bool is_near = std::ranges::any_of(
+          overlap_.corners(),
+          [&](const Vector3& x) { return plane.find_depth(x) <= most; });
+      if (is_near) near_.add().face = i;
     });
   }
 
@@ -256,20 +255,26 @@ class Integration {
     return place({other.n - own.n, other.h - own.h});
   }
 
-  // By the faces beside it, which leave little of it, and then by others.
+  // By the face nearest to the overlap's middle, which leaves little of other
+  // parts, by the faces beside it, and then by others.
   [[nodiscard]] bool cut_part(int i, Cutter& cutter) const {
+    const auto cut = [&](int j) { return cutter.cut(find_bisector(i, j), j); };
+    if (i != shallowest_ && !cut(shallowest_)) return false;
     const std::vector<int>& beside = face(i).neighbours;
     for (const int j : beside) {
-      if (face(j).presses && !cutter.cut(find_bisector(i, j), j)) return false;
+      if (j != shallowest_ && face(j).presses && !cut(j)) return false;
     }
     Around around(cutter.part().corners());
     for (const PressedFace& other : near_.all()) {
       const int j = other.face;
-      if (j == i || std::ranges::find(beside, j) != beside.end()) continue;
+      if (j == i || j == shallowest_ ||
+          std::ranges::find(beside, j) != beside.end()) {
+        continue;
+      }
       const Plane plane = find_bisector(i, j);
       const double reach = around.radius * plane.n.norm();
       if (plane.find_depth(around.centre) > reach) continue;
-      if (!cutter.cut(plane, j)) return false;
+      if (!cut(j)) return false;
     }
     return true;
   }
@@ -322,6 +327,7 @@ class Integration {
   int side_;
   double sign_;
   bool has_derivatives_;
+  int shallowest_ = -1;  // face at the overlap's middle
   StackArray<PressedFace, ConvexSolid::kMostFaces> near_;
   std::array<Polytope, 2> scratch_;
   DepthMoments out_;

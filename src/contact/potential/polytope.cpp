@@ -21,6 +21,14 @@ void check_room(std::size_t count, std::size_t most) {
       "contact: too many faces of meshes are in one place of contact");
 }
 
+// Of depths below a plane.
+double find_round_off(const Plane& plane, std::span<const Vector3> corners) {
+  double largest = 0.0;
+  for (const Vector3& x : corners) largest = std::max(largest, x.squaredNorm());
+  return 4.0 * std::numeric_limits<double>::epsilon() *
+         (std::sqrt(largest * plane.n.squaredNorm()) + std::abs(plane.h));
+}
+
 // From the inside, so that both facets of an edge get the same bits and agree
 // on which corners are inside of the next plane.
 Vector3 cross(const Vector3& inside, double depth, const Vector3& outside,
@@ -29,8 +37,12 @@ Vector3 cross(const Vector3& inside, double depth, const Vector3& outside,
 }
 
 // The part of a facet inside, whose corner where it leaves goes to `rim`.
-void cut(const Facet& facet, const double* depths, Polytope& out, Rim& rim) {
+void cut(const Facet& facet, std::span<const double> depths, Polytope& out,
+         Rim& rim) {
   const std::span<const Vector3> corners = facet.corners;
+  const auto is_inside = [](double depth) { return depth >= 0.0; };
+  if (std::ranges::all_of(depths, is_inside)) return out.add_facet(facet);
+  if (std::ranges::none_of(depths, is_inside)) return;
   out.begin_facet(facet.tag);
   std::size_t last = corners.size() - 1;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -85,6 +97,15 @@ void Polytope::begin_facet(int tag) {
   ranges_[facet_count_++] = {tag, corner_count_, 0};
 }
 
+void Polytope::add_facet(const Facet& facet) {
+  begin_facet(facet.tag);
+  const std::size_t count = facet.corners.size();
+  check_room(corner_count_ + count, kMostCorners + 1);
+  std::copy_n(facet.corners.begin(), count, &corners_[corner_count_]);
+  corner_count_ += count;
+  ranges_[facet_count_ - 1].count = count;
+}
+
 void Polytope::add_corner(const Vector3& corner) {
   check_room(corner_count_, kMostCorners);
   corners_[corner_count_++] = corner;
@@ -105,25 +126,21 @@ const Polytope& clip(const Polytope& in, const Plane& plane, int tag,
   std::array<double, Polytope::kMostCorners> depths;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
-  double largest = 0.0;
   const std::span<const Vector3> corners = in.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     depths[i] = plane.find_depth(corners[i]);
     least = std::min(least, depths[i]);
     most = std::max(most, depths[i]);
-    largest = std::max(largest, corners[i].squaredNorm());
   }
-  const double round_off =
-      4.0 * std::numeric_limits<double>::epsilon() *
-      (std::sqrt(largest * plane.n.squaredNorm()) + std::abs(plane.h));
-  if (least >= -round_off) return in;
+  if (least >= 0.0 || least >= -find_round_off(plane, corners)) return in;
   scratch.clear();
   if (!(most > 0.0)) return scratch;
   Rim rim;
-  const double* of_facet = depths.data();
+  std::size_t first = 0;
   for (const Facet& facet : in.facets()) {
-    cut(facet, of_facet, scratch, rim);
-    of_facet += facet.corners.size();
+    const std::size_t count = facet.corners.size();
+    cut(facet, std::span(depths).subspan(first, count), scratch, rim);
+    first += count;
   }
   if (rim.all().size() >= 3) close(rim, plane, tag, scratch);
   scratch.end_facets();

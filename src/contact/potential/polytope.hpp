@@ -55,6 +55,8 @@ class Polytope {
   /// Adds a facet without corners, unless the last one has fewer than three:
   /// then it takes its place. @throws NumericalError beyond kMostFacets.
   void begin_facet(int tag);
+  /// @throws NumericalError likewise, and beyond kMostCorners.
+  void add_facet(const Facet& facet);
   /// To the last facet. @throws NumericalError beyond kMostCorners.
   void add_corner(const Vector3& corner);
   /// Drops the last facet if it has fewer than three corners.
