@@ -140,5 +140,68 @@ TEST(MeshOnABox, GainsNoEnergyAtLongSteps) {
   EXPECT_GE(ended, 3);
 }
 
+// Two legs at a right angle, of two convex parts.
+std::string make_angle() {
+  const std::vector<std::array<double, 2>> outline = {
+      {-0.04, -0.04}, {0.04, -0.04}, {0.04, -0.02},
+      {-0.02, -0.02}, {-0.02, 0.04}, {-0.04, 0.04}};
+  std::string text;
+  for (const double z : {-0.03, 0.03}) {
+    for (const auto& p : outline) {
+      text += fmt::format("v {} {} {}\n", p[0], p[1], z);
+    }
+  }
+  for (int i = 1; i <= 6; ++i) {
+    const int next = i % 6 + 1;
+    text += fmt::format("f {} {} {} {}\n", i, next, next + 6, i + 6);
+  }
+  const std::vector<std::array<int, 3>> ends = {
+      {1, 2, 3}, {1, 3, 4}, {1, 4, 5}, {1, 5, 6}};
+  for (const auto& [a, b, c] : ends) {
+    text +=
+        fmt::format("f {} {} {}\nf {} {} {}\n", a + 6, b + 6, c + 6, a, c, b);
+  }
+  return text;
+}
+
+TEST(TwoMeshes, StrikeEachOtherWhateverTheirNames) {
+  const Workspace place;
+  place.write("angle.obj", make_angle());
+  place.write("angle.urdf", make_link("angle", "2", "0.0015",
+                                      "<mesh filename='angle.obj'/>", "1e10"));
+  const auto run = [&](const std::string& between) {
+    place.write("scene.toml",
+                "[[robot]]\nname = 'a'\nfile = 'angle.urdf'\n"
+                "[[robot]]\nname = 'b'\nfile = 'angle.urdf'\n"
+                "position = [0.01, -0.02, 0.12]\n"
+                "orientation_rpy = [0.6, 0.4, 0.1]\n"
+                "velocity = [0.1, 0.05, -0.8]\n"
+                "[output]\npictures = false\n"
+                "[[probe]]\nname = 'a'\nlink = 'a.angle'\n"
+                "quantity = 'velocity'\n"
+                "[[probe]]\nname = 'b'\nlink = 'b.angle'\n"
+                "quantity = 'velocity'\n[[contact]]\nbetween = [" +
+                    between +
+                    "]\nfriction = 0.4\nrestitution = 0.6\n[gravity]\n"
+                    "acceleration = [0.0, 0.0, 0.0]\n"
+                    "[time]\nduration = 0.2\nstep = 1e-3\n");
+    const CommandResult result = place.limber("run scene.toml --out o --json");
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.out, nullptr, false);
+  };
+  const json one = run("'a.angle', 'b.angle'");
+  const json other = run("'b.angle', 'a.angle'");
+  const auto find = [](const json& result, const std::string& probe) {
+    return result["probes"][probe]["final"].get<double>();
+  };
+  const std::array<double, 3> start{0.1, 0.05, -0.8};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string axis = ".v" + std::string(1, "xyz"[k]);
+    EXPECT_NEAR(find(one, "a" + axis), find(other, "a" + axis), 1e-10);
+    EXPECT_NEAR(find(one, "a" + axis) + find(one, "b" + axis), start[k], 1e-9);
+  }
+  EXPECT_LT(find(one, "a.vz"), -0.1);
+}
+
 }  // namespace
 }  // namespace limber::test::mesh_contact_test
