@@ -66,7 +66,7 @@ class PatchPair final : public joints::PairInteraction,
       const joints::PairBodies& bodies) const override;
   [[nodiscard]] joints::TouchReach find_reach_A() const override;
   [[nodiscard]] joints::TouchReach find_reach_B() const override;
-  /// At one time; of more that touch, those of the largest energies count.
+  /// At one time.
   [[nodiscard]] std::size_t most_patches() const;
   [[nodiscard]] double find_size() const override { return size_; }
   double begin_touch(const joints::PairBodies& bodies, double t,

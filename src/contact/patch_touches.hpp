@@ -5,13 +5,15 @@
 #include <array>
 #include <cstddef>
 
+#include "limber/common/errors.hpp"
+#include "limber/contact/potential/mesh_parts.hpp"
 #include "limber/contact/potential/pair_potential.hpp"
 
 /// The patches of a pair at one time, without allocation.
 namespace limber::contact {
 
 /// Patches of a pair at one time, at most.
-inline constexpr std::size_t kMostPatches = 16;
+inline constexpr std::size_t kMostPatches = kMostSideBySide;
 
 /// A patch of one part of each side.
 struct PatchTouch {
@@ -21,21 +23,17 @@ struct PatchTouch {
   Patch patch;
 };
 
-/// Up to kMostPatches, those of the largest energies, by their indices.
+/// Up to kMostPatches, by their indices.
 class PatchTouches {
  public:
+  /// @throws NumericalError beyond kMostPatches.
   void add(const PatchTouch& touch) {
-    if (count_ < all_.size()) {
-      all_[count_++] = touch;
-      return;
+    if (count_ == all_.size()) {
+      throw NumericalError(
+          "contact: too many parts of two shapes touch at one time; simpler "
+          "collision shapes have fewer");
     }
-    const auto least = std::min_element(
-        all_.begin(), all_.end(), [](const PatchTouch& a, const PatchTouch& b) {
-          return a.patch.energy < b.patch.energy;
-        });
-    if (!(touch.patch.energy > least->patch.energy)) return;
-    std::move(least + 1, all_.end(), least);
-    all_.back() = touch;
+    all_[count_++] = touch;
   }
   [[nodiscard]] const PatchTouch* begin() const { return all_.data(); }
   [[nodiscard]] const PatchTouch* end() const { return all_.data() + count_; }

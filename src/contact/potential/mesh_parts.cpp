@@ -73,6 +73,7 @@ class Splitter {
 
   std::vector<ConvexSolid> run() {
     if (!find_planes()) return {};
+    part_counts_.assign(planes_.size(), 0);
     std::vector<CutSurface> open{std::move(whole_)};
     std::vector<ConvexSolid> parts;
     double volume = 0.0;
@@ -83,6 +84,9 @@ class Splitter {
       if (violated.empty()) {
         const auto part = make_part(cell);
         if (!part) continue;
+        for (const int i : list_planes(cell)) {
+          if (++part_counts_[index(i)] > kMostSideBySide) return {};
+        }
         volume += part->find_volume();
         parts.push_back(*part);
       } else if (planes_.size() > kMostCutPlanes) {
@@ -273,6 +277,7 @@ class Splitter {
   double volume_ = 0.0;  // [m^3]
   ConvexSolid::Ball bounds_;
   std::vector<Plane> planes_;
+  std::vector<std::size_t> part_counts_;  // with a face in each plane
   CutSurface whole_;
 };
 

@@ -10,6 +10,8 @@ namespace limber::contact {
 
 /// Largest number of convex parts of a mesh.
 inline constexpr std::size_t kMostSolids = 256;
+/// Largest number of parts under one flat of it.
+inline constexpr std::size_t kMostSideBySide = 32;
 
 /// The inside of a closed surface of flat triangles as convex parts: itself if
 /// it is convex, else cut along its own faces, again and again the one through
@@ -18,7 +20,7 @@ inline constexpr std::size_t kMostSolids = 256;
 /// plane, within 1e-6 of the surface's size, are one face.
 ///
 /// Limits     up to 2000 different planes of a convex surface, 600 of another,
-///            and kMostSolids parts
+///            kMostSolids parts, kMostSideBySide of them with a face in a plane
 /// @param x_B 3 x n corners [m] @param faces outward triangles, by the first
 /// three of each
 /// @returns nothing beyond these limits, or where the parts have not the volume

@@ -224,6 +224,18 @@ TEST(MeshPair, HoldsAPegInAHole) {
   EXPECT_LT(scene.body().quat_WB.vec().norm(), 1e-3);
 }
 
+TEST(MeshPair, HoldsARingOnManyPartsSideBySide) {
+  Scene scene = make_scene(make_plane(), make_ring(24, 0.05, 0.08, 0.02),
+                           lean(std::atan(0.3)),
+                           {.friction = {.sliding = 0.5}, .restitution = 0.5});
+  scene.body().p_WB.z() = 0.02;
+  scene.go(0.2, 1e-3);
+  const Vector3 early = scene.body().p_WB;
+  EXPECT_LT(early.z(), 0.02);
+  scene.go(0.4, 1e-3);
+  EXPECT_LT((scene.body().p_WB - early).norm(), 1e-10);
+}
+
 TEST(MeshPair, SuitsMeshesAndFlatSolids) {
   const ContactSide angle = make_side(make_angle());
   EXPECT_TRUE(PatchPair::suits(angle, angle, {}));

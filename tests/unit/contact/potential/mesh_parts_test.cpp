@@ -150,8 +150,25 @@ TEST(MeshParts, DoNotDependOnAxesUnitsAndOrder) {
   }
 }
 
-TEST(MeshParts, AreNotMadeOfTooManyFaces) {
+// Round punches of their areas [Johnson 1985], side by side.
+TEST(MeshParts, OfAFlatAreAsStiffAsTheirAreasSideBySide) {
+  const double d = 1e-8;
+  double load = 0.0;
+  double punches = 0.0;
+  for (const ConvexSolid& part : make_ring(24, 0.05, 0.08, 0.02).split()) {
+    const Pose X{Matrix3::Identity(), Vector3(0.0, 0.0, 0.02 - d)};
+    load += press(ConvexSolid(HalfSpace{}), part, X).load();
+    const double area = part.find_volume() / 0.04;
+    punches += 2.0 * kModulus * std::sqrt(area / std::numbers::pi) * d;
+  }
+  EXPECT_NEAR(load / punches, 1.0, 1e-4);
+}
+
+TEST(MeshParts, AreNotMadeOfTooManyFacesOrParts) {
   EXPECT_TRUE(make_globe(100, 1.0).split().empty());
+  // Side by side under its end.
+  EXPECT_FALSE(make_ring(32, 0.05, 0.08, 0.02).split().empty());
+  EXPECT_TRUE(make_ring(33, 0.05, 0.08, 0.02).split().empty());
 }
 
 }  // namespace
