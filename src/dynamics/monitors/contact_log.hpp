@@ -44,7 +44,7 @@ constexpr auto fields_of(const OngoingContact*) {
 ///            within two steps
 class ContactLog {
  public:
-  /// @param h step of the run [s]
+  /// @param h step of the run, 0 with a tolerance [s]
   ContactLog(const SystemModel& model, IntegratorKind scheme, double h);
 
   /// To be called at the start, and then after every accepted step.

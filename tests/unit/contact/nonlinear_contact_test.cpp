@@ -143,12 +143,11 @@ TEST(NonlinearContact, WithoutSecondOrderIsThatOfLevelCoupled) {
   }
 }
 
-// The momentum about the centre of mass to the order of the scheme, since the
-// place and the normal of a touch are those in the middle of a step.
+// The momentum about the centre of mass to the order of the scheme, or exactly.
 TEST(NonlinearContact, KeepsMomentaAtTheOrderOfTheScheme) {
   for (const auto& [kind, order] :
        {std::pair{IntegratorKind::generalized_alpha, 2.0},
-        std::pair{IntegratorKind::energy_conserving, 2.0},
+        std::pair{IntegratorKind::energy_conserving, 0.0},
         std::pair{IntegratorKind::runge_kutta_4, 4.0}}) {
     const Impact impact = make_impact(Fidelity::nonlinear, 2.0, 0.03);
     const Outcome coarse = strike(impact, kind, 2e-4);
@@ -156,6 +155,10 @@ TEST(NonlinearContact, KeepsMomentaAtTheOrderOfTheScheme) {
     EXPECT_EQ(fine.contacts, 1U) << to_string(kind);
     EXPECT_LT(coarse.momentum_error, 1e-13) << to_string(kind);
     EXPECT_LT(fine.momentum_error, 1e-13) << to_string(kind);
+    if (order == 0.0) {
+      EXPECT_LT(std::max(coarse.spin_error, fine.spin_error), 1e-12);
+      continue;
+    }
     EXPECT_NEAR(std::log2(coarse.spin_error / fine.spin_error), order, 0.1)
         << to_string(kind);
   }
