@@ -239,14 +239,13 @@ class Splitter {
         Halves halves = halve(fragment, plane);
         below.fragments.push_back(std::move(halves.below));
         above.fragments.push_back(std::move(halves.above));
-      } else if (range.high > same_) {
-        above.fragments.push_back(fragment);
-      } else if (range.low < -same_ ||
-                 planes_[index(fragment.plane)].n.dot(plane.n) > 0.0) {
-        below.fragments.push_back(fragment);
-      } else {
-        above.fragments.push_back(fragment);
+        continue;
       }
+      const bool is_below =
+          range.high <= same_ &&
+          (range.low < -same_ ||
+           planes_[index(fragment.plane)].n.dot(plane.n) > 0.0);
+      (is_below ? below : above).fragments.push_back(fragment);
     }
     if (!above.fragments.empty()) out.push_back(std::move(above));
     if (!below.fragments.empty()) out.push_back(std::move(below));

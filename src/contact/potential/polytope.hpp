@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <ranges>
 #include <span>
 
 #include "limber/common/types.hpp"
@@ -37,12 +36,36 @@ class Polytope {
   Polytope(const Polytope& other) : Polytope() { *this = other; }
   Polytope& operator=(const Polytope& other);
 
-  [[nodiscard]] auto facets() const {
-    return std::views::transform(
-        std::span(ranges_).first(facet_count_), [this](const Range& range) {
-          return Facet{range.tag,
-                       std::span(corners_).subspan(range.first, range.count)};
-        });
+  /// Each by its value, in a loop.
+  class Facets {
+   public:
+    class Iterator {
+     public:
+      Iterator(const Polytope& of, std::size_t i) : of_(&of), i_(i) {}
+      Facet operator*() const { return of_->facet(i_); }
+      Iterator& operator++() {
+        ++i_;
+        return *this;
+      }
+      bool operator==(const Iterator& other) const = default;
+
+     private:
+      const Polytope* of_;
+      std::size_t i_;
+    };
+
+    explicit Facets(const Polytope& of) : of_(of) {}
+    [[nodiscard]] Iterator begin() const { return {of_, 0}; }
+    [[nodiscard]] Iterator end() const { return {of_, of_.facet_count()}; }
+
+   private:
+    const Polytope& of_;
+  };
+
+  [[nodiscard]] Facets facets() const { return Facets(*this); }
+  [[nodiscard]] Facet facet(std::size_t i) const {
+    const Range& range = ranges_[i];
+    return {range.tag, {corners_.data() + range.first, range.count}};
   }
   [[nodiscard]] std::size_t facet_count() const { return facet_count_; }
   /// Of all facets, each once for every facet that it belongs to.
