@@ -264,10 +264,11 @@ class PlanDraw {
     settings.step = (traits.is_implicit ? draw_.log_uniform(0.003, 0.03)
                                         : draw_.log_uniform(0.003, 0.01)) /
                     frequency_;
-    constexpr int kSteps = 96;
-    settings.end_time = kSteps * settings.step;
-    for (int i = 0; i <= 8; ++i) {
-      settings.output_times.push_back(i * kSteps / 8 * settings.step);
+    constexpr int kOutputs = 8;
+    constexpr int kStepsBetween = 12;
+    settings.end_time = kOutputs * kStepsBetween * settings.step;
+    for (int i = 0; i <= kOutputs; ++i) {
+      settings.output_times.push_back(i * kStepsBetween * settings.step);
     }
     if (traits.is_adaptive && draw_.chance(0.25)) {
       settings.tolerance = size_ * draw_.log_uniform(1e-5, 1e-3);

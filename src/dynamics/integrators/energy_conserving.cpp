@@ -83,7 +83,7 @@ void EnergyConserving::predict(const SystemState& from, double h) {
   const double growth = (last.h + h) / (last.h + before.h);
   const bool has_trend = last.h > 0.0 && before.h > 0.0 &&
                          growth <= kLongestTrend && continues(from);
-  if (!has_trend) return start(from, h);
+  if (!has_trend) return predict_anew(from, h);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const Vector3& v = last.mean.translation[b];
     const Vector3& w = last.mean.rotation[b];
@@ -107,7 +107,7 @@ bool EnergyConserving::continues(const SystemState& from) const {
 
 // Predicts unchanged velocities of bodies, free vibration of modes and the
 // wrenches of couplers at the begin.
-void EnergyConserving::start(const SystemState& from, double h) {
+void EnergyConserving::predict_anew(const SystemState& from, double h) {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const BodyModel& body = model_.bodies[b];
     middle_.bodies[b].v_WB_W = from.bodies[b].v_WB_W;

@@ -64,7 +64,7 @@ class EnergyConserving final : public Integrator {
 
  private:
   void predict(const SystemState& from, double h);
-  void start(const SystemState& from, double h);
+  void predict_anew(const SystemState& from, double h);
   [[nodiscard]] bool continues(const SystemState& from) const;
   void keep_course(const SystemState& end, double h);
   void advance(const SystemState& from, double h, double end);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "limber/common/index.hpp"
 #include "limber/dynamics/equations/energy.hpp"
 #include "limber/dynamics/equations/full_terms.hpp"
 #include "limber/dynamics/equations/pair_forces.hpp"

@@ -57,7 +57,7 @@ std::shared_ptr<const Skin> make_skin(double bend, bool has_products) {
   std::vector<test::Field> fields = test::make_fields();
   fields.resize(kModes, fields.front());
   for (int pair = 0; has_products && pair < kPairs; ++pair) {
-    fields.push_back([bend, pair](const Vector3& x) -> Vector3 {
+    fields.emplace_back([bend, pair](const Vector3& x) -> Vector3 {
       return bend * Vector3(std::sin(2.0 * x.y() + pair), 0.5 * x.z(),
                             std::cos(3.0 * x.x() - pair));
     });
