@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "limber/dynamics/integrators/rotation_path.hpp"
+#include "limber/common/rotation_path.hpp"
 
 namespace limber::dynamics {
 namespace {
@@ -115,7 +115,8 @@ void SuppliedWork::set_moment_paths(double h) {
     const Matrix3 R = load.in_world ? Matrix3(to.R_WF * from.R_WF.transpose())
                                     : Matrix3(from.R_WF.transpose() * to.R_WF);
     const Vector3 path = integrate_rotation(
-        R, from.w, to.w, h, load.in_world ? Axes::fixed : Axes::rotating);
+        R, from.w, to.w, h,
+        load.in_world ? RotationAxes::fixed : RotationAxes::rotating);
     now_[first + m].place = load.moment.dot(path);
   }
 }

@@ -3,11 +3,11 @@
 
 #include "limber/common/types.hpp"
 
-namespace limber::dynamics {
+namespace limber {
 
 /// In which an angular velocity is expressed: those of the world or of what
 /// rotates.
-enum class Axes { fixed, rotating };
+enum class RotationAxes { fixed, rotating };
 
 /// Integral of the angular velocity over a step [rad]; NaN where the rotation
 /// is not that of the mean angular velocity to 1 rad, so that whole turns are
@@ -24,6 +24,6 @@ enum class Axes { fixed, rotating };
 /// @param h length of the step [s]
 [[nodiscard]] Vector3 integrate_rotation(const Matrix3& R, const Vector3& w_0,
                                          const Vector3& w_1, double h,
-                                         Axes axes);
+                                         RotationAxes axes);
 
-}  // namespace limber::dynamics
+}  // namespace limber
