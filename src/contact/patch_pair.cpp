@@ -121,6 +121,16 @@ PatchTouches PatchPair::find_patches(const PairBodies& bodies,
   return touches;
 }
 
+void PatchPair::add_missing(const PatchTouches& others,
+                            PatchTouches& touches) const {
+  for (const PatchTouch& other : others) {
+    if (touches.find(other.index) != nullptr) continue;
+    PatchTouch touch = other;
+    touch.patch = potentials_[touch.index].evaluate({touch.A, touch.B}, true);
+    touches.add(touch);
+  }
+}
+
 double PatchPair::find_energy(const PairBodies& bodies) const {
   double energy = 0.0;
   for (const PatchTouch& touch : find_patches(bodies, false)) {
@@ -226,7 +236,13 @@ void PatchPair::evaluate(const PairBodies& bodies, const Instant& now,
 void PatchPair::evaluate_over_step(const joints::PairStep& step,
                                    std::span<const double> memory,
                                    joints::PairResponse& out) const {
-  const PatchTouches touches = find_patches(step.middle, true);
+  const PatchTouches begin = find_patches(step.begin, false);
+  const PatchTouches end = find_patches(step.end, false);
+  PatchTouches touches = find_patches(step.middle, true);
+  const std::size_t of_middle = touches.size();
+  // Patches that only an end has hold energy, too.
+  add_missing(begin, touches);
+  add_missing(end, touches);
   out.slip_power += find_released(touches, step.times.end, memory);
   if (touches.is_empty()) return;
   PatchMotion all;
@@ -246,8 +262,6 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     all.square += PatchLaw::find_square(touch.patch, motion / step.times.h);
     motions[i++] = motion;
   }
-  const PatchTouches begin = find_patches(step.begin, false);
-  const PatchTouches end = find_patches(step.end, false);
   PatchMotion of_end;
   if (!end.is_empty()) of_end = find_motion(step.end, end, memory);
   i = 0;
@@ -257,13 +271,15 @@ void PatchPair::evaluate_over_step(const joints::PairStep& step,
     const double rise = find_energy(last) - find_energy(first);
     const PatchMemory before = load_patch(find_slot(memory, touch.index));
     const PairBodies parts{last ? last->A : touch.A, last ? last->B : touch.B};
-    PatchResponse response = law_.evaluate(
-        {.patch = touch.patch,
-         .elastic_W = correct(-touch.patch.gradient_W, motions[i], rise),
-         .twist_W = motions[i] / step.times.h,
-         .all = all,
-         .slip = find_slip(parts, before),
-         .way_by_motion = 2.0});
+    const double share = i < of_middle ? 1.0 : 0.5;
+    PatchResponse response =
+        law_.evaluate({.patch = touch.patch,
+                       .elastic_W = correct(-share * touch.patch.gradient_W,
+                                            motions[i], rise),
+                       .twist_W = motions[i] / step.times.h,
+                       .all = all,
+                       .slip = find_slip(parts, before),
+                       .way_by_motion = 2.0});
     // What friction takes from the bodies and its springs do not keep.
     const double kept =
         last != nullptr ? respond(*last, of_end, memory).energy : 0.0;

@@ -93,6 +93,7 @@ class PatchPair final : public joints::PairInteraction,
   };
 
   [[nodiscard]] PatchFrames find_frames(const joints::PairBodies& bodies) const;
+  void add_missing(const PatchTouches& others, PatchTouches& touches) const;
   [[nodiscard]] PatchTouches find_patches(const joints::PairBodies& bodies,
                                           bool has_derivatives) const;
   [[nodiscard]] double find_energy(const joints::PairBodies& bodies) const;

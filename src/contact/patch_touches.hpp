@@ -37,6 +37,7 @@ class PatchTouches {
   }
   [[nodiscard]] const PatchTouch* begin() const { return all_.data(); }
   [[nodiscard]] const PatchTouch* end() const { return all_.data() + count_; }
+  [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] bool is_empty() const { return count_ == 0; }
   /// Or null.
   [[nodiscard]] const PatchTouch* find(std::size_t index) const {

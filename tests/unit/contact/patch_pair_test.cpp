@@ -104,6 +104,47 @@ TEST(PatchPair, HoldsABlockAtRestWhateverItsRestitution) {
   }
 }
 
+// A corner dives in only in the second half of a step, or leaves in the first;
+// the work of the step's force is minus the rise of the energy.
+TEST(PatchPair, BalancesTheEnergyOfAPatchThatOnlyOneEndHas) {
+  const Block block;
+  const PatchPair pair(
+      {Shape{HalfSpace{}, {}}, SurfaceMaterial{block.modulus, 0.3}, kInfinity},
+      block.side(), {.restitution = 1.0});
+  const std::vector<double> memory(pair.memory_size(), 0.0);
+  const auto place = [](double z, double turn) {
+    return joints::PairBody{exp_rotation({turn, 0.3, 0.0}), {0.0, 0.0, z}};
+  };
+  const double standing =
+      kHalf.x() * std::sin(0.3) + kHalf.z() * std::cos(0.3) + kHalf.y() * 0.02;
+  for (const bool enters : {true, false}) {
+    const joints::PairBody apart = place(standing + 3e-5, 0.019);
+    const joints::PairBody deep = place(standing - 2e-5, 0.021);
+    const joints::PairBody middle = place(standing + 0.5e-5, 0.02);
+    const joints::PairBody A;
+    const joints::PairBody& first = enters ? apart : deep;
+    const joints::PairBody& last = enters ? deep : apart;
+    const joints::PairStep step{
+        {A, first}, {A, middle}, {A, last}, {0.0, 1e-5, 1e-5}};
+    const auto find_energy = [&](const joints::PairBody& B) {
+      joints::PairResponse out(pair.most_points(), 0, 0, true);
+      pair.evaluate({A, B}, {0.0, Side::right}, memory, out);
+      return out.energy;
+    };
+    const double rise = find_energy(last) - find_energy(first);
+    ASSERT_GT(std::abs(rise), 0.0);
+    ASSERT_EQ(find_energy(middle), 0.0);
+    joints::PairResponse out(pair.most_points(), 0, 0, true);
+    pair.evaluate_over_step(step, memory, out);
+    double work = 0.0;
+    for (const joints::PairPoint& point : out.points()) {
+      work += point.force_W.dot(find_position(last, point.on_B) -
+                                find_position(first, point.on_B));
+    }
+    EXPECT_NEAR(work / rise, -1.0, 1e-9) << enters;
+  }
+}
+
 // tan = 0.42 < mu = 0.5: one elastic deflection, then none.
 TEST(PatchPair, HoldsABlockOnASlopeWithoutCreep) {
   for (const double e : {1.0, 0.5, 0.0}) {
